@@ -1,0 +1,100 @@
+#include "analysis/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <string_view>
+
+namespace gnomon::analysis {
+
+namespace {
+
+/// Adds the wall time of a stage to `seconds` when it goes out of scope.
+class StageTimer {
+public:
+    explicit StageTimer(double& seconds) : seconds_{seconds} {}
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+    ~StageTimer()
+    {
+        seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_ = Clock::now();
+};
+
+template <typename Stage>
+auto timed(double& seconds, Stage&& stage)
+{
+    const StageTimer timer{seconds};
+    return stage();
+}
+
+void require_renderers(const Renderers& renderers)
+{
+    if (!renderers.draw_receivers || !renderers.draw_shadow_map || !renderers.look_up ||
+        !renderers.find_truth) {
+        throw std::invalid_argument("compare: renderers: a stage has no callable");
+    }
+}
+
+template <typename Pixel>
+void require_size(std::string_view layer, const scene::Image<Pixel>& image, scene::ImageSize size)
+{
+    if (image.size() != size) {
+        throw std::invalid_argument(fmt::format(
+            "compare: renderers: layer {} is {}x{} but the image is {}x{}", layer,
+            image.size().width_px, image.size().height_px, size.width_px, size.height_px));
+    }
+}
+
+} // namespace
+
+SceneSummary summarise_scene(const scene::SceneSettings& settings,
+                             const scene::TriangleScene& triangles)
+{
+    SceneSummary summary;
+    summary.name = settings.builtin.empty() ? settings.file.filename().string() : settings.builtin;
+    summary.triangles = triangles.triangles.size();
+    summary.objects = triangles.objects.size();
+    summary.dropped_triangles = triangles.dropped_triangles;
+    summary.ignored_primitives = triangles.ignored_primitives;
+    summary.hash = scene::content_hash(triangles);
+    return summary;
+}
+
+Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
+{
+    require_renderers(renderers);
+    Comparison result;
+    StageSeconds& seconds = result.seconds;
+    result.job = job;
+    result.triangles = &file.scene;
+    result.truth_method = renderers.truth_method;
+    result.subpixel_bits = renderers.subpixel_bits;
+    result.environment = renderers.environment;
+    timed(seconds.scene, [&] {
+        result.scene = summarise_scene(job.scene, file.scene);
+        result.view = scene::resolve_view(job, file.scene, file.defaults);
+    });
+    const scene::View& view = result.view;
+
+    result.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });
+    require_size("receivers", result.receivers.triangle, view.image);
+    timed(seconds.shadow_map, [&] { renderers.draw_shadow_map(job, view); });
+    result.lookup = timed(seconds.lookup, [&] { return renderers.look_up(job, view); });
+    require_size("lookup", result.lookup.samples, view.image);
+    result.truth =
+        timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
+    require_size("truth", result.truth.pixel_class, view.image);
+    require_size("witness", result.truth.witness, view.image);
+
+    result.metrics = timed(seconds.analysis, [&] { return measure(result.truth, result.lookup); });
+    return result;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "analysis/metrics.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+#include "scene/scene_file.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace gnomon::analysis {
+
+/// What computed a result; part of every result.
+struct Environment {
+    std::string gl_renderer;
+    std::string gl_version;
+    std::string embree;
+    std::string gnomon;
+};
+
+/// Wall time of each stage [s].
+struct StageSeconds {
+    double scene = 0;      ///< reading or generating the scene, its hash, resolving the view
+    double bvh = 0;        ///< building the ray-tracing hierarchy
+    double receivers = 0;
+    double shadow_map = 0;
+    double lookup = 0;
+    double truth = 0;
+    double analysis = 0;
+};
+
+/// What a result says of its scene.
+struct SceneSummary {
+    std::string name; ///< of the built-in, or the file's name without its folder
+    std::uint64_t triangles = 0;
+    std::uint64_t objects = 0;
+    std::uint64_t dropped_triangles = 0;  ///< zero-area triangles that were removed
+    std::uint64_t ignored_primitives = 0; ///< points and lines that the file held
+    std::string hash;                     ///< `scene::content_hash`
+};
+
+[[nodiscard]] SceneSummary summarise_scene(const scene::SceneSettings& settings,
+                                           const scene::TriangleScene& triangles);
+
+/// The two renderers as callables, one for each stage, so that `analysis` needs neither GL nor
+/// Embree and a sweep can call just the stages whose inputs changed.
+///
+/// Each returns when its work is done: an asynchronous renderer waits, so that stages can be timed.
+/// `look_up` answers for the receivers and the shadow map drawn last, which the renderer keeps.
+struct Renderers {
+    std::function<scene::ReceiverLayers(const scene::View&)> draw_receivers;
+    std::function<void(const scene::Job&, const scene::View&)> draw_shadow_map;
+    std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
+    std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
+
+    Environment environment;
+    std::string truth_method; ///< the name of the method behind `find_truth`, e.g. "judged"
+    int subpixel_bits = 8;    ///< of the rasteriser behind `draw_receivers`
+};
+
+/// One configuration's result: everything that reports show.
+struct Comparison {
+    scene::Job job;
+    scene::View view; ///< the job made concrete: the exact inputs of both renderers
+    SceneSummary scene;
+    const scene::TriangleScene* triangles = nullptr; ///< the scene compared; not owned, never null
+
+    scene::ReceiverLayers receivers;
+    scene::LookupLayers lookup;
+    scene::TruthLayers truth;
+    Metrics metrics;
+
+    std::string truth_method;
+    int subpixel_bits = 8;
+    Environment environment;
+    StageSeconds seconds;
+};
+
+/// Resolves the job's view, runs both renderers over it and measures the difference.
+///
+/// `seconds.bvh` stays 0, and `seconds.scene` covers only what happens in here: whoever read the
+/// scene and built the hierarchy adds that time.
+/// @param file  The scene; must outlive the result, which points to its triangles.
+/// @throws scene::InputError  as `scene::resolve_view` does.
+/// @throws std::invalid_argument  if a renderer is missing, or returns layers that are not of the
+///                                image's size.
+[[nodiscard]] Comparison compare(const scene::Job& job, const scene::SceneFile& file,
+                                 const Renderers& renderers);
+Comparison compare(const scene::Job& job, const scene::SceneFile&& file,
+                   const Renderers& renderers) = delete;
+
+} // namespace gnomon::analysis

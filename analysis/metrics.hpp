@@ -1,0 +1,45 @@
+#pragma once
+
+#include "scene/layers.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace gnomon::analysis {
+
+/// How many pixels of each class and of each reason there are.
+struct ClassCounts {
+    std::uint64_t total = 0;
+    std::array<std::uint64_t, scene::pixel_class_count> by_class{}; ///< by PixelClass
+    std::array<std::uint64_t, 7> by_reason{};                       ///< by ClassReason
+
+    [[nodiscard]] std::uint64_t of(scene::PixelClass pixel_class) const
+    {
+        return by_class[static_cast<std::size_t>(pixel_class)];
+    }
+    [[nodiscard]] std::uint64_t of(scene::ClassReason reason) const
+    {
+        return by_reason[static_cast<std::size_t>(reason)];
+    }
+    /// Scored pixels: lit and blocked.
+    [[nodiscard]] std::uint64_t scored() const;
+    /// Pixels in which GL or the exact ray sees a surface.
+    [[nodiscard]] std::uint64_t surface() const;
+};
+
+/// What the difference between verdict and truth amounts to.
+struct Metrics {
+    ClassCounts pixels;
+    std::uint64_t false_shadow = 0;          ///< truth lit, verdict shadowed
+    std::uint64_t false_lit = 0;             ///< truth blocked, verdict lit
+    std::optional<double> false_shadow_rate; ///< false_shadow / scored lit; empty if there is none
+    std::optional<double> false_lit_rate;    ///< false_lit / scored blocked; empty if there is none
+    std::optional<double> error_rate;        ///< both / scored; empty if there is none
+    std::optional<double> mean_abs_error;    ///< mean |verdict − truth| over the scored pixels
+};
+
+/// @throws std::invalid_argument  if the layers differ in size.
+[[nodiscard]] Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,129 @@
+#include "cli/compare_command.hpp"
+
+#include "cli/job_options.hpp"
+#include "cli/memory.hpp"
+#include "cli/renderers.hpp"
+#include "cli/standard_output.hpp"
+#include "reports/aov_exr.hpp"
+#include "reports/comparison_json.hpp"
+#include "reports/comparison_table.hpp"
+#include "reports/output_file.hpp"
+#include "reports/picture.hpp"
+#include "scene/error.hpp"
+#include "scene/load_scene.hpp"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace gnomon::cli {
+namespace {
+
+struct CompareOptions {
+    JobOptions job;
+    bool json = false;
+    std::string aov_path;
+    std::string picture_path;
+    std::string truth = "double";
+    std::optional<int> device;
+    int threads = 0;
+};
+
+class Stopwatch {
+public:
+    /// Seconds since construction or the last call.
+    double lap_s()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> lap = now - start_;
+        start_ = now;
+        return lap.count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Fails before the work, not after it, where an output cannot be written.
+void require_writable(const CompareOptions& options)
+{
+    for (const std::string& path : {options.aov_path, options.picture_path}) {
+        if (!path.empty()) {
+            const reports::OutputFile probe{path};
+        }
+    }
+}
+
+void write_outputs(const CompareOptions& options, const analysis::Comparison& comparison)
+{
+    if (!options.aov_path.empty()) {
+        const auto points = reference_rt::receiver_points(*comparison.triangles, comparison.view,
+                                                          comparison.receivers.triangle);
+        reports::write_aov(options.aov_path, comparison, points);
+    }
+    if (!options.picture_path.empty()) {
+        reports::write_picture(options.picture_path, comparison);
+    }
+    print(options.json ? reports::comparison_json(comparison)
+                       : reports::comparison_table(comparison));
+}
+
+void compare(const CompareOptions& options)
+{
+    require_writable(options);
+    const scene::Job job = read_job(options.job).job;
+    require_memory(job);
+    Stopwatch watch;
+    const scene::SceneFile file = scene::load_scene(job.scene);
+    const double scene_s = watch.lap_s();
+    const raster_gl::Context context{options.device};
+    GlRenderer gl{context, file.scene};
+    watch.lap_s();
+    const reference_rt::TruthOptions truth{options.truth == "float"
+                                               ? reference_rt::TruthMethod::plain
+                                               : reference_rt::TruthMethod::judged,
+                                           options.threads};
+    const reference_rt::ReferenceScene reference{file.scene, options.threads};
+    const double bvh_s = watch.lap_s();
+    analysis::Comparison comparison =
+        analysis::compare(job, file, make_renderers(gl, context.facts(), reference, truth));
+    comparison.seconds.scene += scene_s;
+    comparison.seconds.bvh = bvh_s;
+    write_outputs(options, comparison);
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& program)
+{
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = program.add_subcommand(
+        "compare", "Compare a scene's GL shadow map with shadow rays, pixel by pixel");
+    add_job_options(*command, options->job);
+    command->add_flag("--json", options->json, "Print the result as JSON (docs/json_schema.md)");
+    command->add_option("--aov", options->aov_path,
+                        "Write every layer into one EXR file (docs/aov.md)");
+    command->add_option("--picture", options->picture_path,
+                        "Write a labelled picture: GL's shadows, the true ones, the errors (PNG)");
+    command
+        ->add_option("--truth", options->truth,
+                     "double: proposals of Embree judged in double; float: plain Embree rays, for "
+                     "comparing speed")
+        ->check(CLI::IsMember({"double", "float"}))
+        ->capture_default_str();
+    command->add_option(
+        "--device", options->device,
+        "EGL device, as `gnomon doctor` numbers them; default: the first that works");
+    command->add_option("--threads", options->threads, "Threads of the reference; 0: all cores")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->footer("Examples:\n"
+                    "  gnomon compare --builtin sphere-plane\n"
+                    "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
+                    "  gnomon compare job.toml --set shadow_map.resolution=2048 --json\n"
+                    "  gnomon compare job.toml --case noon --aov noon.exr");
+    command->callback([options] { compare(*options); });
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,58 @@
+#include "cli/job_options.hpp"
+
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+namespace gnomon::cli {
+namespace {
+
+std::vector<scene::Override> overrides(const std::vector<std::string>& settings)
+{
+    std::vector<scene::Override> result;
+    for (const std::string& setting : settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            throw scene::InputError(fmt::format(
+                "--set {}: write KEY=VALUE, e.g. --set shadow_map.resolution=2048", setting));
+        }
+        result.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+    }
+    return result;
+}
+
+} // namespace
+
+void add_job_options(CLI::App& command, JobOptions& options)
+{
+    command.add_option("JOB", options.job_path,
+                       "A job file (.toml), or a scene file (.gltf .glb .obj .ply) for a job of "
+                       "defaults");
+    command.add_option("--builtin", options.builtin,
+                       "A built-in scene with its own job; `gnomon scenes` lists them");
+    command
+        .add_option("--set", options.settings,
+                    "KEY=VALUE overrides a key of the job, e.g. bias.constant=0.001")
+        ->allow_extra_args(false);
+    command.add_option("--case", options.case_name, "Lay this [[case]] of the job file over it");
+}
+
+scene::JobFile read_job(const JobOptions& options)
+{
+    if (options.job_path.empty() == options.builtin.empty()) {
+        throw scene::InputError(
+            options.job_path.empty()
+                ? "no job: give a job file, a scene file, or --builtin NAME (`gnomon scenes`)"
+                : "JOB and --builtin exclude each other: give one of them");
+    }
+    const auto settings = overrides(options.settings);
+    if (!options.builtin.empty()) {
+        if (!options.case_name.empty()) {
+            throw scene::InputError("--case needs a job file: a built-in scene has no cases");
+        }
+        return scene::builtin_job(options.builtin, settings);
+    }
+    return scene::read_job(options.job_path, settings, options.case_name);
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "scene/job_file.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+
+/// The options that name a job: JOB or --builtin NAME, --set KEY=VALUE, --case NAME.
+struct JobOptions {
+    std::string job_path;
+    std::string builtin;
+    std::vector<std::string> settings;
+    std::string case_name;
+};
+
+void add_job_options(CLI::App& command, JobOptions& options);
+
+/// @throws scene::InputError  if neither or both of JOB and --builtin are given, if a --set is not
+///                            KEY=VALUE, or as `scene::read_job` does.
+[[nodiscard]] scene::JobFile read_job(const JobOptions& options);
+
+} // namespace gnomon::cli

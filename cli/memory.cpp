@@ -1,0 +1,62 @@
+#include "cli/memory.hpp"
+
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <limits>
+#include <string>
+
+namespace gnomon::cli {
+namespace {
+
+constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
+
+// Bytes a pixel: receivers 4 + 16 + 16 + 4, lookup 16 + 8 on the GPU; triangle 4, sample 16,
+// class, reason and witness 6, P 12 and one layer in flight 16 in memory.
+constexpr std::uint64_t bytes_per_pixel = 64 + 54;
+
+/// GL's own formats take up to 4 bytes a texel; u-formats keep code and z beside the depth.
+std::uint64_t bytes_per_texel(scene::DepthFormat format)
+{
+    return format.kind == scene::DepthFormat::Kind::unorm ? 12 : 4;
+}
+
+} // namespace
+
+std::uint64_t available_memory_bytes()
+{
+    std::ifstream file{"/proc/meminfo"};
+    std::string key;
+    std::uint64_t kibibytes = 0;
+    while (file >> key >> kibibytes) {
+        if (key == "MemAvailable:") {
+            return kibibytes * 1024;
+        }
+        file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
+    return 0;
+}
+
+std::uint64_t needed_memory_bytes(const scene::Job& job)
+{
+    const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
+    return job.image.pixel_count() * bytes_per_pixel +
+           side * side * bytes_per_texel(job.shadow_map.depth_format);
+}
+
+void require_memory(const scene::Job& job)
+{
+    const std::uint64_t needed = needed_memory_bytes(job);
+    const std::uint64_t available = available_memory_bytes();
+    if (available != 0 && needed > available) {
+        throw scene::InputError(fmt::format(
+            "image.width = {}, image.height = {}, shadow_map.resolution = {}: this needs about "
+            "{:.1f} GiB of memory and {:.1f} GiB are available: make them smaller",
+            job.image.width_px, job.image.height_px, job.shadow_map.resolution_texels,
+            static_cast<double>(needed) / gibibyte, static_cast<double>(available) / gibibyte));
+    }
+}
+
+} // namespace gnomon::cli

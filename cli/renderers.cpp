@@ -1,0 +1,62 @@
+#include "cli/renderers.hpp"
+
+#include <stdexcept>
+
+namespace gnomon::cli {
+
+GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleScene& triangles)
+    : context_{context},
+      box_{triangles.bounds()},
+      scene_{context, triangles},
+      receiver_pass_{context},
+      shadow_map_pass_{context},
+      lookup_pass_{context}
+{
+}
+
+scene::ReceiverLayers GlRenderer::draw_receivers(const scene::View& view)
+{
+    receivers_ = &receiver_pass_.render(scene_, view, box_);
+    return {raster_gl::read_triangles(context_, *receivers_)};
+}
+
+void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
+{
+    shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, job.shadow_map);
+}
+
+scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View& view)
+{
+    if (receivers_ == nullptr || shadow_map_ == nullptr) {
+        throw std::invalid_argument("GlRenderer::look_up: draw receivers and shadow map first");
+    }
+    lookup_pass_.render(scene_, *receivers_, *shadow_map_, job.lookup, view);
+    return lookup_pass_.read_samples();
+}
+
+analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& facts,
+                                   const reference_rt::ReferenceScene& reference,
+                                   const reference_rt::TruthOptions& options)
+{
+    analysis::Renderers renderers;
+    renderers.draw_receivers = [&gl](const scene::View& view) { return gl.draw_receivers(view); };
+    renderers.draw_shadow_map = [&gl](const scene::Job& job, const scene::View& view) {
+        gl.draw_shadow_map(job, view);
+    };
+    renderers.look_up = [&gl](const scene::Job& job, const scene::View& view) {
+        return gl.look_up(job, view);
+    };
+    const reference_rt::RasterFacts raster{facts.subpixel_bits};
+    renderers.find_truth = [&reference, raster, options](const scene::View& view,
+                                                         const scene::ReceiverLayers& receivers) {
+        return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
+    };
+    const bool is_float = options.method == reference_rt::TruthMethod::plain;
+    renderers.truth_method = is_float ? "float" : "double";
+    renderers.subpixel_bits = facts.subpixel_bits;
+    renderers.environment = {facts.renderer, facts.version, reference_rt::embree_version(),
+                             GNOMON_VERSION};
+    return renderers;
+}
+
+} // namespace gnomon::cli

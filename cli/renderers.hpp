@@ -1,0 +1,40 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "raster_gl/context.hpp"
+#include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/lookup.hpp"
+#include "raster_gl/receivers.hpp"
+#include "raster_gl/shadow_map.hpp"
+#include "reference_rt/truth.hpp"
+
+namespace gnomon::cli {
+
+/// GL's passes over one scene, with the textures that they keep from call to call.
+class GlRenderer {
+public:
+    /// Both arguments must outlive the renderer.
+    GlRenderer(const raster_gl::Context& context, const scene::TriangleScene& triangles);
+
+    [[nodiscard]] scene::ReceiverLayers draw_receivers(const scene::View& view);
+    void draw_shadow_map(const scene::Job& job, const scene::View& view);
+    /// Looks the last receivers up in the last shadow map.
+    [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
+
+private:
+    const raster_gl::Context& context_;
+    scene::Box box_;
+    raster_gl::GpuScene scene_;
+    raster_gl::ReceiverPass receiver_pass_;
+    raster_gl::ShadowMapPass shadow_map_pass_;
+    raster_gl::LookupPass lookup_pass_;
+    const raster_gl::ReceiverBuffer* receivers_ = nullptr;
+    const raster_gl::ShadowMap* shadow_map_ = nullptr;
+};
+
+/// Both renderers as the callables that `analysis::compare` takes; the arguments must outlive it.
+[[nodiscard]] analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& facts,
+                                                 const reference_rt::ReferenceScene& reference,
+                                                 const reference_rt::TruthOptions& options);
+
+} // namespace gnomon::cli

@@ -1,0 +1,22 @@
+#include "cli/standard_output.hpp"
+
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace gnomon::cli {
+
+void print(std::string_view text)
+{
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (!written || std::fflush(stdout) != 0) {
+        throw scene::EnvironmentError(fmt::format(
+            "standard output: {}: free space or write elsewhere", std::strerror(errno)));
+    }
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,10 @@
+# Embree 4 where it is installed, else Embree 3; reference_rt/embree.hpp hides the difference.
+if(GNOMON_EMBREE_VERSION)
+  find_package(embree ${GNOMON_EMBREE_VERSION} REQUIRED)
+else()
+  find_package(embree 4 QUIET)
+  if(NOT embree_FOUND)
+    find_package(embree 3 REQUIRED)
+  endif()
+endif()
+message(STATUS "Embree ${embree_VERSION}")

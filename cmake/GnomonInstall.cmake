@@ -1,0 +1,28 @@
+# Installs the libraries with their headers, the program, and what find_package(gnomon) reads.
+include(CMakePackageConfigHelpers)
+
+set(gnomon_layers scene raster_gl reference_rt analysis reports)
+set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
+
+list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
+install(TARGETS gnomon_options ${gnomon_layer_targets} EXPORT gnomon-targets)
+foreach(layer ${gnomon_layers})
+  install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon
+          FILES_MATCHING PATTERN "*.hpp" PATTERN shaders EXCLUDE)
+endforeach()
+
+install(TARGETS gnomon RUNTIME)
+install(FILES LICENSE CHANGELOG.md CITATION.cff TYPE DOC)
+
+install(EXPORT gnomon-targets NAMESPACE gnomon:: DESTINATION ${gnomon_package_dir})
+configure_package_config_file(
+  cmake/gnomon-config.cmake.in ${CMAKE_BINARY_DIR}/gnomon-config.cmake
+  INSTALL_DESTINATION ${gnomon_package_dir})
+# Before 1.0 a new minor version may change an interface.
+write_basic_package_version_file(
+  ${CMAKE_BINARY_DIR}/gnomon-config-version.cmake COMPATIBILITY SameMinorVersion)
+# The package finds what Gnomon links by the very list that built it.
+install(
+  FILES ${CMAKE_BINARY_DIR}/gnomon-config.cmake ${CMAKE_BINARY_DIR}/gnomon-config-version.cmake
+        cmake/GnomonDependencies.cmake cmake/GnomonEmbree.cmake cmake/GnomonOpenImageIO.cmake
+  DESTINATION ${gnomon_package_dir})

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::raster_gl {
+
+/// An EGL device that could render.
+struct DeviceInfo {
+    int index = 0;
+    std::string description; ///< DRM node, "software", or the driver's extension string
+};
+
+/// What the driver says of itself.
+struct GlFacts {
+    std::string renderer;
+    std::string version;
+    std::string vendor;
+    std::string platform; ///< "EGL device 0" or "surfaceless"
+    int max_texture_texels = 0;
+    int max_viewport_px = 0;
+    int subpixel_bits = 0;
+};
+
+/// A headless OpenGL 4.5 core context, current on the thread that made it.
+///
+/// GL's debug output is turned into errors: `check` throws what the driver reported since the last
+/// call. Destroy every GL object before the context.
+class Context {
+public:
+    /// @param device  index from `list_devices`; empty tries every device (hardware first), then
+    ///                Mesa's surfaceless platform.
+    /// @throws scene::EnvironmentError  naming the failed call and how to get a driver.
+    explicit Context(std::optional<int> device = {});
+    ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    [[nodiscard]] const GlFacts& facts() const;
+    /// @throws scene::EnvironmentError  if GL reported an error, naming `doing` and GL's message.
+    void check(std::string_view doing) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// @return the EGL devices, hardware before software; empty where EGL cannot list them.
+/// @throws scene::EnvironmentError  if there is no EGL at all.
+[[nodiscard]] std::vector<DeviceInfo> list_devices();
+
+} // namespace gnomon::raster_gl

@@ -1,0 +1,109 @@
+#include "raster_gl/gpu_scene.hpp"
+
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <cstdint>
+
+namespace gnomon::raster_gl {
+namespace {
+
+template <typename T>
+Buffer upload(const std::vector<T>& data)
+{
+    Buffer buffer = make_buffer();
+    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)),
+                         data.data(), 0);
+    return buffer;
+}
+
+std::vector<scene::Vec4f> unit_normals(const scene::TriangleScene& triangles)
+{
+    std::vector<scene::Vec4f> normals(triangles.triangles.size());
+    for (std::uint32_t t = 0; t < normals.size(); ++t) {
+        const auto corners = triangles.corners(t);
+        const scene::Vec3d a{corners[0]};
+        const scene::Vec3d normal =
+            glm::cross(scene::Vec3d{corners[1]} - a, scene::Vec3d{corners[2]} - a);
+        normals[t] = scene::Vec4f{scene::Vec4d{glm::normalize(normal), 0.0}};
+    }
+    return normals;
+}
+
+void require_storage_block(std::size_t bytes)
+{
+    GLint64 largest = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+    if (bytes > static_cast<std::size_t>(largest)) {
+        throw scene::EnvironmentError(
+            fmt::format("the scene's normals take {} bytes, this driver's shader storage blocks "
+                        "hold {}: use a smaller scene or another device",
+                        bytes, largest));
+    }
+}
+
+void draw_range(const scene::TriangleRange& range)
+{
+    const std::uintptr_t first_byte = std::uintptr_t{range.first} * 3 * sizeof(std::uint32_t);
+    // GL's element offset is a byte count in a pointer's clothes.
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count * 3), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(first_byte));
+}
+
+} // namespace
+
+GpuScene::GpuScene(const Context& context, const scene::TriangleScene& triangles)
+    : layout_{make_vertex_array()},
+      vertices_{upload(triangles.vertices)},
+      indices_{upload(triangles.triangles)},
+      casters_{casting_ranges(triangles)},
+      receivers_{receiving_ranges(triangles)},
+      vertex_count_{triangles.vertices.size()}
+{
+    constexpr std::size_t largest_draw = 0x7FFFFFFFU / 3;
+    if (triangles.triangles.size() > largest_draw) {
+        throw scene::InputError(fmt::format("the scene has {} triangles: GL draws at most {}",
+                                            triangles.triangles.size(), largest_draw));
+    }
+    const auto normals = unit_normals(triangles);
+    require_storage_block(normals.size() * sizeof normals[0]);
+    normals_ = upload(normals);
+    glVertexArrayVertexBuffer(layout_.name(), 0, vertices_.name(), 0, sizeof(scene::Vec3f));
+    glVertexArrayElementBuffer(layout_.name(), indices_.name());
+    glEnableVertexArrayAttrib(layout_.name(), 0);
+    glVertexArrayAttribFormat(layout_.name(), 0, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(layout_.name(), 0, 0);
+    context.check("uploading the scene");
+}
+
+void GpuScene::draw_casters() const
+{
+    glBindVertexArray(layout_.name());
+    for (const scene::TriangleRange& range : casters_) {
+        draw_range(range);
+    }
+}
+
+void GpuScene::draw_receivers(const Program& program) const
+{
+    glBindVertexArray(layout_.name());
+    for (const scene::TriangleRange& range : receivers_) {
+        set_uniform(program, "first_triangle", range.first);
+        draw_range(range);
+    }
+}
+
+void GpuScene::draw_vertices() const
+{
+    glBindVertexArray(layout_.name());
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertex_count_));
+}
+
+void GpuScene::bind_normals() const
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, normals_.name());
+}
+
+} // namespace gnomon::raster_gl

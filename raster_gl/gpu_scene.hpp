@@ -1,0 +1,41 @@
+#pragma once
+
+#include "raster_gl/context.hpp"
+#include "raster_gl/gl_object.hpp"
+#include "raster_gl/program.hpp"
+#include "scene/triangles.hpp"
+
+#include <vector>
+
+namespace gnomon::raster_gl {
+
+/// The scene in GL's buffers: vertices, indices, and a unit geometric normal per triangle.
+class GpuScene {
+public:
+    /// @throws scene::EnvironmentError  if GL has no room for it.
+    GpuScene(const Context& context, const scene::TriangleScene& triangles);
+
+    /// Draws the casting triangles with the current program.
+    void draw_casters() const;
+    /// Draws the receiving triangles; sets `program`'s uniform first_triangle for every range, so
+    /// that first_triangle + gl_PrimitiveID is the triangle's index in the scene.
+    void draw_receivers(const Program& program) const;
+    /// Draws every vertex once as a point, in order.
+    void draw_vertices() const;
+    [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+
+    /// Binds the normals as shader storage block 0: vec4 per triangle, double cross product
+    /// normalised and rounded to float32.
+    void bind_normals() const;
+
+private:
+    VertexArray layout_;
+    Buffer vertices_;
+    Buffer indices_;
+    Buffer normals_;
+    std::vector<scene::TriangleRange> casters_;
+    std::vector<scene::TriangleRange> receivers_;
+    std::size_t vertex_count_ = 0;
+};
+
+} // namespace gnomon::raster_gl

@@ -1,0 +1,169 @@
+#include "raster_gl/lookup.hpp"
+
+#include "raster_gl/readback.hpp"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <stdexcept>
+
+namespace gnomon::raster_gl {
+namespace {
+
+using scene::Filter;
+using scene::Outside;
+
+int tap_width(Filter filter)
+{
+    const bool taps = filter != Filter::linear && filter != Filter::hardware;
+    return taps ? scene::filter_width_texels(filter) : 1;
+}
+
+const char* flag(bool on)
+{
+    return on ? "1" : "0";
+}
+
+/// Towards a directional light, or a spot's position.
+scene::Vec3f light_uniform(const scene::Light& light)
+{
+    return light.type == scene::LightType::spot ? scene::Vec3f{light.position}
+                                                : scene::Vec3f{-glm::normalize(light.direction)};
+}
+
+/// A texel outside the map is as far as can be where it shall count as lit, else as near.
+float border_depth(Outside outside, bool reversed)
+{
+    return (outside == Outside::shadowed) != reversed ? 0.0F : 1.0F;
+}
+
+void set_sampler(const Sampler& sampler, GLint filter, Outside outside, bool reversed)
+{
+    const GLint wrap = outside == Outside::clamp ? GL_CLAMP_TO_EDGE : GL_CLAMP_TO_BORDER;
+    const float depth = border_depth(outside, reversed);
+    const std::array<float, 4> border{depth, depth, depth, depth};
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, filter);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, filter);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, wrap);
+    glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, wrap);
+    glSamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, border.data());
+}
+
+} // namespace
+
+LookupPass::LookupPass(const Context& context)
+    : context_{context},
+      no_attributes_{make_vertex_array()},
+      map_sampler_{make_sampler()},
+      compare_sampler_{make_sampler()}
+{
+    context.check("preparing the lookup");
+}
+
+const Program& LookupPass::program(const Variant& variant)
+{
+    const auto found = programs_.find(variant);
+    if (found != programs_.end()) {
+        return found->second;
+    }
+    const auto [filter, outside, reversed, spot] = variant;
+    const Definitions definitions{
+        {"FILTER_TAPS", std::to_string(tap_width(filter))},
+        {"FILTER_LINEAR", flag(filter == Filter::linear)},
+        {"FILTER_HARDWARE", flag(filter == Filter::hardware)},
+        {"OUTSIDE_CLAMP", flag(outside == Outside::clamp)},
+        {"OUTSIDE_VERDICT", outside == Outside::shadowed ? "0.0" : "1.0"},
+        {"REVERSED", flag(reversed)},
+        {"SPOT", flag(spot)},
+    };
+    Program made = make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr});
+    return programs_.emplace(variant, std::move(made)).first->second;
+}
+
+void LookupPass::allocate(scene::ImageSize size)
+{
+    if (size_ == size) {
+        return;
+    }
+    samples_ = make_texture(GL_RGBA32F, size.width_px, size.height_px);
+    texels_ = make_texture(GL_RG32F, size.width_px, size.height_px);
+    target_ = make_framebuffer();
+    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, samples_.name(), 0);
+    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT1, texels_.name(), 0);
+    constexpr std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glNamedFramebufferDrawBuffers(target_.name(), 2, outputs.data());
+    context_.check(fmt::format("allocating a {}×{} lookup", size.width_px, size.height_px));
+    size_ = size;
+}
+
+void LookupPass::bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const
+{
+    const bool linear = settings.filter == Filter::linear;
+    set_sampler(map_sampler_, linear ? GL_LINEAR : GL_NEAREST, settings.outside, map.reversed);
+    set_sampler(compare_sampler_, GL_LINEAR, settings.outside, map.reversed);
+    glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_MODE,
+                        GL_COMPARE_REF_TO_TEXTURE);
+    glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_FUNC,
+                        map.reversed ? GL_GEQUAL : GL_LEQUAL);
+    glBindTextureUnit(3, map.depth.name());
+    glBindSampler(3, map_sampler_.name());
+    if (settings.filter == Filter::hardware) {
+        glBindTextureUnit(4, map.depth.name());
+        glBindSampler(4, compare_sampler_.name());
+    }
+}
+
+void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
+                        const ShadowMap& map, const scene::LookupSettings& settings,
+                        const scene::View& view)
+{
+    if (!(receivers.size == view.image)) {
+        throw std::invalid_argument("LookupPass::render: receivers are not of the view's size");
+    }
+    allocate(view.image);
+    const bool spot = view.light.type == scene::LightType::spot;
+    const Program& lookup = program({settings.filter, settings.outside, map.reversed, spot});
+    const double texel_width_m = view.frustum.texel_width_m(1.0, map.resolution_texels);
+    set_uniform(lookup, "light_clip_from_world", view.frustum.light_clip_from_world);
+    set_uniform(lookup, "light", light_uniform(view.light));
+    set_uniform(lookup, "bias_constant", view.bias.constant);
+    set_uniform(lookup, "bias_slope", view.bias.slope);
+    set_uniform(lookup, "normal_offset",
+                static_cast<float>(double{view.bias.normal_texels} * texel_width_m));
+    set_uniform(lookup, "resolution", static_cast<float>(map.resolution_texels));
+
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    glViewport(0, 0, size_.width_px, size_.height_px);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    scene.bind_normals();
+    const std::array<GLuint, 3> inputs{receivers.triangle.name(), receivers.light_clip.name(),
+                                       receivers.world_position.name()};
+    glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
+    bind_map(map, settings);
+    glBindVertexArray(no_attributes_.name());
+    glUseProgram(lookup.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindSampler(3, 0);
+    glBindSampler(4, 0);
+    glFinish();
+    context_.check("looking up the shadow map");
+}
+
+scene::LookupLayers LookupPass::read_samples() const
+{
+    scene::LookupLayers layers{
+        read_texture<scene::LookupSample>(samples_, size_, GL_RGBA, GL_FLOAT)};
+    context_.check("reading the lookup");
+    return layers;
+}
+
+scene::Image<scene::Vec2f> LookupPass::read_texels() const
+{
+    auto texels = read_texture<scene::Vec2f>(texels_, size_, GL_RG, GL_FLOAT);
+    context_.check("reading the lookup's texels");
+    return texels;
+}
+
+} // namespace gnomon::raster_gl

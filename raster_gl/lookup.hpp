@@ -1,0 +1,53 @@
+#pragma once
+
+#include "raster_gl/context.hpp"
+#include "raster_gl/gl_object.hpp"
+#include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/receivers.hpp"
+#include "raster_gl/shadow_map.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace gnomon::raster_gl {
+
+/// Looks every receiver up in the shadow map.
+///
+/// The bias is a uniform, and r, d and tan θ are handed out: constant and slope bias can be changed
+/// afterwards without GL.
+class LookupPass {
+public:
+    explicit LookupPass(const Context& context);
+
+    /// Draws the lookup; read the result with `read_samples` and `read_texels`.
+    /// @throws std::invalid_argument  if the receivers are not of the view's size.
+    void render(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
+                const scene::LookupSettings& settings, const scene::View& view);
+
+    /// r, d, tan θ and verdict of each pixel.
+    [[nodiscard]] scene::LookupLayers read_samples() const;
+    /// uv · resolution of each pixel's lookup point, in float32, as the lookup computed it: origin
+    /// at the map's lower left, the texel is its floor.
+    [[nodiscard]] scene::Image<scene::Vec2f> read_texels() const;
+
+private:
+    using Variant = std::tuple<scene::Filter, scene::Outside, bool, bool>;
+    const Program& program(const Variant& variant);
+    void allocate(scene::ImageSize size);
+    void bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const;
+
+    const Context& context_;
+    std::map<Variant, Program> programs_;
+    VertexArray no_attributes_;
+    Sampler map_sampler_;
+    Sampler compare_sampler_;
+    Framebuffer target_;
+    Texture samples_;
+    Texture texels_;
+    scene::ImageSize size_{0, 0};
+};
+
+} // namespace gnomon::raster_gl

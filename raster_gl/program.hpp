@@ -1,0 +1,39 @@
+#pragma once
+
+#include "raster_gl/gl_object.hpp"
+#include "scene/vec.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::raster_gl {
+
+/// The text of a file under raster_gl/shaders, embedded at build time, without a #version line.
+/// @throws std::invalid_argument  if there is none of that name.
+[[nodiscard]] std::string_view shader_source(std::string_view name);
+
+/// Preprocessor definitions put in front of both shaders.
+using Definitions = std::vector<std::pair<std::string, std::string>>;
+
+/// What a program is made of.
+struct ProgramParts {
+    std::string_view vertex;
+    std::string_view fragment; ///< empty: none, for depth-only passes and transform feedback
+    Definitions definitions;
+    const char* feedback_varying = nullptr; ///< captured by transform feedback, e.g. "gl_Position"
+};
+
+/// Compiles and links.
+/// @throws scene::EnvironmentError  with the first line of the driver's log.
+[[nodiscard]] Program make_program(const ProgramParts& parts);
+
+/// Sets a uniform by name; a uniform that the compiler removed is silently left alone, as GL does.
+void set_uniform(const Program& program, const char* name, float value);
+void set_uniform(const Program& program, const char* name, std::uint32_t value);
+void set_uniform(const Program& program, const char* name, const scene::Vec3f& value);
+void set_uniform(const Program& program, const char* name, const scene::Mat4f& value);
+
+} // namespace gnomon::raster_gl

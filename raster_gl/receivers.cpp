@@ -1,0 +1,112 @@
+#include "raster_gl/receivers.hpp"
+
+#include "raster_gl/readback.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace gnomon::raster_gl {
+namespace {
+
+void clear(const Framebuffer& target)
+{
+    constexpr std::array<GLuint, 4> nothing{scene::no_triangle, 0, 0, 0};
+    constexpr std::array<GLfloat, 4> zero{};
+    constexpr GLfloat infinitely_far = 0.0F;
+    glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, nothing.data());
+    glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, zero.data());
+    glClearNamedFramebufferfv(target.name(), GL_COLOR, 2, zero.data());
+    glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitely_far);
+}
+
+} // namespace
+
+ReceiverPass::ReceiverPass(const Context& context)
+    : context_{context},
+      program_{make_program({"receivers.vert", "receivers.frag", {}, nullptr})}
+{
+    context.check("compiling the receiver program");
+}
+
+void ReceiverPass::allocate(scene::ImageSize size)
+{
+    const int largest =
+        std::min(context_.facts().max_texture_texels, context_.facts().max_viewport_px);
+    if (std::max(size.width_px, size.height_px) > largest) {
+        throw scene::InputError(
+            fmt::format("image.width = {}, image.height = {}: this driver draws at most {} pixels "
+                        "a side",
+                        size.width_px, size.height_px, largest));
+    }
+    if (buffer_.size == size) {
+        return;
+    }
+    buffer_ = {};
+    const auto texture = [&](GLenum format) {
+        return make_texture(format, size.width_px, size.height_px);
+    };
+    buffer_.triangle = texture(GL_R32UI);
+    buffer_.light_clip = texture(GL_RGBA32F);
+    buffer_.world_position = texture(GL_RGBA32F);
+    buffer_.depth = texture(GL_DEPTH_COMPONENT32F);
+    target_ = make_framebuffer();
+    const GLuint name = target_.name();
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, buffer_.triangle.name(), 0);
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT1, buffer_.light_clip.name(), 0);
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT2, buffer_.world_position.name(), 0);
+    glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, buffer_.depth.name(), 0);
+    constexpr std::array<GLenum, 3> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                            GL_COLOR_ATTACHMENT2};
+    glNamedFramebufferDrawBuffers(name, 3, outputs.data());
+    context_.check(fmt::format("allocating {}×{} receiver buffers", size.width_px, size.height_px));
+    buffer_.size = size;
+}
+
+const ReceiverBuffer& ReceiverPass::render(const GpuScene& scene, const scene::View& view,
+                                           const scene::Box& box)
+{
+    allocate(view.image);
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    glViewport(0, 0, view.image.width_px, view.image.height_px);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    glDisable(GL_CULL_FACE);
+    clear(target_);
+    set_uniform(program_, "camera_clip_from_world",
+                scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box)});
+    set_uniform(program_, "light_clip_from_world", view.frustum.light_clip_from_world);
+    glUseProgram(program_.name());
+    scene.draw_receivers(program_);
+    glFinish();
+    context_.check("rendering the receivers");
+    return buffer_;
+}
+
+scene::Image<std::uint32_t> read_triangles(const Context& context, const ReceiverBuffer& buffer)
+{
+    auto image =
+        read_texture<std::uint32_t>(buffer.triangle, buffer.size, GL_RED_INTEGER, GL_UNSIGNED_INT);
+    context.check("reading the receivers' triangles");
+    return image;
+}
+
+scene::Image<scene::Vec4f> read_light_clip(const Context& context, const ReceiverBuffer& buffer)
+{
+    auto image = read_texture<scene::Vec4f>(buffer.light_clip, buffer.size, GL_RGBA, GL_FLOAT);
+    context.check("reading the receivers' light clip coordinates");
+    return image;
+}
+
+scene::Image<scene::Vec4f> read_world_positions(const Context& context,
+                                                const ReceiverBuffer& buffer)
+{
+    auto image = read_texture<scene::Vec4f>(buffer.world_position, buffer.size, GL_RGBA, GL_FLOAT);
+    context.check("reading the receivers' world positions");
+    return image;
+}
+
+} // namespace gnomon::raster_gl

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "raster_gl/context.hpp"
+#include "raster_gl/gl_object.hpp"
+#include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/program.hpp"
+#include "scene/image.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+#include <cstdint>
+
+namespace gnomon::raster_gl {
+
+/// What the camera sees, on the GPU; the textures belong to the pass that rendered it.
+struct ReceiverBuffer {
+    Texture triangle;       ///< R32UI: index of GL's triangle T, `no_triangle` for none
+    Texture light_clip;     ///< RGBA32F: light clip coordinates, interpolated from the vertices
+    Texture world_position; ///< RGBA32F: interpolated world position [m], 1
+    Texture depth;          ///< D32F, reversed, near = 1e-6 × the scene's diagonal
+    scene::ImageSize size{0, 0};
+};
+
+/// Draws the receivers from the camera. Depends on camera, image size and light matrix only.
+class ReceiverPass {
+public:
+    explicit ReceiverPass(const Context& context);
+
+    /// @param box  the scene's bounds; decides the near plane (`scene::camera_clip_from_world`).
+    /// @throws scene::InputError  if the driver lacks the image size.
+    const ReceiverBuffer& render(const GpuScene& scene, const scene::View& view,
+                                 const scene::Box& box);
+
+private:
+    void allocate(scene::ImageSize size);
+
+    const Context& context_;
+    Program program_;
+    Framebuffer target_;
+    ReceiverBuffer buffer_;
+};
+
+[[nodiscard]] scene::Image<std::uint32_t> read_triangles(const Context& context,
+                                                         const ReceiverBuffer& buffer);
+[[nodiscard]] scene::Image<scene::Vec4f> read_light_clip(const Context& context,
+                                                         const ReceiverBuffer& buffer);
+[[nodiscard]] scene::Image<scene::Vec4f> read_world_positions(const Context& context,
+                                                              const ReceiverBuffer& buffer);
+
+} // namespace gnomon::raster_gl

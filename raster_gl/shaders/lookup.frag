@@ -1,0 +1,145 @@
+// The shadow test of one pixel. FILTER_TAPS (1, 3, 5, 7, 9), FILTER_LINEAR, FILTER_HARDWARE,
+// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED and SPOT are defined by the program that compiles this.
+//
+// Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
+// without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
+layout(binding = 0) uniform usampler2D receiver_triangle;
+layout(binding = 1) uniform sampler2D receiver_light_clip;
+layout(binding = 2) uniform sampler2D receiver_world_position;
+layout(binding = 3) uniform sampler2D map;              // nearest, or linear for FILTER_LINEAR
+layout(binding = 4) uniform sampler2DShadow map_compare; // FILTER_HARDWARE
+layout(std430, binding = 0) readonly buffer Normals { vec4 normal[]; }; // unit, by triangle
+
+uniform mat4 light_clip_from_world;
+uniform vec3 light; // SPOT: its position, else the unit vector towards it
+uniform float bias_constant;
+uniform float bias_slope;
+uniform float normal_offset; // in metres at ζ = 1 for SPOT, else in metres
+uniform float resolution;    // in texels
+
+layout(location = 0) out vec4 sample_out; // r, d, tan θ, verdict
+layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lower left
+
+const float not_a_depth = uintBitsToFloat(0x7FC00000u);
+
+bool is_lit(float r, float b, float d)
+{
+#if REVERSED
+    precise float biased = r + b;
+    return biased >= d;
+#else
+    precise float biased = r - b;
+    return biased <= d;
+#endif
+}
+
+bool is_inside(vec2 texel)
+{
+    return all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(resolution)));
+}
+
+// Depth of the texel whose integer coordinates are `texel`; false where the policy decides.
+bool fetch_depth(vec2 texel, out float d)
+{
+#if OUTSIDE_CLAMP
+    texel = clamp(texel, vec2(0.0), vec2(resolution - 1.0));
+#else
+    if (!is_inside(texel)) {
+        d = not_a_depth;
+        return false;
+    }
+#endif
+    d = texelFetch(map, ivec2(texel), 0).r;
+    return true;
+}
+
+// Is the whole 2 × 2 footprint of a linear lookup beyond the map?
+bool footprint_is_outside(vec2 texel)
+{
+    vec2 first = floor(texel - 0.5);
+    return any(lessThan(first, vec2(-1.0))) || any(greaterThanEqual(first, vec2(resolution)));
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    sample_out = vec4(0.0);
+    texel_out = vec2(0.0);
+    uint triangle = texelFetch(receiver_triangle, pixel, 0).r;
+    if (triangle == 0xFFFFFFFFu) {
+        return;
+    }
+    vec4 clip = texelFetch(receiver_light_clip, pixel, 0);
+    vec3 n = normal[triangle].xyz;
+#if SPOT
+    vec3 to_light = normalize(light - texelFetch(receiver_world_position, pixel, 0).xyz);
+    float offset = normal_offset * clip.w;
+#else
+    vec3 to_light = light;
+    float offset = normal_offset;
+#endif
+    float cosine = dot(n, to_light);
+    float tan_theta = min(length(cross(n, to_light)) / abs(cosine), 3.0e38);
+    if (normal_offset != 0.0) {
+        vec3 towards_light = cosine >= 0.0 ? n : -n;
+        clip += light_clip_from_world * vec4(offset * towards_light, 0.0);
+    }
+
+    precise vec3 ndc = clip.xyz / clip.w;
+    precise vec2 uv = ndc.xy * 0.5 + 0.5;
+    precise vec2 texel = uv * resolution;
+#if REVERSED
+    precise float r = ndc.z;
+    bool beyond_far = !(r >= 0.0);
+#else
+    precise float r = ndc.z * 0.5 + 0.5;
+    bool beyond_far = !(r <= 1.0);
+#endif
+    precise float slope_term = bias_slope * tan_theta;
+    precise float bias = bias_constant + slope_term;
+    texel_out = texel;
+
+#if OUTSIDE_CLAMP
+    r = clamp(r, 0.0, 1.0);
+#else
+    if (beyond_far || !(clip.w > 0.0)) {
+        sample_out = vec4(r, not_a_depth, tan_theta, OUTSIDE_VERDICT);
+        return;
+    }
+#endif
+
+    float d;
+#if FILTER_LINEAR || FILTER_HARDWARE
+#if !OUTSIDE_CLAMP
+    if (footprint_is_outside(texel)) {
+        sample_out = vec4(r, not_a_depth, tan_theta, OUTSIDE_VERDICT);
+        return;
+    }
+#endif
+#if FILTER_LINEAR
+    d = textureLod(map, uv, 0.0).r;
+    float verdict = is_lit(r, bias, d) ? 1.0 : 0.0;
+#else
+    fetch_depth(floor(texel), d);
+#if REVERSED
+    precise float reference = r + bias;
+#else
+    precise float reference = r - bias;
+#endif
+    float verdict = textureLod(map_compare, vec3(uv, reference), 0.0);
+#endif
+#else
+    vec2 centre = floor(texel);
+    fetch_depth(centre, d);
+    float lit_taps = 0.0;
+    for (int y = -FILTER_TAPS / 2; y <= FILTER_TAPS / 2; ++y) {
+        for (int x = -FILTER_TAPS / 2; x <= FILTER_TAPS / 2; ++x) {
+            float tap;
+            bool fetched = fetch_depth(centre + vec2(x, y), tap);
+            lit_taps += fetched ? (is_lit(r, bias, tap) ? 1.0 : 0.0) : OUTSIDE_VERDICT;
+        }
+    }
+    float verdict = lit_taps / float(FILTER_TAPS * FILTER_TAPS);
+#endif
+    sample_out = vec4(r, d, tan_theta, verdict);
+}

@@ -1,0 +1,8 @@
+// The map's depths as a shader sees them: reading a depth texture back can give other bits.
+layout(binding = 0) uniform sampler2D map;
+layout(location = 0) out float depth;
+
+void main()
+{
+    depth = texelFetch(map, ivec2(gl_FragCoord.xy), 0).r;
+}

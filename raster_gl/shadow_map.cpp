@@ -1,0 +1,171 @@
+#include "raster_gl/shadow_map.hpp"
+
+#include "raster_gl/depth_formats.hpp"
+#include "raster_gl/readback.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace gnomon::raster_gl {
+namespace {
+
+using Kind = scene::DepthFormat::Kind;
+
+std::uint32_t largest_code(scene::DepthFormat format)
+{
+    return static_cast<std::uint32_t>((std::uint64_t{1} << format.bits) - 1);
+}
+
+/// Clears all attachments to the far plane.
+void clear(const Framebuffer& target, const ShadowMap& map)
+{
+    const float far_depth = map.reversed ? 0.0F : 1.0F;
+    glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_depth);
+    if (map.format.kind == Kind::unorm) {
+        const std::array<GLuint, 4> code{map.reversed ? 0U : largest_code(map.format)};
+        const std::array<GLfloat, 4> z{far_depth};
+        glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, code.data());
+        glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, z.data());
+    }
+}
+
+void set_culling(scene::Cull cull)
+{
+    if (cull == scene::Cull::none) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glFrontFace(GL_CCW);
+    glCullFace(cull == scene::Cull::front ? GL_FRONT : GL_BACK);
+}
+
+/// GL widens an n-bit code to 32 bits by rounding or by bit replication; both are nearest to
+/// code·(2^32 − 1)/(2^n − 1), whose inverse rounded to nearest is the code.
+std::uint32_t narrow_code(std::uint32_t widened, double scale)
+{
+    return static_cast<std::uint32_t>(std::llround(widened * scale));
+}
+
+} // namespace
+
+ShadowMapPass::ShadowMapPass(const Context& context)
+    : context_{context},
+      depth_only_{make_program({"shadow_map.vert", {}, {}, nullptr})},
+      unorm_{make_program({"shadow_map.vert", "shadow_map_unorm.frag", {}, nullptr})}
+{
+    context.check("compiling the shadow map programs");
+}
+
+void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
+{
+    const int size = settings.resolution_texels;
+    const int largest =
+        std::min(context_.facts().max_texture_texels, context_.facts().max_viewport_px);
+    if (size > largest) {
+        throw scene::InputError(fmt::format(
+            "shadow_map.resolution = {}: this driver's largest map is {} texels", size, largest));
+    }
+    if (map_.resolution_texels == size && map_.format == settings.depth_format) {
+        return;
+    }
+    map_ = {}; // the old textures go before the new ones come
+    target_ = make_framebuffer();
+    map_.depth = make_texture(internal_format(settings.depth_format), size, size);
+    require_format(map_.depth, settings.depth_format);
+    glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, map_.depth.name(), 0);
+    if (settings.depth_format.kind == Kind::unorm) {
+        map_.code = make_texture(GL_R32UI, size, size);
+        map_.unquantised_z = make_texture(GL_R32F, size, size);
+        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, map_.code.name(), 0);
+        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT1, map_.unquantised_z.name(),
+                                  0);
+        constexpr std::array<GLenum, 2> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+        glNamedFramebufferDrawBuffers(target_.name(), 2, buffers.data());
+    } else {
+        glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
+    }
+    context_.check(fmt::format("allocating a {0}×{0} {1} shadow map", size,
+                               scene::depth_format_name(settings.depth_format)));
+    map_.format = settings.depth_format;
+    map_.resolution_texels = size;
+}
+
+const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::LightFrustum& frustum,
+                                       const scene::ShadowMapSettings& settings)
+{
+    allocate(settings);
+    map_.reversed = frustum.reversed;
+    const bool unorm = map_.format.kind == Kind::unorm;
+    const Program& program = unorm ? unorm_ : depth_only_;
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    glViewport(0, 0, map_.resolution_texels, map_.resolution_texels);
+    glClipControl(GL_LOWER_LEFT, frustum.reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(frustum.reversed ? GL_GREATER : GL_LESS);
+    set_culling(settings.cull);
+    clear(target_, map_);
+    set_uniform(program, "clip_from_world", frustum.light_clip_from_world);
+    if (unorm) {
+        set_uniform(program, "largest_code", largest_code(map_.format));
+    }
+    glUseProgram(program.name());
+    scene.draw_casters();
+    glFinish();
+    context_.check("rendering the shadow map");
+    return map_;
+}
+
+scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map)
+{
+    const scene::ImageSize size{map.resolution_texels, map.resolution_texels};
+    const auto read = [&] {
+        switch (map.format.kind) {
+        case Kind::unorm:
+            return read_texture<std::uint32_t>(map.code, size, GL_RED_INTEGER, GL_UNSIGNED_INT);
+        case Kind::d32f: // the float's bits
+            return read_texture<std::uint32_t>(map.depth, size, GL_DEPTH_COMPONENT, GL_FLOAT);
+        default:
+            return read_texture<std::uint32_t>(map.depth, size, GL_DEPTH_COMPONENT,
+                                               GL_UNSIGNED_INT);
+        }
+    };
+    scene::Image<std::uint32_t> codes = read();
+    context.check("reading the map's codes");
+    if (map.format.kind == Kind::d16 || map.format.kind == Kind::d24) {
+        const double scale = largest_code(map.format) / 4294967295.0;
+        for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
+            codes[i] = narrow_code(codes[i], scale);
+        }
+    }
+    return codes;
+}
+
+scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map)
+{
+    const int resolution = map.resolution_texels;
+    const Texture copy = make_texture(GL_R32F, resolution, resolution);
+    const Framebuffer target = make_framebuffer();
+    const VertexArray no_attributes = make_vertex_array();
+    const Program program = make_program({"fullscreen.vert", "map_depths.frag", {}, nullptr});
+    glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, copy.name(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    glViewport(0, 0, resolution, resolution);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glUseProgram(program.name());
+    glBindSampler(0, 0);
+    glBindTextureUnit(0, map.depth.name());
+    glTextureParameteri(map.depth.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glBindVertexArray(no_attributes.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    auto depths = read_texture<float>(copy, {resolution, resolution}, GL_RED, GL_FLOAT);
+    context.check("reading the map's depths");
+    return depths;
+}
+
+} // namespace gnomon::raster_gl

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "raster_gl/context.hpp"
+#include "raster_gl/gl_object.hpp"
+#include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/program.hpp"
+#include "scene/image.hpp"
+#include "scene/job.hpp"
+
+#include <cstdint>
+
+namespace gnomon::raster_gl {
+
+/// A rendered shadow map; its textures belong to the pass that rendered it.
+struct ShadowMap {
+    Texture depth;         ///< depth texture: what lookups sample
+    Texture code;          ///< u-formats: R32UI, the n-bit code
+    Texture unquantised_z; ///< u-formats: R32F, the z that the shader quantised
+    scene::DepthFormat format;
+    int resolution_texels = 0;
+    bool reversed = false;
+};
+
+/// Draws the casters from the light, depth only.
+///
+/// One map is kept and its textures are reused while format and resolution stay the same: a sweep
+/// that loops over them outermost allocates each once.
+class ShadowMapPass {
+public:
+    explicit ShadowMapPass(const Context& context);
+
+    /// @throws scene::InputError        if the driver substitutes the format or lacks the size.
+    /// @throws scene::EnvironmentError  if GL fails, memory included.
+    const ShadowMap& render(const GpuScene& scene, const scene::LightFrustum& frustum,
+                            const scene::ShadowMapSettings& settings);
+
+private:
+    void allocate(const scene::ShadowMapSettings& settings);
+
+    const Context& context_;
+    Program depth_only_;
+    Program unorm_;
+    Framebuffer target_;
+    ShadowMap map_;
+};
+
+/// The stored codes, top left first: d16, d24, d32 and u-formats as integers, d32f as float bits.
+[[nodiscard]] scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map);
+
+/// The depths as shaders see them, top left first. Reading a depth texture as floats gives other
+/// bits on some drivers, so a shader writes them.
+[[nodiscard]] scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map);
+
+} // namespace gnomon::raster_gl

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "scene/pixel_class.hpp"
+#include "scene/triangles.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace gnomon::reference_rt {
+
+/// −1, 0 or 1.
+using Sign = int;
+
+/// The five signs that decide how a triangle S = (u, v, w) meets the open segment P→light
+/// (docs/truth.md#five-signs); however they were computed.
+struct ShadowSigns {
+    std::array<Sign, 3> edge; ///< side of P from the plane through the light and (u,v), (v,w), (w,u)
+    Sign point = 0;           ///< side of P from the plane of S
+    Sign light = 0;           ///< side of the light from the plane of S
+};
+
+/// How a triangle meets the open segment P→light.
+enum class Contact : std::uint8_t {
+    none,
+    cross,  ///< properly through its interior
+    edge,   ///< exactly through one edge
+    vertex, ///< exactly through one vertex
+    plane,  ///< the segment lies in its plane; it may meet the triangle there or not
+};
+
+/// The contact that the signs mean. A triangle met at P or at the light only is no contact.
+[[nodiscard]] Contact classify_contact(const ShadowSigns& signs);
+
+/// Index of the edge whose sign is zero. Precondition: the contact is `edge`.
+[[nodiscard]] int touched_edge(const ShadowSigns& signs);
+
+/// True when two triangles with a common edge lie on opposite sides of the plane through that edge
+/// and the light, so that their surface passes through a segment that meets the edge.
+///
+/// @param apex_a, apex_b  sides of the triangles' third corners from that plane.
+[[nodiscard]] constexpr bool is_seam(Sign apex_a, Sign apex_b) { return apex_a * apex_b < 0; }
+
+/// Everything that was found to meet one segment.
+struct SegmentContacts {
+    std::uint32_t witness = scene::no_triangle; ///< a triangle that blocks (of a seam: the lower)
+    bool touches_edge = false;   ///< an edge contact that is no seam
+    bool touches_vertex = false;
+    bool runs_in_triangle = false; ///< in its plane, and through it
+};
+
+struct Shadowing {
+    scene::PixelClass pixel_class = scene::PixelClass::lit;
+    scene::ClassReason reason = scene::ClassReason::none;
+};
+
+/// Blocked if there is a witness; else indeterminate with the first reason that applies of vertex,
+/// silhouette, graze; else lit. Independent of the order in which contacts were found.
+[[nodiscard]] Shadowing classify_segment(const SegmentContacts& contacts);
+
+} // namespace gnomon::reference_rt

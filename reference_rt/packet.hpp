@@ -1,0 +1,61 @@
+#pragma once
+
+#include "scene/camera.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace gnomon::reference_rt {
+
+/// Rays are traced in packets of 4×4 pixels.
+inline constexpr int tile_side_px = 4;
+inline constexpr std::size_t packet_size = tile_side_px * tile_side_px;
+
+template <typename Value>
+using PacketOf = std::array<Value, packet_size>;
+
+/// −1 for a lane that takes part, else 0; aligned as Embree asks.
+struct alignas(64) PacketMask {
+    PacketOf<int> lane{};
+
+    [[nodiscard]] bool operator[](std::size_t i) const { return lane[i] != 0; }
+    void add(std::size_t i) { lane[i] = -1; }
+    [[nodiscard]] bool any() const
+    {
+        for (const int is_valid : lane) {
+            if (is_valid != 0) {
+                return true;
+            }
+        }
+        return false;
+    }
+};
+
+/// A ray in Embree's precision, from t_near to t_far in units of its direction.
+struct FloatRay {
+    scene::Vec3f origin;
+    scene::Vec3f direction;
+    float t_near = 0;
+    float t_far = 0;
+    unsigned mask = 0;
+};
+
+/// Writes a ray into one lane of Embree's packet; its id is the lane.
+template <typename Ray16>
+void set_lane(Ray16& rays, std::size_t lane, const FloatRay& ray)
+{
+    rays.org_x[lane] = ray.origin.x;
+    rays.org_y[lane] = ray.origin.y;
+    rays.org_z[lane] = ray.origin.z;
+    rays.tnear[lane] = ray.t_near;
+    rays.dir_x[lane] = ray.direction.x;
+    rays.dir_y[lane] = ray.direction.y;
+    rays.dir_z[lane] = ray.direction.z;
+    rays.time[lane] = 0;
+    rays.tfar[lane] = ray.t_far;
+    rays.mask[lane] = ray.mask;
+    rays.id[lane] = static_cast<unsigned>(lane);
+    rays.flags[lane] = 0;
+}
+
+} // namespace gnomon::reference_rt

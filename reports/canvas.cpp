@@ -1,0 +1,106 @@
+#include "reports/canvas.hpp"
+
+#include "scene/error.hpp"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::reports {
+
+namespace {
+
+std::string font_path(const std::filesystem::path& folder, std::string_view name)
+{
+    const std::filesystem::path path = folder / name;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) {
+        throw scene::EnvironmentError(
+            fmt::format("cannot write text: the font {} is missing; install fonts-dejavu-core",
+                        path.string()));
+    }
+    return path.string();
+}
+
+/// The text without its last code point.
+std::string_view shortened(std::string_view text)
+{
+    const auto is_continuation = [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+    };
+    while (!text.empty() && is_continuation(text.back())) {
+        text.remove_suffix(1);
+    }
+    if (!text.empty()) {
+        text.remove_suffix(1);
+    }
+    return text;
+}
+
+} // namespace
+
+Canvas::Canvas(scene::ImageSize size, Rgb background, const std::filesystem::path& font_folder)
+    : image_{size, background}, font_{font_path(font_folder, "DejaVuSans.ttf")},
+      bold_font_{font_path(font_folder, "DejaVuSans-Bold.ttf")}
+{
+}
+
+void Canvas::paste(const RgbImage& image, int left, int top)
+{
+    const int height_px = std::min(image.size().height_px, image_.size().height_px - top);
+    const int width_px = std::min(image.size().width_px, image_.size().width_px - left);
+    for (int y = std::max(0, -top); y < height_px; ++y) {
+        for (int x = std::max(0, -left); x < width_px; ++x) {
+            image_(left + x, top + y) = image(x, y);
+        }
+    }
+}
+
+void Canvas::fill(int left, int top, scene::ImageSize size, Rgb colour)
+{
+    paste(RgbImage{size, colour}, left, top);
+}
+
+void Canvas::write(int left, int baseline, std::string_view text, const TextStyle& style)
+{
+    const auto [width_px, height_px] = image_.size();
+    OIIO::ImageBuf buffer{OIIO::ImageSpec{width_px, height_px, 3, OIIO::TypeDesc::UINT8},
+                          image_.data()};
+    const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
+    const std::array<float, 3> colour{channel(style.colour.r), channel(style.colour.g),
+                                      channel(style.colour.b)};
+    // The method is documented to return false for a bad font only; a text wholly outside is fine.
+    const std::string line{text};
+    if (!OIIO::ImageBufAlgo::render_text(buffer, left, baseline, line, style.size_px, font(style),
+                                         colour)) {
+        throw scene::EnvironmentError(
+            fmt::format("OpenImageIO failed to write text with {}: {}; it must be built with "
+                        "FreeType",
+                        font(style), buffer.geterror()));
+    }
+}
+
+int Canvas::text_width_px(std::string_view text, const TextStyle& style) const
+{
+    const OIIO::ROI extent =
+        OIIO::ImageBufAlgo::text_size(std::string{text}, style.size_px, font(style));
+    return extent.defined() ? extent.xend : 0;
+}
+
+std::string Canvas::fitted(std::string_view text, const TextStyle& style, int width_px) const
+{
+    if (text_width_px(text, style) <= width_px) {
+        return std::string{text};
+    }
+    std::string line;
+    do {
+        text = shortened(text);
+        line = std::string{text} + "…";
+    } while (!text.empty() && text_width_px(line, style) > width_px);
+    return line;
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,126 @@
+#include "reports/comparison_json.hpp"
+
+#include "reports/exact_inputs.hpp"
+#include "scene/job_file.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+namespace gnomon::reports {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using scene::ClassReason;
+using scene::PixelClass;
+
+Json number_or_null(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
+
+std::string text(const Json& json, int indent)
+{
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json pixels(const analysis::ClassCounts& counts)
+{
+    Json json{{"total", counts.total}};
+    for (const PixelClass pixel_class :
+         {PixelClass::background, PixelClass::unmatched, PixelClass::attached,
+          PixelClass::out_of_light, PixelClass::indeterminate, PixelClass::lit,
+          PixelClass::blocked}) {
+        const auto name = scene::pixel_class_names[static_cast<std::size_t>(pixel_class)];
+        json[std::string{name}] = counts.of(pixel_class);
+    }
+    return json;
+}
+
+void add_metrics(Json& json, const analysis::Metrics& metrics)
+{
+    const analysis::ClassCounts& counts = metrics.pixels;
+    json["pixels"] = pixels(counts);
+    json["unmatched_kinds"] = {{"snap", counts.of(ClassReason::snap)},
+                               {"tie", counts.of(ClassReason::tie)},
+                               {"mismatch", counts.of(ClassReason::mismatch)}};
+    json["indeterminate_kinds"] = {{"silhouette", counts.of(ClassReason::silhouette)},
+                                   {"vertex", counts.of(ClassReason::vertex)},
+                                   {"graze", counts.of(ClassReason::graze)}};
+    json["false_shadow"] = metrics.false_shadow;
+    json["false_lit"] = metrics.false_lit;
+    json["false_shadow_rate"] = number_or_null(metrics.false_shadow_rate);
+    json["false_lit_rate"] = number_or_null(metrics.false_lit_rate);
+    json["error_rate"] = number_or_null(metrics.error_rate);
+    json["mean_abs_error"] = number_or_null(metrics.mean_abs_error);
+    // Not computed: null, never a number.
+    json["causes"] = nullptr;
+    json["labels"] = nullptr;
+    json["peter_panning_gap_m"] = {{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
+    json["bias_curve"] = nullptr;
+}
+
+Json environment(const analysis::Environment& environment)
+{
+    return {{"gl_renderer", environment.gl_renderer},
+            {"gl_version", environment.gl_version},
+            {"embree", environment.embree},
+            {"gnomon", environment.gnomon}};
+}
+
+Json seconds(const analysis::StageSeconds& seconds)
+{
+    return {{"scene", seconds.scene},         {"bvh", seconds.bvh},
+            {"receivers", seconds.receivers}, {"shadow_map", seconds.shadow_map},
+            {"lookup", seconds.lookup},       {"truth", seconds.truth},
+            {"analysis", seconds.analysis}};
+}
+
+/// The keys' values come in TOML's syntax, which for numbers, booleans, plain strings and arrays is
+/// JSON's too; anything else stays the text that it is.
+Json job_object(const scene::Job& job)
+{
+    Json json = Json::object();
+    for (const auto& [key, value] : scene::resolved_keys(job)) {
+        Json parsed = Json::parse(value, nullptr, false);
+        json[key] = parsed.is_discarded() ? Json(value) : parsed;
+    }
+    return json;
+}
+
+Json scene_object(const analysis::SceneSummary& scene)
+{
+    return {{"name", scene.name},
+            {"triangles", scene.triangles},
+            {"objects", scene.objects},
+            {"dropped_triangles", scene.dropped_triangles},
+            {"ignored_primitives", scene.ignored_primitives},
+            {"hash", scene.hash}};
+}
+
+Json exact_inputs_object(const scene::View& view)
+{
+    Json json = Json::object();
+    for (const ExactInput& input : exact_inputs(view)) {
+        json[input.name] = input.values.size() == 1 ? Json(input.values[0]) : Json(input.values);
+    }
+    return json;
+}
+
+} // namespace
+
+std::string job_json(const scene::Job& job) { return text(job_object(job), -1); }
+
+std::string comparison_json(const analysis::Comparison& comparison)
+{
+    Json json{{"schema", 1}};
+    add_metrics(json, comparison.metrics);
+    json["environment"] = environment(comparison.environment);
+    json["seconds"] = seconds(comparison.seconds);
+    json["scene"] = scene_object(comparison.scene);
+    json["job"] = job_object(comparison.job);
+    json["truth_method"] = comparison.truth_method;
+    json["subpixel_bits"] = comparison.subpixel_bits;
+    json["exact_inputs"] = exact_inputs_object(comparison.view);
+    return text(json, 2) + "\n";
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,141 @@
+#include "reports/comparison_table.hpp"
+
+#include "reports/description.hpp"
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::reports {
+
+namespace {
+
+using scene::ClassReason;
+using scene::PixelClass;
+
+constexpr std::size_t name_columns = 16;
+constexpr std::size_t count_columns = 13;
+constexpr std::size_t rate_columns = 11;
+
+/// A line without the blanks that padding left at its end.
+std::string trimmed(std::string line)
+{
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + "\n";
+}
+
+std::string setting_line(std::string_view name, std::string_view value)
+{
+    return trimmed(pad_right(name, name_columns) + std::string{value});
+}
+
+std::string count_line(std::string_view name, std::string_view count, std::string_view rate,
+                       std::string_view note)
+{
+    return trimmed(pad_right(name, name_columns) + pad_left(count, count_columns) +
+                   pad_left(rate, rate_columns) + "  " + std::string{note});
+}
+
+std::string settings(const analysis::Comparison& comparison)
+{
+    const Description words = describe(comparison);
+    const analysis::Environment& environment = comparison.environment;
+    std::string text = setting_line("scene", words.scene);
+    text += setting_line("image", words.image);
+    text += setting_line("light", words.light);
+    text += setting_line("shadow map", words.map);
+    text += setting_line("", words.range);
+    text += setting_line("lookup", words.lookup);
+    text += setting_line("bias", words.bias);
+    text += setting_line("GL", environment.gl_renderer);
+    text += setting_line("", environment.gl_version);
+    text += setting_line("truth",
+                         fmt::format("{}, {}", comparison.truth_method, environment.embree));
+    return text;
+}
+
+/// "snap 3, tie 1", of the reasons that occur.
+std::string reasons(const analysis::ClassCounts& counts,
+                    std::initializer_list<std::pair<ClassReason, std::string_view>> named)
+{
+    std::string text;
+    for (const auto& [reason, name] : named) {
+        if (counts.of(reason) > 0) {
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
+                                grouped(counts.of(reason)));
+        }
+    }
+    return text;
+}
+
+std::string class_note(const analysis::ClassCounts& counts, PixelClass pixel_class)
+{
+    if (pixel_class == PixelClass::unmatched) {
+        return reasons(counts, {{ClassReason::snap, "snap"},
+                                {ClassReason::tie, "tie"},
+                                {ClassReason::mismatch, "mismatch"}});
+    }
+    if (pixel_class == PixelClass::indeterminate) {
+        return reasons(counts, {{ClassReason::silhouette, "silhouette"},
+                                {ClassReason::vertex, "vertex"},
+                                {ClassReason::graze, "graze"}});
+    }
+    return scene::is_scored(pixel_class) ? "scored" : "";
+}
+
+std::string classes(const analysis::ClassCounts& counts)
+{
+    std::string text = count_line("class", "pixels", "share", "");
+    for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
+        const auto pixel_class = static_cast<PixelClass>(i);
+        const std::uint64_t count = counts.of(pixel_class);
+        std::optional<double> share;
+        if (counts.total > 0) {
+            share = static_cast<double>(count) / static_cast<double>(counts.total);
+        }
+        text += count_line(scene::pixel_class_names[i], grouped(count), percent(share),
+                           class_note(counts, pixel_class));
+    }
+    return text + count_line("total", grouped(counts.total), "", "");
+}
+
+std::string errors(const analysis::Metrics& metrics)
+{
+    const analysis::ClassCounts& counts = metrics.pixels;
+    const auto denominator = [](std::uint64_t count, std::string_view noun) {
+        return fmt::format("of {} {}", grouped(count), noun);
+    };
+    std::string text = count_line("error", "pixels", "rate", "");
+    text += count_line("false shadow", grouped(metrics.false_shadow),
+                       percent(metrics.false_shadow_rate),
+                       denominator(counts.of(PixelClass::lit), "lit"));
+    text += count_line("false lit", grouped(metrics.false_lit), percent(metrics.false_lit_rate),
+                       denominator(counts.of(PixelClass::blocked), "blocked"));
+    text += count_line("both", grouped(metrics.false_shadow + metrics.false_lit),
+                       percent(metrics.error_rate), denominator(counts.scored(), "scored"));
+    return text + count_line("mean |error|", "", percent(metrics.mean_abs_error),
+                             "verdict against truth");
+}
+
+std::string seconds(const analysis::StageSeconds& seconds)
+{
+    return setting_line("seconds",
+                        fmt::format("scene {:.3f}  bvh {:.3f}  receivers {:.3f}  shadow map {:.3f}",
+                                    seconds.scene, seconds.bvh, seconds.receivers,
+                                    seconds.shadow_map)) +
+           setting_line("", fmt::format("lookup {:.3f}  truth {:.3f}  analysis {:.3f}",
+                                        seconds.lookup, seconds.truth, seconds.analysis));
+}
+
+} // namespace
+
+std::string comparison_table(const analysis::Comparison& comparison)
+{
+    return settings(comparison) + "\n" + classes(comparison.metrics.pixels) + "\n" +
+           errors(comparison.metrics) + "\n" + seconds(comparison.seconds);
+}
+
+} // namespace gnomon::reports

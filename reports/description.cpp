@@ -1,0 +1,77 @@
+#include "reports/description.hpp"
+
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace gnomon::reports {
+
+namespace {
+
+std::string describe_scene(const analysis::SceneSummary& scene)
+{
+    std::string text = fmt::format("{}: {}, {}", scene.name, counted(scene.triangles, "triangle"),
+                                   counted(scene.objects, "object"));
+    if (scene.dropped_triangles > 0) {
+        text += fmt::format(", {} dropped", counted(scene.dropped_triangles, "flat triangle"));
+    }
+    if (scene.ignored_primitives > 0) {
+        text += fmt::format(", {} points and lines ignored", grouped(scene.ignored_primitives));
+    }
+    return text;
+}
+
+std::string describe_light(const scene::Light& light)
+{
+    if (light.type == scene::LightType::directional) {
+        const scene::Vec3d& d = light.direction;
+        return fmt::format("directional ({:.4g}, {:.4g}, {:.4g})", d.x, d.y, d.z);
+    }
+    constexpr double deg_from_rad = 180 / std::numbers::pi;
+    return fmt::format("spot, cone {:.4g} deg",
+                       2 * std::acos(light.cos_half_cone) * deg_from_rad);
+}
+
+std::string describe_map(const scene::ShadowMapSettings& map)
+{
+    return fmt::format("{0}x{0} {1}, fit {2}", map.resolution_texels,
+                       scene::depth_format_name(map.depth_format),
+                       scene::fit_name(map.frustum.fit));
+}
+
+std::string describe_range(const scene::LightFrustum& frustum, scene::Cull cull)
+{
+    return fmt::format("near {:.4g}, far {:.4g}, cull {}{}", frustum.near_m, frustum.far_m,
+                       scene::cull_name(cull), frustum.reversed ? ", reversed" : "");
+}
+
+std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias& bias)
+{
+    const std::string metres =
+        settings.constant_m ? fmt::format(" ({} m)", *settings.constant_m) : std::string{};
+    return fmt::format("constant {}{}, slope {}, normal {} texels", bias.constant, metres,
+                       bias.slope, bias.normal_texels);
+}
+
+} // namespace
+
+Description describe(const analysis::Comparison& comparison)
+{
+    const scene::Job& job = comparison.job;
+    const scene::View& view = comparison.view;
+    return {
+        .scene = describe_scene(comparison.scene),
+        .light = describe_light(view.light),
+        .map = describe_map(job.shadow_map),
+        .range = describe_range(view.frustum, job.shadow_map.cull),
+        .lookup = fmt::format("{}, outside {}", scene::filter_name(job.lookup.filter),
+                              scene::outside_name(job.lookup.outside)),
+        .bias = describe_bias(job.bias, view.bias),
+        .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),
+    };
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+
+#include <string>
+
+namespace gnomon::reports {
+
+/// What a comparison's settings say in a few words, for tables and pictures; units are spelt out.
+struct Description {
+    std::string scene;  ///< "columns: 98,304 triangles, 12 objects"
+    std::string light;  ///< "spot, cone 60 deg"
+    std::string map;    ///< "1024x1024 d24, fit scene"
+    std::string range;  ///< "near 0.5, far 10, cull none"
+    std::string lookup; ///< "nearest, outside lit"
+    std::string bias;   ///< "constant 0.0005, slope 0, normal 0 texels"
+    std::string image;  ///< "1280x720"
+};
+
+[[nodiscard]] Description describe(const analysis::Comparison& comparison);
+
+} // namespace gnomon::reports

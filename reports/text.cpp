@@ -1,0 +1,64 @@
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::reports {
+
+std::string grouped(std::uint64_t count)
+{
+    const std::string digits = std::to_string(count);
+    std::string text;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0) {
+            text += ',';
+        }
+        text += digits[i];
+    }
+    return text;
+}
+
+std::string percent(std::optional<double> fraction)
+{
+    if (!fraction) {
+        return "-";
+    }
+    constexpr double smallest_shown = 0.0001;
+    constexpr int most_decimals = 4;
+    const double value = 100 * *fraction;
+    if (value == 0) {
+        return "0 %";
+    }
+    if (value < smallest_shown) {
+        return "<0.0001 %";
+    }
+    const int decimals = 2 - static_cast<int>(std::floor(std::log10(value)));
+    return fmt::format("{:.{}f} %", value, std::clamp(decimals, 0, most_decimals));
+}
+
+std::size_t text_columns(std::string_view text)
+{
+    const auto starts_code_point = [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    };
+    return static_cast<std::size_t>(std::ranges::count_if(text, starts_code_point));
+}
+
+std::string pad_right(std::string_view text, std::size_t columns)
+{
+    return std::string{text} + std::string(columns - std::min(columns, text_columns(text)), ' ');
+}
+
+std::string pad_left(std::string_view text, std::size_t columns)
+{
+    return std::string(columns - std::min(columns, text_columns(text)), ' ') + std::string{text};
+}
+
+std::string counted(std::uint64_t count, std::string_view noun)
+{
+    return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gnomon::reports {
+
+/// A count with its thousands grouped: "1,048,578".
+[[nodiscard]] std::string grouped(std::uint64_t count);
+
+/// A fraction in percent with three significant digits, at most four decimals: "1.23 %"; what is
+/// not zero never prints as zero ("<0.0001 %"); "-" if there is none.
+[[nodiscard]] std::string percent(std::optional<double> fraction);
+
+/// Width of a UTF-8 text in code points.
+[[nodiscard]] std::size_t text_columns(std::string_view text);
+
+/// The text followed, or preceded, by blanks up to `columns`.
+[[nodiscard]] std::string pad_right(std::string_view text, std::size_t columns);
+[[nodiscard]] std::string pad_left(std::string_view text, std::size_t columns);
+
+/// Counts of `count` things: "1 triangle", "2 triangles".
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
+
+} // namespace gnomon::reports

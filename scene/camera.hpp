@@ -1,0 +1,65 @@
+#pragma once
+
+#include "scene/image.hpp"
+#include "scene/triangles.hpp"
+#include "scene/vec.hpp"
+
+#include <cstdint>
+
+namespace gnomon::scene {
+
+enum class Projection : std::uint8_t { perspective, orthographic };
+
+/// The job's `[camera]` table.
+struct CameraSettings {
+    Vec3d eye{0, 2, 6};
+    Vec3d target{0, 0.5, 0};
+    Vec3d up{0, 1, 0};
+    Projection projection = Projection::perspective;
+    double vertical_fov_deg = 45;     ///< (0, 180); perspective
+    double orthographic_height_m = 4; ///< > 0; orthographic: world height of the image
+};
+
+/// A camera in the form in which it is exact input: these doubles are the camera.
+struct Camera {
+    Projection projection = Projection::perspective;
+    Vec3d eye;     ///< [m], each component rounded to float32
+    Vec3d forward; ///< unit length up to rounding
+    Vec3d right;
+    Vec3d up;
+    double half_height = 0.5; ///< tan(fov/2), or half the orthographic height [m]
+};
+
+/// A ray with the bits that define it.
+struct Ray {
+    Vec3d origin;    ///< [m]
+    Vec3d direction; ///< not normalised
+};
+
+/// Builds the camera: forward = target − eye normalised, right = forward × up, up = right ×
+/// forward.
+/// @throws InputError  if eye equals target after rounding to float32, or up is parallel to the
+/// view.
+[[nodiscard]] Camera make_camera(const CameraSettings& settings);
+
+/// Frames the box: a three-quarter view from above in which the box's corners just fit.
+[[nodiscard]] CameraSettings frame_box(const Box& box, ImageSize image);
+
+/// The ray through the centre of pixel (x, y), (0, 0) at the top left (DESIGN §7).
+///
+///     sx = (2(x+½)/W − 1)·(W/H)·half_height,   sy = (1 − 2(y+½)/H)·half_height
+///     perspective:  eye,                         forward + sx·right + sy·up
+///     orthographic: eye + sx·right + sy·up,      forward
+///
+/// Evaluated in double in exactly this order, without contraction; the bits are the definition.
+[[nodiscard]] Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y);
+
+/// Distance of the receivers' near plane: 1e-6 × the scene's diagonal [m].
+[[nodiscard]] double receiver_near_m(const Box& box);
+
+/// The matrix with which receivers are drawn: reversed depth in [0, 1], near at
+/// `receiver_near_m`; perspective has no far plane (depth = near/ζ), orthographic ends behind the
+/// farthest corner of the box. Composed in double; round once to float32 for GL.
+[[nodiscard]] Mat4d camera_clip_from_world(const Camera& camera, ImageSize image, const Box& box);
+
+} // namespace gnomon::scene

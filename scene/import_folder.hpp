@@ -1,0 +1,42 @@
+#pragma once
+
+#include <assimp/IOSystem.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace gnomon::scene {
+
+/// The files that an importer may open: the scene file, and regular files in its folder or below.
+///
+/// Links and `..` are followed before the question is asked. Percent-encoded names
+/// (`my%20mesh.bin`, as glTF writes them) are tried decoded when the name as written does not
+/// exist.
+class ImportFolder final : public Assimp::IOSystem {
+public:
+    /// @param scene_file  absolute path; allowed even where it is a link that leads elsewhere.
+    /// @param on_open     told the size of every file that is opened [bytes].
+    ImportFolder(std::filesystem::path scene_file, std::function<void(std::uint64_t)> on_open);
+
+    bool Exists(const char* name) const override;
+    char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char* name, const char* mode) override;
+    void Close(Assimp::IOStream* stream) override;
+
+    /// The first name that led out of the folder; empty if none did.
+    [[nodiscard]] const std::string& refused_name() const { return refused_name_; }
+
+private:
+    [[nodiscard]] std::optional<std::filesystem::path> find(const char* name) const;
+    [[nodiscard]] bool is_beneath(const std::filesystem::path& canonical) const;
+
+    std::filesystem::path scene_file_;
+    std::filesystem::path folder_;
+    std::function<void(std::uint64_t)> on_open_;
+    mutable std::string refused_name_;
+};
+
+} // namespace gnomon::scene

@@ -1,0 +1,61 @@
+#include "scene/light.hpp"
+
+#include "scene/error.hpp"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+
+namespace gnomon::scene {
+namespace {
+
+Vec3d rounded(const Vec3d& v)
+{
+    return Vec3d{Vec3f{v}};
+}
+
+bool is_zero(const Vec3d& v)
+{
+    return v == Vec3d{0.0};
+}
+
+Light make_spot(const LightSettings& settings)
+{
+    if (!settings.position || !settings.target) {
+        throw InputError("light.type = \"spot\" needs light.position and light.target");
+    }
+    Light light;
+    light.type = LightType::spot;
+    light.position = rounded(*settings.position);
+    light.direction = rounded(*settings.target) - light.position;
+    if (is_zero(light.direction)) {
+        throw InputError("light.position equals light.target: move one of them");
+    }
+    light.cos_half_cone = std::cos(0.5 * glm::radians(settings.cone_deg));
+    return light;
+}
+
+} // namespace
+
+Light make_light(const LightSettings& settings)
+{
+    if (settings.type == LightType::spot) {
+        return make_spot(settings);
+    }
+    Light light;
+    if (settings.direction) {
+        light.direction = rounded(*settings.direction);
+    } else if (settings.position && settings.target) {
+        light.direction = rounded(*settings.target - *settings.position);
+    } else {
+        throw InputError("light.type = \"directional\" needs light.direction, or light.position "
+                         "and light.target");
+    }
+    if (is_zero(light.direction)) {
+        throw InputError("light.direction is zero: give the way the light travels");
+    }
+    return light;
+}
+
+} // namespace gnomon::scene

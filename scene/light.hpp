@@ -1,0 +1,34 @@
+#pragma once
+
+#include "scene/vec.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace gnomon::scene {
+
+enum class LightType : std::uint8_t { directional, spot };
+
+/// The job's `[light]` table.
+struct LightSettings {
+    LightType type = LightType::directional;
+    std::optional<Vec3d> direction; ///< the way the light travels; directional
+    std::optional<Vec3d> position;  ///< [m]; spot: required. directional: where its camera stands
+    std::optional<Vec3d> target; ///< [m]; spot: required. directional: with position, the direction
+    double cone_deg = 60;        ///< full opening angle, (0, 180); spot
+};
+
+/// A light in the form in which it is exact input (every Vec3d is float32-representable).
+struct Light {
+    LightType type = LightType::directional;
+    Vec3d direction; ///< directional: way of travel, not normalised. spot: axis a = float32(target)
+                     ///< − float32(position)
+    Vec3d position;  ///< spot: L [m]. directional: unused
+    double cos_half_cone = -1.0; ///< spot: the double cos(cone/2)
+};
+
+/// Rounds to float32 once.
+/// @throws InputError  naming the key, if a vector is missing, zero, or position equals target.
+[[nodiscard]] Light make_light(const LightSettings& settings);
+
+} // namespace gnomon::scene

@@ -1,0 +1,216 @@
+#include "scene/light_frustum.hpp"
+
+#include "scene/error.hpp"
+#include "scene/view_clip.hpp"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::scene {
+namespace {
+
+constexpr double auto_padding = 1e-4;             // of the range of ζ, on both sides (DESIGN §7)
+constexpr double smallest_spot_near = 1e-3;       // of far
+constexpr double smallest_relative_extent = 1e-4; // of the scene's diagonal; flat scenes
+
+/// Extent of points in light view: right, up, forward coordinates and the tangents seen from the
+/// origin.
+struct LightViewExtent {
+    Vec3d lower{std::numeric_limits<double>::infinity()};
+    Vec3d upper{-std::numeric_limits<double>::infinity()};
+    double largest_tangent = 0;
+
+    void include(const LightFrustum& frustum, const Vec3d& point)
+    {
+        const Vec3d q = point - frustum.origin;
+        const Vec3d p{glm::dot(frustum.right, q), glm::dot(frustum.up, q),
+                      glm::dot(frustum.forward, q)};
+        lower = glm::min(lower, p);
+        upper = glm::max(upper, p);
+        const double side = std::max(std::abs(p.x), std::abs(p.y));
+        largest_tangent = std::max(largest_tangent,
+                                   p.z > 0 ? side / p.z : std::numeric_limits<double>::infinity());
+    }
+    [[nodiscard]] bool empty() const { return !(lower.x <= upper.x); }
+};
+
+/// Axes of the light's view: v grows upwards (towards +z for a light that travels vertically), then
+/// the roll turns both.
+void set_axes(LightFrustum& frustum, const Vec3d& direction, double roll_deg)
+{
+    frustum.forward = glm::normalize(direction);
+    const Vec3d world_up{0, 1, 0};
+    const bool vertical = glm::length(glm::cross(frustum.forward, world_up)) < 1e-3;
+    const Vec3d hint = vertical ? Vec3d{0, 0, 1} : world_up;
+    const Vec3d right = glm::normalize(glm::cross(frustum.forward, hint));
+    const Vec3d up = glm::cross(right, frustum.forward);
+    const double roll_rad = glm::radians(roll_deg);
+    frustum.right = std::cos(roll_rad) * right + std::sin(roll_rad) * up;
+    frustum.up = std::cos(roll_rad) * up - std::sin(roll_rad) * right;
+}
+
+LightViewExtent extent_of_scene(const LightFrustum& frustum, const TriangleScene& scene)
+{
+    LightViewExtent extent;
+    for (const Vec3f& vertex : scene.vertices) {
+        extent.include(frustum, Vec3d{vertex});
+    }
+    return extent;
+}
+
+/// Gives flat scenes a box: no side is smaller than a fraction of the diagonal.
+void widen(double& lower, double& upper, double smallest)
+{
+    if (upper - lower < smallest) {
+        const double centre = 0.5 * (lower + upper);
+        lower = centre - 0.5 * smallest;
+        upper = centre + 0.5 * smallest;
+    }
+}
+
+void set_symmetric_sides(LightFrustum& frustum, double half)
+{
+    frustum.left = frustum.bottom = -half;
+    frustum.right_side = frustum.top = half;
+}
+
+void set_box_sides(LightFrustum& frustum, const LightViewExtent& extent)
+{
+    frustum.left = extent.lower.x;
+    frustum.right_side = extent.upper.x;
+    frustum.bottom = extent.lower.y;
+    frustum.top = extent.upper.y;
+}
+
+void set_sides(LightFrustum& frustum, const FrustumSettings& settings, const LightSettings& light,
+               const LightViewExtent& extent)
+{
+    const bool fixed = settings.fit == Fit::fixed;
+    if (frustum.projection == Projection::orthographic) {
+        if (fixed) {
+            set_symmetric_sides(frustum, settings.half_extent_m);
+        } else {
+            set_box_sides(frustum, extent);
+        }
+        return;
+    }
+    const double fov_deg = fixed && settings.fov_deg ? *settings.fov_deg : light.cone_deg;
+    const double tangent = std::tan(0.5 * glm::radians(fov_deg));
+    const bool narrow = settings.fit == Fit::camera && extent.largest_tangent > 0;
+    set_symmetric_sides(frustum, narrow ? std::min(tangent, extent.largest_tangent) : tangent);
+}
+
+/// Near and far from the settings, else from the ranges of ζ of casters and receivers.
+void set_depth_range(LightFrustum& frustum, const FrustumSettings& settings, double nearest_m,
+                     double farthest_m)
+{
+    const bool spot = frustum.projection == Projection::perspective;
+    const double padding_m = auto_padding * (farthest_m - nearest_m);
+    frustum.far_m = settings.far_m.value_or(farthest_m + padding_m);
+    double auto_near_m = nearest_m - padding_m;
+    if (spot) {
+        auto_near_m = std::max(auto_near_m, smallest_spot_near * frustum.far_m);
+    }
+    frustum.near_m = settings.near_m.value_or(auto_near_m);
+    if (spot && !(frustum.near_m > 0)) {
+        throw InputError(
+            fmt::format("shadow_map.near = {}: a spot's near plane must be in front of it, above 0",
+                        frustum.near_m));
+    }
+    if (!(frustum.near_m < frustum.far_m)) {
+        throw InputError(fmt::format("shadow_map.near = {} is not below shadow_map.far = {}: "
+                                     "correct them, or write \"auto\"",
+                                     frustum.near_m, frustum.far_m));
+    }
+}
+
+/// Row of clip depth as a linear function of ζ: {factor, offset}.
+Vec2d depth_row(const LightFrustum& f)
+{
+    const double range_m = f.far_m - f.near_m;
+    if (f.projection == Projection::perspective) {
+        return f.reversed
+                   ? Vec2d{-f.near_m / range_m, f.near_m * f.far_m / range_m}
+                   : Vec2d{(f.far_m + f.near_m) / range_m, -2.0 * f.far_m * f.near_m / range_m};
+    }
+    return f.reversed ? Vec2d{-1.0 / range_m, f.far_m / range_m}
+                      : Vec2d{2.0 / range_m, -(f.far_m + f.near_m) / range_m};
+}
+
+void compose_matrix(LightFrustum& f)
+{
+    const bool perspective = f.projection == Projection::perspective;
+    const auto affine = [&](const Vec3d& axis) { return Vec4d{axis, -glm::dot(axis, f.origin)}; };
+    const Vec4d zeta = affine(f.forward);
+    const Vec4d w = perspective ? zeta : Vec4d{0, 0, 0, 1};
+    const auto side = [&](const Vec3d& axis, double low, double high) {
+        return (2.0 * affine(axis) - (high + low) * w) / (high - low);
+    };
+    const Vec2d depth = depth_row(f);
+    const Vec4d z = depth.x * zeta + Vec4d{0, 0, 0, depth.y};
+    f.light_clip_from_world_exact = glm::transpose(
+        Mat4d{side(f.right, f.left, f.right_side), side(f.up, f.bottom, f.top), z, w});
+    f.light_clip_from_world = Mat4f{f.light_clip_from_world_exact};
+}
+
+Vec3d camera_position(const LightSettings& settings, const Light& light, const Box& box)
+{
+    if (light.type == LightType::spot) {
+        return light.position;
+    }
+    return settings.position ? Vec3d{Vec3f{*settings.position}} : box.centre();
+}
+
+} // namespace
+
+double LightFrustum::zeta_m(const Vec3d& point) const
+{
+    return glm::dot(forward, point - origin);
+}
+
+double LightFrustum::texel_width_m(double zeta_m, int resolution_texels) const
+{
+    const double side = std::max(right_side - left, top - bottom) / resolution_texels;
+    return projection == Projection::perspective ? side * zeta_m : side;
+}
+
+LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSettings& light_settings,
+                               const Light& light, const TriangleScene& scene, const Camera& camera,
+                               ImageSize image)
+{
+    const Box box = scene.bounds();
+    LightFrustum frustum;
+    frustum.projection =
+        light.type == LightType::spot ? Projection::perspective : Projection::orthographic;
+    frustum.reversed = settings.reversed;
+    frustum.origin = camera_position(light_settings, light, box);
+    set_axes(frustum, light.direction, settings.roll_deg);
+
+    const LightViewExtent whole = extent_of_scene(frustum, scene);
+    LightViewExtent seen;
+    if (settings.fit == Fit::camera) {
+        visit_visible_corners(scene, camera, image,
+                              [&](const Vec3d& corner) { seen.include(frustum, corner); });
+    }
+    LightViewExtent sides = seen.empty() ? whole : seen;
+    double nearest_m = whole.lower.z; // casters before the view matter too
+    double farthest_m = sides.upper.z;
+    const double smallest_m = smallest_relative_extent * box.diagonal_m();
+    widen(sides.lower.x, sides.upper.x, smallest_m);
+    widen(sides.lower.y, sides.upper.y, smallest_m);
+    widen(nearest_m, farthest_m, smallest_m);
+    if (frustum.projection == Projection::perspective && farthest_m <= 0) {
+        farthest_m = box.diagonal_m(); // everything is behind the spot
+    }
+    set_sides(frustum, settings, light_settings, sides);
+    set_depth_range(frustum, settings, nearest_m, farthest_m);
+    compose_matrix(frustum);
+    return frustum;
+}
+
+} // namespace gnomon::scene

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/job.hpp"
+#include "scene/scene_file.hpp"
+
+namespace gnomon::scene {
+
+/// Builds or reads the scene that a job names, adds the ground and sets the roles.
+/// @throws InputError  as `load_scene_file`, `complete_parameters` and `set_roles` do.
+[[nodiscard]] SceneFile load_scene(const SceneSettings& settings);
+
+} // namespace gnomon::scene

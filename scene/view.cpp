@@ -1,0 +1,84 @@
+#include "scene/error.hpp"
+#include "scene/job.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace gnomon::scene {
+namespace {
+
+/// Rounds a bias to float32 once. Subnormals are refused: GL may flush them, and then the verdict
+/// would depend on the driver.
+float rounded_bias(double value, std::string_view key)
+{
+    const auto result = static_cast<float>(value);
+    if (!std::isfinite(result) || (value != 0 && std::fpclassify(result) != FP_NORMAL)) {
+        throw InputError(fmt::format(
+            "{} = {}: in depth units this is {:g}; a bias is 0 or a normal float32, of absolute "
+            "value at least 1.18e-38",
+            key, value, result));
+    }
+    return result;
+}
+
+float constant_bias(const BiasSettings& settings, const LightFrustum& frustum)
+{
+    if (!settings.constant_m) {
+        return rounded_bias(settings.constant, "bias.constant");
+    }
+    if (frustum.projection == Projection::perspective) {
+        throw InputError("bias.constant_m needs a directional light: a spot's depth is not linear "
+                         "in metres; use bias.constant");
+    }
+    return rounded_bias(*settings.constant_m / frustum.range_m(), "bias.constant_m");
+}
+
+/// The box that a default camera frames: everything but the ground, which reaches far beyond.
+Box framed_box(const TriangleScene& scene)
+{
+    Box box = scene.bounds();
+    bool first = true;
+    for (const Object& object : scene.objects) {
+        if (object.name == "ground" || object.triangle_count == 0) {
+            continue;
+        }
+        for (std::uint32_t t = 0; t < object.triangle_count; ++t) {
+            for (const Vec3f& corner : scene.corners(object.first_triangle + t)) {
+                box = first ? Box{Vec3d{corner}, Vec3d{corner}}
+                            : Box{glm::min(box.lower, Vec3d{corner}),
+                                  glm::max(box.upper, Vec3d{corner})};
+                first = false;
+            }
+        }
+    }
+    return box;
+}
+
+LightSettings default_light()
+{
+    LightSettings light;
+    light.direction = Vec3d{-0.4, -1, -0.3};
+    return light;
+}
+
+} // namespace
+
+View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefaults& defaults)
+{
+    View view;
+    view.image = job.image;
+    const auto camera = job.camera ? job.camera : defaults.camera;
+    view.camera = make_camera(camera ? *camera : frame_box(framed_box(scene), job.image));
+    const auto given_light = job.light ? job.light : defaults.light;
+    const LightSettings light = given_light ? *given_light : default_light();
+    view.light = make_light(light);
+    view.frustum =
+        fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera, job.image);
+    view.bias = {constant_bias(job.bias, view.frustum), rounded_bias(job.bias.slope, "bias.slope"),
+                 rounded_bias(job.bias.normal_texels, "bias.normal_texels")};
+    return view;
+}
+
+} // namespace gnomon::scene

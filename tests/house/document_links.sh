@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Every reference to a document leads somewhere: document_links.sh CHECKOUT.
+#
+# Checked are docs/NAME.md and docs/NAME.md#anchor wherever sources name them, and the relative
+# links of the Markdown files. An anchor is a heading as hosting sites spell it in links.
+set -euo pipefail
+cd "$1"
+
+broken=0
+
+# anchors FILE: one line a heading, lower case, without punctuation, words joined by hyphens.
+anchors()
+{
+    sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'
+}
+
+# check WHERE TARGET: TARGET is FILE, FILE#ANCHOR or #ANCHOR, relative to the current folder.
+check()
+{
+    local file=${2%%#*} anchor=""
+    [[ $2 != *#* ]] || anchor=${2#*#}
+    [ -n "$file" ] || file=${1##*/}
+    if [ ! -e "$file" ]; then
+        printf '%s: %s does not exist\n' "$1" "$2" >&2
+        broken=1
+    elif [ -n "$anchor" ] && ! anchors "$file" | grep -qx -- "$anchor"; then
+        printf '%s: %s has no heading #%s\n' "$1" "$file" "$anchor" >&2
+        broken=1
+    fi
+}
+
+mapfile -t sources < <(find . \( -name build -o -name out -o -name .git \) -prune -o -type f \
+    \( -name '*.?pp' -o -name '*.cmake' -o -name CMakeLists.txt -o -name '*.frag' -o -name '*.vert' \
+    -o -name '*.py' \) -printf '%P\n')
+while IFS=: read -r where target; do
+    check "$where" "$target"
+done < <(grep -oHE 'docs/[a-z_]+\.md(#[a-z0-9-]+)?' "${sources[@]}")
+
+mapfile -t pages < <(find . \( -name build -o -name out -o -name .git \) -prune -o -type f \
+    -name '*.md' -printf '%P\n')
+while IFS=: read -r where target; do
+    target=${target#*](}
+    target=${target%)}
+    [[ $target == http*://* ]] || { pushd "$(dirname "$where")" >/dev/null &&
+        check "$where" "$target" && popd >/dev/null; }
+done < <(grep -oHE '\]\([^) ]+\)' "${pages[@]}")
+
+exit "$broken"

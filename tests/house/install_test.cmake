@@ -1,0 +1,26 @@
+# Installs Gnomon into an empty prefix, builds examples/find_package against it, and runs it.
+# Run as cmake -DROOT=<checkout> -DBUILD=<build folder> -DWORK=<empty folder> -P install_test.cmake.
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output
+                  ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${ROOT}/examples/find_package -B ${WORK}/build -G Ninja
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+
+run(${WORK}/build/texel_widths yard)
+if(NOT output MATCHES "^yard: [1-9][0-9]* triangles.* 512 texels: 0\\.[0-9]+ m wide")
+  message(FATAL_ERROR "texel_widths yard printed:\n${output}")
+endif()
+run(${WORK}/prefix/bin/gnomon --version)
+message("${output}")

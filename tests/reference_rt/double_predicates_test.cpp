@@ -1,0 +1,167 @@
+#include "reference_rt/double_predicates.hpp"
+
+#include <gtest/gtest.h>
+
+namespace gnomon::reference_rt {
+namespace {
+
+using scene::Light;
+using scene::LightType;
+using scene::Ray;
+using scene::Vec3d;
+
+const Corners ground{Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}};
+
+/// P = (x, 0, z), seen from 4 above it; the coordinates are short binary fractions, so every
+/// operation in the signs is exact.
+Receiver receiver_at(double x, double z)
+{
+    return make_receiver(0, ground, Ray{Vec3d{x, 4, z}, Vec3d{0, -1, 0}});
+}
+
+Light sun(const Vec3d& direction)
+{
+    Light light;
+    light.direction = direction;
+    return light;
+}
+
+Light lamp(const Vec3d& position, const Vec3d& axis, double cosine)
+{
+    Light light;
+    light.type = LightType::spot;
+    light.position = position;
+    light.direction = axis;
+    light.cos_half_cone = cosine;
+    return light;
+}
+
+Contact contact(const Receiver& receiver, const Corners& s, const Light& light)
+{
+    return classify_contact(shadow_signs(receiver, s, light));
+}
+
+TEST(MakeReceiver, PutsThePointOnThePlane)
+{
+    EXPECT_EQ(receiver_at(0.5, 0.25).point(), (Vec3d{0.5, 0, 0.25}));
+}
+
+TEST(ShadowSigns, FindACrossingAboveThePointForBothLightsAndBothWindings)
+{
+    const Corners roof{Vec3d{-1, 1, -1}, Vec3d{1, 1, -1}, Vec3d{0, 1, 1}};
+    const Corners turned{roof[0], roof[2], roof[1]};
+    for (const Light& light : {sun({0, -1, 0}), lamp({0, 2, 0}, {0, -1, 0}, 0.5)}) {
+        EXPECT_EQ(contact(receiver_at(0.125, 0), roof, light), Contact::cross);
+        EXPECT_EQ(contact(receiver_at(0.125, 0), turned, light), Contact::cross);
+        EXPECT_EQ(contact(receiver_at(3, 0), roof, light), Contact::none);
+    }
+    // Beyond the lamp nothing blocks.
+    EXPECT_EQ(contact(receiver_at(0.125, 0), roof, lamp({0, 0.5, 0}, {0, -1, 0}, 0.5)),
+              Contact::none);
+}
+
+TEST(ShadowSigns, SeeContactsNearerThanAnyRayEpsilon)
+{
+    // A roof 2^-40 above the ground: far below the rounding of any float ray.
+    const double h = 0x1p-40;
+    const Corners roof{Vec3d{-1, h, -1}, Vec3d{1, h, -1}, Vec3d{0, h, 1}};
+    EXPECT_EQ(contact(receiver_at(0.125, 0), roof, sun({0, -1, 0})), Contact::cross);
+}
+
+TEST(ShadowSigns, NeverCallACoplanarTriangleABlocker)
+{
+    const Corners overlap{Vec3d{-1, 0, -1}, Vec3d{1, 0, -1}, Vec3d{0, 0, 1}};
+    const Receiver skewed =
+        make_receiver(0, ground, Ray{Vec3d{0.1, 3.7, 0.3}, Vec3d{0.013, -0.97, -0.11}});
+    EXPECT_EQ(shadow_signs(skewed, overlap, sun({0.3, -1, 0.2})).point, 0);
+    EXPECT_EQ(contact(skewed, overlap, sun({0.3, -1, 0.2})), Contact::none);
+}
+
+TEST(ShadowSigns, TellExactEdgeVertexAndPlaneContacts)
+{
+    const Corners roof{Vec3d{-1, 1, -1}, Vec3d{1, 1, -1}, Vec3d{0, 1, 1}};
+    EXPECT_EQ(contact(receiver_at(0.5, -1), roof, sun({0, -1, 0})), Contact::edge);
+    EXPECT_EQ(contact(receiver_at(1, -1), roof, sun({0, -1, 0})), Contact::vertex);
+    const Corners wall{Vec3d{0.5, 0, -1}, Vec3d{0.5, 1, -1}, Vec3d{0.5, 0, 1}};
+    EXPECT_EQ(contact(receiver_at(0.5, 0), wall, sun({0, -1, 0})), Contact::plane);
+}
+
+TEST(ShadowSigns, OfASharedEdgeAreOpposite)
+{
+    // The edge (a, b) of two triangles, met by rays that no arithmetic of 53 bits resolves.
+    const Vec3d a{0.1F, 1, 0.7F};
+    const Vec3d b{0.9F, 1, 0.2F};
+    const Corners left{a, b, Vec3d{0, 1.5, 0}};
+    const Corners right{b, a, Vec3d{1, 0.5, 1}};
+    for (const Light& light : {sun({0.3F, -1, 0.1F}), lamp({0.2F, 3, 0.9F}, {0, -1, 0}, 0.5)}) {
+        for (int i = 0; i < 100; ++i) {
+            const Ray ray{Vec3d{0.3, 5, 0.2}, Vec3d{0.01 * i + 0.003, -1.7, 0.013 * i}};
+            const Receiver receiver = make_receiver(0, ground, ray);
+            EXPECT_EQ(shadow_signs(receiver, left, light).edge[0],
+                      -shadow_signs(receiver, right, light).edge[0])
+                << "i = " << i;
+        }
+    }
+}
+
+TEST(ApexSide, TellsASeamFromAFold)
+{
+    const Vec3d u{0, 1, -1};
+    const Vec3d v{0, 1, 1};
+    for (const Light& light : {sun({0, -1, 0}), lamp({0, 5, 0}, {0, -1, 0}, 0.5)}) {
+        const Sign left = apex_side(light, u, v, {-1, 1, 0});
+        EXPECT_TRUE(is_seam(left, apex_side(light, u, v, {1, 0.5, 0})));
+        EXPECT_FALSE(is_seam(left, apex_side(light, u, v, {-1, 0.5, 0})));
+        EXPECT_FALSE(is_seam(left, apex_side(light, u, v, {0, 0, 0.5})));
+    }
+}
+
+TEST(RunsThrough, NeedsTheOpenSegmentToMeetTheTriangle)
+{
+    const Corners wall{Vec3d{0.5, 1, -1}, Vec3d{0.5, 2, 0}, Vec3d{0.5, 1, 1}};
+    EXPECT_TRUE(runs_through(receiver_at(0.5, 0), wall, sun({0, -1, 0})));
+    EXPECT_TRUE(runs_through(receiver_at(0.5, 1), wall, sun({0, -1, 0}))); // at a corner
+    EXPECT_FALSE(runs_through(receiver_at(0.5, 2), wall, sun({0, -1, 0})));
+    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), wall, lamp({0.5, 0.5, 0}, {0, -1, 0}, 0.5)));
+    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), wall, sun({0, 1, 0})));
+    const Corners foot{Vec3d{0.5, 0, 0}, Vec3d{0.5, -1, 1}, Vec3d{0.5, -1, -1}};
+    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), foot, sun({0, -1, 0}))); // at P only
+}
+
+TEST(IsAttached, HoldsBehindAndInThePlane)
+{
+    const Receiver receiver = receiver_at(0, 0);
+    EXPECT_FALSE(is_attached(receiver, sun({0, -1, 0})));
+    EXPECT_TRUE(is_attached(receiver, sun({0, 1, 0})));
+    EXPECT_TRUE(is_attached(receiver, sun({1, 0, 0.5})));
+    EXPECT_FALSE(is_attached(receiver, lamp({0, 1, 0}, {0, -1, 0}, 0.5)));
+    EXPECT_TRUE(is_attached(receiver, lamp({3, 0, 0}, {-1, 0, 0}, 0.5)));
+}
+
+TEST(IsOutOfLight, FollowsTheConeAndItsSide)
+{
+    const Light light = lamp({0, 2, 0}, {0, -1, 0}, 0.5);
+    EXPECT_FALSE(is_out_of_light(receiver_at(0, 0), light));
+    // cos = 1/2 from height 2: the border's radius is 2·sqrt 3 = 3.4641016…
+    EXPECT_FALSE(is_out_of_light(receiver_at(3.464101, 0), light));
+    EXPECT_TRUE(is_out_of_light(receiver_at(3.464102, 0), light));
+    EXPECT_TRUE(is_out_of_light(receiver_at(0, 0), lamp({0, 2, 0}, {0, 1, 0}, 0.5))); // behind
+    EXPECT_FALSE(is_out_of_light(receiver_at(100, 0), sun({0, -1, 0})));
+}
+
+TEST(CameraHit, IsClosedAtEdgesAndBoundsItsError)
+{
+    const Corners triangle{Vec3d{0, 0, -2}, Vec3d{1, 0, -2}, Vec3d{0, 1, -2}};
+    const auto inside = camera_hit(Ray{Vec3d{0.25, 0.25, 0}, Vec3d{0, 0, -1}}, triangle);
+    ASSERT_TRUE(inside);
+    EXPECT_EQ(inside->t, 2);
+    EXPECT_GT(inside->t_error, 0);
+    EXPECT_LT(inside->t_error, 1e-13); // 10u · 2 · (2 + 2·…)/1, a few times 1e-15
+    EXPECT_TRUE(camera_hit(Ray{Vec3d{0.5, 0.5, 0}, Vec3d{0, 0, -1}}, triangle));
+    EXPECT_TRUE(camera_hit(Ray{Vec3d{0, 0, 0}, Vec3d{0, 0, -1}}, triangle));
+    EXPECT_FALSE(camera_hit(Ray{Vec3d{0.5, 0.75, 0}, Vec3d{0, 0, -1}}, triangle));
+    EXPECT_FALSE(camera_hit(Ray{Vec3d{0, 0, -2}, Vec3d{1, 0, 0}}, triangle)); // in its plane
+}
+
+} // namespace
+} // namespace gnomon::reference_rt

@@ -1,0 +1,104 @@
+#include "scene_fixture.hpp"
+
+#include "reference_rt/truth.hpp"
+
+#include <gtest/gtest.h>
+
+/// Pixels in which GL's triangle is not the ray's first hit; what GL saw is made up.
+namespace gnomon::reference_rt::test {
+namespace {
+
+using scene::ClassReason;
+
+constexpr ImageSize image{64, 48};
+
+/// Two triangles that share the diagonal of a square, 4 m from the camera, and a sheet `gap_m` behind.
+TriangleScene square_and_sheet(double gap_m)
+{
+    SceneBuilder builder;
+    builder.add("square",
+                std::vector<Vec3d>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
+    builder.add("sheet",
+                std::vector<Vec3d>{{-1, -1, -gap_m}, {1, -1, -gap_m}, {1, 1, -gap_m}},
+                std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
+    return builder.take();
+}
+
+View front_view()
+{
+    return make_view({0, 0, 4}, {0, 0, 0}, image, sun({0.1, 0.2, -1}));
+}
+
+struct Reclassified {
+    PixelClass pixel_class;
+    ClassReason reason;
+};
+
+/// The class of one pixel when GL claims to see `triangle` there.
+Reclassified class_when_seeing(const TriangleScene& scene, const View& view, int x, int y,
+                               std::uint32_t triangle)
+{
+    auto receivers = brute_force_receivers(scene, view);
+    receivers(x, y) = triangle;
+    const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
+    return {truth.pixel_class(x, y), truth.reason(x, y)};
+}
+
+void expect_unmatched(const Reclassified& pixel, ClassReason reason)
+{
+    EXPECT_EQ(pixel.pixel_class, PixelClass::unmatched);
+    EXPECT_EQ(pixel.reason, reason);
+}
+
+TEST(Unmatched, AcceptsBothFirstHitsOfASharedEdge)
+{
+    // Centres with x − ½ = y − ½ from the middle lie on the diagonal: (32 + k, 23 − k).
+    const TriangleScene scene = square_and_sheet(1);
+    for (const std::uint32_t triangle : {0U, 1U}) {
+        const auto pixel = class_when_seeing(scene, front_view(), 34, 21, triangle);
+        EXPECT_TRUE(scene::is_scored(pixel.pixel_class)) << "triangle " << triangle;
+        EXPECT_EQ(pixel.reason, ClassReason::none);
+    }
+}
+
+TEST(Unmatched, IsAMismatchFarFromEveryEdge)
+{
+    const TriangleScene scene = square_and_sheet(1);
+    // The neighbour does not cover the pixel; nothing at all was drawn; the sheet is far behind.
+    expect_unmatched(class_when_seeing(scene, front_view(), 36, 30, 1), ClassReason::mismatch);
+    expect_unmatched(class_when_seeing(scene, front_view(), 36, 30, no_triangle),
+                     ClassReason::mismatch);
+    expect_unmatched(class_when_seeing(scene, front_view(), 36, 30, 2), ClassReason::mismatch);
+    // GL sees what no ray meets.
+    expect_unmatched(class_when_seeing(scene, front_view(), 1, 1, 0), ClassReason::mismatch);
+}
+
+TEST(Unmatched, IsATieWithinTheDepthBuffersResolution)
+{
+    // 4e-7 m at 4 m are 1e-7 of the depth, one ulp of float32 there; the bound allows a few.
+    const TriangleScene scene = square_and_sheet(4e-7);
+    expect_unmatched(class_when_seeing(scene, front_view(), 36, 30, 2), ClassReason::tie);
+}
+
+TEST(Unmatched, IsASnapWithinASubPixelOfAnEdge)
+{
+    // A vertical edge near the centre of pixel column 40: x = ±1 m spans ±1/(4·tan 22.5°)·24 px.
+    const double px_per_m = 24 / (4 * std::tan(glm::radians(22.5)));
+    for (const double offset_px : {-1.0 / 512, 1.0 / 512, 1.0 / 16}) {
+        const double edge = (40.5 + offset_px - 32) / px_per_m;
+        SceneBuilder builder;
+        builder.add("sheet", std::vector<Vec3d>{{edge, -1, 0}, {edge, 1, 0}, {-1, 0, 0}},
+                    std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
+        const TriangleScene scene = builder.take();
+        const bool is_covered = offset_px > 0;
+        // Row 24: the triangle's other edges are 7 px and more away.
+        const auto pixel = class_when_seeing(scene, front_view(), 40, 24,
+                                             is_covered ? no_triangle : 0U);
+        expect_unmatched(pixel, std::abs(offset_px) < 1.0 / 256 ? ClassReason::snap
+                                                                : ClassReason::mismatch);
+    }
+}
+
+} // namespace
+} // namespace gnomon::reference_rt::test

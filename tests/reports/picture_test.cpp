@@ -1,0 +1,219 @@
+#include "reports/picture.hpp"
+
+#include "example_comparison.hpp"
+#include "reports/panels.hpp"
+#include "scene/error.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::reports {
+namespace {
+
+using scene::ImageSize;
+using scene::PixelClass;
+using testing::HasSubstr;
+
+const Example& example()
+{
+    static const Example instance;
+    return instance;
+}
+
+std::ptrdiff_t count_colour(const RgbImage& image, Rgb colour)
+{
+    return std::count(image.begin(), image.end(), colour);
+}
+
+/// sRGB values, weighted as their brightness is.
+int brightness(Rgb colour) { return (2 * colour.r + 5 * colour.g + colour.b) / 8; }
+
+TEST(MarkOf, MarksErrorsAndPixelsWithoutATruth)
+{
+    EXPECT_EQ(mark_of(PixelClass::lit, 1.0F), Mark::none);
+    EXPECT_EQ(mark_of(PixelClass::lit, 0.0F), Mark::false_shadow);
+    EXPECT_EQ(mark_of(PixelClass::blocked, 0.0F), Mark::none);
+    EXPECT_EQ(mark_of(PixelClass::blocked, 0.5F), Mark::false_lit);
+    EXPECT_EQ(mark_of(PixelClass::unmatched, 1.0F), Mark::unmatched);
+    EXPECT_EQ(mark_of(PixelClass::indeterminate, 1.0F), Mark::indeterminate);
+    EXPECT_EQ(mark_of(PixelClass::attached, 1.0F), Mark::none);
+    EXPECT_EQ(mark_of(PixelClass::background, 0.0F), Mark::none);
+}
+
+TEST(DrawPanels, ColoursEachErrorAtItsPixel)
+{
+    const analysis::Comparison& comparison = example().comparison;
+    const Panels panels = draw_panels(comparison, comparison.view.image);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const Mark mark = mark_of(comparison.truth.pixel_class(x, y),
+                                      comparison.lookup.samples(x, y).verdict);
+            for (const Mark other : {Mark::false_shadow, Mark::false_lit, Mark::unmatched}) {
+                ASSERT_EQ(panels.errors(x, y) == mark_colour(other), mark == other)
+                    << "pixel " << x << ", " << y;
+            }
+        }
+    }
+}
+
+TEST(DrawPanels, ShowsTheSamePixelsWhereGlIsRight)
+{
+    const analysis::Comparison& comparison = example().comparison;
+    const Panels panels = draw_panels(comparison, comparison.view.image);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const PixelClass pixel_class = comparison.truth.pixel_class(x, y);
+            const Rgb gl = panels.gl(x, y);
+            const Rgb truth = panels.truth(x, y);
+            switch (mark_of(pixel_class, comparison.lookup.samples(x, y).verdict)) {
+            case Mark::none:
+                ASSERT_EQ(gl, truth) << "pixel " << x << ", " << y;
+                break;
+            case Mark::false_shadow:
+                ASSERT_LT(brightness(gl), brightness(truth)) << "pixel " << x << ", " << y;
+                break;
+            case Mark::false_lit:
+                ASSERT_GT(brightness(gl), brightness(truth)) << "pixel " << x << ", " << y;
+                break;
+            default:
+                break;
+            }
+        }
+    }
+}
+
+/// The example with one false-lit pixel and nothing else to mark.
+analysis::Comparison with_one_error(int error_x, int error_y)
+{
+    analysis::Comparison comparison = example().comparison;
+    for (std::size_t i = 0; i < comparison.truth.pixel_class.pixel_count(); ++i) {
+        comparison.truth.pixel_class[i] = PixelClass::lit;
+        comparison.lookup.samples[i].verdict = 1.0F;
+    }
+    comparison.truth.pixel_class(error_x, error_y) = PixelClass::blocked;
+    return comparison;
+}
+
+TEST(DrawPanels, NeverLosesAnErrorWhenScalingDown)
+{
+    // 96x64 into 37x23: neither factor is whole.
+    constexpr ImageSize size{37, 23};
+    for (const auto& [x, y] :
+         {std::pair{0, 0}, std::pair{95, 63}, std::pair{47, 31}, std::pair{13, 50}}) {
+        const Panels panels = draw_panels(with_one_error(x, y), size);
+        EXPECT_EQ(panels.errors(x * 37 / 96, y * 23 / 64), mark_colour(Mark::false_lit))
+            << "error at " << x << ", " << y;
+        EXPECT_GE(count_colour(panels.errors, mark_colour(Mark::false_lit)), 1);
+        // A pixel of the image touches at most two panel pixels each way.
+        EXPECT_LE(count_colour(panels.errors, mark_colour(Mark::false_lit)), 4);
+    }
+}
+
+TEST(DrawPanels, ShowsEachPixelAsABlockWhenScalingUp)
+{
+    const Panels panels = draw_panels(with_one_error(10, 20), {96 * 3, 64 * 3});
+    EXPECT_EQ(count_colour(panels.errors, mark_colour(Mark::false_lit)), 9);
+    EXPECT_EQ(panels.errors(30, 60), mark_colour(Mark::false_lit));
+    EXPECT_EQ(panels.errors(32, 62), mark_colour(Mark::false_lit));
+}
+
+TEST(DrawPanels, DrawsAnImageOfOnePixel)
+{
+    const Example tiny{{.image = {1, 1}}};
+    const Panels panels = draw_panels(tiny.comparison, {4, 4});
+    EXPECT_EQ(count_colour(panels.gl, panels.gl(0, 0)), 16);
+}
+
+TEST(LayOutPicture, PutsThreePanelsSideBySide)
+{
+    const PictureLayout layout = lay_out_picture({1920, 1080});
+    EXPECT_EQ(layout.panel, (ImageSize{960, 540}));
+    EXPECT_FALSE(layout.is_stacked);
+    EXPECT_EQ(layout.canvas.width_px, 3 * 960 + 4 * layout.margin);
+}
+
+TEST(LayOutPicture, StacksWideImages)
+{
+    const PictureLayout layout = lay_out_picture({2000, 400});
+    EXPECT_TRUE(layout.is_stacked);
+    EXPECT_EQ(layout.canvas.width_px, 960 + 2 * layout.margin);
+    EXPECT_GT(layout.canvas.height_px, 3 * layout.panel.height_px);
+}
+
+TEST(LayOutPicture, KeepsExtremeShapesSmall)
+{
+    for (const ImageSize image : {ImageSize{1, 1}, ImageSize{16384, 1}, ImageSize{1, 16384},
+                                  ImageSize{16384, 16384}, ImageSize{3, 2000}}) {
+        const PictureLayout layout = lay_out_picture(image);
+        EXPECT_GE(layout.panel.width_px, 1);
+        EXPECT_GE(layout.panel.height_px, 1);
+        EXPECT_LE(std::max(layout.panel.width_px, layout.panel.height_px), 960);
+        EXPECT_LE(layout.canvas.width_px, 3200);
+        EXPECT_LE(layout.canvas.height_px, 2400);
+    }
+}
+
+TEST(WritePicture, WritesAPngOfTheLayoutsSizeWithTheErrorColours)
+{
+    const TemporaryFolder folder;
+    write_picture(folder / "picture.png", example().comparison);
+    auto input = OIIO::ImageInput::open((folder / "picture.png").string());
+    ASSERT_NE(input, nullptr) << OIIO::geterror();
+    const PictureLayout layout = lay_out_picture({96, 64});
+    const OIIO::ImageSpec& spec = input->spec();
+    EXPECT_STREQ(input->format_name(), "png");
+    ASSERT_EQ(spec.width, layout.canvas.width_px);
+    ASSERT_EQ(spec.height, layout.canvas.height_px);
+    ASSERT_EQ(spec.nchannels, 3);
+    RgbImage image{layout.canvas};
+    ASSERT_TRUE(
+        input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, image.data()));
+    const int factor = layout.panel.width_px / 96;
+    const auto& metrics = example().comparison.metrics;
+    // Blocks in the panel, and the swatch beneath it.
+    EXPECT_GT(count_colour(image, mark_colour(Mark::false_shadow)),
+              static_cast<std::ptrdiff_t>(metrics.false_shadow) * factor * factor);
+    EXPECT_GT(count_colour(image, mark_colour(Mark::false_lit)),
+              static_cast<std::ptrdiff_t>(metrics.false_lit) * factor * factor);
+}
+
+TEST(WritePicture, WritesTheSameBytesAgain)
+{
+    const TemporaryFolder folder;
+    write_picture(folder / "a.png", example().comparison);
+    write_picture(folder / "b.png", example().comparison);
+    EXPECT_EQ(read_text(folder / "a.png"), read_text(folder / "b.png"));
+}
+
+TEST(WritePicture, SurvivesLongNamesAndMissingRates)
+{
+    analysis::Comparison comparison = example().comparison;
+    comparison.scene.name = std::string(3000, 'W') + "é\xE9";
+    comparison.environment = {};
+    comparison.metrics = {};
+    const RgbImage image = draw_picture(comparison);
+    EXPECT_EQ(image.size(), lay_out_picture({96, 64}).canvas);
+}
+
+TEST(WritePicture, ReportsAnUnwritablePath)
+{
+    EXPECT_THROW(write_picture("/dev/full", example().comparison), scene::EnvironmentError);
+}
+
+TEST(DrawPicture, NamesThePackageOfAMissingFont)
+{
+    const TemporaryFolder folder;
+    try {
+        (void)draw_picture(example().comparison, folder.path());
+        FAIL() << "a picture without a font";
+    } catch (const scene::EnvironmentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("install fonts-dejavu-core"));
+    }
+}
+
+} // namespace
+} // namespace gnomon::reports

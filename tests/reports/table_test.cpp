@@ -1,0 +1,86 @@
+#include "reports/comparison_table.hpp"
+
+#include "example_comparison.hpp"
+#include "reports/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace gnomon::reports {
+namespace {
+
+using scene::ClassReason;
+using scene::PixelClass;
+using testing::HasSubstr;
+
+analysis::Comparison with_counts()
+{
+    static const Example example;
+    analysis::Comparison comparison = example.comparison;
+    analysis::Metrics& metrics = comparison.metrics;
+    metrics.pixels.total = 921'600;
+    metrics.pixels.by_class = {400'000, 123, 1'000, 0, 7, 500'000, 20'470};
+    metrics.pixels.by_reason = {};
+    metrics.pixels.by_reason[static_cast<std::size_t>(ClassReason::snap)] = 120;
+    metrics.pixels.by_reason[static_cast<std::size_t>(ClassReason::tie)] = 3;
+    metrics.pixels.by_reason[static_cast<std::size_t>(ClassReason::vertex)] = 7;
+    metrics.false_shadow = 5'000;
+    metrics.false_lit = 2'047;
+    metrics.false_shadow_rate = 0.01;
+    metrics.false_lit_rate = 0.1;
+    metrics.error_rate = 7'047 / 520'470.0;
+    metrics.mean_abs_error = 7'047 / 520'470.0;
+    return comparison;
+}
+
+TEST(ComparisonTable, AlignsCountsRatesAndDenominators)
+{
+    const std::string table = comparison_table(with_counts());
+    EXPECT_THAT(table, HasSubstr("class                  pixels      share\n"
+                                 "background            400,000     43.4 %\n"
+                                 "unmatched                 123   0.0133 %  snap 120, tie 3\n"
+                                 "attached                1,000    0.109 %\n"
+                                 "out_of_light                0        0 %\n"
+                                 "indeterminate               7   0.0008 %  vertex 7\n"
+                                 "lit                   500,000     54.3 %  scored\n"
+                                 "blocked                20,470     2.22 %  scored\n"
+                                 "total                 921,600\n"));
+    EXPECT_THAT(table, HasSubstr("error                  pixels       rate\n"
+                                 "false shadow            5,000     1.00 %  of 500,000 lit\n"
+                                 "false lit               2,047     10.0 %  of 20,470 blocked\n"
+                                 "both                    7,047     1.35 %  of 520,470 scored\n"
+                                 "mean |error|                      1.35 %  verdict against truth\n"));
+}
+
+TEST(ComparisonTable, NamesSceneSettingsAndEnvironment)
+{
+    const std::string table = comparison_table(with_counts());
+    EXPECT_THAT(table, HasSubstr("scene           example.obj: "));
+    EXPECT_THAT(table, HasSubstr("shadow map      48x48 d24, fit scene\n"));
+    EXPECT_THAT(table, HasSubstr("lookup          nearest, outside lit\n"));
+    EXPECT_THAT(table, HasSubstr("bias            constant 0.002, slope 0, normal 0 texels\n"));
+    EXPECT_THAT(table, HasSubstr("truth           judged, Embree 3.13.5\n"));
+    EXPECT_THAT(table, HasSubstr("seconds         scene "));
+}
+
+TEST(ComparisonTable, ShowsADashForARateWithoutADenominator)
+{
+    analysis::Comparison comparison = with_counts();
+    comparison.metrics = {};
+    EXPECT_THAT(comparison_table(comparison),
+                HasSubstr("false lit                   0          -  of 0 blocked\n"));
+}
+
+TEST(ComparisonTable, IsNarrowAndHasNoTrailingBlanks)
+{
+    std::istringstream lines{comparison_table(with_counts())};
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(text_columns(line), 80U) << line;
+        EXPECT_TRUE(line.empty() || line.back() != ' ') << line;
+    }
+}
+
+} // namespace
+} // namespace gnomon::reports

@@ -1,0 +1,70 @@
+#include "reports/exact_inputs.hpp"
+#include "reports/text.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace gnomon::reports {
+namespace {
+
+TEST(Grouped, SeparatesThousands)
+{
+    EXPECT_EQ(grouped(0), "0");
+    EXPECT_EQ(grouped(999), "999");
+    EXPECT_EQ(grouped(1000), "1,000");
+    EXPECT_EQ(grouped(1'048'578), "1,048,578");
+    EXPECT_EQ(grouped(std::numeric_limits<std::uint64_t>::max()), "18,446,744,073,709,551,615");
+}
+
+TEST(Percent, ShowsThreeSignificantDigits)
+{
+    EXPECT_EQ(percent(1.0), "100 %");
+    EXPECT_EQ(percent(0.123456), "12.3 %");
+    EXPECT_EQ(percent(0.0123456), "1.23 %");
+    EXPECT_EQ(percent(0.000123456), "0.0123 %");
+}
+
+TEST(Percent, ShowsZeroOnlyForZero)
+{
+    EXPECT_EQ(percent(0.0), "0 %");
+    EXPECT_EQ(percent(1e-9), "<0.0001 %");
+}
+
+TEST(Percent, ShowsADashForNoValue) { EXPECT_EQ(percent(std::nullopt), "-"); }
+
+TEST(Pad, CountsCodePointsNotBytes)
+{
+    EXPECT_EQ(pad_right("θ", 3), "θ  ");
+    EXPECT_EQ(pad_left("θ", 3), "  θ");
+    EXPECT_EQ(pad_left("long", 3), "long");
+}
+
+TEST(Counted, TakesThePlural)
+{
+    EXPECT_EQ(counted(1, "triangle"), "1 triangle");
+    EXPECT_EQ(counted(2000, "triangle"), "2,000 triangles");
+}
+
+TEST(Hexadecimal, WritesWhatC99Writes)
+{
+    EXPECT_EQ(hexadecimal(3.0), "0x1.8p+1");
+    EXPECT_EQ(hexadecimal(-0.5), "-0x1p-1");
+    EXPECT_EQ(hexadecimal(0.0), "0x0p+0");
+    EXPECT_EQ(hexadecimal(-0.0), "-0x0p+0");
+}
+
+RC_GTEST_PROP(Hexadecimal, ReadsBackToTheSameBits, (std::uint64_t bits))
+{
+    const auto value = std::bit_cast<double>(bits);
+    RC_PRE(std::isfinite(value));
+    const double back = std::strtod(hexadecimal(value).c_str(), nullptr);
+    RC_ASSERT(std::bit_cast<std::uint64_t>(back) == bits);
+}
+
+} // namespace
+} // namespace gnomon::reports

@@ -1,0 +1,300 @@
+// Every key of the job file, one by one: its limits, its refusals, its text.
+
+#include "job_fixture.hpp"
+
+#include "scene/builtin_scenes.hpp"
+#include "scene/job_keys.hpp"
+
+#include <fmt/format.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace gnomon::scene::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// What a key accepts and refuses, in TOML; `context` are keys that it needs beside it.
+struct KeyCases {
+    std::vector<std::string> accepted; ///< as `resolved_keys` prints them
+    std::vector<std::string> refused;
+    std::vector<Override> context;
+};
+
+const std::vector<Override> spot{{"light.type", "spot"},
+                                 {"light.position", "[1, 2, 3]"},
+                                 {"light.target", "[0, 0, 0]"},
+                                 {"bias.constant", "0"}};
+
+std::vector<Override> with(std::vector<Override> first, const std::vector<Override>& more)
+{
+    first.insert(first.end(), more.begin(), more.end());
+    return first;
+}
+
+const KeyCases vectors{{"[1, 2, 3]", "[-1e+15, 1e+15, 0.1]", "[0, 0, 0]"},
+                       {"[1, 2]", "[1, 2, 3, 4]", "[1, 2, \"3\"]", "[1, 2, nan]", "[1, -inf, 3]",
+                        "[1, 2, 1.01e15]", "7", "\"up\""},
+                       {}};
+const KeyCases directions{{"[1, 2, 3]", "[0, -1e-30, 0]"},
+                          // The last is zero once it is a float32.
+                          {"[0, 0, 0]", "[1, 2]", "[1e-60, 0, 0]"},
+                          {}};
+const KeyCases sides{{"1", "4097", "16384"},
+                     {"0", "-1", "16385", "20000", "1000000000", "640.0", "\"abc\"", "true"},
+                     {}};
+const KeyCases flags{{"true", "false"}, {"1", "\"yes\"", "[]"}, {}};
+const KeyCases angles{{"0.001", "45", "179.999"}, {"0", "-5", "0.0009", "180", "\"wide\""}, {}};
+const KeyCases names{
+    {"[]", "[\"wall\"]", "[\"a b\", \"c\\\"d\"]"}, {"\"wall\"", "[1]", "[\"\"]"}, {}};
+const KeyCases planes{{"\"auto\"", "-1e+15", "0", "0.5"}, {"\"Auto\"", "1.1e15", "true"}, {}};
+
+KeyCases biases(const std::string& largest, const std::string& beyond)
+{
+    // 1.1754943508222875e-38 is the smallest normal float32; the one below it rounds to a subnormal
+    // and 1e-60 to zero: both are refused, since GL would not see what was asked for.
+    return {{"0", "0.25", "-0.25", "1.1754943508222875e-38", largest, "-" + largest},
+            {"1.175e-38", "-1e-45", "1e-60", beyond, "-" + beyond, "\"small\"", "[0]"},
+            {}};
+}
+
+KeyCases beside(KeyCases cases, const std::vector<Override>& context)
+{
+    cases.context = context;
+    return cases;
+}
+
+const std::map<std::string, KeyCases>& key_cases()
+{
+    static const std::map<std::string, KeyCases> cases{
+        {"scene.builtin", {{"\"wall\"", "\"room\""}, {"\"walls\"", "3", "\"\""}, {}}},
+        {"scene.file", {{"\"a.obj\"", "\"/b c/d.glb\""}, {"\"\"", "7", "\"a\\u0000b\""}, {}}},
+        {"scene.ground", flags},
+        {"scene.no_cast", names},
+        {"scene.no_receive", names},
+        {"camera.eye", vectors},
+        {"camera.target", vectors},
+        {"camera.up", directions},
+        {"camera.vertical_fov_deg", angles},
+        {"camera.orthographic_height", {{"1e-06", "4", "1e+15"}, {"0", "-4", "9e-7", "2e15"}, {}}},
+        {"image.width", beside(sides, {{"image.height", "2"}})},
+        {"image.height", beside(sides, {{"image.width", "2"}})},
+        {"light.type", {{"\"directional\""}, {"\"sun\"", "\"point\"", "1"}, {}}},
+        {"light.direction", directions},
+        {"light.position", beside(vectors, spot)},
+        {"light.target", beside(vectors, spot)},
+        {"light.cone_deg", beside(angles, spot)},
+        {"shadow_map.resolution", sides},
+        {"shadow_map.depth_format",
+         {{"\"d16\"", "\"d24\"", "\"d32\"", "\"d32f\"", "\"u8\"", "\"u13\"", "\"u24\""},
+          {"\"u7\"", "\"u25\"", "\"u08\"", "\"d25\"", "\"D24\"", "24"},
+          {}}},
+        {"shadow_map.fit", {{"\"scene\"", "\"camera\"", "\"fixed\""}, {"\"tight\"", "0"}, {}}},
+        {"shadow_map.half_extent",
+         {{"1e-06", "20", "1e+15"}, {"0", "-1", "2e15"}, {{"shadow_map.fit", "fixed"}}}},
+        {"shadow_map.fov_deg", beside(angles, with(spot, {{"shadow_map.fit", "fixed"}}))},
+        {"shadow_map.roll_deg", {{"-360", "0.5", "360"}, {"361", "-360.01", "\"left\""}, {}}},
+        {"shadow_map.near", beside(planes, {{"shadow_map.far", "auto"}})},
+        {"shadow_map.far", beside(planes, {{"shadow_map.near", "auto"}})},
+        {"shadow_map.cull", {{"\"none\"", "\"front\"", "\"back\""}, {"\"both\"", "false"}, {}}},
+        {"shadow_map.reversed", flags},
+        {"lookup.filter",
+         {{"\"nearest\"", "\"linear\"", "\"hardware\"", "\"pcf3\"", "\"pcf5\"", "\"pcf7\"",
+           "\"pcf9\""},
+          {"\"pcf4\"", "\"pcf11\"", "3"},
+          {}}},
+        {"lookup.outside", {{"\"lit\"", "\"shadowed\"", "\"clamp\""}, {"\"border\"", "1"}, {}}},
+        {"bias.constant", biases("1", "1.0000001")},
+        {"bias.constant_m", biases("1e+15", "1.1e15")},
+        {"bias.slope", biases("1000", "1000.1")},
+        {"bias.normal_texels", biases("1000", "1000.1")}};
+    return cases;
+}
+
+bool is_parameter(const std::string& key)
+{
+    return std::count(key.begin(), key.end(), '.') == 2;
+}
+
+TEST(JobKeys, AreAllCoveredByTheCasesBelow)
+{
+    for (const JobKey& key : job_keys()) {
+        EXPECT_TRUE(is_parameter(key.name) || key_cases().contains(key.name)) << key.name;
+    }
+}
+
+TEST(JobKeys, AcceptTheirRangesAndPrintWhatTheyAccepted)
+{
+    for (const auto& [key, cases] : key_cases()) {
+        for (const std::string& value : cases.accepted) {
+            SCOPED_TRACE(key + " = " + value);
+            const Job job = builtin_job("wall", with(cases.context, {{key, value}})).job;
+            EXPECT_EQ(keys_of(job)[key], value);
+        }
+    }
+}
+
+TEST(JobKeys, RefuseWhatIsOutsideNamingKeyValueAndRange)
+{
+    for (const auto& [key, cases] : key_cases()) {
+        for (const std::string& value : [&] { // no key takes these
+                 std::vector<std::string> all = cases.refused;
+                 all.insert(all.end(), {"nan", "inf", "-inf", "1979-05-27", "[[1]]", "{a = 1}"});
+                 return all;
+             }()) {
+            const std::string message = error_of([&] {
+                return builtin_job("wall", with(cases.context, {{key, value}}));
+            });
+            EXPECT_THAT(message, HasSubstr(fmt::format("--set {}={}: ", key, value)));
+            EXPECT_THAT(message, HasSubstr("must be " + find_key(key)->key.range_text));
+        }
+    }
+}
+
+TEST(JobKeys, OfBuiltInParametersAcceptTheirLimitsAndNothingBeyond)
+{
+    for (const BuiltinScene& scene : builtin_scenes()) {
+        for (const BuiltinParameter& parameter : scene.parameters) {
+            const std::string key = parameter_prefix(scene.name) + parameter.name;
+            SCOPED_TRACE(key);
+            const auto message = [&](const std::string& value) {
+                return error_of([&] { return builtin_job(scene.name, {{key, value}}); });
+            };
+            EXPECT_THAT(message("nan"), HasSubstr("must be " + find_key(key)->key.range_text));
+            for (const std::string& word : parameter.words) {
+                EXPECT_EQ(message(word), "no error");
+            }
+            if (!parameter.words.empty()) {
+                EXPECT_THAT(message(parameter.words[0] + "x"), HasSubstr("the nearest is"));
+                continue;
+            }
+            const double infinity = std::numeric_limits<double>::infinity();
+            for (const auto& [limit, outward] :
+                 {std::pair{parameter.lower, -infinity}, std::pair{parameter.upper, infinity}}) {
+                const double beyond = parameter.is_integer ? limit + std::copysign(1, outward)
+                                                           : std::nextafter(limit, outward);
+                EXPECT_EQ(message(toml_number(limit)), "no error") << limit;
+                EXPECT_THAT(message(toml_number(beyond)), HasSubstr("must be")) << beyond;
+            }
+        }
+    }
+}
+
+TEST(JobKeys, DefaultTextsAndExamplesAreWithinTheirRanges)
+{
+    for (const KeySpec& spec : key_specs()) {
+        const std::string& shown =
+            spec.key.default_text.empty() ? spec.example : spec.key.default_text;
+        const auto node = parse_toml_value(shown);
+        ASSERT_TRUE(node) << spec.key.name << " = " << shown;
+        EXPECT_TRUE(read_value(spec.domain, *node)) << spec.key.name << " = " << shown;
+    }
+}
+
+TEST(JobKeys, DefaultTextsAreTheDefaultsOfAJob)
+{
+    Job job;
+    job.camera.emplace();
+    job.light.emplace().direction = Vec3d{-0.4, -1, -0.3};
+    const auto keys = keys_of(job);
+    for (const JobKey& key : job_keys()) {
+        const auto value = keys.find(key.name);
+        if (value != keys.end()) {
+            EXPECT_EQ(value->second, key.default_text) << key.name;
+        }
+    }
+}
+
+TEST(JobKeys, HaveAUniqueNameADescriptionARangeAndAStage)
+{
+    std::set<std::string> seen;
+    for (const JobKey& key : job_keys()) {
+        EXPECT_TRUE(seen.insert(key.name).second) << key.name;
+        EXPECT_FALSE(key.description.empty()) << key.name;
+        EXPECT_FALSE(key.range_text.empty()) << key.name;
+        EXPECT_NE(key.stages, 0) << key.name;
+    }
+}
+
+TEST(JobKeys, NameTheStagesThatTheyChange)
+{
+    const auto stages = [](std::string_view key) { return find_key(key)->key.stages; };
+    EXPECT_EQ(stages("bias.constant"), only(Stage::bias));
+    EXPECT_EQ(stages("bias.slope"), only(Stage::bias));
+    EXPECT_EQ(stages("bias.normal_texels"), only(Stage::lookup));
+    EXPECT_EQ(stages("lookup.filter"), only(Stage::lookup));
+    EXPECT_EQ(stages("shadow_map.depth_format"), only(Stage::shadow_map));
+    EXPECT_EQ(stages("shadow_map.roll_deg"), Stage::receivers | Stage::shadow_map);
+    EXPECT_EQ(stages("camera.eye"), Stage::truth | Stage::receivers | Stage::shadow_map);
+    EXPECT_EQ(stages("light.direction"), Stage::truth | Stage::receivers | Stage::shadow_map);
+    EXPECT_EQ(stages("scene.wall.thickness_m"), only(Stage::scene));
+    for (const JobKey& key : job_keys()) {
+        const bool changes_truth = key.name.starts_with("camera.") ||
+                                   key.name.starts_with("image.") || key.name.starts_with("light.");
+        EXPECT_EQ((key.stages & only(Stage::truth)) != 0, changes_truth) << key.name;
+    }
+}
+
+RC_GTEST_PROP(JobKeys, PrintNumbersThatReadBackAsTheSameBits, ())
+{
+    const auto number = *rc::gen::arbitrary<double>();
+    RC_PRE(std::isfinite(number));
+    const auto node = parse_toml_value(toml_number(number));
+    RC_ASSERT(node.has_value());
+    const auto* integer = std::get_if<std::int64_t>(&node->value);
+    const double back =
+        integer != nullptr ? static_cast<double>(*integer) : std::get<double>(node->value);
+    RC_ASSERT(back == number);
+    RC_ASSERT(std::signbit(back) == std::signbit(number));
+}
+
+RC_GTEST_PROP(JobKeys, QuoteTextsThatReadBackAsTheSameBytes, ())
+{
+    const auto text = *rc::gen::container<std::string>(rc::gen::inRange<char>(1, 127));
+    const auto node = parse_toml_value(toml_quoted(text));
+    RC_ASSERT(node.has_value());
+    RC_ASSERT(std::get<std::string>(node->value) == text);
+}
+
+TEST(DepthFormat, NamesAndFormatsAreInverse)
+{
+    for (const std::string name : {"d16", "d24", "d32", "d32f", "u8", "u16", "u24"}) {
+        const auto format = depth_format_from_name(name);
+        ASSERT_TRUE(format) << name;
+        EXPECT_EQ(depth_format_name(*format), name);
+    }
+    EXPECT_EQ(depth_format_from_name("d32f")->bits, 32);
+    EXPECT_EQ(depth_format_from_name("u13")->bits, 13);
+    EXPECT_TRUE(depth_format_from_name("d32f")->is_float());
+    EXPECT_FALSE(depth_format_from_name("d32")->is_float());
+    for (const std::string name : {"", "u", "u7", "u25", "u013", "d8", "d24 "}) {
+        EXPECT_FALSE(depth_format_from_name(name)) << name;
+    }
+}
+
+TEST(Filter, HasTheWidthThatItsNameSays)
+{
+    EXPECT_EQ(filter_width_texels(Filter::nearest), 1);
+    EXPECT_EQ(filter_width_texels(Filter::linear), 2);
+    EXPECT_EQ(filter_width_texels(Filter::hardware), 2);
+    EXPECT_EQ(filter_width_texels(Filter::pcf3), 3);
+    EXPECT_EQ(filter_width_texels(Filter::pcf9), 9);
+}
+
+TEST(NearestWord, NeedsTheFewestEdits)
+{
+    const std::vector<std::string> words{"nearest", "linear", "hardware", "pcf3"};
+    EXPECT_EQ(nearest_word("linear", words), "linear");
+    EXPECT_EQ(nearest_word("liner", words), "linear");
+    EXPECT_EQ(nearest_word("pcf", words), "pcf3");
+    EXPECT_EQ(nearest_word("neerst", words), "nearest");
+    EXPECT_EQ(nearest_word("", words), "pcf3");    // four insertions: the shortest word
+    EXPECT_EQ(nearest_word("x", {"a", "b"}), "a"); // equally near: the first
+    EXPECT_EQ(nearest_word("x", {}), "");
+}
+
+} // namespace
+} // namespace gnomon::scene::test
