@@ -16,10 +16,7 @@ public:
     explicit StageTimer(double& seconds) : seconds_{seconds} {}
     StageTimer(const StageTimer&) = delete;
     StageTimer& operator=(const StageTimer&) = delete;
-    ~StageTimer()
-    {
-        seconds_ += std::chrono::duration<double>(Clock::now() - start_).count();
-    }
+    ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -21,8 +21,8 @@ struct Environment {
 
 /// Wall time of each stage [s].
 struct StageSeconds {
-    double scene = 0;      ///< reading or generating the scene, its hash, resolving the view
-    double bvh = 0;        ///< building the ray-tracing hierarchy
+    double scene = 0; ///< reading or generating the scene, its hash, resolving the view
+    double bvh = 0;   ///< building the ray-tracing hierarchy
     double receivers = 0;
     double shadow_map = 0;
     double lookup = 0;

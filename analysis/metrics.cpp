@@ -13,6 +13,8 @@ namespace gnomon::analysis {
 
 namespace {
 
+using scene::PixelClass;
+
 /// Pixels per leaf of the reduction. It fixes the order in which the absolute errors are added, so
 /// that their sum has the same bits for any number of threads.
 constexpr std::size_t pixels_per_leaf = 32768;
@@ -20,33 +22,42 @@ constexpr std::size_t no_pixel = std::numeric_limits<std::size_t>::max();
 
 /// What one part of the image adds to the metrics.
 struct Tally {
-    std::array<std::uint64_t, scene::pixel_class_count> by_class{};
+    /// By class, and by whether the verdict is lit: one histogram answers classes and errors.
+    std::array<std::array<std::uint64_t, 2>, scene::pixel_class_count> by_verdict{};
     std::array<std::uint64_t, 7> by_reason{};
-    std::uint64_t false_shadow = 0;
-    std::uint64_t false_lit = 0;
     double absolute_error = 0;
-    std::size_t first_bad_pixel = no_pixel; ///< a verdict outside [0, 1], or NaN
+    std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
 
-    void add_verdict(std::size_t pixel, bool truth_is_lit, float verdict)
+    /// Without branches that depend on the image, for classes change from pixel to pixel.
+    void add(std::size_t pixel, PixelClass pixel_class, scene::ClassReason reason, float verdict)
     {
-        if (!(verdict >= 0.0F && verdict <= 1.0F)) {
+        ++by_verdict[static_cast<std::size_t>(pixel_class)][scene::is_lit(verdict) ? 1 : 0];
+        ++by_reason[static_cast<std::size_t>(reason)];
+        const bool is_verdict = verdict >= 0.0F && verdict <= 1.0F;
+        if (scene::is_scored(pixel_class) & !is_verdict) [[unlikely]] {
             first_bad_pixel = std::min(first_bad_pixel, pixel);
-            return;
         }
-        const bool verdict_is_lit = scene::is_lit(verdict);
-        false_shadow += (truth_is_lit && !verdict_is_lit) ? 1U : 0U;
-        false_lit += (!truth_is_lit && verdict_is_lit) ? 1U : 0U;
-        absolute_error += std::abs(static_cast<double>(verdict) - (truth_is_lit ? 1.0 : 0.0));
+        const float truth = pixel_class == PixelClass::lit ? 1.0F : 0.0F;
+        const double error = std::abs(static_cast<double>(verdict) - static_cast<double>(truth));
+        absolute_error += scene::is_scored(pixel_class) ? error : 0.0;
     }
 
     void add(const Tally& other)
     {
-        std::ranges::transform(by_class, other.by_class, by_class.begin(), std::plus{});
-        std::ranges::transform(by_reason, other.by_reason, by_reason.begin(), std::plus{});
-        false_shadow += other.false_shadow;
-        false_lit += other.false_lit;
+        for (std::size_t i = 0; i < by_verdict.size(); ++i) {
+            by_verdict[i][0] += other.by_verdict[i][0];
+            by_verdict[i][1] += other.by_verdict[i][1];
+        }
+        for (std::size_t i = 0; i < by_reason.size(); ++i) {
+            by_reason[i] += other.by_reason[i];
+        }
         absolute_error += other.absolute_error;
         first_bad_pixel = std::min(first_bad_pixel, other.first_bad_pixel);
+    }
+
+    [[nodiscard]] std::uint64_t count(PixelClass pixel_class, bool verdict_is_lit) const
+    {
+        return by_verdict[static_cast<std::size_t>(pixel_class)][verdict_is_lit ? 1 : 0];
     }
 };
 
@@ -67,13 +78,7 @@ Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& l
 {
     const auto count = [&](const tbb::blocked_range<std::size_t>& pixels, Tally tally) {
         for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
-            const scene::PixelClass pixel_class = truth.pixel_class[i];
-            ++tally.by_class[static_cast<std::size_t>(pixel_class)];
-            ++tally.by_reason[static_cast<std::size_t>(truth.reason[i])];
-            if (scene::is_scored(pixel_class)) {
-                tally.add_verdict(i, pixel_class == scene::PixelClass::lit,
-                                  lookup.samples[i].verdict);
-            }
+            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict);
         }
         return tally;
     };
@@ -98,10 +103,13 @@ std::optional<double> ratio(double part, std::uint64_t whole)
 
 std::uint64_t ClassCounts::scored() const
 {
-    return of(scene::PixelClass::lit) + of(scene::PixelClass::blocked);
+    return of(PixelClass::lit) + of(PixelClass::blocked);
 }
 
-std::uint64_t ClassCounts::surface() const { return total - of(scene::PixelClass::background); }
+std::uint64_t ClassCounts::surface() const
+{
+    return total - of(PixelClass::background);
+}
 
 Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup)
 {
@@ -113,14 +121,18 @@ Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& look
                         tally.first_bad_pixel, lookup.samples[tally.first_bad_pixel].verdict));
     }
     Metrics metrics;
-    metrics.pixels = {truth.pixel_class.pixel_count(), tally.by_class, tally.by_reason};
-    metrics.false_shadow = tally.false_shadow;
-    metrics.false_lit = tally.false_lit;
+    metrics.pixels.total = truth.pixel_class.pixel_count();
+    for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
+        metrics.pixels.by_class[i] = tally.by_verdict[i][0] + tally.by_verdict[i][1];
+    }
+    metrics.pixels.by_reason = tally.by_reason;
+    metrics.false_shadow = tally.count(PixelClass::lit, false);
+    metrics.false_lit = tally.count(PixelClass::blocked, true);
     const std::uint64_t scored = metrics.pixels.scored();
-    const auto false_shadow = static_cast<double>(tally.false_shadow);
-    const auto false_lit = static_cast<double>(tally.false_lit);
-    metrics.false_shadow_rate = ratio(false_shadow, metrics.pixels.of(scene::PixelClass::lit));
-    metrics.false_lit_rate = ratio(false_lit, metrics.pixels.of(scene::PixelClass::blocked));
+    const auto false_shadow = static_cast<double>(metrics.false_shadow);
+    const auto false_lit = static_cast<double>(metrics.false_lit);
+    metrics.false_shadow_rate = ratio(false_shadow, metrics.pixels.of(PixelClass::lit));
+    metrics.false_lit_rate = ratio(false_lit, metrics.pixels.of(PixelClass::blocked));
     metrics.error_rate = ratio(false_shadow + false_lit, scored);
     metrics.mean_abs_error = ratio(tally.absolute_error, scored);
     return metrics;

@@ -11,6 +11,10 @@ std::vector<scene::Vec4f> capture_clip_positions(const Context& context, const G
     const Program program = make_program({"shadow_map.vert", {}, {}, "gl_Position"});
     std::vector<scene::Vec4f> positions(scene.vertex_count());
     const auto bytes = static_cast<GLsizeiptr>(positions.size() * sizeof(scene::Vec4f));
+    const Framebuffer nothing = make_framebuffer(); // drawing needs a complete one all the same
+    glNamedFramebufferParameteri(nothing.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    glNamedFramebufferParameteri(nothing.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, nothing.name());
     const Buffer captured = make_buffer();
     glNamedBufferStorage(captured.name(), bytes, nullptr, 0);
     set_uniform(program, "clip_from_world", clip_from_world);

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -143,6 +145,17 @@ scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& 
         }
     }
     return codes;
+}
+
+scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map)
+{
+    if (map.format.kind != Kind::unorm) {
+        throw std::invalid_argument("read_unquantised_z: only u-formats keep their z");
+    }
+    auto z = read_texture<float>(map.unquantised_z, {map.resolution_texels, map.resolution_texels},
+                                 GL_RED, GL_FLOAT);
+    context.check("reading the map's z");
+    return z;
 }
 
 scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map)

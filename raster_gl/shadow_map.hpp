@@ -47,6 +47,10 @@ private:
 /// The stored codes, top left first: d16, d24, d32 and u-formats as integers, d32f as float bits.
 [[nodiscard]] scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map);
 
+/// u-formats: the float32 z that the shader quantised, top left first.
+/// @throws std::invalid_argument  for GL's own formats, which keep no such z.
+[[nodiscard]] scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map);
+
 /// The depths as shaders see them, top left first. Reading a depth texture as floats gives other
 /// bits on some drivers, so a shader writes them.
 [[nodiscard]] scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map);

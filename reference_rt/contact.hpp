@@ -11,12 +11,13 @@ namespace gnomon::reference_rt {
 /// −1, 0 or 1.
 using Sign = int;
 
-/// The five signs that decide how a triangle S = (u, v, w) meets the open segment P→light
-/// (docs/truth.md#five-signs); however they were computed.
+/// The five signs that decide how a triangle S = (u, v, w) meets the open segment P→light,
+/// however they were computed.
 struct ShadowSigns {
-    std::array<Sign, 3> edge; ///< side of P from the plane through the light and (u,v), (v,w), (w,u)
-    Sign point = 0;           ///< side of P from the plane of S
-    Sign light = 0;           ///< side of the light from the plane of S
+    std::array<Sign, 3>
+        edge;       ///< side of P from the plane through the light and (u,v), (v,w), (w,u)
+    Sign point = 0; ///< side of P from the plane of S
+    Sign light = 0; ///< side of the light from the plane of S
 };
 
 /// How a triangle meets the open segment P→light.
@@ -38,12 +39,15 @@ enum class Contact : std::uint8_t {
 /// and the light, so that their surface passes through a segment that meets the edge.
 ///
 /// @param apex_a, apex_b  sides of the triangles' third corners from that plane.
-[[nodiscard]] constexpr bool is_seam(Sign apex_a, Sign apex_b) { return apex_a * apex_b < 0; }
+[[nodiscard]] constexpr bool is_seam(Sign apex_a, Sign apex_b)
+{
+    return apex_a * apex_b < 0;
+}
 
 /// Everything that was found to meet one segment.
 struct SegmentContacts {
     std::uint32_t witness = scene::no_triangle; ///< a triangle that blocks (of a seam: the lower)
-    bool touches_edge = false;   ///< an edge contact that is no seam
+    bool touches_edge = false;                  ///< an edge contact that is no seam
     bool touches_vertex = false;
     bool runs_in_triangle = false; ///< in its plane, and through it
 };

@@ -25,14 +25,6 @@ Sign sign_of(double value)
     return static_cast<Sign>(value > 0) - static_cast<Sign>(value < 0);
 }
 
-/// The cross product with every term positive.
-Vec3d cross_permanent(const Vec3d& a, const Vec3d& b)
-{
-    const Vec3d p = glm::abs(a);
-    const Vec3d q = glm::abs(b);
-    return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
-}
-
 bool precedes(const Vec3d& u, const Vec3d& v)
 {
     return u.x != v.x ? u.x < v.x : (u.y != v.y ? u.y < v.y : u.z < v.z);
@@ -79,35 +71,15 @@ Vec2d flatten(const Vec3d& point, const Vec3d& normal)
 
 } // namespace
 
-Corners corners_of(const scene::TriangleScene& scene, std::uint32_t triangle)
-{
-    const auto corners = scene.corners(triangle);
-    return {Vec3d{corners[0]}, Vec3d{corners[1]}, Vec3d{corners[2]}};
-}
-
-Vec3d Receiver::point() const
-{
-    return ray.origin + (nu / delta) * ray.direction;
-}
-
-Receiver make_receiver(std::uint32_t triangle, const Corners& corners, const Ray& ray)
-{
-    const auto& [a, b, c] = corners;
-    const Vec3d normal = glm::cross(b - a, c - a);
-    return {triangle, ray,
-            a,        normal,
-            cross_permanent(b - a, c - a), glm::dot(normal, ray.direction),
-            glm::dot(normal, a - ray.origin)};
-}
-
 std::optional<CameraHit> camera_hit(const Ray& ray, const Corners& corners)
 {
     const Vec3d u = corners[0] - ray.origin;
     const Vec3d v = corners[1] - ray.origin;
     const Vec3d w = corners[2] - ray.origin;
-    const auto [lowest, highest] = std::minmax({sign_of(glm::dot(glm::cross(u, v), ray.direction)),
-                                                sign_of(glm::dot(glm::cross(v, w), ray.direction)),
-                                                sign_of(glm::dot(glm::cross(w, u), ray.direction))});
+    const auto [lowest, highest] =
+        std::minmax({sign_of(glm::dot(glm::cross(u, v), ray.direction)),
+                     sign_of(glm::dot(glm::cross(v, w), ray.direction)),
+                     sign_of(glm::dot(glm::cross(w, u), ray.direction))});
     const Receiver hit = make_receiver(0, corners, ray);
     if ((lowest < 0 && highest > 0) || hit.delta == 0) {
         return std::nullopt;
@@ -174,7 +146,8 @@ ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s, const Light
                       delta * sign_of(glm::dot(glm::cross(lw, lu), p))};
         signs.light = sign_of(glm::dot(normal, light.position - u));
     }
-    // P lies in the plane of T by definition: rounding must not lift it out of a plane that S shares.
+    // P lies in the plane of T by definition: rounding must not lift it out of a plane that S
+    // shares.
     signs.point = is_coplanar(receiver, s)
                       ? 0
                       : delta * sign_of(glm::dot(normal, scaled_offset(receiver, u)));
@@ -186,8 +159,8 @@ Sign apex_side(const Light& light, const Vec3d& u, const Vec3d& v, const Vec3d& 
     if (light.type == LightType::directional) {
         return sign_of(glm::dot(glm::cross(v - u, light.direction), apex - u));
     }
-    return sign_of(glm::dot(glm::cross(u - light.position, v - light.position),
-                            apex - light.position));
+    return sign_of(
+        glm::dot(glm::cross(u - light.position, v - light.position), apex - light.position));
 }
 
 bool runs_through(const Receiver& receiver, const Corners& s, const Light& light)

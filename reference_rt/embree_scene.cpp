@@ -34,11 +34,10 @@ void EmbreeErrors::check(const char* during) const
     if (code_ == RTC_ERROR_NONE) {
         return;
     }
-    throw scene::EnvironmentError{fmt::format("Embree failed in {}: error {} ({}); {}", during,
-                                              static_cast<int>(code_), message_,
-                                              code_ == RTC_ERROR_OUT_OF_MEMORY
-                                                  ? "free memory or use a smaller scene"
-                                                  : "run `gnomon doctor`")};
+    throw scene::EnvironmentError{fmt::format(
+        "Embree failed in {}: error {} ({}); {}", during, static_cast<int>(code_), message_,
+        code_ == RTC_ERROR_OUT_OF_MEMORY ? "free memory or use a smaller scene"
+                                         : "run `gnomon doctor`")};
 }
 
 namespace {
@@ -70,8 +69,8 @@ std::array<std::vector<std::uint32_t>, 4> triangles_by_mask(const TriangleScene&
 {
     std::array<std::vector<std::uint32_t>, 4> members;
     for (const scene::Object& object : scene.objects) {
-        const unsigned mask = (object.casts ? unsigned{casters} : 0U) |
-                              (object.receives ? unsigned{receivers} : 0U);
+        const unsigned mask =
+            (object.casts ? unsigned{casters} : 0U) | (object.receives ? unsigned{receivers} : 0U);
         for (std::uint32_t i = 0; i < object.triangle_count; ++i) {
             members[mask].push_back(object.first_triangle + i);
         }
@@ -82,8 +81,10 @@ std::array<std::vector<std::uint32_t>, 4> triangles_by_mask(const TriangleScene&
 } // namespace
 
 ReferenceScene::Implementation::Implementation(const TriangleScene& scene_in, int threads)
-    : triangles{scene_in}, bounds{scene_in.bounds()},
-      largest_coordinate_m{largest_coordinate(bounds)}, device{make_device(threads, errors)},
+    : triangles{scene_in},
+      bounds{scene_in.bounds()},
+      largest_coordinate_m{largest_coordinate(bounds)},
+      device{make_device(threads, errors)},
       scene{rtcNewScene(device.get())}
 {
     errors.check("rtcNewScene");

@@ -31,13 +31,13 @@ struct FirstHits::Search {
 
 FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scene::View& view,
                      const RasterFacts& facts)
-    : reference_{reference}, near_m_{receiver_near_m(reference.bounds)},
+    : reference_{reference},
+      near_m_{receiver_near_m(reference.bounds)},
       raster_{view.camera, view.image, reference.bounds, facts}
 {
 }
 
-PacketOf<std::uint32_t> FirstHits::trace(const PacketMask& valid,
-                                         const PacketOf<Ray>& rays) const
+PacketOf<std::uint32_t> FirstHits::trace(const PacketMask& valid, const PacketOf<Ray>& rays) const
 {
     RTCRayHit16 packet;
     for (std::size_t i = 0; i < packet_size; ++i) {

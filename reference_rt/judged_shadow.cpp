@@ -83,9 +83,9 @@ void judge_proposals(const RTCFilterFunctionNArguments* arguments) noexcept
 }
 
 /// The ray whose hits include every triangle that the segment P→light can meet near its ends: float
-/// rounding moves P, and the distances that Embree computes, by a few ulp of the scene's coordinates,
-/// so the ray begins 64 of them behind P (room for contacts down to 4° from grazing) and ends as far
-/// beyond a spot.
+/// rounding moves P, and the distances that Embree computes, by a few ulp of the scene's
+/// coordinates, so the ray begins 64 of them behind P (room for contacts down to 4° from grazing)
+/// and ends as far beyond a spot.
 FloatRay proposing_ray(const Segments& segments, const Receiver& receiver)
 {
     const Vec3d point = receiver.point();

@@ -23,11 +23,11 @@ PacketOf<bool> trace_plain(const ReferenceScene::Implementation& reference,
         const Vec3d point = receivers[i].point();
         const Vec3d to_light = is_directional ? -light.direction : light.position - point;
         const double length = glm::length(to_light);
-        set_lane(packet, i,
-                 {Vec3f{point}, Vec3f{to_light / length}, t_near,
-                  is_directional ? std::numeric_limits<float>::infinity()
-                                 : static_cast<float>(length),
-                  casters});
+        set_lane(
+            packet, i,
+            {Vec3f{point}, Vec3f{to_light / length}, t_near,
+             is_directional ? std::numeric_limits<float>::infinity() : static_cast<float>(length),
+             casters});
     }
     embree::Query query{embree::Coherence::coherent};
     embree::occluded16(valid.lane.data(), reference.scene.get(), query, packet);

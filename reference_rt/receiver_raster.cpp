@@ -29,7 +29,9 @@ Vec2d centre_of(int x, int y)
 ReceiverRaster::ReceiverRaster(const scene::Camera& camera, scene::ImageSize image,
                                const scene::Box& box, const RasterFacts& facts)
     : clip_from_world_{camera_clip_from_world(camera, image, box)},
-      clip_from_world_float_{clip_from_world_}, image_{image}, facts_{facts}
+      clip_from_world_float_{clip_from_world_},
+      image_{image},
+      facts_{facts}
 {
 }
 
@@ -86,9 +88,9 @@ double ReceiverRaster::depth_error(const Corners& triangle, int x, int y) const
             const Vec3d& p = corners[i].position;
             window.position_px[i] = Vec2d{p.x / p.z, p.y / p.z} + centre_of(x, y);
             window.depth[i] = corners[i].clip_depth / p.z;
-            vertex_error = std::max(vertex_error,
-                                    scene::vertex_depth_error(clip_from_world_float_,
-                                                              scene::Vec3f{triangle[i]}, true));
+            vertex_error =
+                std::max(vertex_error, scene::vertex_depth_error(clip_from_world_float_,
+                                                                 scene::Vec3f{triangle[i]}, true));
         }
         // Whether depth follows the snapped corners is the driver's secret: assume the worse.
         return scene::driver_depth_bound(window, {facts_.subpixel_bits, true}, vertex_error,

@@ -33,9 +33,9 @@ public:
 private:
     /// A corner in window space, homogeneous, seen from a pixel's centre.
     struct Corner {
-        scene::Vec3d position;    ///< ((X − centre.x)w, (Y − centre.y)w, w), X and Y in pixels
-        scene::Vec3d error;       ///< bounds of the float32 transform's error
-        double clip_depth = 0;    ///< z before the division
+        scene::Vec3d position; ///< ((X − centre.x)w, (Y − centre.y)w, w), X and Y in pixels
+        scene::Vec3d error;    ///< bounds of the float32 transform's error
+        double clip_depth = 0; ///< z before the division
     };
     [[nodiscard]] std::array<Corner, 3> window_corners(const Corners& triangle, int x, int y) const;
 

@@ -32,10 +32,9 @@ void check_receivers(const Image<std::uint32_t>& receivers, ImageSize image,
                      std::size_t triangle_count, const char* function)
 {
     if (receivers.size() != image) {
-        throw std::invalid_argument{
-            fmt::format("{}: receivers are {}x{} pixels, the view {}x{}", function,
-                        receivers.size().width_px, receivers.size().height_px, image.width_px,
-                        image.height_px)};
+        throw std::invalid_argument{fmt::format(
+            "{}: receivers are {}x{} pixels, the view {}x{}", function, receivers.size().width_px,
+            receivers.size().height_px, image.width_px, image.height_px)};
     }
     for (const std::uint32_t triangle : receivers) {
         if (triangle != no_triangle && triangle >= triangle_count) {
@@ -50,11 +49,13 @@ class TruthRun {
 public:
     TruthRun(const ReferenceScene::Implementation& reference, const View& view,
              const Image<std::uint32_t>& receivers, const RasterFacts& raster, TruthMethod method)
-        : reference_{reference}, view_{view}, receivers_{receivers}, method_{method},
-          first_hits_{reference, view, raster}, layers_{Image<PixelClass>{view.image},
-                                                        Image<ClassReason>{view.image},
-                                                        Image<std::uint32_t>{view.image,
-                                                                             no_triangle}}
+        : reference_{reference},
+          view_{view},
+          receivers_{receivers},
+          method_{method},
+          first_hits_{reference, view, raster},
+          layers_{Image<PixelClass>{view.image}, Image<ClassReason>{view.image},
+                  Image<std::uint32_t>{view.image, no_triangle}}
     {
     }
 
@@ -123,8 +124,8 @@ private:
         } else if (triangle == no_triangle) {
             return false; // background, as the layers began
         }
-        receiver = make_receiver(triangle, corners_of(reference_.triangles, triangle),
-                                 tile.rays[i]);
+        receiver =
+            make_receiver(triangle, corners_of(reference_.triangles, triangle), tile.rays[i]);
         if (receiver.delta == 0) { // edge-on: float found a hit where there is no point P
             write(x, y, PixelClass::unmatched, ClassReason::snap);
             return false;
@@ -148,8 +149,7 @@ private:
             for (std::size_t i = 0; i < packet_size; ++i) {
                 if (open[i]) {
                     write(tile.x[i], tile.y[i],
-                          is_blocked[i] ? PixelClass::blocked : PixelClass::lit,
-                          ClassReason::none);
+                          is_blocked[i] ? PixelClass::blocked : PixelClass::lit, ClassReason::none);
                 }
             }
             return;
@@ -227,8 +227,8 @@ Image<Vec3f> receiver_points(const scene::TriangleScene& triangles, const View& 
             const std::uint32_t triangle = receivers(x, y);
             if (triangle != no_triangle) {
                 const Ray ray = pixel_ray(view.camera, view.image, x, y);
-                points(x, y) = Vec3f{
-                    make_receiver(triangle, corners_of(triangles, triangle), ray).point()};
+                points(x, y) =
+                    Vec3f{make_receiver(triangle, corners_of(triangles, triangle), ray).point()};
             }
         }
     });

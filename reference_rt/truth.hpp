@@ -55,9 +55,9 @@ private:
 
 /// P of each pixel, the pixel-centre ray ∩ plane(T), computed in double and rounded to float32;
 /// NaN where there is no receiver.
-[[nodiscard]] scene::Image<scene::Vec3f> receiver_points(const scene::TriangleScene& triangles,
-                                                         const scene::View& view,
-                                                         const scene::Image<std::uint32_t>& receivers);
+[[nodiscard]] scene::Image<scene::Vec3f>
+receiver_points(const scene::TriangleScene& triangles, const scene::View& view,
+                const scene::Image<std::uint32_t>& receivers);
 
 /// "Embree 3.13.5", for the environment record.
 [[nodiscard]] std::string embree_version();

@@ -15,7 +15,10 @@ namespace gnomon::reports {
 
 namespace {
 
-std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+std::uint32_t bits(float value)
+{
+    return std::bit_cast<std::uint32_t>(value);
+}
 
 float truth_code(scene::PixelClass pixel_class)
 {
@@ -73,10 +76,9 @@ void write_aov(const std::filesystem::path& path, const analysis::Comparison& co
 {
     const scene::ImageSize size = comparison.truth.pixel_class.size();
     if (points.size() != size) {
-        throw std::invalid_argument(
-            fmt::format("write_aov: points are {}x{} but the image is {}x{}",
-                        points.size().width_px, points.size().height_px, size.width_px,
-                        size.height_px));
+        throw std::invalid_argument(fmt::format(
+            "write_aov: points are {}x{} but the image is {}x{}", points.size().width_px,
+            points.size().height_px, size.width_px, size.height_px));
     }
     write_file(path, encode_exr(size, channels(comparison, points), attributes(comparison)));
 }

@@ -18,32 +18,43 @@ std::string font_path(const std::filesystem::path& folder, std::string_view name
     const std::filesystem::path path = folder / name;
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
-        throw scene::EnvironmentError(
-            fmt::format("cannot write text: the font {} is missing; install fonts-dejavu-core",
-                        path.string()));
+        throw scene::EnvironmentError(fmt::format(
+            "cannot write text: the font {} is missing; install fonts-dejavu-core", path.string()));
     }
     return path.string();
 }
 
-/// The text without its last code point.
-std::string_view shortened(std::string_view text)
+/// The text in ASCII: OpenImageIO 2.4 draws a code point's low byte, a wrong letter beyond that.
+std::string drawable(std::string_view text)
 {
-    const auto is_continuation = [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+    std::string result;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool continues = (byte & 0xC0U) == 0x80U;
+        if (!continues) {
+            result += byte >= 0x20U && byte < 0x7FU ? c : '?';
+        }
+    }
+    return result;
+}
+
+/// The longest beginning of at most `bytes` that splits no code point.
+std::string_view beginning(std::string_view text, std::size_t bytes)
+{
+    const auto is_continuation = [&](std::size_t i) {
+        return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
     };
-    while (!text.empty() && is_continuation(text.back())) {
-        text.remove_suffix(1);
+    while (bytes > 0 && is_continuation(bytes)) {
+        --bytes;
     }
-    if (!text.empty()) {
-        text.remove_suffix(1);
-    }
-    return text;
+    return text.substr(0, bytes);
 }
 
 } // namespace
 
 Canvas::Canvas(scene::ImageSize size, Rgb background, const std::filesystem::path& font_folder)
-    : image_{size, background}, font_{font_path(font_folder, "DejaVuSans.ttf")},
+    : image_{size, background},
+      font_{font_path(font_folder, "DejaVuSans.ttf")},
       bold_font_{font_path(font_folder, "DejaVuSans-Bold.ttf")}
 {
 }
@@ -72,8 +83,7 @@ void Canvas::write(int left, int baseline, std::string_view text, const TextStyl
     const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
     const std::array<float, 3> colour{channel(style.colour.r), channel(style.colour.g),
                                       channel(style.colour.b)};
-    // The method is documented to return false for a bad font only; a text wholly outside is fine.
-    const std::string line{text};
+    const std::string line = drawable(text);
     if (!OIIO::ImageBufAlgo::render_text(buffer, left, baseline, line, style.size_px, font(style),
                                          colour)) {
         throw scene::EnvironmentError(
@@ -86,7 +96,7 @@ void Canvas::write(int left, int baseline, std::string_view text, const TextStyl
 int Canvas::text_width_px(std::string_view text, const TextStyle& style) const
 {
     const OIIO::ROI extent =
-        OIIO::ImageBufAlgo::text_size(std::string{text}, style.size_px, font(style));
+        OIIO::ImageBufAlgo::text_size(drawable(text), style.size_px, font(style));
     return extent.defined() ? extent.xend : 0;
 }
 
@@ -95,12 +105,16 @@ std::string Canvas::fitted(std::string_view text, const TextStyle& style, int wi
     if (text_width_px(text, style) <= width_px) {
         return std::string{text};
     }
-    std::string line;
-    do {
-        text = shortened(text);
-        line = std::string{text} + "…";
-    } while (!text.empty() && text_width_px(line, style) > width_px);
-    return line;
+    const auto shortened = [&](std::size_t bytes) {
+        return std::string{beginning(text, bytes)} + "...";
+    };
+    // By halves: measuring a text costs as much as its length, and names come from files.
+    std::size_t fits = 0;
+    for (std::size_t too_long = text.size(); too_long - fits > 1;) {
+        const std::size_t middle = fits + (too_long - fits) / 2;
+        (text_width_px(shortened(middle), style) <= width_px ? fits : too_long) = middle;
+    }
+    return shortened(fits);
 }
 
 } // namespace gnomon::reports

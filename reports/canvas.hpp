@@ -27,11 +27,11 @@ public:
     void paste(const RgbImage& image, int left, int top);
     /// Fills the part of the rectangle that lies on the canvas.
     void fill(int left, int top, scene::ImageSize size, Rgb colour);
-    /// Writes one line whose baseline starts at (left, baseline).
+    /// Writes one line whose baseline starts at (left, baseline); what is not ASCII becomes "?".
     void write(int left, int baseline, std::string_view text, const TextStyle& style);
     /// Advance of a line [px].
     [[nodiscard]] int text_width_px(std::string_view text, const TextStyle& style) const;
-    /// The text if it fits into the width, else its beginning and an ellipsis.
+    /// The text if it fits into the width, else its beginning and three dots.
     [[nodiscard]] std::string fitted(std::string_view text, const TextStyle& style,
                                      int width_px) const;
 

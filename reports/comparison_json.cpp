@@ -15,7 +15,10 @@ using Json = nlohmann::ordered_json;
 using scene::ClassReason;
 using scene::PixelClass;
 
-Json number_or_null(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
+Json number_or_null(std::optional<double> value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
 
 std::string text(const Json& json, int indent)
 {
@@ -107,7 +110,10 @@ Json exact_inputs_object(const scene::View& view)
 
 } // namespace
 
-std::string job_json(const scene::Job& job) { return text(job_object(job), -1); }
+std::string job_json(const scene::Job& job)
+{
+    return text(job_object(job), -1);
+}
 
 std::string comparison_json(const analysis::Comparison& comparison)
 {

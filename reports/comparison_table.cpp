@@ -43,7 +43,8 @@ std::string settings(const analysis::Comparison& comparison)
 {
     const Description words = describe(comparison);
     const analysis::Environment& environment = comparison.environment;
-    std::string text = setting_line("scene", words.scene);
+    std::string text = setting_line("scene", comparison.scene.name);
+    text += setting_line("", words.size);
     text += setting_line("image", words.image);
     text += setting_line("light", words.light);
     text += setting_line("shadow map", words.map);
@@ -52,8 +53,8 @@ std::string settings(const analysis::Comparison& comparison)
     text += setting_line("bias", words.bias);
     text += setting_line("GL", environment.gl_renderer);
     text += setting_line("", environment.gl_version);
-    text += setting_line("truth",
-                         fmt::format("{}, {}", comparison.truth_method, environment.embree));
+    text +=
+        setting_line("truth", fmt::format("{}, {}", comparison.truth_method, environment.embree));
     return text;
 }
 
@@ -64,8 +65,8 @@ std::string reasons(const analysis::ClassCounts& counts,
     std::string text;
     for (const auto& [reason, name] : named) {
         if (counts.of(reason) > 0) {
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
-                                grouped(counts.of(reason)));
+            text +=
+                fmt::format("{}{} {}", text.empty() ? "" : ", ", name, grouped(counts.of(reason)));
         }
     }
     return text;
@@ -116,8 +117,8 @@ std::string errors(const analysis::Metrics& metrics)
                        denominator(counts.of(PixelClass::blocked), "blocked"));
     text += count_line("both", grouped(metrics.false_shadow + metrics.false_lit),
                        percent(metrics.error_rate), denominator(counts.scored(), "scored"));
-    return text + count_line("mean |error|", "", percent(metrics.mean_abs_error),
-                             "verdict against truth");
+    return text +
+           count_line("mean |error|", "", percent(metrics.mean_abs_error), "verdict against truth");
 }
 
 std::string seconds(const analysis::StageSeconds& seconds)

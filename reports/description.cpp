@@ -11,9 +11,9 @@ namespace gnomon::reports {
 
 namespace {
 
-std::string describe_scene(const analysis::SceneSummary& scene)
+std::string describe_size(const analysis::SceneSummary& scene)
 {
-    std::string text = fmt::format("{}: {}, {}", scene.name, counted(scene.triangles, "triangle"),
+    std::string text = fmt::format("{}, {}", counted(scene.triangles, "triangle"),
                                    counted(scene.objects, "object"));
     if (scene.dropped_triangles > 0) {
         text += fmt::format(", {} dropped", counted(scene.dropped_triangles, "flat triangle"));
@@ -31,8 +31,7 @@ std::string describe_light(const scene::Light& light)
         return fmt::format("directional ({:.4g}, {:.4g}, {:.4g})", d.x, d.y, d.z);
     }
     constexpr double deg_from_rad = 180 / std::numbers::pi;
-    return fmt::format("spot, cone {:.4g} deg",
-                       2 * std::acos(light.cos_half_cone) * deg_from_rad);
+    return fmt::format("spot, cone {:.4g} deg", 2 * std::acos(light.cos_half_cone) * deg_from_rad);
 }
 
 std::string describe_map(const scene::ShadowMapSettings& map)
@@ -63,7 +62,7 @@ Description describe(const analysis::Comparison& comparison)
     const scene::Job& job = comparison.job;
     const scene::View& view = comparison.view;
     return {
-        .scene = describe_scene(comparison.scene),
+        .size = describe_size(comparison.scene),
         .light = describe_light(view.light),
         .map = describe_map(job.shadow_map),
         .range = describe_range(view.frustum, job.shadow_map.cull),

@@ -8,7 +8,7 @@ namespace gnomon::reports {
 
 /// What a comparison's settings say in a few words, for tables and pictures; units are spelt out.
 struct Description {
-    std::string scene;  ///< "columns: 98,304 triangles, 12 objects"
+    std::string size;   ///< of the scene: "98,304 triangles, 12 objects"
     std::string light;  ///< "spot, cone 60 deg"
     std::string map;    ///< "1024x1024 d24, fit scene"
     std::string range;  ///< "near 0.5, far 10, cull none"

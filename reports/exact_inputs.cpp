@@ -18,7 +18,10 @@ std::vector<std::string> numbers(std::initializer_list<double> values)
     return texts;
 }
 
-std::vector<std::string> numbers(const scene::Vec3d& v) { return numbers({v.x, v.y, v.z}); }
+std::vector<std::string> numbers(const scene::Vec3d& v)
+{
+    return numbers({v.x, v.y, v.z});
+}
 
 std::vector<std::string> row_major(const scene::Mat4f& matrix)
 {

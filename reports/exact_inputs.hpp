@@ -18,8 +18,8 @@ struct ExactInput {
 
 /// Everything beside the scene that decides the truth and the lookup, in the very bits used.
 ///
-/// Vectors are x y z [m]; `light_clip_from_world` is 16 float32 values, row by row; `half_height` is
-/// tan(fov/2), or half the orthographic height [m]. A directional light has `light_direction`; a
+/// Vectors are x y z [m]; `light_clip_from_world` is 16 float32 values, row by row; `half_height`
+/// is tan(fov/2), or half the orthographic height [m]. A directional light has `light_direction`; a
 /// spot has `light_position`, `light_axis` and `cos_half_cone`.
 [[nodiscard]] std::vector<ExactInput> exact_inputs(const scene::View& view);
 

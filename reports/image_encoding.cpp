@@ -64,9 +64,8 @@ OIIO::ImageSpec exr_spec(scene::ImageSize size, std::span<const ExrChannel> chan
     spec.channelnames.clear();
     for (const ExrChannel& channel : channels) {
         spec.channelnames.push_back(channel.name);
-        spec.channelformats.emplace_back(channel.type == ChannelType::float32
-                                             ? OIIO::TypeDesc::FLOAT
-                                             : OIIO::TypeDesc::UINT32);
+        spec.channelformats.emplace_back(
+            channel.type == ChannelType::float32 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32);
     }
     spec.attribute("compression", "zip");
     // Left out, the writer would put the current time here.

@@ -74,7 +74,10 @@ bool write_all(int descriptor, std::span<const std::byte> bytes)
 }
 
 /// Pipes, devices and some network file systems have nothing to flush and say so.
-bool is_unsupported(int code) { return code == EINVAL || code == ENOTSUP || code == EROFS; }
+bool is_unsupported(int code)
+{
+    return code == EINVAL || code == ENOTSUP || code == EROFS;
+}
 
 } // namespace
 
@@ -110,8 +113,8 @@ void OutputFile::open_temporary()
     static std::atomic<unsigned> serial{0};
     std::filesystem::path candidate;
     do {
-        candidate = folder_of(path_) / fmt::format(".{}.{}-{}.tmp", path_.filename().string(),
-                                                   ::getpid(), serial++);
+        candidate = folder_of(path_) /
+                    fmt::format(".{}.{}-{}.tmp", path_.filename().string(), ::getpid(), serial++);
         descriptor_ =
             ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, default_mode);
     } while (descriptor_ < 0 && errno == EEXIST);

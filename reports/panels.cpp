@@ -36,8 +36,8 @@ constexpr float fade = 0.62F;
 
 Vec3d towards_light(const scene::Light& light, const Vec3d& point)
 {
-    const Vec3d way = light.type == scene::LightType::directional ? -light.direction
-                                                                  : light.position - point;
+    const Vec3d way =
+        light.type == scene::LightType::directional ? -light.direction : light.position - point;
     const double length = glm::length(way);
     return length > 0 ? way / length : Vec3d{0, 1, 0};
 }
@@ -51,8 +51,7 @@ Shade shade_pixel(const analysis::Comparison& comparison, std::uint32_t triangle
     Vec3d normal = glm::cross(Vec3d{b} - origin, Vec3d{c} - origin);
     const double area = glm::length(normal);
     normal = area > 0 ? normal / area : Vec3d{0, 1, 0};
-    const scene::Ray ray =
-        scene::pixel_ray(comparison.view.camera, comparison.view.image, x, y);
+    const scene::Ray ray = scene::pixel_ray(comparison.view.camera, comparison.view.image, x, y);
     const Vec3d view = -glm::normalize(ray.direction);
     if (glm::dot(normal, view) < 0) {
         normal = -normal;
@@ -92,8 +91,7 @@ Vec3f colour(const Shade& shade, float lit)
         return background;
     }
     const float arriving = shade.diffuse > 0 ? lit : 0.0F;
-    const float ambient =
-        shade.ambient * (shadowed_ambient + (1 - shadowed_ambient) * arriving);
+    const float ambient = shade.ambient * (shadowed_ambient + (1 - shadowed_ambient) * arriving);
     return ambient * ambient_tint + shade.diffuse * arriving * diffuse_tint;
 }
 
@@ -113,8 +111,8 @@ float true_fraction(PixelClass pixel_class)
 std::uint8_t encode_srgb(float linear)
 {
     const float value = std::clamp(linear, 0.0F, 1.0F);
-    const float encoded = value <= 0.0031308F ? 12.92F * value
-                                              : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
+    const float encoded =
+        value <= 0.0031308F ? 12.92F * value : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
     return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
@@ -133,9 +131,9 @@ Span covered(int index, int panel_px, int image_px)
 {
     const auto scaled = [&](std::int64_t edge) { return edge * image_px / panel_px; };
     const int first = static_cast<int>(scaled(index));
-    const auto round_up = static_cast<int>((static_cast<std::int64_t>(index) + 1) * image_px +
-                                           panel_px - 1) /
-                          panel_px;
+    const auto round_up =
+        static_cast<int>((static_cast<std::int64_t>(index) + 1) * image_px + panel_px - 1) /
+        panel_px;
     return {first, std::clamp(round_up, first + 1, image_px)};
 }
 

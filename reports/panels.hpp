@@ -25,9 +25,9 @@ struct Panels {
 
 /// Shades the scene (geometric normal, soft ambient and diffuse light) and scales it to `size`.
 ///
-/// Shading is averaged over the pixels that a panel pixel covers; marks are not: a panel pixel shows
-/// the more frequent kind of error if it covers any error, else any other mark, so that no error
-/// vanishes.
+/// Shading is averaged over the pixels that a panel pixel covers; marks are not: a panel pixel
+/// shows the more frequent kind of error if it covers any error, else any other mark, so that no
+/// error vanishes.
 /// @param size  Of each panel; at least 1 px each way.
 [[nodiscard]] Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size);
 

@@ -48,7 +48,7 @@ Caption gl_caption(const analysis::Comparison& comparison)
     const Description words = describe(comparison);
     return {"GL shadow map",
             {{words.map + ", " + words.lookup, {}, {}, {}},
-             {words.bias, {}, {}, {}},
+             {"bias " + words.bias, {}, {}, {}},
              {words.range, {}, {}, {}},
              {comparison.environment.gl_renderer, {}, {}, {}}}};
 }
@@ -57,17 +57,25 @@ Caption truth_caption(const analysis::Comparison& comparison)
 {
     const analysis::ClassCounts& counts = comparison.metrics.pixels;
     const auto pixels = [&](PixelClass pixel_class) { return grouped(counts.of(pixel_class)); };
-    return {"Truth, by shadow rays",
-            {{fmt::format("{} lit, {} blocked", pixels(PixelClass::lit),
-                          pixels(PixelClass::blocked)),
-              {}, {}, {}},
-             {fmt::format("{} attached (turned from the light)", pixels(PixelClass::attached)),
-              {}, {}, {}},
-             {fmt::format("{} outside the light, {} background", pixels(PixelClass::out_of_light),
-                          pixels(PixelClass::background)),
-              {}, {}, {}},
-             {fmt::format("{}, {}", comparison.environment.embree, comparison.truth_method),
-              {}, {}, {}}}};
+    return {
+        "Truth (shadow rays)",
+        {{fmt::format("{} lit, {} blocked", pixels(PixelClass::lit), pixels(PixelClass::blocked)),
+          {},
+          {},
+          {}},
+         {fmt::format("{} attached (turned from the light)", pixels(PixelClass::attached)),
+          {},
+          {},
+          {}},
+         {fmt::format("{} outside the light, {} background", pixels(PixelClass::out_of_light),
+                      pixels(PixelClass::background)),
+          {},
+          {},
+          {}},
+         {fmt::format("{}, {}", comparison.environment.embree, comparison.truth_method),
+          {},
+          {},
+          {}}}};
 }
 
 Caption error_caption(const analysis::Metrics& metrics)
@@ -76,25 +84,30 @@ Caption error_caption(const analysis::Metrics& metrics)
     const auto of_scored = [](std::uint64_t part, std::uint64_t whole, std::string_view noun) {
         return fmt::format("{} of {} {}", grouped(part), grouped(whole), noun);
     };
-    return {fmt::format("Errors: {} of scored pixels", percent(metrics.error_rate)),
-            {{"false shadow", percent(metrics.false_shadow_rate),
-              of_scored(metrics.false_shadow, counts.of(PixelClass::lit), "lit"),
-              Mark::false_shadow},
-             {"false lit", percent(metrics.false_lit_rate),
-              of_scored(metrics.false_lit, counts.of(PixelClass::blocked), "blocked"),
-              Mark::false_lit},
-             {"unmatched", {}, fmt::format("{}, not scored", grouped(counts.of(PixelClass::unmatched))),
-              Mark::unmatched},
-             {"indeterminate", {},
-              fmt::format("{}, not scored", grouped(counts.of(PixelClass::indeterminate))),
-              Mark::indeterminate}}};
+    return {
+        fmt::format("Errors: {} of scored pixels", percent(metrics.error_rate)),
+        {{"false shadow", percent(metrics.false_shadow_rate),
+          of_scored(metrics.false_shadow, counts.of(PixelClass::lit), "lit"), Mark::false_shadow},
+         {"false lit", percent(metrics.false_lit_rate),
+          of_scored(metrics.false_lit, counts.of(PixelClass::blocked), "blocked"), Mark::false_lit},
+         {"unmatched",
+          {},
+          fmt::format("{}, not scored", grouped(counts.of(PixelClass::unmatched))),
+          Mark::unmatched},
+         {"indeterminate",
+          {},
+          fmt::format("{}, not scored", grouped(counts.of(PixelClass::indeterminate))),
+          Mark::indeterminate}}};
 }
 
 /// Draws the texts of one panel.
 class CaptionWriter {
 public:
     CaptionWriter(Canvas& canvas, const PictureLayout& layout, int left, int top)
-        : canvas_{canvas}, layout_{layout}, left_{left}, top_{top}
+        : canvas_{canvas},
+          layout_{layout},
+          left_{left},
+          top_{top}
     {
     }
 
@@ -103,7 +116,7 @@ public:
         const TextStyle title{layout_.font * 5 / 4, true, ink};
         canvas_.write(left_, top_ - layout_.line / 3,
                       canvas_.fitted(caption.title, title, layout_.panel.width_px), title);
-        int baseline = top_ + layout_.panel.height_px + layout_.line;
+        int baseline = top_ + layout_.panel.height_px + layout_.line * 9 / 8;
         for (const CaptionLine& line : caption.lines) {
             line.mark ? write_marked(line, baseline) : write_plain(line, baseline);
             baseline += layout_.line;
@@ -126,15 +139,14 @@ private:
         canvas_.fill(left_, baseline - side, {side, side}, mark_colour(*line.mark));
         const int name_left = left_ + side + layout_.font / 2;
         canvas_.write(name_left, baseline, line.name, plain);
-        const int value_right =
-            name_left + canvas_.text_width_px("indeterminate <0.0001 %", bold);
+        const int value_right = name_left + canvas_.text_width_px("indeterminate <0.0001 %", bold);
         canvas_.write(value_right - canvas_.text_width_px(line.value, bold), baseline, line.value,
                       bold);
         const int detail_left = value_right + layout_.font * 2 / 3;
-        canvas_.write(detail_left, baseline,
-                      canvas_.fitted(line.detail, plain,
-                                     left_ + layout_.panel.width_px - detail_left),
-                      plain);
+        canvas_.write(
+            detail_left, baseline,
+            canvas_.fitted(line.detail, plain, left_ + layout_.panel.width_px - detail_left),
+            plain);
     }
 
     Canvas& canvas_;
@@ -147,16 +159,23 @@ void write_heading(Canvas& canvas, const PictureLayout& layout,
                    const analysis::Comparison& comparison)
 {
     const Description words = describe(comparison);
-    const int width_px = layout.canvas.width_px - 2 * layout.margin;
+    const scene::ImageSize image = comparison.view.image;
+    std::string pixels = fmt::format("{}; {} pixels", words.size, words.image);
+    if (layout.panel.width_px < image.width_px) {
+        pixels += fmt::format(", shown at {}x{} with every error kept", layout.panel.width_px,
+                              layout.panel.height_px);
+    }
     const TextStyle title{layout.font * 3 / 2, true, ink};
     const TextStyle plain{layout.font, false, faint_ink};
-    const int first = layout.margin + layout.line;
-    canvas.write(layout.margin, first, canvas.fitted(words.scene, title, width_px), title);
-    const std::string settings =
-        fmt::format("{} pixels, {} light, {}", words.image, words.light,
-                    comparison.environment.gnomon);
-    canvas.write(layout.margin, first + layout.line, canvas.fitted(settings, plain, width_px),
-                 plain);
+    int baseline = layout.margin + layout.line;
+    const auto write_line = [&](std::string_view text, const TextStyle& style) {
+        const int width_px = layout.canvas.width_px - 2 * layout.margin;
+        canvas.write(layout.margin, baseline, canvas.fitted(text, style, width_px), style);
+        baseline += layout.line;
+    };
+    write_line(comparison.scene.name, title);
+    write_line(pixels, plain);
+    write_line(fmt::format("light {}; {}", words.light, comparison.environment.gnomon), plain);
 }
 
 /// The panel's size for an image: at most 960 px wide and high, small images by a whole factor.
@@ -170,9 +189,9 @@ scene::ImageSize panel_size(scene::ImageSize image)
         };
         return {scaled(image.width_px), scaled(image.height_px)};
     }
-    const int factor = std::max(
-        1, std::min((smallest_panel_px + image.width_px - 1) / image.width_px,
-                    largest_panel_px / longest));
+    const int factor =
+        std::max(1, std::min((smallest_panel_px + image.width_px - 1) / image.width_px,
+                             largest_panel_px / longest));
     return {image.width_px * factor, image.height_px * factor};
 }
 
@@ -188,7 +207,7 @@ PictureLayout lay_out_picture(scene::ImageSize image)
     layout.font = std::max(14, column_px / 30);
     layout.line = layout.font * 3 / 2;
     layout.margin = layout.font * 3 / 2;
-    layout.first_panel = layout.margin + 5 * layout.line;
+    layout.first_panel = layout.margin + 5 * layout.line + layout.line / 4;
     const int block_px = layout.panel.height_px + (caption_lines + 1) * layout.line;
     layout.step_x = layout.is_stacked ? 0 : column_px + layout.margin;
     layout.step_y = layout.is_stacked ? block_px + 2 * layout.line : 0;

@@ -13,9 +13,8 @@ namespace gnomon::reports {
 /// The panels stand side by side, or one above the other if the image is wide. Large images are
 /// scaled down to about 960 px a panel and small ones up by a whole factor; errors never vanish.
 /// @throws scene::EnvironmentError  naming the package, if the font is missing.
-[[nodiscard]] RgbImage
-draw_picture(const analysis::Comparison& comparison,
-             const std::filesystem::path& font_folder = default_font_folder);
+[[nodiscard]] RgbImage draw_picture(const analysis::Comparison& comparison,
+                                    const std::filesystem::path& font_folder = default_font_folder);
 
 /// Draws the picture into a PNG file.
 /// @throws scene::EnvironmentError  if it cannot be drawn or written; what stood there then stays.

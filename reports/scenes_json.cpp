@@ -22,9 +22,8 @@ Json number(double value, bool is_integer)
 
 Json parameter_object(const scene::BuiltinParameter& parameter)
 {
-    Json json{{"name", parameter.name},
-              {"description", parameter.description},
-              {"unit", parameter.unit}};
+    Json json{
+        {"name", parameter.name}, {"description", parameter.description}, {"unit", parameter.unit}};
     if (const auto* word = std::get_if<std::string>(&parameter.default_value)) {
         json["type"] = "word";
         json["default"] = *word;

@@ -22,7 +22,7 @@ struct RasterModel {
 /// rounds, for depth planes evaluated in float32 (window depth units).
 ///
 ///     B = B_vert + 2^-(s+1)(|z_x| + |z_y|)·[snapped] + B_plane
-///     B_plane = 6·2^-24 (|z0| + 2(|z_x|X + |z_y|Y)) + sliver term
+///     B_plane = 6·2^-24 (|z0| + 2(|z_x|X + |z_y|Y)) + cancellation + edge rounding
 ///
 /// @param triangle      the corners from the float32 clip positions.
 /// @param vertex_error  B_vert: bound on the corners' own depth error (transform and division).
@@ -33,8 +33,9 @@ struct RasterModel {
                                         double vertex_error, const Vec2d& centre_px);
 
 /// B_vert: bound on the window depth error of a vertex transformed in float32 by `clip_from_world`
-/// and divided by w: (γ4·S_z + |z/w|·γ4·S_w)/|w| + 2u, halved for the clip range [−1, 1], where S
-/// is the row's sum of absolute products and γ4 = 4u/(1−4u), u = 2^-24.
+/// and divided by w: e = (γ4·S_z + |z/w|·γ4·S_w)/|w| + 2u|z/w|, and e/2 + u for the clip range
+/// [−1, 1], where S is the row's sum of absolute products and γ4 = 4u/(1−4u), u = 2^-24. Relative
+/// to z for [0, 1], so that it serves the small depths of reversed z; infinite for w = 0.
 [[nodiscard]] double vertex_depth_error(const Mat4f& clip_from_world, const Vec3f& vertex,
                                         bool zero_to_one);
 

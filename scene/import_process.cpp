@@ -20,7 +20,6 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <stdexcept>
 #include <utility>
 
 namespace gnomon::scene {
@@ -31,6 +30,7 @@ constexpr int output_fd = STDERR_FILENO + 1; ///< in the child
 constexpr std::uint64_t base_time_s = 5;     ///< of computing
 constexpr std::uint64_t base_clock_s = 8;    ///< by the clock: other programs want the cores too
 constexpr std::uint64_t bytes_per_s = 2'000'000;
+constexpr std::uint64_t bytes_per_clock_s = 4'000'000;
 constexpr std::uint64_t base_memory_bytes = 1ULL << 30U;
 constexpr std::uint64_t memory_bytes_per_byte = 256;
 
@@ -170,7 +170,7 @@ SealedBytes::SealedBytes(int fd)
     struct stat facts {};
     if (::fcntl(fd, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE) != 0 ||
         ::fstat(fd, &facts) != 0) {
-        throw std::runtime_error{"sealing the importer's output failed"};
+        throw_errno("sealing the importer's output");
     }
     const auto size = static_cast<std::size_t>(facts.st_size);
     if (size == 0) {
@@ -178,7 +178,7 @@ SealedBytes::SealedBytes(int fd)
     }
     void* memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0);
     if (memory == MAP_FAILED) {
-        throw std::runtime_error{"mapping the importer's output failed"};
+        throw_errno("mapping the importer's output");
     }
     bytes_ = {static_cast<const std::byte*>(memory), size};
 }
@@ -211,7 +211,7 @@ void ImportAllowance::set_alarm() const
 {
     const auto elapsed_s =
         std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start_);
-    const std::uint64_t allowed_s = base_clock_s + 2 * opened_bytes_ / bytes_per_s;
+    const std::uint64_t allowed_s = base_clock_s + opened_bytes_ / bytes_per_clock_s;
     const std::uint64_t capped_s = std::min<std::uint64_t>(allowed_s, 1U << 30U);
     const auto left_s = static_cast<std::int64_t>(capped_s) - elapsed_s.count();
     ::alarm(static_cast<unsigned>(std::max<std::int64_t>(left_s, 1)));
@@ -252,6 +252,7 @@ SealedBytes run_in_child(const std::string& label, const ImportLimits& limits,
     }
     // glibc 2.36 declares pidfd_open() with C++ linkage, and so nobody can link to it.
     const Descriptor watched{static_cast<int>(::syscall(SYS_pidfd_open, child, 0))};
+    const int watch_error = errno;
     const bool in_time = watched.get() >= 0 && ended_in_time(watched, limits.time);
     if (!in_time) {
         ::kill(child, SIGKILL);
@@ -260,6 +261,7 @@ SealedBytes run_in_child(const std::string& label, const ImportLimits& limits,
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (watched.get() < 0) {
+        errno = watch_error;
         throw_errno("pidfd_open");
     }
     if (!in_time || !WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) {

@@ -15,7 +15,7 @@ namespace gnomon::scene {
 class SealedBytes {
 public:
     SealedBytes() = default;
-    /// Seals and maps `fd`. @throws std::runtime_error  if it cannot be sealed or mapped.
+    /// Seals and maps `fd`. @throws EnvironmentError  if it cannot be sealed or mapped.
     explicit SealedBytes(int fd);
     SealedBytes(SealedBytes&& other) noexcept;
     SealedBytes& operator=(SealedBytes&& other) noexcept;
@@ -39,7 +39,7 @@ private:
     void set_alarm() const;
 
     ImportLimits limits_;
-    std::chrono::steady_clock::time_point start_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::uint64_t base_memory_bytes_; ///< address space that the process began with
     std::uint64_t opened_bytes_ = 0;
 };
@@ -47,8 +47,8 @@ private:
 /// Runs `work` in a child process that may crash, hang or exhaust its limits, and returns what it
 /// wrote to the descriptor that it was given.
 ///
-/// A small file gets 5 s of computing, 8 s by the clock and 1 GiB; every megabyte opened adds 0.5
-/// s, 1 s and 256 MB, up to `limits`. Whole meshes are read at 30 MB/s and take 12 bytes a byte.
+/// A small file gets 5 s of computing, 8 s by the clock and 1 GiB; every 4 MB opened add 2 s, 1 s
+/// and 1 GB, up to `limits`. Sound meshes are read at 30 MB/s and take 12 bytes of memory a byte.
 /// @param label  begins the error message: the scene file's name.
 /// @throws InputError        if the child crashed, hung or exceeded a limit.
 /// @throws EnvironmentError  if no process or memory file could be had.

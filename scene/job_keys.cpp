@@ -1,7 +1,6 @@
 #include "scene/job_keys.hpp"
 
 #include "scene/builtin_scenes.hpp"
-#include "scene/triangles.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +9,6 @@
 namespace gnomon::scene {
 namespace {
 
-constexpr double farthest_m = max_coordinate_m;
 constexpr Stages only_scene = static_cast<Stages>(Stage::scene);
 
 /// The camera moves the map too, through fit = "camera".
@@ -28,8 +26,7 @@ KeySpec builtin_key()
         make_key("scene.builtin", "a built-in scene, or file instead", "", only_scene),
         std::move(names), [](auto& job) -> auto& { return job.scene.builtin; });
     spec.get = [](const Job& job) -> std::optional<JobValue> {
-        return job.scene.builtin.empty() ? std::nullopt
-                                         : std::optional<JobValue>{JobValue{job.scene.builtin}};
+        return job.scene.builtin.empty() ? std::nullopt : held(job.scene.builtin);
     };
     spec.example = "\"sphere-cube\"";
     return spec;
@@ -44,9 +41,7 @@ KeySpec file_key()
             .set = [](Job& job,
                       const JobValue& value) { job.scene.file = std::get<std::string>(value); },
             .get = [](const Job& job) -> std::optional<JobValue> {
-                return job.scene.file.empty()
-                           ? std::nullopt
-                           : std::optional<JobValue>{JobValue{job.scene.file.string()}};
+                return job.scene.file.empty() ? std::nullopt : held(job.scene.file.string());
             },
             .example = "\"bunny.obj\""};
 }
@@ -74,7 +69,7 @@ std::vector<KeySpec> scene_keys()
 Domain parameter_domain(const BuiltinParameter& parameter)
 {
     if (!parameter.words.empty()) {
-        return WordDomain{parameter.words, {}, {}};
+        return WordDomain{.words = parameter.words};
     }
     if (parameter.is_integer) {
         return IntegerDomain{static_cast<std::int64_t>(parameter.lower),
@@ -150,8 +145,7 @@ KeySpec camera_vector_key(JobKey key, bool zero_allowed, Vec3d CameraSettings::*
         .set = [member](Job& job,
                         const JobValue& value) { camera_of(job).*member = std::get<Vec3d>(value); },
         .get = [member](const Job& job) -> std::optional<JobValue> {
-            return job.camera ? std::optional<JobValue>{JobValue{(*job.camera).*member}}
-                              : std::nullopt;
+            return job.camera ? held((*job.camera).*member) : std::nullopt;
         },
         .example = {}};
 }
@@ -171,7 +165,7 @@ KeySpec projection_key(JobKey key, RealDomain domain, Projection projection,
                 if (!job.camera || job.camera->projection != projection) {
                     return std::nullopt;
                 }
-                return JobValue{(*job.camera).*member};
+                return held((*job.camera).*member);
             },
             .example = {}};
 }
@@ -217,6 +211,7 @@ KeySpec light_type_key()
 {
     return {.key = make_key("light.type", "the kind of light", "\"directional\"", light_stages),
             .domain = WordDomain{{"directional", "spot"},
+                                 {},
                                  "point",
                                  "point lights are for `evaluate` only, for now"},
             .set =
@@ -229,8 +224,8 @@ KeySpec light_type_key()
                 if (!job.light) {
                     return std::nullopt;
                 }
-                return JobValue{
-                    std::string{job.light->type == LightType::spot ? "spot" : "directional"}};
+                return held(
+                    std::string{job.light->type == LightType::spot ? "spot" : "directional"});
             },
             .example = {}};
 }
@@ -247,7 +242,7 @@ KeySpec light_vector_key(JobKey key, bool zero_allowed, std::optional<Vec3d> Lig
             if (!job.light || !((*job.light).*member)) {
                 return std::nullopt;
             }
-            return JobValue{*((*job.light).*member)};
+            return held(*((*job.light).*member));
         },
         .example = std::move(example)};
 }
@@ -263,7 +258,7 @@ KeySpec cone_key()
                 if (!job.light || job.light->type != LightType::spot) {
                     return std::nullopt;
                 }
-                return JobValue{job.light->cone_deg};
+                return held(job.light->cone_deg);
             },
             .example = {}};
 }

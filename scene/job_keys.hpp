@@ -29,7 +29,7 @@ struct KeySpec {
     std::string example; ///< a value to show for a key without a default
 };
 
-/// All rows, in the order of DESIGN §7; a built-in's parameters follow the other keys of `[scene]`.
+/// All rows, in the order of a job file; a built-in's parameters follow the other keys of [scene].
 [[nodiscard]] const std::vector<KeySpec>& key_specs();
 
 /// The row of that name, or nullptr.
@@ -64,6 +64,13 @@ struct KeySpec {
 [[nodiscard]] JobKey make_key(std::string name, std::string description, std::string default_text,
                               Stages stages);
 
+/// A value that a job has; made in place, so that no temporary variant needs moving.
+template <typename Value>
+[[nodiscard]] std::optional<JobValue> held(Value value)
+{
+    return std::optional<JobValue>{std::in_place, std::move(value)};
+}
+
 /// A row whose value a job always holds as a `Value`.
 /// @param access  Returns the job's member by reference, for a const job and for one that is not.
 template <typename Value, typename Access>
@@ -78,7 +85,7 @@ template <typename Value, typename Access>
                     member = static_cast<Member>(std::get<Value>(value));
                 },
             .get = [access](const Job& job) -> std::optional<JobValue> {
-                return JobValue{static_cast<Value>(access(job))};
+                return held(static_cast<Value>(access(job)));
             },
             .example = {}};
 }
@@ -103,7 +110,7 @@ template <typename Enum, typename Access>
                     access(job) = candidate;
                 },
             .get = [access, name](const Job& job) -> std::optional<JobValue> {
-                return JobValue{std::string{name(access(job))}};
+                return held(std::string{name(access(job))});
             },
             .example = {}};
 }

@@ -84,11 +84,11 @@ std::vector<std::string> table_names()
     return {names.begin(), names.end()};
 }
 
-/// The nearest key; the last part of a key, where that is all there is, names the key.
+/// The nearest key; one in another table, but of the same last part, before all others.
 std::string nearest_key(std::string_view name, std::vector<std::string> candidates)
 {
     for (const KeySpec& spec : key_specs()) {
-        if (key_leaf(spec.key.name) == name) {
+        if (key_leaf(spec.key.name) == key_leaf(name)) {
             return spec.key.name;
         }
         candidates.push_back(spec.key.name);
@@ -105,8 +105,10 @@ std::string nearest_key(std::string_view name, std::vector<std::string> candidat
     }
     std::vector<std::string> names = table_names();
     names.insert(names.end(), siblings.begin(), siblings.end());
-    throw InputError(fmt::format("{}unknown table {}; the nearest is {}", place.text(),
-                                 toml_excerpt({name}), nearest_word(name, names)));
+    const bool is_misplaced = std::find(names.begin(), names.end(), key_leaf(name)) != names.end();
+    throw InputError(
+        fmt::format("{}unknown table {}; the nearest is {}", place.text(), toml_excerpt({name}),
+                    nearest_word(is_misplaced ? key_leaf(name) : std::string_view{name}, names)));
 }
 
 /// What stays the same while tables are visited.
@@ -158,7 +160,7 @@ std::string nearest_key(std::string_view name)
 {
     std::vector<std::string> names;
     for (const KeySpec& spec : key_specs()) {
-        if (key_leaf(spec.key.name) == name) {
+        if (key_leaf(spec.key.name) == key_leaf(name)) {
             return spec.key.name;
         }
         names.push_back(spec.key.name);

@@ -1,12 +1,9 @@
 #include "scene/job_keys.hpp"
-#include "scene/triangles.hpp"
 
 #include <fmt/format.h>
 
 namespace gnomon::scene {
 namespace {
-
-constexpr double farthest_m = max_coordinate_m;
 
 /// Whatever decides the light's matrix moves the receivers' light clip coordinates and the map.
 constexpr Stages light_matrix = Stage::receivers | Stage::shadow_map;
@@ -18,7 +15,9 @@ bool is_light(const Job& job, LightType type)
 
 KeySpec depth_format_key()
 {
-    WordDomain formats{.words = {"d16", "d24", "d32", "d32f"}, .refused = {}, .reason = {}};
+    WordDomain formats;
+    formats.words = {"d16", "d24", "d32", "d32f"};
+    formats.listing = "d16, d24, d32, d32f, u8 to u24";
     for (int bits = 8; bits <= 24; ++bits) {
         formats.words.push_back(fmt::format("u{}", bits));
     }
@@ -33,7 +32,7 @@ KeySpec depth_format_key()
                         depth_format_from_name(std::get<std::string>(value)).value();
                 },
             .get = [](const Job& job) -> std::optional<JobValue> {
-                return JobValue{depth_format_name(job.shadow_map.depth_format)};
+                return held(depth_format_name(job.shadow_map.depth_format));
             },
             .example = {}};
 }
@@ -52,7 +51,7 @@ KeySpec plane_key(std::string name, std::string description,
                 },
             .get = [plane](const Job& job) -> std::optional<JobValue> {
                 const auto& number = job.shadow_map.frustum.*plane;
-                return number ? JobValue{*number} : JobValue{std::string{"auto"}};
+                return number ? held(*number) : held(std::string{"auto"});
             },
             .example = {}};
 }
@@ -70,7 +69,7 @@ KeySpec half_extent_key()
         if (frustum.fit != Fit::fixed || is_light(job, LightType::spot)) {
             return std::nullopt;
         }
-        return JobValue{frustum.half_extent_m};
+        return held(frustum.half_extent_m);
     };
     return spec;
 }
@@ -92,7 +91,7 @@ KeySpec fov_key()
                     !frustum.fov_deg) {
                     return std::nullopt;
                 }
-                return JobValue{*frustum.fov_deg};
+                return held(*frustum.fov_deg);
             },
             .example = "60"};
 }
@@ -134,8 +133,7 @@ KeySpec constant_key()
                  only(Stage::bias)),
         1, [](auto& job) -> auto& { return job.bias.constant; });
     spec.get = [](const Job& job) {
-        return job.bias.constant_m ? std::nullopt
-                                   : std::optional<JobValue>{JobValue{job.bias.constant}};
+        return job.bias.constant_m ? std::nullopt : held(job.bias.constant);
     };
     return spec;
 }
@@ -150,8 +148,7 @@ KeySpec constant_m_key()
             .set = [](Job& job,
                       const JobValue& value) { job.bias.constant_m = std::get<double>(value); },
             .get = [](const Job& job) -> std::optional<JobValue> {
-                return job.bias.constant_m ? std::optional<JobValue>{JobValue{*job.bias.constant_m}}
-                                           : std::nullopt;
+                return job.bias.constant_m ? held(*job.bias.constant_m) : std::nullopt;
             },
             .example = "0.01"};
 }

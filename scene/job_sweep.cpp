@@ -85,7 +85,7 @@ Range read_range(const KeySpec& spec, const TomlTable& table, const std::string&
     range.count = std::get<std::int64_t>(read_member(
         IntegerDomain{2, most_values}, needed_member(table, "count", label), label + ", count"));
     if (const TomlNode* scale = find_member(table, "scale")) {
-        const WordDomain words{{"linear", "log"}, {}, {}};
+        const WordDomain words{.words = {"linear", "log"}};
         range.is_logarithmic =
             std::get<std::string>(read_member(words, *scale, label + ", scale")) == "log";
     }
@@ -169,7 +169,7 @@ bool read_option(Sweep& sweep, const TomlMember& member, const std::string& file
 {
     const std::string label = KeyPlace{file, member.line}.text() + "[sweep] " + member.key;
     if (member.key == "mode") {
-        const WordDomain modes{{"product", "zip"}, {}, {}};
+        const WordDomain modes{.words = {"product", "zip"}};
         sweep.mode = std::get<std::string>(read_member(modes, member.node, label));
     } else if (member.key == "sample") {
         sweep.sample = std::get<std::int64_t>(

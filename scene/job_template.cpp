@@ -11,7 +11,7 @@ constexpr std::string_view shown_builtin = "sphere-cube";
 
 constexpr std::string_view heading =
     R"(# A job: what to look at, and how. Every key may be left out: it then takes the value that the
-# built-in scene brings along, or for a scene file the default named beside it. Without [camera] and
+# built-in scene brings along, or for a scene file the default named here. Without [camera] and
 # [light], a scene file's own are used, or else a camera that frames it and the default light.
 )";
 
@@ -36,7 +36,7 @@ std::string_view table_of(std::string_view key)
     return key.substr(0, key.rfind('.'));
 }
 
-/// A comment line and the key itself, commented out where the job leaves it out.
+/// The key under its description and range, commented out where the job leaves it out.
 std::string entry(const KeySpec& spec, const std::map<std::string, std::string>& values)
 {
     const JobKey& key = spec.key;
@@ -44,7 +44,7 @@ std::string entry(const KeySpec& spec, const std::map<std::string, std::string>&
         key.default_text.empty() ? "" : fmt::format("; default {}", key.default_text);
     const auto value = values.find(key.name);
     const std::string& shown = key.default_text.empty() ? spec.example : key.default_text;
-    return fmt::format("# {}: {}{}\n{}{} = {}\n", key.description, key.range_text, default_note,
+    return fmt::format("# {}\n#   {}{}\n{}{} = {}\n", key.description, key.range_text, default_note,
                        value == values.end() ? "# " : "", key_leaf(key.name),
                        value == values.end() ? shown : value->second);
 }

@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <tuple>
 #include <utility>
 
@@ -203,7 +204,12 @@ std::string toml_quoted(std::string_view text)
 
 std::string toml_number(double number)
 {
-    std::string text = fmt::format("{}", number);
+    std::string text = fmt::format("{:g}", number); // 1e+15, not 1000000000000000
+    double back = 0;
+    std::from_chars(text.data(), text.data() + text.size(), back);
+    if (back != number) {
+        text = fmt::format("{}", number);
+    }
     // "-0" would read back as the integer zero, without its sign.
     return text == "-0" ? "-0.0" : text;
 }

@@ -1,7 +1,6 @@
 #include "scene/job_value.hpp"
 
 #include "scene/job_file.hpp"
-#include "scene/triangles.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,8 +12,6 @@
 
 namespace gnomon::scene {
 namespace {
-
-constexpr double farthest_m = max_coordinate_m;
 
 /// The node as a number, whether it is written with a point or without.
 std::optional<double> as_number(const TomlNode& node)
@@ -39,13 +36,14 @@ std::string range_of(const IntegerDomain& domain)
 std::string range_of(const RealDomain& domain)
 {
     return fmt::format("{}a number from {} to {}{}", domain.or_auto ? "\"auto\" or " : "",
-                       domain.lower, domain.upper,
+                       toml_number(domain.lower), toml_number(domain.upper),
                        domain.normal_float ? ", 0 or at least 1.18e-38 in size (not subnormal)"
                                            : "");
 }
 std::string range_of(const WordDomain& domain)
 {
-    return fmt::format("one of {}", fmt::join(domain.words, ", "));
+    return "one of " + (domain.listing.empty() ? fmt::format("{}", fmt::join(domain.words, ", "))
+                                               : domain.listing);
 }
 std::string range_of(const TextDomain&)
 {
@@ -57,8 +55,8 @@ std::string range_of(const TextListDomain&)
 }
 std::string range_of(const VectorDomain& domain)
 {
-    return fmt::format("three numbers [x, y, z] from {} to {}{}", -farthest_m, farthest_m,
-                       domain.zero_allowed ? "" : ", not all 0");
+    return fmt::format("three numbers [x, y, z] from {} to {}{}", toml_number(-farthest_m),
+                       toml_number(farthest_m), domain.zero_allowed ? "" : ", not all 0");
 }
 
 std::optional<JobValue> value_in(const FlagDomain&, const TomlNode& node)

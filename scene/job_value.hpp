@@ -11,6 +11,9 @@
 
 namespace gnomon::scene {
 
+/// Farthest coordinate and longest distance; rounded to float32 it is `max_coordinate_m`.
+inline constexpr double farthest_m = 1e15;
+
 /// A value that a key accepted.
 using JobValue =
     std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3d>;
@@ -31,11 +34,12 @@ struct RealDomain {
     bool or_auto = false;      ///< the word "auto" too
 };
 
-/// One of `words`; `refused`, where given, is a word that gets a reason of its own.
+/// One of `words`.
 struct WordDomain {
     std::vector<std::string> words;
-    std::string refused;
-    std::string reason;
+    std::string listing = {}; ///< how messages list the words; empty: one by one
+    std::string refused = {}; ///< a word that is refused for a reason of its own
+    std::string reason = {};
 };
 
 /// A text that is not empty.

@@ -47,6 +47,10 @@ void check_readable(const std::filesystem::path& path)
     if (status.type() == std::filesystem::file_type::not_found) {
         throw InputError{label + ": there is no such file; check the path"};
     }
+    if (error) {
+        throw InputError{
+            fmt::format("{}: cannot be reached ({}); check the path", label, error.message())};
+    }
     if (std::filesystem::is_directory(status)) {
         throw InputError{label + ": is a folder; name a .gltf, .glb, .obj or .ply file in it"};
     }
@@ -129,11 +133,24 @@ std::string refusal(const std::string& label, std::string_view reason)
     if (reason.starts_with("No suitable reader")) {
         reason = "it is not what its name says, or its first lines are damaged";
     }
-    while (reason.ends_with('.') || reason.ends_with('\n')) {
-        reason.remove_suffix(1);
+    std::string text = printable(reason.substr(0, longest_message));
+    if (text.ends_with('.')) {
+        text.pop_back();
     }
-    return fmt::format("{}: cannot be imported: {}; export it again", label,
-                       printable(reason.substr(0, longest_message)));
+    return fmt::format("{}: cannot be imported: {}; export it again", label, text);
+}
+
+/// @throws InputError  with the child's own reason, if it refused the file.
+const ImportHeader& checked_header(ImportReader& reader, const std::string& label)
+{
+    const auto& header = reader.take<ImportHeader>();
+    if (header.magic == import_magic && header.outcome == ImportOutcome::refusal) {
+        throw InputError{refusal(label, reader.take_text(reader.bytes_left()))};
+    }
+    if (header.magic != import_magic || header.outcome != ImportOutcome::scene) {
+        throw CorruptStream{};
+    }
+    return header;
 }
 
 /// Turns the child's bytes into a scene; every length in them is checked, none is trusted.
@@ -142,13 +159,7 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
                         const ImportLimits& limits)
 {
     ImportReader reader{bytes};
-    const auto& header = reader.take<ImportHeader>();
-    if (header.magic != import_magic) {
-        throw CorruptStream{};
-    }
-    if (header.outcome == ImportOutcome::refusal) {
-        throw InputError{refusal(label, reader.take_text(reader.bytes_left()))};
-    }
+    const ImportHeader& header = checked_header(reader, label);
     SceneFile file;
     SceneBuilder builder;
     builder.count_ignored_primitives(header.ignored_primitives);

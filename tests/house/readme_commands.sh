@@ -7,7 +7,7 @@
 set -euo pipefail
 
 document=$1
-program_folder=$2
+program_folder=$(cd "$2" && pwd)
 work_folder=$3
 
 [ -x "$program_folder/gnomon" ] || {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 
 /// A box on a plane against its analytic shadow polygon.
 namespace gnomon::reference_rt::test {
@@ -31,9 +32,8 @@ double cross2(const Vec2d& a, const Vec2d& b)
 /// Counter-clockwise hull (Andrew's monotone chain).
 std::vector<Vec2d> convex_hull(std::vector<Vec2d> points)
 {
-    std::ranges::sort(points, [](const Vec2d& a, const Vec2d& b) {
-        return a.x != b.x ? a.x < b.x : a.y < b.y;
-    });
+    std::ranges::sort(
+        points, [](const Vec2d& a, const Vec2d& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     std::vector<Vec2d> hull;
     for (int pass = 0; pass < 2; ++pass) {
         const std::size_t start = hull.size();
@@ -53,8 +53,8 @@ std::vector<Vec2d> convex_hull(std::vector<Vec2d> points)
 /// Where the ray from the light through a corner reaches the ground: (x, z) [m].
 Vec2d shadow_of(const Vec3d& corner, const scene::Light& light)
 {
-    const Vec3d step = light.type == scene::LightType::directional ? light.direction
-                                                                   : corner - light.position;
+    const Vec3d step =
+        light.type == scene::LightType::directional ? light.direction : corner - light.position;
     const Vec3d reached = corner - corner.y / step.y * step;
     return {reached.x, reached.z};
 }
@@ -90,8 +90,7 @@ double depth_inside_px(const std::vector<Vec2d>& polygon, const Vec2d& point, co
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vec2d& from = polygon[i];
         const Vec2d& to = polygon[(i + 1) % polygon.size()];
-        const Vec3d line =
-            glm::cross(image_of(from, view, centre), image_of(to, view, centre));
+        const Vec3d line = glm::cross(image_of(from, view, centre), image_of(to, view, centre));
         const double distance_px = std::abs(line.z) / std::hypot(line.x, line.y);
         inside = std::min(inside, std::copysign(distance_px, cross2(to - from, point - from)));
     }
@@ -125,48 +124,58 @@ Comparison compare(const scene::TruthLayers& truth, const Image<std::uint32_t>& 
             result.blocked += is_blocked;
             result.lit += is_lit;
             result.others += !is_blocked && !is_lit && std::abs(inside) > tolerance_px;
-            result.wrong += (is_blocked && inside < -tolerance_px) ||
-                            (is_lit && inside > tolerance_px);
+            result.wrong +=
+                (is_blocked && inside < -tolerance_px) || (is_lit && inside > tolerance_px);
         }
     }
     return result;
 }
 
-/// The issue allows 1e-3 px: P and the ray are rounded to float32 for the traversal, some 1e-7 of
-/// the scene's 11 m, and a pixel is no smaller than 1 mm here.
+/// P and the ray are rounded to float32 for the traversal: half an ulp of 4 m is 2.4e-7 m, and a
+/// pixel is no smaller than 1 mm here.
 constexpr double tolerance_px = 1e-3;
 
 constexpr ImageSize image{160, 120};
 constexpr ImageSize small{80, 60}; // where the ground has many triangles
 
-class BoxShadow : public testing::TestWithParam<View> {};
+struct Case {
+    std::string_view name;
+    View view;
+
+    friend void PrintTo(const Case& shown, std::ostream* out) { *out << shown.name; }
+};
+
+class BoxShadow : public testing::TestWithParam<Case> {};
 
 TEST_P(BoxShadow, EqualsTheAnalyticPolygon)
 {
+    const View& view = GetParam().view;
     const TriangleScene scene = box_on_ground(1);
-    const auto receivers = brute_force_receivers(scene, GetParam());
-    const auto truth = compute_truth(ReferenceScene{scene}, GetParam(), receivers, {});
-    const Comparison result = compare(truth, receivers, GetParam(), 2, tolerance_px);
+    const auto receivers = brute_force_receivers(scene, view);
+    const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
+    const Comparison result = compare(truth, receivers, view, 2, tolerance_px);
     EXPECT_EQ(result.wrong, 0);
     EXPECT_EQ(result.others, 0);
-    EXPECT_GT(result.blocked, 300);
-    EXPECT_GT(result.lit, 300);
+    EXPECT_GT(result.blocked, 200);
+    EXPECT_GT(result.lit, 200);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Views, BoxShadow,
     testing::Values(
-        make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.4, -1, 0.3})),
-        make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({1, -0.35, 0.2})),
-        make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.7, -1, 0})),
-        make_view({-1, 3, 3}, {0, 0, 0}, image, sun({-1, -0.5, 1})),
-        // The foot of the lit and of the shadowed side, from near: a pixel is about 1 mm.
-        make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, sun({1, -1, 0.1})),
-        make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, sun({0.2, -0.4, 1})),
-        make_view({2, 2.5, 3}, {0, 0, 0}, image, spot({-1.5, 3, 0.5}, {0, 0, 0}, 170)),
-        make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, spot({-1.5, 3, 0}, {0, 0, 0}, 170)),
-        make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.4, -1, 0.3}),
-                  scene::Projection::orthographic)));
+        Case{"high sun", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.4, -1, 0.3}))},
+        Case{"low sun", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({1, -0.35, 0.2}))},
+        Case{"along an axis", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.7, -1, 0}))},
+        Case{"sideways", make_view({-1, 3, 3}, {0, 0, 0}, image, sun({-1, -0.5, 1}))},
+        // The box's foot from near: a pixel is about 3 mm.
+        Case{"foot", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, sun({1, -1, 0.1}))},
+        Case{"corner", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, sun({0.2, -0.4, 1}))},
+        Case{"spot",
+             make_view({2, 2.5, 3}, {0, 0, 0}, image, spot({-1.5, 3, 0.5}, {0, 0, 0}, 170))},
+        Case{"spot at the foot",
+             make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, spot({-1.5, 3, 0}, {0, 0, 0}, 170))},
+        Case{"orthographic", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.4, -1, 0.3}),
+                                       scene::Projection::orthographic)}));
 
 TEST(BoxShadowOnTiles, IsNotBrokenByCoplanarNeighbours)
 {

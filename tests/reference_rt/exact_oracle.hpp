@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <optional>
 
-/// An independent judge in rationals: it solves for the hit (Cramer's rule, barycentric coordinates)
-/// instead of evaluating the reference's five signs.
+/// An independent judge in rationals: it solves for the hit (Cramer's rule, barycentric
+/// coordinates) instead of evaluating the reference's five signs.
 namespace gnomon::reference_rt::test {
 
 using Rational = boost::multiprecision::cpp_rational;
@@ -20,7 +20,9 @@ struct RationalVec {
 
     RationalVec() = default;
     RationalVec(Rational x_in, Rational y_in, Rational z_in)
-        : x{std::move(x_in)}, y{std::move(y_in)}, z{std::move(z_in)}
+        : x{std::move(x_in)},
+          y{std::move(y_in)},
+          z{std::move(z_in)}
     {
     }
     explicit RationalVec(const scene::Vec3d& v) : x{v.x}, y{v.y}, z{v.z} {}
@@ -88,8 +90,8 @@ inline ExactContact exact_contact(const RationalVec& point, const scene::Light& 
                                   const std::array<scene::Vec3f, 3>& triangle)
 {
     const bool is_sun = light.type == scene::LightType::directional;
-    const RationalVec step = is_sun ? RationalVec{-light.direction}
-                                    : RationalVec{light.position} - point;
+    const RationalVec step =
+        is_sun ? RationalVec{-light.direction} : RationalVec{light.position} - point;
     const auto hit = hit_of(point, step, triangle);
     if (!hit || hit->t <= 0 || (!is_sun && hit->t >= 1) || hit->is_outside()) {
         return ExactContact::none;

@@ -61,10 +61,18 @@ inline void add_box(SceneBuilder& builder, const Vec3d& lower, const Vec3d& uppe
                              (i & 4U) != 0 ? upper.z : lower.z);
     }
     builder.add(name, corners,
-                std::vector<std::array<std::uint32_t, 3>>{{0, 2, 3}, {0, 3, 1}, {4, 5, 7},
-                                                          {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                                          {2, 6, 7}, {2, 7, 3}, {0, 4, 6},
-                                                          {0, 6, 2}, {1, 3, 7}, {1, 7, 5}});
+                std::vector<std::array<std::uint32_t, 3>>{{0, 2, 3},
+                                                          {0, 3, 1},
+                                                          {4, 5, 7},
+                                                          {4, 7, 6},
+                                                          {0, 1, 5},
+                                                          {0, 5, 4},
+                                                          {2, 6, 7},
+                                                          {2, 7, 3},
+                                                          {0, 4, 6},
+                                                          {0, 6, 2},
+                                                          {1, 3, 7},
+                                                          {1, 7, 5}});
 }
 
 /// A closed sphere of 2·n·(n − 1)·2 triangles with poles along y.

@@ -4,13 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <random>
 
 /// The reference against an independent judge in rationals, on triangles without any order.
 namespace gnomon::reference_rt::test {
 namespace {
 
-constexpr ImageSize image{24, 18};
+constexpr ImageSize image{36, 27};
 
 /// Triangles about as large as the cube [-1, 1]^3 in which their middles lie.
 TriangleScene triangle_soup(std::mt19937& random, int triangle_count)
@@ -60,8 +61,7 @@ struct Judged {
 
 /// Checks every scored pixel and every witness.
 Judged check_against_oracle(const TriangleScene& scene, const View& view,
-                            const Image<std::uint32_t>& receivers,
-                            const scene::TruthLayers& truth)
+                            const Image<std::uint32_t>& receivers, const scene::TruthLayers& truth)
 {
     Judged judged;
     for (int y = 0; y < view.image.height_px; ++y) {
@@ -73,8 +73,8 @@ Judged check_against_oracle(const TriangleScene& scene, const View& view,
                 continue;
             }
             const std::uint32_t receiver = receivers(x, y);
-            const RationalVec point = exact_point(
-                scene::pixel_ray(view.camera, view.image, x, y), scene.corners(receiver));
+            const RationalVec point = exact_point(scene::pixel_ray(view.camera, view.image, x, y),
+                                                  scene.corners(receiver));
             const bool is_blocked = pixel_class == PixelClass::blocked;
             EXPECT_EQ(is_blocked, is_exactly_blocked(scene, view, point, receiver));
             if (is_blocked) {
@@ -94,6 +94,8 @@ struct Soup {
     unsigned seed;
     bool has_sun;
     scene::Projection projection;
+
+    friend void PrintTo(const Soup& soup, std::ostream* out) { *out << "seed " << soup.seed; }
 };
 
 class TriangleSoup : public testing::TestWithParam<Soup> {};
@@ -106,8 +108,9 @@ TEST_P(TriangleSoup, IsJudgedAsByRationals)
     const auto receivers = brute_force_receivers(scene, view);
     const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
     const Judged judged = check_against_oracle(scene, view, receivers, truth);
-    EXPECT_GT(judged.blocked, 10) << "seed " << GetParam().seed;
-    EXPECT_GT(judged.lit, 10) << "seed " << GetParam().seed;
+    EXPECT_GT(judged.blocked, 0) << "seed " << GetParam().seed;
+    EXPECT_GT(judged.lit, 0) << "seed " << GetParam().seed;
+    EXPECT_GT(judged.blocked + judged.lit, 50) << "seed " << GetParam().seed;
     EXPECT_EQ(count(truth.pixel_class, PixelClass::unmatched), 0);
 }
 

@@ -122,6 +122,31 @@ TEST(ComputeTruth, HonoursRoles)
     EXPECT_EQ(count(ground_only.pixel_class, PixelClass::unmatched), 0);
 }
 
+TEST(ComputeTruth, BlocksAtAContactCloserThanFloatRaysResolve)
+{
+    // A slope y = 3/8·(x − 1000) and its copy 2^-23 m above it, both exact in float32. P rounded to
+    // float32 is up to 3/8 of half an ulp of 1000, 1.1e-5 m, off the slope on either side.
+    const std::vector<std::array<std::uint32_t, 3>> quad{{0, 1, 2}, {0, 2, 3}};
+    std::vector<Vec3d> corners{{996, -1.5, -4}, {996, -1.5, 4}, {1004, 1.5, 4}, {1004, 1.5, -4}};
+    SceneBuilder builder;
+    builder.add("slope", corners, quad);
+    for (Vec3d& corner : corners) {
+        corner.y += 0x1p-23;
+    }
+    builder.add("film", corners, quad);
+    TriangleScene scene = builder.take();
+    scene.objects[1].receives = false;
+    for (const Vec3d& direction : {Vec3d{0.3, -1, 0.2}, Vec3d{-1, -0.9, 0.4}}) {
+        const View view = make_view({1000.5, 2.5, 0.75}, {1000, 0, 0}, image, sun(direction));
+        const auto receivers = brute_force_receivers(scene, view);
+        const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
+        const int background = count(truth.pixel_class, PixelClass::background);
+        EXPECT_EQ(count(truth.pixel_class, PixelClass::blocked) + background,
+                  static_cast<int>(image.pixel_count()));
+        EXPECT_LT(background, 1000);
+    }
+}
+
 TEST(ComputeTruth, BlocksEverythingInsideAClosedSphere)
 {
     // Every segment leaves the sphere through a triangle or exactly through a seam: never a gap.

@@ -12,15 +12,14 @@ using scene::ClassReason;
 
 constexpr ImageSize image{64, 48};
 
-/// Two triangles that share the diagonal of a square, 4 m from the camera, and a sheet `gap_m` behind.
+/// Two triangles that share the diagonal of a square, 4 m from the camera, and a sheet `gap_m`
+/// behind.
 TriangleScene square_and_sheet(double gap_m)
 {
     SceneBuilder builder;
-    builder.add("square",
-                std::vector<Vec3d>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+    builder.add("square", std::vector<Vec3d>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
                 std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
-    builder.add("sheet",
-                std::vector<Vec3d>{{-1, -1, -gap_m}, {1, -1, -gap_m}, {1, 1, -gap_m}},
+    builder.add("sheet", std::vector<Vec3d>{{-1, -1, -gap_m}, {1, -1, -gap_m}, {1, 1, -gap_m}},
                 std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
     return builder.take();
 }
@@ -93,8 +92,8 @@ TEST(Unmatched, IsASnapWithinASubPixelOfAnEdge)
         const TriangleScene scene = builder.take();
         const bool is_covered = offset_px > 0;
         // Row 24: the triangle's other edges are 7 px and more away.
-        const auto pixel = class_when_seeing(scene, front_view(), 40, 24,
-                                             is_covered ? no_triangle : 0U);
+        const auto pixel =
+            class_when_seeing(scene, front_view(), 40, 24, is_covered ? no_triangle : 0U);
         expect_unmatched(pixel, std::abs(offset_px) < 1.0 / 256 ? ClassReason::snap
                                                                 : ClassReason::mismatch);
     }

@@ -157,8 +157,7 @@ TEST(WriteAov, WritesExactInputsThatReadBackToTheSameBits)
     for (std::size_t i = 0; i < 16; ++i) {
         const auto row = static_cast<int>(i / 4);
         const auto column = static_cast<int>(i % 4);
-        EXPECT_EQ(matrix[i],
-                  static_cast<double>(view.frustum.light_clip_from_world[column][row]));
+        EXPECT_EQ(matrix[i], static_cast<double>(view.frustum.light_clip_from_world[column][row]));
     }
 }
 

@@ -49,8 +49,8 @@ TEST(ComparisonJson, HasEveryFixedName)
                               "error_rate", "mean_abs_error", "causes", "labels",
                               "peter_panning_gap_m", "bias_curve", "environment", "seconds"}));
     EXPECT_THAT(names(object["pixels"]),
-                UnorderedElementsAre("total", "background", "unmatched", "attached",
-                                     "out_of_light", "indeterminate", "lit", "blocked"));
+                UnorderedElementsAre("total", "background", "unmatched", "attached", "out_of_light",
+                                     "indeterminate", "lit", "blocked"));
     EXPECT_THAT(names(object["unmatched_kinds"]), UnorderedElementsAre("snap", "tie", "mismatch"));
     EXPECT_THAT(names(object["indeterminate_kinds"]),
                 UnorderedElementsAre("silhouette", "vertex", "graze"));
@@ -59,8 +59,7 @@ TEST(ComparisonJson, HasEveryFixedName)
     EXPECT_THAT(names(object["seconds"]),
                 UnorderedElementsAre("scene", "bvh", "receivers", "shadow_map", "lookup", "truth",
                                      "analysis"));
-    EXPECT_THAT(names(object["peter_panning_gap_m"]),
-                UnorderedElementsAre("median", "p95", "max"));
+    EXPECT_THAT(names(object["peter_panning_gap_m"]), UnorderedElementsAre("median", "p95", "max"));
 }
 
 TEST(ComparisonJson, GivesTheMeasuredNumbers)

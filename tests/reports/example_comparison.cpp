@@ -24,7 +24,8 @@ Mesh box(const Vec3d& lower, const Vec3d& upper)
 {
     Mesh mesh;
     for (unsigned i = 0; i < 8; ++i) {
-        mesh.first.emplace_back((i & 1U) != 0 ? upper.x : lower.x, (i & 2U) != 0 ? upper.y : lower.y,
+        mesh.first.emplace_back((i & 1U) != 0 ? upper.x : lower.x,
+                                (i & 2U) != 0 ? upper.y : lower.y,
                                 (i & 4U) != 0 ? upper.z : lower.z);
     }
     mesh.second = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
@@ -47,8 +48,8 @@ Mesh sphere(const Vec3d& centre, double radius_m, int segments)
                                                            std::cos(theta),
                                                            std::sin(theta) * std::sin(phi)});
             if (ring < rings) {
-                mesh.second.push_back({index(ring, segment), index(ring, segment + 1),
-                                       index(ring + 1, segment)});
+                mesh.second.push_back(
+                    {index(ring, segment), index(ring, segment + 1), index(ring + 1, segment)});
                 mesh.second.push_back({index(ring, segment + 1), index(ring + 1, segment + 1),
                                        index(ring + 1, segment)});
             }
@@ -127,7 +128,8 @@ Hit first_hit(const scene::TriangleScene& scene, const scene::Ray& ray,
 class RayRenderers {
 public:
     RayRenderers(const scene::TriangleScene& scene, scene::Image<scene::Vec3f>& points)
-        : scene_{scene}, points_{points}
+        : scene_{scene},
+          points_{points}
     {
     }
 
@@ -190,7 +192,8 @@ private:
             return (std::floor(offset_m / texel_m) + 0.5) * texel_m;
         };
         const Vec3d offset = point - frustum.origin;
-        const Vec3d texel = frustum.origin + centre(glm::dot(offset, frustum.right)) * frustum.right +
+        const Vec3d texel = frustum.origin +
+                            centre(glm::dot(offset, frustum.right)) * frustum.right +
                             centre(glm::dot(offset, frustum.up)) * frustum.up;
         constexpr double back_m = 100;
         const Hit seen = first_hit(scene_, {texel - back_m * frustum.forward, frustum.forward});
@@ -199,8 +202,8 @@ private:
         };
         scene::LookupSample result;
         result.receiver_depth = depth(frustum.zeta_m(point));
-        result.map_depth = seen.triangle == scene::no_triangle ? 1.0F
-                                                               : depth(seen.distance - back_m);
+        result.map_depth =
+            seen.triangle == scene::no_triangle ? 1.0F : depth(seen.distance - back_m);
         result.verdict =
             result.receiver_depth - view.bias.constant <= result.map_depth ? 1.0F : 0.0F;
         return result;

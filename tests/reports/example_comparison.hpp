@@ -15,8 +15,8 @@ struct ExampleOptions {
     double bias_constant = 0.002;
 };
 
-/// A sphere and a box on the ground under a directional light, with a shadow map, all by brute-force
-/// rays: a small comparison with every kind of error, made without GL and Embree.
+/// A sphere and a box on the ground under a directional light, with a shadow map, all by
+/// brute-force rays: a small comparison with every kind of error, made without GL and Embree.
 struct Example {
     scene::SceneFile file;
     analysis::Comparison comparison;

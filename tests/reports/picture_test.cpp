@@ -30,7 +30,10 @@ std::ptrdiff_t count_colour(const RgbImage& image, Rgb colour)
 }
 
 /// sRGB values, weighted as their brightness is.
-int brightness(Rgb colour) { return (2 * colour.r + 5 * colour.g + colour.b) / 8; }
+int brightness(Rgb colour)
+{
+    return (2 * colour.r + 5 * colour.g + colour.b) / 8;
+}
 
 TEST(MarkOf, MarksErrorsAndPixelsWithoutATruth)
 {
@@ -170,8 +173,7 @@ TEST(WritePicture, WritesAPngOfTheLayoutsSizeWithTheErrorColours)
     ASSERT_EQ(spec.height, layout.canvas.height_px);
     ASSERT_EQ(spec.nchannels, 3);
     RgbImage image{layout.canvas};
-    ASSERT_TRUE(
-        input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, image.data()));
+    ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, image.data()));
     const int factor = layout.panel.width_px / 96;
     const auto& metrics = example().comparison.metrics;
     // Blocks in the panel, and the swatch beneath it.
@@ -202,6 +204,29 @@ TEST(WritePicture, SurvivesLongNamesAndMissingRates)
 TEST(WritePicture, ReportsAnUnwritablePath)
 {
     EXPECT_THROW(write_picture("/dev/full", example().comparison), scene::EnvironmentError);
+}
+
+TEST(Canvas, ShortensALineToTheWidth)
+{
+    const Canvas canvas{{8, 8}, {}, default_font_folder};
+    const TextStyle style{20, false, {}};
+    EXPECT_EQ(canvas.fitted("short", style, 1000), "short");
+    const std::string fitted = canvas.fitted("a line of several words", style, 120);
+    EXPECT_THAT(fitted, testing::AllOf(testing::StartsWith("a line"), testing::EndsWith("...")));
+    EXPECT_LE(canvas.text_width_px(fitted, style), 120);
+    EXPECT_GT(canvas.text_width_px(fitted, style), 120 - 20);
+}
+
+TEST(Canvas, SplitsNoCodePoint)
+{
+    const Canvas canvas{{8, 8}, {}, default_font_folder};
+    const TextStyle style{20, false, {}};
+    std::string text;
+    for (int i = 0; i < 40; ++i) {
+        text += "é";
+    }
+    const std::string fitted = canvas.fitted(text, style, 120);
+    EXPECT_EQ(fitted.size() % 2, 1U) << fitted; // two bytes a letter, and three dots
 }
 
 TEST(DrawPicture, NamesThePackageOfAMissingFont)

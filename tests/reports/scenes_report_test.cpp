@@ -44,7 +44,10 @@ TEST(ScenesJson, ListsEveryParameterWithUnitDefaultAndRange)
     EXPECT_EQ(json[1]["parameters"], nlohmann::json::array());
 }
 
-TEST(ScenesJson, ListsNoScenesAsAnEmptyArray) { EXPECT_EQ(scenes_json({}), "[]\n"); }
+TEST(ScenesJson, ListsNoScenesAsAnEmptyArray)
+{
+    EXPECT_EQ(scenes_json({}), "[]\n");
+}
 
 TEST(ScenesTable, AlignsNamesAndParameters)
 {

@@ -47,17 +47,18 @@ TEST(ComparisonTable, AlignsCountsRatesAndDenominators)
                                  "lit                   500,000     54.3 %  scored\n"
                                  "blocked                20,470     2.22 %  scored\n"
                                  "total                 921,600\n"));
-    EXPECT_THAT(table, HasSubstr("error                  pixels       rate\n"
-                                 "false shadow            5,000     1.00 %  of 500,000 lit\n"
-                                 "false lit               2,047     10.0 %  of 20,470 blocked\n"
-                                 "both                    7,047     1.35 %  of 520,470 scored\n"
-                                 "mean |error|                      1.35 %  verdict against truth\n"));
+    EXPECT_THAT(table,
+                HasSubstr("error                  pixels       rate\n"
+                          "false shadow            5,000     1.00 %  of 500,000 lit\n"
+                          "false lit               2,047     10.0 %  of 20,470 blocked\n"
+                          "both                    7,047     1.35 %  of 520,470 scored\n"
+                          "mean |error|                      1.35 %  verdict against truth\n"));
 }
 
 TEST(ComparisonTable, NamesSceneSettingsAndEnvironment)
 {
     const std::string table = comparison_table(with_counts());
-    EXPECT_THAT(table, HasSubstr("scene           example.obj: "));
+    EXPECT_THAT(table, HasSubstr("scene           example.obj\n                "));
     EXPECT_THAT(table, HasSubstr("shadow map      48x48 d24, fit scene\n"));
     EXPECT_THAT(table, HasSubstr("lookup          nearest, outside lit\n"));
     EXPECT_THAT(table, HasSubstr("bias            constant 0.002, slope 0, normal 0 texels\n"));

@@ -35,7 +35,10 @@ TEST(Percent, ShowsZeroOnlyForZero)
     EXPECT_EQ(percent(1e-9), "<0.0001 %");
 }
 
-TEST(Percent, ShowsADashForNoValue) { EXPECT_EQ(percent(std::nullopt), "-"); }
+TEST(Percent, ShowsADashForNoValue)
+{
+    EXPECT_EQ(percent(std::nullopt), "-");
+}
 
 TEST(Pad, CountsCodePointsNotBytes)
 {

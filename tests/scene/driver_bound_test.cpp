@@ -25,19 +25,31 @@ TEST(DriverDepthBound, OfAFlatTriangleIsSixRoundingsOfItsDepth)
     EXPECT_EQ(driver_depth_bound(flat, {8, true}, 0x1p-20, {9, 9}), 6 * u32 * 0.5 + 0x1p-20);
 }
 
-TEST(DriverDepthBound, AddsPlaneSliverAndSnapOfARamp)
+TEST(DriverDepthBound, AddsPlaneSliverEdgeAndSnapOfARamp)
 {
     // z0 = 0.25 + 8/64 + 8/128 = 0.4375, slopes 1/64 and 1/128, reach 24 px both ways.
     const double plane = 6 * u32 * (0.4375 + 2 * (24.0 / 64 + 24.0 / 128));
-    EXPECT_EQ(driver_depth_bound(ramp(), {}, 0, {8, 8}), plane);
     // Legs of 16 px, area2 = 256: Δz01 = −1/4, Δz20 = 1/8, Δ01 = (−16, 0), Δ20 = (0, 16).
+    // Edges err by 2u·24 = 48u, the area by 48u·(16 + 16) = 1536u, the slopes by
+    // (48u·(1/4 + 1/8) + 1536u/64)/256 and (48u·(1/4 + 1/8) + 1536u/128)/256: 72u/256 together,
+    // times the distance from the farthest corner.
+    const double edge_per_px = 72 * u32 / 256;
+    EXPECT_EQ(driver_depth_bound(ramp(), {}, 0, {8, 8}), plane + 16 * edge_per_px);
     // Sliver, one pixel off: x 4u(1/4·16 + 1/8·0)/256 = u/16, y 4u(16·1/8 + 0·1/4)/256 = u/32.
-    EXPECT_EQ(driver_depth_bound(ramp(), {}, 0, {9, 9}), plane + (u32 / 16 + u32 / 32));
+    EXPECT_EQ(driver_depth_bound(ramp(), {}, 0, {9, 9}),
+              plane + (u32 / 16 + u32 / 32) + 15 * edge_per_px);
     // Snapped corners move by half of 2^-8 px in x and y.
     EXPECT_EQ(driver_depth_bound(ramp(), {8, true}, 0, {8, 8}),
-              std::ldexp(1.0 / 64 + 1.0 / 128, -9) + plane);
+              std::ldexp(1.0 / 64 + 1.0 / 128, -9) + plane + 16 * edge_per_px);
     EXPECT_LT(driver_depth_bound(ramp(), {10, true}, 0, {8, 8}),
               driver_depth_bound(ramp(), {8, true}, 0, {8, 8}));
+}
+
+TEST(DriverDepthBound, IsInfiniteWhereRoundingCanTurnATriangleOver)
+{
+    WindowTriangle sliver = ramp();
+    sliver.position_px[2] = {40, 8 + 0x1p-20};
+    EXPECT_TRUE(std::isinf(driver_depth_bound(sliver, {}, 0, {24, 8})));
 }
 
 TEST(DriverDepthBound, IsInfiniteForATriangleWithoutArea)

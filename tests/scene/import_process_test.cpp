@@ -106,6 +106,23 @@ TEST(RunInChild, StopsAChildThatComputesForTooLong)
     EXPECT_THAT(failure_of(spin), HasSubstr("worked for longer"));
 }
 
+TEST(RunInChild, GivesAFileOfAFewBytesLessThanTenSecondsByTheClock)
+{
+    const auto left_s = [](std::uint64_t opened_bytes) {
+        const SealedBytes result =
+            run_in_child("file.obj", {}, [&](int output, ImportAllowance& allowance) {
+                allowance.add_file(opened_bytes);
+                ImportWriter writer{output};
+                writer.put(std::uint64_t{::alarm(0)});
+                writer.flush();
+            });
+        return ImportReader{result.bytes()}.take<std::uint64_t>();
+    };
+    // A second may have begun before the clock is asked.
+    EXPECT_THAT(left_s(100), ::testing::AnyOf(7U, 8U));
+    EXPECT_THAT(left_s(100'000'000), ::testing::AnyOf(32U, 33U));
+}
+
 TEST(RunInChild, StopsAChildThatWritesTooMuch)
 {
     const ImportLimits limits{.memory_bytes = 1 << 20};

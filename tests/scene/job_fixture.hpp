@@ -51,6 +51,8 @@ inline std::filesystem::path write_job(const std::string& text,
                                        const std::string& name = "job.toml")
 {
     const auto path = job_folder() / name;
+    // Some file systems flush a file that is truncated and written anew, not a new one.
+    std::filesystem::remove(path);
     std::ofstream{path, std::ios::binary} << text;
     return path;
 }

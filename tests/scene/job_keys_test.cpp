@@ -171,13 +171,16 @@ TEST(JobKeys, OfBuiltInParametersAcceptTheirLimitsAndNothingBeyond)
                 EXPECT_THAT(message(parameter.words[0] + "x"), HasSubstr("the nearest is"));
                 continue;
             }
+            const auto text = [&](double number) {
+                return parameter.is_integer ? fmt::format("{:.0f}", number) : toml_number(number);
+            };
             const double infinity = std::numeric_limits<double>::infinity();
             for (const auto& [limit, outward] :
                  {std::pair{parameter.lower, -infinity}, std::pair{parameter.upper, infinity}}) {
                 const double beyond = parameter.is_integer ? limit + std::copysign(1, outward)
                                                            : std::nextafter(limit, outward);
-                EXPECT_EQ(message(toml_number(limit)), "no error") << limit;
-                EXPECT_THAT(message(toml_number(beyond)), HasSubstr("must be")) << beyond;
+                EXPECT_EQ(message(text(limit)), "no error") << limit;
+                EXPECT_THAT(message(text(beyond)), HasSubstr("must be")) << beyond;
             }
         }
     }

@@ -93,7 +93,7 @@ TEST(Sweep, RefusesRangesThatAreNone)
         {"{from = 0, to = 1, count = 100001}", "must be an integer from 2 to 100000"},
         {"{from = 0, to = 1, count = 2.5}", "must be an integer from 2 to 100000"},
         {"{from = 0, to = 1, count = 3, scale = \"log\"}", "must be above 0"},
-        {"{from = 0, to = 1, count = 3, scale = \"lin\"}", "the nearest is \"linear\""},
+        {"{from = 0, to = 1, count = 3, scale = \"linaer\"}", "the nearest is \"linear\""},
         {"{from = 0, to = 1, cuont = 3}", "unknown key \"cuont\"; the nearest is count"},
         {"{from = 0.5, to = 0.5, count = 3}", "from and to must differ"},
         {"[]", "must be a list of values, or {from, to, count, scale}"},

@@ -28,6 +28,10 @@ TEST(SceneFileRefusal, SaysWhatIsWrongWithAPath)
     EXPECT_THAT(refusal(folder.write("empty.obj", "")), HasSubstr("empty.obj: is empty"));
     EXPECT_THAT(refusal(folder.write("mesh.stl", "solid")),
                 AllOf(HasSubstr("mesh.stl"), HasSubstr(".gltf, .glb, .obj or .ply")));
+    std::filesystem::create_symlink("loop.obj", folder.path() / "loop.obj");
+    EXPECT_THAT(refusal(folder.path() / "loop.obj"), HasSubstr("loop.obj: cannot be reached"));
+    EXPECT_THAT(refusal(folder.write("text.glb", "this is no mesh")),
+                HasSubstr("text.glb: cannot be imported: it is not what its name says"));
     ASSERT_EQ(::mkfifo((folder.path() / "pipe.obj").c_str(), 0600), 0);
     EXPECT_THAT(refusal(folder.path() / "pipe.obj"), HasSubstr("not a regular file"));
 }

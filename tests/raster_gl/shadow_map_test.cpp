@@ -1,0 +1,161 @@
+#include "gl_case.hpp"
+
+#include "raster_gl/depth_formats.hpp"
+#include "scene/error.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace gnomon::raster_gl {
+namespace {
+
+using tests::GlCase;
+
+/// floor(z·(2^n − 1) + ½) in integers: z = m·2^-k with m < 2^24.
+std::uint32_t exact_code(float z, int bits)
+{
+    int exponent = 0;
+    const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(z, &exponent), 24));
+    const int k = 24 - exponent; // z = mantissa · 2^-k
+    if (k > 62) {
+        return 0; // below 2^-38: far under half a code
+    }
+    const std::uint64_t product = mantissa * ((std::uint64_t{1} << bits) - 1);
+    return static_cast<std::uint32_t>((product + (std::uint64_t{1} << (k - 1))) >> k);
+}
+
+TEST(ExactCode, MatchesValuesDoneByHand)
+{
+    EXPECT_EQ(exact_code(0.0F, 8), 0U);
+    EXPECT_EQ(exact_code(1.0F, 8), 255U);
+    EXPECT_EQ(exact_code(0.5F, 8), 128U); // 127.5 + ½
+    EXPECT_EQ(exact_code(1.0F, 24), 16777215U);
+}
+
+TEST(ShadowMap, UnormTexelsAreTheExactlyRoundedCodeOfTheirZ)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* scene : {"columns", "sphere-plane"}) {
+        GlCase c{scene};
+        for (int bits = 8; bits <= 24; ++bits) {
+            for (const char* reversed : {"false", "true"}) {
+                c.set({{"shadow_map.depth_format", "u" + std::to_string(bits)},
+                       {"shadow_map.resolution", "400"},
+                       {"shadow_map.reversed", reversed}});
+                c.draw_shadow_map();
+                const auto codes = read_codes(*tests::shared_context(), *c.map);
+                const auto z = read_unquantised_z(*tests::shared_context(), *c.map);
+                const auto depths = read_shader_depths(*tests::shared_context(), *c.map);
+                const double largest = std::ldexp(1.0, bits) - 1;
+                for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
+                    ASSERT_EQ(codes[i], exact_code(z[i], bits)) << scene << " u" << bits;
+                    ASSERT_EQ(depths[i], static_cast<float>(codes[i] / largest));
+                }
+            }
+        }
+    }
+}
+
+TEST(ShadowMap, ShaderDepthsAreTheCodesNormalised)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"columns"};
+    for (const FormatSupport& format : query_depth_formats(*tests::shared_context())) {
+        if (!format.supported) {
+            continue;
+        }
+        c.set({{"shadow_map.depth_format", format.name}, {"shadow_map.resolution", "512"}});
+        c.draw_shadow_map();
+        const auto codes = read_codes(*tests::shared_context(), *c.map);
+        const auto depths = read_shader_depths(*tests::shared_context(), *c.map);
+        const int bits = c.map->format.bits;
+        for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
+            if (format.name == "d32f") {
+                ASSERT_EQ(codes[i], std::bit_cast<std::uint32_t>(depths[i]));
+                continue;
+            }
+            // Below 1 a rounding is at most 2^-25. Code to float32, reciprocal of 2^n − 1, and
+            // their product: three, and a driver that truncates the code first adds a whole 2^-24.
+            ASSERT_NEAR(depths[i], codes[i] / (std::ldexp(1.0, bits) - 1), 5 * 0x1p-25)
+                << format.name << " texel " << i;
+        }
+    }
+}
+
+TEST(ShadowMap, IsTheSameBytesEachTime)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"yard"};
+    c.draw_shadow_map();
+    const auto first = read_codes(*tests::shared_context(), *c.map);
+    c.draw_shadow_map();
+    const auto second = read_codes(*tests::shared_context(), *c.map);
+    EXPECT_TRUE(std::equal(first.begin(), first.end(), second.begin()));
+}
+
+TEST(ShadowMap, LeavesOutObjectsThatDoNotCast)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase whole{"sphere-plane"};
+    std::string names;
+    for (const auto& object : whole.file.scene.objects) {
+        names += (names.empty() ? "\"" : ", \"") + object.name + "\"";
+    }
+    GlCase c{"sphere-plane", {{"scene.no_cast", "[" + names + "]"}}};
+    c.draw_shadow_map();
+    for (const float depth : read_shader_depths(*tests::shared_context(), *c.map)) {
+        ASSERT_EQ(depth, 1.0F);
+    }
+}
+
+/// Number of texels that something was drawn to.
+std::size_t drawn_texels(GlCase& c, const std::string& cull)
+{
+    c.set({{"shadow_map.cull", cull}, {"shadow_map.depth_format", "d32f"}});
+    c.draw_shadow_map();
+    std::size_t count = 0;
+    for (const float depth : read_shader_depths(*tests::shared_context(), *c.map)) {
+        count += depth < 1.0F ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(ShadowMap, CullsTheSideThatTheLightSees)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"tilted-plane"}; // its upper side faces the light
+    const std::size_t all = drawn_texels(c, "none");
+    EXPECT_GT(all, 0U);
+    EXPECT_EQ(drawn_texels(c, "front"), 0U);
+    EXPECT_EQ(drawn_texels(c, "back"), all);
+}
+
+TEST(ShadowMap, ReversedStoresOneMinusTheDepthOfAnOrthographicLight)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"yard"};
+    c.set({{"shadow_map.resolution", "512"}, {"shadow_map.depth_format", "d32f"}});
+    c.draw_shadow_map();
+    const auto standard = read_shader_depths(*tests::shared_context(), *c.map);
+    c.set({{"shadow_map.resolution", "512"},
+           {"shadow_map.depth_format", "d32f"},
+           {"shadow_map.reversed", "true"}});
+    c.draw_shadow_map();
+    const auto reversed = read_shader_depths(*tests::shared_context(), *c.map);
+    for (std::size_t i = 0; i < standard.pixel_count(); ++i) {
+        // Both matrices round their entries and products once each: a few times 2^-24, and the
+        // plane evaluation from the framebuffer's origin (driver bound) stays below 64 · 2^-24.
+        ASSERT_NEAR(standard[i], 1.0F - reversed[i], 64 * 0x1p-24) << "texel " << i;
+    }
+}
+
+TEST(ShadowMap, RefusesAMapLargerThanTheDriverHolds)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"tilted-plane"};
+    c.job.shadow_map.resolution_texels = 1 << 20;
+    EXPECT_THROW(c.draw_shadow_map(), scene::InputError);
+}
+
+} // namespace
+} // namespace gnomon::raster_gl
