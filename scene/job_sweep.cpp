@@ -13,6 +13,7 @@
 namespace gnomon::scene {
 namespace {
 
+/// Of one axis, and of all axes together: a line of a hostile file asks for no more memory.
 constexpr std::int64_t most_values = 100'000;
 constexpr std::int64_t largest_count = 1'000'000'000;
 
@@ -185,7 +186,13 @@ bool read_option(Sweep& sweep, const TomlMember& member, const std::string& file
 
 void check_lengths(const Sweep& sweep, const std::string& file)
 {
+    std::size_t value_count = 0;
     for (const SweepAxis& axis : sweep.axes) {
+        value_count += axis.values.size();
+        if (value_count > static_cast<std::size_t>(most_values)) {
+            throw InputError(fmt::format("{}: [sweep] {}: more than {} values on all axes", file,
+                                         axis.key, most_values));
+        }
         const SweepAxis& first = sweep.axes.front();
         if (sweep.mode == "zip" && axis.values.size() != first.values.size()) {
             throw InputError(fmt::format("{}: [sweep] mode = \"zip\": axes must be equally long, "
@@ -222,8 +229,8 @@ Sweep read_sweep(const TomlMember& member, const std::string& file)
                                              place.text(), spec.key.name));
             }
             sweep.axes.push_back(read_axis(spec, node, place));
+            check_lengths(sweep, file);
         });
-    check_lengths(sweep, file);
     return sweep;
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view shown_builtin = "sphere-cube";
 
 constexpr std::string_view heading =
-    R"(# A job: what to look at, and how. Every key may be left out: it then takes the value that the
+    R"(# A job: what to look at and how. Every key may be left out: it then takes the value that the
 # built-in scene brings along, or for a scene file the default named here. Without [camera] and
 # [light], a scene file's own are used, or else a camera that frames it and the default light.
 )";

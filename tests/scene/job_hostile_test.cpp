@@ -107,6 +107,8 @@ TEST(HostileJob, DeepNestingIsRefused)
     EXPECT_THAT(refusal("a = " + repeated("{a=", deep)), HasSubstr(too_deep));
     EXPECT_THAT(refusal(repeated("a.", deep) + "a = 1"), HasSubstr(too_deep));
     EXPECT_THAT(refusal("[" + repeated("a . ", deep) + "a]"), HasSubstr(too_deep));
+    // A quote before the closing three belongs to the text and opens no other.
+    EXPECT_THAT(refusal("a = [\"\"\"b\"\"\"\", " + repeated("[", deep)), HasSubstr(too_deep));
     EXPECT_THAT(refusal("\n\n" + repeated("\"a=\".'b]'.", deep) + "a = 1"),
                 HasSubstr("job.toml:3: " + too_deep));
 }
@@ -144,6 +146,9 @@ TEST(HostileJob, HugeListsOfValuesAreRefused)
 {
     EXPECT_THAT(refusal("[sweep]\n\"bias.slope\" = [" + repeated("0,", 100'001) + "]\n"),
                 HasSubstr("100001 values; at most 100000"));
+    const std::string range = " = {from = 0, to = 1, count = 60000}\n";
+    EXPECT_THAT(refusal("[sweep]\n\"bias.slope\"" + range + "\"bias.constant\"" + range),
+                HasSubstr("[sweep] bias.constant: more than 100000 values on all axes"));
 }
 
 } // namespace

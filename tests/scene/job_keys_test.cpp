@@ -67,52 +67,47 @@ KeyCases beside(KeyCases cases, const std::vector<Override>& context)
     return cases;
 }
 
-const std::map<std::string, KeyCases>& key_cases()
-{
-    static const std::map<std::string, KeyCases> cases{
-        {"scene.builtin", {{"\"wall\"", "\"room\""}, {"\"walls\"", "3", "\"\""}, {}}},
-        {"scene.file", {{"\"a.obj\"", "\"/b c/d.glb\""}, {"\"\"", "7", "\"a\\u0000b\""}, {}}},
-        {"scene.ground", flags},
-        {"scene.no_cast", names},
-        {"scene.no_receive", names},
-        {"camera.eye", vectors},
-        {"camera.target", vectors},
-        {"camera.up", directions},
-        {"camera.vertical_fov_deg", angles},
-        {"camera.orthographic_height", {{"1e-06", "4", "1e+15"}, {"0", "-4", "9e-7", "2e15"}, {}}},
-        {"image.width", beside(sides, {{"image.height", "2"}})},
-        {"image.height", beside(sides, {{"image.width", "2"}})},
-        {"light.type", {{"\"directional\""}, {"\"sun\"", "\"point\"", "1"}, {}}},
-        {"light.direction", directions},
-        {"light.position", beside(vectors, spot)},
-        {"light.target", beside(vectors, spot)},
-        {"light.cone_deg", beside(angles, spot)},
-        {"shadow_map.resolution", sides},
-        {"shadow_map.depth_format",
-         {{"\"d16\"", "\"d24\"", "\"d32\"", "\"d32f\"", "\"u8\"", "\"u13\"", "\"u24\""},
-          {"\"u7\"", "\"u25\"", "\"u08\"", "\"d25\"", "\"D24\"", "24"},
-          {}}},
-        {"shadow_map.fit", {{"\"scene\"", "\"camera\"", "\"fixed\""}, {"\"tight\"", "0"}, {}}},
-        {"shadow_map.half_extent",
-         {{"1e-06", "20", "1e+15"}, {"0", "-1", "2e15"}, {{"shadow_map.fit", "fixed"}}}},
-        {"shadow_map.fov_deg", beside(angles, with(spot, {{"shadow_map.fit", "fixed"}}))},
-        {"shadow_map.roll_deg", {{"-360", "0.5", "360"}, {"361", "-360.01", "\"left\""}, {}}},
-        {"shadow_map.near", beside(planes, {{"shadow_map.far", "auto"}})},
-        {"shadow_map.far", beside(planes, {{"shadow_map.near", "auto"}})},
-        {"shadow_map.cull", {{"\"none\"", "\"front\"", "\"back\""}, {"\"both\"", "false"}, {}}},
-        {"shadow_map.reversed", flags},
-        {"lookup.filter",
-         {{"\"nearest\"", "\"linear\"", "\"hardware\"", "\"pcf3\"", "\"pcf5\"", "\"pcf7\"",
-           "\"pcf9\""},
-          {"\"pcf4\"", "\"pcf11\"", "3"},
-          {}}},
-        {"lookup.outside", {{"\"lit\"", "\"shadowed\"", "\"clamp\""}, {"\"border\"", "1"}, {}}},
-        {"bias.constant", biases("1", "1.0000001")},
-        {"bias.constant_m", biases("1e+15", "1.1e15")},
-        {"bias.slope", biases("1000", "1000.1")},
-        {"bias.normal_texels", biases("1000", "1000.1")}};
-    return cases;
-}
+const std::map<std::string, KeyCases> key_cases{
+    {"scene.builtin", {{"\"wall\"", "\"room\""}, {"\"walls\"", "3", "\"\""}, {}}},
+    {"scene.file", {{"\"a.obj\"", "\"/b c/d.glb\""}, {"\"\"", "7", "\"a\\u0000b\""}, {}}},
+    {"scene.ground", flags},
+    {"scene.no_cast", names},
+    {"scene.no_receive", names},
+    {"camera.eye", vectors},
+    {"camera.target", vectors},
+    {"camera.up", directions},
+    {"camera.vertical_fov_deg", angles},
+    {"camera.orthographic_height", {{"1e-06", "4", "1e+15"}, {"0", "-4", "9e-7", "2e15"}, {}}},
+    {"image.width", beside(sides, {{"image.height", "2"}})},
+    {"image.height", beside(sides, {{"image.width", "2"}})},
+    {"light.type", {{"\"directional\""}, {"\"sun\"", "\"point\"", "1"}, {}}},
+    {"light.direction", directions},
+    {"light.position", beside(vectors, spot)},
+    {"light.target", beside(vectors, spot)},
+    {"light.cone_deg", beside(angles, spot)},
+    {"shadow_map.resolution", sides},
+    {"shadow_map.depth_format",
+     {{"\"d16\"", "\"d24\"", "\"d32\"", "\"d32f\"", "\"u8\"", "\"u13\"", "\"u24\""},
+      {"\"u7\"", "\"u25\"", "\"u08\"", "\"d25\"", "\"D24\"", "24"},
+      {}}},
+    {"shadow_map.fit", {{"\"scene\"", "\"camera\"", "\"fixed\""}, {"\"tight\"", "0"}, {}}},
+    {"shadow_map.half_extent",
+     {{"1e-06", "20", "1e+15"}, {"0", "-1", "2e15"}, {{"shadow_map.fit", "fixed"}}}},
+    {"shadow_map.fov_deg", beside(angles, with(spot, {{"shadow_map.fit", "fixed"}}))},
+    {"shadow_map.roll_deg", {{"-360", "0.5", "360"}, {"361", "-360.01", "\"left\""}, {}}},
+    {"shadow_map.near", beside(planes, {{"shadow_map.far", "auto"}})},
+    {"shadow_map.far", beside(planes, {{"shadow_map.near", "auto"}})},
+    {"shadow_map.cull", {{"\"none\"", "\"front\"", "\"back\""}, {"\"both\"", "false"}, {}}},
+    {"shadow_map.reversed", flags},
+    {"lookup.filter",
+     {{"\"nearest\"", "\"linear\"", "\"hardware\"", "\"pcf3\"", "\"pcf5\"", "\"pcf7\"", "\"pcf9\""},
+      {"\"pcf4\"", "\"pcf11\"", "3"},
+      {}}},
+    {"lookup.outside", {{"\"lit\"", "\"shadowed\"", "\"clamp\""}, {"\"border\"", "1"}, {}}},
+    {"bias.constant", biases("1", "1.0000001")},
+    {"bias.constant_m", biases("1e+15", "1.1e15")},
+    {"bias.slope", biases("1000", "1000.1")},
+    {"bias.normal_texels", biases("1000", "1000.1")}};
 
 bool is_parameter(const std::string& key)
 {
@@ -122,13 +117,13 @@ bool is_parameter(const std::string& key)
 TEST(JobKeys, AreAllCoveredByTheCasesBelow)
 {
     for (const JobKey& key : job_keys()) {
-        EXPECT_TRUE(is_parameter(key.name) || key_cases().contains(key.name)) << key.name;
+        EXPECT_TRUE(is_parameter(key.name) || key_cases.contains(key.name)) << key.name;
     }
 }
 
 TEST(JobKeys, AcceptTheirRangesAndPrintWhatTheyAccepted)
 {
-    for (const auto& [key, cases] : key_cases()) {
+    for (const auto& [key, cases] : key_cases) {
         for (const std::string& value : cases.accepted) {
             SCOPED_TRACE(key + " = " + value);
             const Job job = builtin_job("wall", with(cases.context, {{key, value}})).job;
@@ -139,7 +134,7 @@ TEST(JobKeys, AcceptTheirRangesAndPrintWhatTheyAccepted)
 
 TEST(JobKeys, RefuseWhatIsOutsideNamingKeyValueAndRange)
 {
-    for (const auto& [key, cases] : key_cases()) {
+    for (const auto& [key, cases] : key_cases) {
         for (const std::string& value : [&] { // no key takes these
                  std::vector<std::string> all = cases.refused;
                  all.insert(all.end(), {"nan", "inf", "-inf", "1979-05-27", "[[1]]", "{a = 1}"});

@@ -70,6 +70,17 @@ TEST(Sweep, ExpandsLogarithmicRangesToEqualRatios)
     EXPECT_THAT(sweep.axes[1].values, ElementsAre("256", "512", "1024", "2048", "4096", "8192"));
 }
 
+TEST(Sweep, EndsLogarithmicRangesAtTheVeryNumbersOfTheFile)
+{
+    // In double, 10^log10(0.9) is less than 0.9, and 10^log10(0.003) is not 0.003.
+    const auto values =
+        sweep_of("\"bias.slope\" = {from = 0.003, to = 0.9, count = 5, scale = \"log\"}\n")
+            .axes[0]
+            .values;
+    EXPECT_EQ(values.front(), "0.003");
+    EXPECT_EQ(values.back(), "0.9");
+}
+
 TEST(Sweep, HoldsEveryValueAgainstItsKey)
 {
     EXPECT_EQ(refusal(scene + "\"shadow_map.resolution\" = [512, 0]\n"),
