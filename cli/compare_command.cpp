@@ -13,9 +13,11 @@
 #include "scene/load_scene.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace gnomon::cli {
 namespace {
@@ -45,6 +47,28 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+bool are_same_file(const std::string& a, const std::string& b)
+{
+    std::error_code unreachable; // what cannot be reached cannot be written either: said later
+    return !a.empty() && !b.empty() &&
+           std::filesystem::weakly_canonical(a, unreachable) ==
+               std::filesystem::weakly_canonical(b, unreachable) &&
+           !unreachable;
+}
+
+/// One output would replace the other, or the job.
+void require_distinct_paths(const CompareOptions& options)
+{
+    if (are_same_file(options.aov_path, options.picture_path)) {
+        throw scene::InputError("--aov and --picture name the same file: name two");
+    }
+    for (const std::string& path : {options.aov_path, options.picture_path}) {
+        if (are_same_file(path, options.job.job_path)) {
+            throw scene::InputError(path + ": is both JOB and output: name another output");
+        }
+    }
+}
+
 /// Fails before the work, not after it, where an output cannot be written.
 void require_writable(const CompareOptions& options)
 {
@@ -71,6 +95,7 @@ void write_outputs(const CompareOptions& options, const analysis::Comparison& co
 
 void compare(const CompareOptions& options)
 {
+    require_distinct_paths(options);
     require_writable(options);
     const scene::Job job = read_job(options.job).job;
     require_memory(job);

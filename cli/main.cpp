@@ -1,15 +1,20 @@
 #include "cli/compare_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/doctor_command.hpp"
+#include "cli/process.hpp"
 #include "cli/simple_commands.hpp"
+#include "cli/standard_output.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -36,12 +41,24 @@ void describe(CLI::App& program)
                    "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
                    "  gnomon init job.toml\n\n"
                    "Exit status: 0 done; 2 usage, or a job or scene that is bad, missing or\n"
-                   "unreadable; 4 GL, Embree or output failed.");
+                   "unreadable; 4 GL, Embree or output failed; 130 interrupted.");
     gnomon::cli::add_compare_command(program);
     gnomon::cli::add_scenes_command(program);
     gnomon::cli::add_init_command(program);
     gnomon::cli::add_doctor_command(program);
     gnomon::cli::add_completion_command(program);
+}
+
+/// What a wrong command line lacks or has too much of. Without a known command CLI11 asks for one
+/// and keeps silent about the word that it could not take for one.
+std::string usage_error(const CLI::App& program, const CLI::ParseError& error)
+{
+    const std::vector<std::string> unknown = program.remaining();
+    if (program.get_subcommands().empty() && !unknown.empty()) {
+        const char* const kind = unknown.front().starts_with('-') ? "option" : "command";
+        return fmt::format("unknown {} {}; `gnomon --help` lists them", kind, unknown.front());
+    }
+    return fmt::format("{}; see `gnomon --help`", error.what());
 }
 
 int run(CLI::App& program, int argc, char** argv)
@@ -52,9 +69,12 @@ int run(CLI::App& program, int argc, char** argv)
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
     } catch (const CLI::Success& request) {
-        return program.exit(request); // --help, --version
+        std::ostringstream text; // --help, --version
+        const int code = program.exit(request, text);
+        gnomon::cli::print(text.str());
+        return code;
     } catch (const CLI::ParseError& error) {
-        complain(std::string{error.what()} + "; see `gnomon --help`");
+        complain(usage_error(program, error));
         return bad_input;
     }
 }
@@ -63,6 +83,8 @@ int run(CLI::App& program, int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    gnomon::cli::keep_standard_streams();
+    gnomon::cli::clean_up_on_signals();
     try {
         CLI::App program{"Gnomon measures how accurate GL shadow maps are: every pixel's verdict "
                          "against shadow rays."};

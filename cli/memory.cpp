@@ -4,8 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace gnomon::cli {
@@ -23,9 +28,8 @@ std::uint64_t bytes_per_texel(scene::DepthFormat format)
     return format.kind == scene::DepthFormat::Kind::unorm ? 12 : 4;
 }
 
-} // namespace
-
-std::uint64_t available_memory_bytes()
+/// MemAvailable of the machine [bytes].
+std::optional<std::uint64_t> free_memory_bytes()
 {
     std::ifstream file{"/proc/meminfo"};
     std::string key;
@@ -36,7 +40,30 @@ std::uint64_t available_memory_bytes()
         }
         file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     }
-    return 0;
+    return std::nullopt;
+}
+
+/// What `ulimit -v` leaves [bytes].
+std::optional<std::uint64_t> free_address_space_bytes()
+{
+    rlimit limit{};
+    std::uint64_t used_pages = 0;
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+        !(std::ifstream{"/proc/self/statm"} >> used_pages)) {
+        return std::nullopt;
+    }
+    const std::uint64_t used = used_pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
+}
+
+} // namespace
+
+std::uint64_t available_memory_bytes()
+{
+    constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
+    const std::uint64_t available = std::min(free_memory_bytes().value_or(unknown),
+                                             free_address_space_bytes().value_or(unknown));
+    return available == unknown ? 0 : available;
 }
 
 std::uint64_t needed_memory_bytes(const scene::Job& job)

@@ -93,13 +93,16 @@ using Shader = GlObject<destroy_shader>;
     glCreateSamplers(1, &name);
     return Sampler{name};
 }
-/// An immutable 2D texture of one level.
+/// An immutable 2D texture of one level, sampled at the nearest texel: integer textures with GL's
+/// default filters are incomplete, and then read as 0.
 [[nodiscard]] inline Texture make_texture(GLenum internal_format, int width_texels,
                                           int height_texels)
 {
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
     glTextureStorage2D(name, 1, internal_format, width_texels, height_texels);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return Texture{name};
 }
 

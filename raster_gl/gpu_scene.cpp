@@ -32,16 +32,24 @@ std::vector<scene::Vec4f> unit_normals(const scene::TriangleScene& triangles)
     return normals;
 }
 
-void require_storage_block(std::size_t bytes)
+void require_buffer_texture(std::size_t texels)
 {
-    GLint64 largest = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-    if (bytes > static_cast<std::size_t>(largest)) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+    if (texels > static_cast<std::size_t>(largest)) {
         throw scene::EnvironmentError(
-            fmt::format("the scene's normals take {} bytes, this driver's shader storage blocks "
-                        "hold {}: use a smaller scene or another device",
-                        bytes, largest));
+            fmt::format("the scene has {} triangles, this driver's buffer textures hold {}: use a "
+                        "smaller scene or another device",
+                        texels, largest));
     }
+}
+
+Texture view_of(const Buffer& buffer)
+{
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    glTextureBuffer(name, GL_RGBA32F, buffer.name());
+    return Texture{name};
 }
 
 void draw_range(const scene::TriangleRange& range)
@@ -68,8 +76,9 @@ GpuScene::GpuScene(const Context& context, const scene::TriangleScene& triangles
                                             triangles.triangles.size(), largest_draw));
     }
     const auto normals = unit_normals(triangles);
-    require_storage_block(normals.size() * sizeof normals[0]);
+    require_buffer_texture(normals.size());
     normals_ = upload(normals);
+    normals_view_ = view_of(normals_);
     glVertexArrayVertexBuffer(layout_.name(), 0, vertices_.name(), 0, sizeof(scene::Vec3f));
     glVertexArrayElementBuffer(layout_.name(), indices_.name());
     glEnableVertexArrayAttrib(layout_.name(), 0);
@@ -101,9 +110,9 @@ void GpuScene::draw_vertices() const
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertex_count_));
 }
 
-void GpuScene::bind_normals() const
+void GpuScene::bind_normals(GLuint texture_unit) const
 {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, normals_.name());
+    glBindTextureUnit(texture_unit, normals_view_.name());
 }
 
 } // namespace gnomon::raster_gl

@@ -24,15 +24,16 @@ public:
     void draw_vertices() const;
     [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
 
-    /// Binds the normals as shader storage block 0: vec4 per triangle, double cross product
+    /// Binds the normals as a buffer texture: RGBA32F per triangle, the double cross product
     /// normalised and rounded to float32.
-    void bind_normals() const;
+    void bind_normals(GLuint texture_unit) const;
 
 private:
     VertexArray layout_;
     Buffer vertices_;
     Buffer indices_;
     Buffer normals_;
+    Texture normals_view_;
     std::vector<scene::TriangleRange> casters_;
     std::vector<scene::TriangleRange> receivers_;
     std::size_t vertex_count_ = 0;

@@ -137,7 +137,7 @@ void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
     glViewport(0, 0, size_.width_px, size_.height_px);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
-    scene.bind_normals();
+    scene.bind_normals(5);
     const std::array<GLuint, 3> inputs{receivers.triangle.name(), receivers.light_clip.name(),
                                        receivers.world_position.name()};
     glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());

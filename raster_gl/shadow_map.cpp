@@ -173,7 +173,6 @@ scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& 
     glUseProgram(program.name());
     glBindSampler(0, 0);
     glBindTextureUnit(0, map.depth.name());
-    glTextureParameteri(map.depth.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glBindVertexArray(no_attributes.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     auto depths = read_texture<float>(copy, {resolution, resolution}, GL_RED, GL_FLOAT);

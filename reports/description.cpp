@@ -50,9 +50,9 @@ std::string describe_range(const scene::LightFrustum& frustum, scene::Cull cull)
 std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias& bias)
 {
     const std::string metres =
-        settings.constant_m ? fmt::format(" ({} m)", *settings.constant_m) : std::string{};
-    return fmt::format("constant {}{}, slope {}, normal {} texels", bias.constant, metres,
-                       bias.slope, bias.normal_texels);
+        settings.constant_m ? fmt::format(" ({:.4g} m)", *settings.constant_m) : std::string{};
+    return fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels", bias.constant,
+                       metres, bias.slope, bias.normal_texels);
 }
 
 } // namespace

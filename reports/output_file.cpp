@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -79,6 +80,37 @@ bool is_unsupported(int code)
     return code == EINVAL || code == ENOTSUP || code == EROFS;
 }
 
+std::atomic_flag temporaries_taken;    ///< guards the list, and the files that it names
+OutputFile* first_temporary = nullptr; ///< of the list of those that have a temporary file
+
+void take_temporaries() noexcept
+{
+    while (temporaries_taken.test_and_set(std::memory_order_acquire)) {
+    }
+}
+
+/// Holds the list of temporary files. Signals wait meanwhile, for their handler takes it too.
+class TemporariesGuard {
+public:
+    TemporariesGuard()
+    {
+        sigset_t all;
+        ::sigfillset(&all);
+        ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+        take_temporaries();
+    }
+    TemporariesGuard(const TemporariesGuard&) = delete;
+    TemporariesGuard& operator=(const TemporariesGuard&) = delete;
+    ~TemporariesGuard()
+    {
+        temporaries_taken.clear(std::memory_order_release);
+        ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+
+private:
+    sigset_t before_{};
+};
+
 } // namespace
 
 OutputFile::OutputFile(std::filesystem::path path) : path_{follow_link(path)}
@@ -104,7 +136,9 @@ OutputFile::~OutputFile()
         ::close(descriptor_);
     }
     if (!temporary_.empty()) {
+        const TemporariesGuard guard;
         ::unlink(temporary_.c_str());
+        forget_temporary();
     }
 }
 
@@ -112,6 +146,7 @@ void OutputFile::open_temporary()
 {
     static std::atomic<unsigned> serial{0};
     std::filesystem::path candidate;
+    const TemporariesGuard guard;
     do {
         candidate = folder_of(path_) /
                     fmt::format(".{}.{}-{}.tmp", path_.filename().string(), ::getpid(), serial++);
@@ -122,6 +157,27 @@ void OutputFile::open_temporary()
         fail("open", errno);
     }
     temporary_ = std::move(candidate);
+    next_ = std::exchange(first_temporary, this);
+}
+
+/// Takes this file out of the list; the caller holds it.
+void OutputFile::forget_temporary()
+{
+    OutputFile** link = &first_temporary;
+    while (*link != this) {
+        link = &(*link)->next_;
+    }
+    *link = next_;
+    temporary_.clear();
+}
+
+void OutputFile::rename_temporary()
+{
+    const TemporariesGuard guard;
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
+        fail("rename", errno);
+    }
+    forget_temporary();
 }
 
 void OutputFile::write(std::span<const std::byte> bytes)
@@ -149,10 +205,7 @@ void OutputFile::commit()
     if (temporary_.empty()) {
         return;
     }
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
-        fail("rename", errno);
-    }
-    temporary_.clear();
+    rename_temporary();
     sync_folder();
 }
 
@@ -175,6 +228,14 @@ void OutputFile::fail(std::string_view call, int code) const
     throw scene::EnvironmentError(fmt::format(
         "cannot write {}: {}: {} (errno {}); {}", path_.string(), call,
         std::error_code{code, std::generic_category()}.message(), code, remedy(path_, code)));
+}
+
+void abandon_output_files() noexcept
+{
+    take_temporaries(); // and keeps them: nothing may appear between this and the process's end
+    for (const OutputFile* file = first_temporary; file != nullptr; file = file->next_) {
+        ::unlink(file->temporary_.c_str());
+    }
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes)

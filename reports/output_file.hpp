@@ -13,6 +13,7 @@ namespace gnomon::reports {
 /// over the path. Without `commit` the destructor removes the temporary file, and whatever stood at
 /// the path stays untouched. A device or a pipe (/dev/stdout) cannot be renamed over: it is written
 /// directly. A symbolic link is followed.
+/// A signal handler that ends the process calls `abandon_output_files` first.
 class OutputFile {
 public:
     /// @throws scene::EnvironmentError  if the path is a folder or its folder cannot be written.
@@ -32,12 +33,20 @@ public:
 private:
     void fail(std::string_view call, int code) const;
     void open_temporary();
+    void rename_temporary();
+    void forget_temporary();
     void sync_folder() const;
+    friend void abandon_output_files() noexcept;
 
     std::filesystem::path path_;
     std::filesystem::path temporary_; ///< empty: the path is written directly, or it is committed
     int descriptor_ = -1;
+    OutputFile* next_ = nullptr; ///< of those that have a temporary file
 };
+
+/// Removes the temporary file of every `OutputFile`, and lets none make or rename another: for a
+/// signal handler, in whatever thread, that ends the process next. Async-signal-safe.
+void abandon_output_files() noexcept;
 
 /// Writes the whole file, atomically.
 /// @throws scene::EnvironmentError  as `OutputFile` does.

@@ -118,7 +118,7 @@ public:
                       canvas_.fitted(caption.title, title, layout_.panel.width_px), title);
         int baseline = top_ + layout_.panel.height_px + layout_.line * 9 / 8;
         for (const CaptionLine& line : caption.lines) {
-            line.mark ? write_marked(line, baseline) : write_plain(line, baseline);
+            line.mark ? write_marked(line, *line.mark, baseline) : write_plain(line, baseline);
             baseline += layout_.line;
         }
     }
@@ -131,12 +131,12 @@ private:
                       style);
     }
 
-    void write_marked(const CaptionLine& line, int baseline)
+    void write_marked(const CaptionLine& line, Mark mark, int baseline)
     {
         const TextStyle bold{layout_.font, true, ink};
         const TextStyle plain{layout_.font, false, ink};
         const int side = layout_.font * 4 / 5;
-        canvas_.fill(left_, baseline - side, {side, side}, mark_colour(*line.mark));
+        canvas_.fill(left_, baseline - side, {side, side}, mark_colour(mark));
         const int name_left = left_ + side + layout_.font / 2;
         canvas_.write(name_left, baseline, line.name, plain);
         const int value_right = name_left + canvas_.text_width_px("indeterminate <0.0001 %", bold);
@@ -175,7 +175,7 @@ void write_heading(Canvas& canvas, const PictureLayout& layout,
     };
     write_line(comparison.scene.name, title);
     write_line(pixels, plain);
-    write_line(fmt::format("light {}; {}", words.light, comparison.environment.gnomon), plain);
+    write_line(fmt::format("light {}; gnomon {}", words.light, comparison.environment.gnomon), plain);
 }
 
 /// The panel's size for an image: at most 960 px wide and high, small images by a whole factor.

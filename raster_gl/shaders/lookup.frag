@@ -8,7 +8,7 @@ layout(binding = 1) uniform sampler2D receiver_light_clip;
 layout(binding = 2) uniform sampler2D receiver_world_position;
 layout(binding = 3) uniform sampler2D map;              // nearest, or linear for FILTER_LINEAR
 layout(binding = 4) uniform sampler2DShadow map_compare; // FILTER_HARDWARE
-layout(std430, binding = 0) readonly buffer Normals { vec4 normal[]; }; // unit, by triangle
+layout(binding = 5) uniform samplerBuffer normals;       // unit, by triangle
 
 uniform mat4 light_clip_from_world;
 uniform vec3 light; // SPOT: its position, else the unit vector towards it
@@ -70,7 +70,7 @@ void main()
         return;
     }
     vec4 clip = texelFetch(receiver_light_clip, pixel, 0);
-    vec3 n = normal[triangle].xyz;
+    vec3 n = texelFetch(normals, int(triangle)).xyz;
 #if SPOT
     vec3 to_light = normalize(light - texelFetch(receiver_world_position, pixel, 0).xyz);
     float offset = normal_offset * clip.w;

@@ -1,6 +1,7 @@
 #include "gl_case.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <cmath>
 #include <limits>
@@ -212,6 +213,38 @@ TEST(Lookup, TakesTanThetaFromTheGeometricNormal)
             // The corners' heights are rounded to float32 and the normal's length and components
             // too: a few times 2^-24, amplified by d tan/dθ = 1 + tan².
             ASSERT_NEAR(sample.tan_theta, expected, 1e-6 * (1 + expected * expected)) << angle;
+        }
+    }
+}
+
+TEST(Lookup, TakesEachPixelsOwnNormal)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* scene : {"sphere-plane", "columns"}) { // a spot and a directional light
+        GlCase c{scene, base};
+        c.draw_all();
+        const auto triangles = read_triangles(*tests::shared_context(), *c.receivers);
+        const auto positions = read_world_positions(*tests::shared_context(), *c.receivers);
+        const auto samples = c.lookup_pass.read_samples().samples;
+        for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
+            if (triangles[i] == scene::no_triangle) {
+                ASSERT_EQ(samples[i].receiver_depth, 0.0F) << "background is left alone";
+                continue;
+            }
+            const auto corners = c.file.scene.corners(triangles[i]);
+            const scene::Vec3d a{corners[0]};
+            const scene::Vec3d n =
+                glm::cross(scene::Vec3d{corners[1]} - a, scene::Vec3d{corners[2]} - a);
+            const bool spot = c.view.light.type == scene::LightType::spot;
+            const scene::Vec3d l =
+                spot ? c.view.light.position - scene::Vec3d{positions[i]} : -c.view.light.direction;
+            const double expected = glm::length(glm::cross(n, l)) / std::abs(glm::dot(n, l));
+            // Unit vectors rounded to float32: an angle off by a few times 2^-24, amplified by
+            // d tan/dθ = 1 + tan²; grazing angles are left out.
+            if (expected < 100) {
+                ASSERT_NEAR(samples[i].tan_theta, expected, 2e-6 * (1 + expected * expected))
+                    << scene << " pixel " << i;
+            }
         }
     }
 }

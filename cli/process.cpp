@@ -1,0 +1,51 @@
+#include "cli/process.hpp"
+
+#include "reports/output_file.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <string_view>
+
+namespace gnomon::cli {
+namespace {
+
+extern "C" void end_process(int signal)
+{
+    reports::abandon_output_files();
+    constexpr std::string_view message = "gnomon: interrupted; run it again\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+    ::_exit(128 + signal);
+}
+
+} // namespace
+
+void keep_standard_streams()
+{
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        // The lowest free number is taken, so this is `fd` itself; writing to it fails as before.
+        if (::fcntl(fd, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) < 0) {
+            break; // no /dev/null: the streams stay closed
+        }
+    }
+    struct sigaction ignore {};
+    ignore.sa_handler = SIG_IGN;
+    ::sigaction(SIGPIPE, &ignore, nullptr);
+}
+
+void clean_up_on_signals()
+{
+    struct sigaction action {};
+    action.sa_handler = end_process;
+    ::sigfillset(&action.sa_mask);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        ::sigaction(signal, nullptr, &before);
+        if (before.sa_handler != SIG_IGN) {
+            ::sigaction(signal, &action, nullptr);
+        }
+    }
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace gnomon::cli {
+
+/// Makes file descriptors 0 to 2 exist and a broken pipe an error of the call that writes.
+/// Otherwise, with stdout closed, the first file opened would take its number and receive what is
+/// printed.
+void keep_standard_streams();
+
+/// Ends the process on SIGINT, SIGTERM and SIGHUP with exit status 128 + signal, 130 for SIGINT,
+/// and no temporary file left; a signal that the caller ignores (nohup) stays ignored.
+void clean_up_on_signals();
+
+} // namespace gnomon::cli

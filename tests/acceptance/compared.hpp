@@ -1,0 +1,31 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "cli/renderers.hpp"
+#include "gl_case.hpp"
+#include "reference_rt/truth.hpp"
+#include "scene/job_file.hpp"
+#include "scene/load_scene.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::tests {
+
+/// A scene in both renderers' hands, compared under any number of settings.
+class Compared {
+public:
+    explicit Compared(const scene::Job& job);
+
+    /// Compares under a job that shows the same scene.
+    [[nodiscard]] analysis::Comparison operator()(const scene::Job& job) const;
+    [[nodiscard]] const scene::SceneFile& file() const { return file_; }
+
+private:
+    scene::SceneFile file_;
+    std::unique_ptr<cli::GlRenderer> gl_;
+    reference_rt::ReferenceScene reference_;
+};
+
+} // namespace gnomon::tests

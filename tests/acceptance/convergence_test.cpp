@@ -1,0 +1,38 @@
+#include "compared.hpp"
+
+#include <fmt/format.h>
+
+/// With biases that follow the texel, a finer map is a better map.
+namespace gnomon::tests {
+namespace {
+
+TEST(Columns, ErrorFallsMonotonicallyAsTheMapGrows)
+{
+    GNOMON_REQUIRE_GL();
+    const auto at = [](int resolution, double constant, double slope) {
+        return scene::builtin_job("columns",
+                                  {{"shadow_map.resolution", fmt::format("{}", resolution)},
+                                   {"shadow_map.depth_format", "d32f"},
+                                   {"lookup.filter", "nearest"},
+                                   {"bias.constant", fmt::format("{}", constant)},
+                                   {"bias.slope", fmt::format("{}", slope)}})
+            .job;
+    };
+    const Compared compared{at(256, 0, 0)};
+    double last = 1;
+    for (int resolution = 256; resolution <= 8192; resolution *= 2) {
+        const scene::View view =
+            resolve_view(at(resolution, 0, 0), compared.file().scene, compared.file().defaults);
+        // One texel's width in depth units: half of it, and 0.71 of it times tan θ.
+        const double texel = view.frustum.texel_width_m(1.0, resolution) / view.frustum.range_m();
+        const auto result = compared(at(resolution, 0.5 * texel, 0.71 * texel));
+        const double error_rate = result.metrics.error_rate.value();
+        EXPECT_LT(error_rate, last) << resolution;
+        RecordProperty(fmt::format("error_rate_{}", resolution), fmt::format("{}", error_rate));
+        last = error_rate;
+    }
+    EXPECT_LT(last, 0.005);
+}
+
+} // namespace
+} // namespace gnomon::tests
