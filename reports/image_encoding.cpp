@@ -29,7 +29,7 @@ public:
         require("open", output_->set_ioproxy(&memory_) && output_->open(name, spec));
     }
 
-    void write_rows(int first, int last, OIIO::TypeDesc type, const void* rows)
+    void write_rows(int first, int last, const OIIO::TypeDesc& type, const void* rows)
     {
         require("write_scanlines", output_->write_scanlines(first, last, 0, type, rows));
     }

@@ -76,18 +76,16 @@ template <typename Value>
 template <typename Value, typename Access>
 [[nodiscard]] KeySpec member_key(JobKey key, Domain domain, Access access)
 {
-    return {.key = std::move(key),
-            .domain = std::move(domain),
-            .set =
-                [access](Job& job, const JobValue& value) {
-                    auto& member = access(job);
-                    using Member = std::remove_reference_t<decltype(member)>;
-                    member = static_cast<Member>(std::get<Value>(value));
-                },
-            .get = [access](const Job& job) -> std::optional<JobValue> {
-                return held(static_cast<Value>(access(job)));
-            },
-            .example = {}};
+    KeySpec spec{std::move(key), std::move(domain), {}, {}, {}};
+    spec.set = [access](Job& job, const JobValue& value) {
+        auto& member = access(job);
+        using Member = std::remove_reference_t<decltype(member)>;
+        member = static_cast<Member>(std::get<Value>(value));
+    };
+    spec.get = [access](const Job& job) -> std::optional<JobValue> {
+        return held(static_cast<Value>(access(job)));
+    };
+    return spec;
 }
 
 /// A row for one of a few words that stand for an enumeration's values, which count from 0.
@@ -99,20 +97,18 @@ template <typename Enum, typename Access>
     for (int i = 0; i < word_count; ++i) {
         domain.words.emplace_back(name(static_cast<Enum>(i)));
     }
-    return {.key = std::move(key),
-            .domain = std::move(domain),
-            .set =
-                [access, name](Job& job, const JobValue& value) {
-                    Enum candidate{};
-                    while (name(candidate) != std::get<std::string>(value)) {
-                        candidate = static_cast<Enum>(static_cast<int>(candidate) + 1);
-                    }
-                    access(job) = candidate;
-                },
-            .get = [access, name](const Job& job) -> std::optional<JobValue> {
-                return held(std::string{name(access(job))});
-            },
-            .example = {}};
+    KeySpec spec{std::move(key), std::move(domain), {}, {}, {}};
+    spec.set = [access, name](Job& job, const JobValue& value) {
+        Enum candidate{};
+        while (name(candidate) != std::get<std::string>(value)) {
+            candidate = static_cast<Enum>(static_cast<int>(candidate) + 1);
+        }
+        access(job) = candidate;
+    };
+    spec.get = [access, name](const Job& job) -> std::optional<JobValue> {
+        return held(std::string{name(access(job))});
+    };
+    return spec;
 }
 
 } // namespace gnomon::scene

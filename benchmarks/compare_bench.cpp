@@ -1,0 +1,142 @@
+#include "analysis/comparison.hpp"
+#include "cli/renderers.hpp"
+#include "raster_gl/context.hpp"
+#include "raw_embree.hpp"
+#include "reference_rt/truth.hpp"
+#include "scene/job_file.hpp"
+#include "scene/load_scene.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+/// The whole comparison against the sum of its raw parts, side by side in every iteration: one
+/// shadow pass, one receiver pass, one lookup with its readback, one raw Embree pass.
+namespace gnomon::benchmarks {
+namespace {
+
+double seconds_of(const std::function<void()>& work)
+{
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A scene in both renderers' hands, and what it took to get there.
+struct Subject {
+    scene::Job job;
+    scene::SceneFile file;
+    raster_gl::Context context;
+    std::unique_ptr<cli::GlRenderer> gl;
+    std::unique_ptr<reference_rt::ReferenceScene> reference;
+    double scene_s = 0;
+    double upload_s = 0;
+    double bvh_s = 0;
+
+    Subject(const std::string& builtin, const std::vector<scene::Override>& keys)
+        : job{scene::builtin_job(builtin, keys).job}
+    {
+        scene_s = seconds_of([&] { file = scene::load_scene(job.scene); });
+        upload_s = seconds_of([&] { gl = std::make_unique<cli::GlRenderer>(context, file.scene); });
+        bvh_s = seconds_of(
+            [&] { reference = std::make_unique<reference_rt::ReferenceScene>(file.scene); });
+    }
+    [[nodiscard]] analysis::Comparison compare(reference_rt::TruthMethod method) const
+    {
+        return analysis::compare(
+            job, file, cli::make_renderers(*gl, context.facts(), *reference, {method, 0}));
+    }
+};
+
+/// Sums over iterations; counters show the means.
+struct Sums {
+    double shadow_map = 0;
+    double receivers = 0;
+    double lookup = 0;
+    double embree = 0;
+    double whole = 0;
+
+    [[nodiscard]] double raw() const { return shadow_map + receivers + lookup + embree; }
+};
+
+void measure_once(const Subject& subject, reference_rt::TruthMethod method, RawEmbreePass& raw,
+                  const scene::View& view, Sums& sums)
+{
+    cli::GlRenderer& gl = *subject.gl;
+    sums.shadow_map += seconds_of([&] { gl.draw_shadow_map(subject.job, view); });
+    sums.receivers +=
+        seconds_of([&] { benchmark::DoNotOptimize(gl.draw_receivers(view).triangle.data()); });
+    sums.lookup +=
+        seconds_of([&] { benchmark::DoNotOptimize(gl.look_up(subject.job, view).samples.data()); });
+    sums.embree += seconds_of([&] { benchmark::DoNotOptimize(raw.run()); });
+    sums.whole +=
+        seconds_of([&] { benchmark::DoNotOptimize(subject.compare(method).metrics.false_lit); });
+}
+
+void compare_against_raw_parts(benchmark::State& state, const std::string& builtin,
+                               const std::vector<scene::Override>& keys,
+                               reference_rt::TruthMethod method)
+{
+    const Subject subject{builtin, keys};
+    const analysis::Comparison first = subject.compare(method); // compiles, allocates
+    const auto points =
+        reference_rt::receiver_points(subject.file.scene, first.view, first.receivers.triangle);
+    RawEmbreePass raw{subject.file.scene, first.view, first.truth, points};
+    Sums sums;
+    for (auto _ : state) {
+        const double before = sums.whole;
+        measure_once(subject, method, raw, first.view, sums);
+        state.SetIterationTime(sums.whole - before);
+    }
+    const auto mean_ms = [&](double sum) {
+        return 1000 * sum / static_cast<double>(state.iterations());
+    };
+    state.counters["ratio"] = sums.whole / sums.raw();
+    state.counters["raw_ms"] = mean_ms(sums.raw());
+    state.counters["raw_map_ms"] = mean_ms(sums.shadow_map);
+    state.counters["raw_receivers_ms"] = mean_ms(sums.receivers);
+    state.counters["raw_lookup_ms"] = mean_ms(sums.lookup);
+    state.counters["raw_embree_ms"] = mean_ms(sums.embree);
+    state.counters["rays"] = static_cast<double>(raw.ray_count());
+    state.counters["scene_ms"] = 1000 * subject.scene_s;
+    state.counters["upload_ms"] = 1000 * subject.upload_s;
+    state.counters["bvh_ms"] = 1000 * subject.bvh_s;
+}
+
+const std::vector<scene::Override> full_hd{{"image.width", "1920"},
+                                           {"image.height", "1080"},
+                                           {"shadow_map.resolution", "2048"},
+                                           {"lookup.filter", "nearest"}};
+
+void add(const std::string& builtin, const std::string& method_name,
+         reference_rt::TruthMethod method)
+{
+    benchmark::RegisterBenchmark(("compare/" + builtin + "/1080p/" + method_name).c_str(),
+                                 [builtin, method](benchmark::State& state) {
+                                     compare_against_raw_parts(state, builtin, full_hd, method);
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->MinTime(3.0);
+}
+
+} // namespace
+} // namespace gnomon::benchmarks
+
+int main(int argc, char** argv)
+{
+    using gnomon::reference_rt::TruthMethod;
+    for (const char* builtin : {"sphere-field", "columns"}) {
+        gnomon::benchmarks::add(builtin, "float", TruthMethod::plain);
+        gnomon::benchmarks::add(builtin, "double", TruthMethod::judged);
+    }
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+        return 2;
+    }
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

@@ -1,0 +1,154 @@
+#include "child_process.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+/// Arguments, and what the message must contain.
+struct Mistake {
+    std::vector<std::string> arguments;
+    std::string message;
+};
+
+TEST(CommandLine, RefusesWrongUsage)
+{
+    for (const Mistake& mistake : {
+             Mistake{{}, "subcommand is required"},
+             {{"nonsense"}, "unknown command nonsense"},
+             {{"--nonsense"}, "unknown option --nonsense"},
+             {{"compare", "--nonsense"}, "--nonsense"},
+             {{"compare"}, "give a job file, a scene file, or --builtin NAME"},
+             {{"compare", "job.toml", "--builtin", "wall"}, "exclude each other"},
+             {{"compare", "a.toml", "b.toml"}, "b.toml"},
+             {{"compare", "--builtin"}, "--builtin"},
+             {{"compare", "--builtin", "wall", "--set"}, "--set"},
+             {{"compare", "--builtin", "wall", "--set", "bias.constant"}, "write KEY=VALUE"},
+             {{"compare", "--builtin", "wall", "--set", "=1"}, "write KEY=VALUE"},
+             {{"compare", "--builtin", "wall", "--case", "noon"}, "--case needs a job file"},
+             {{"compare", "--builtin", "wal"}, "the nearest is \"wall\""},
+             {{"compare", "--builtin", "wall", "--truth", "guess"}, "--truth"},
+             {{"compare", "--builtin", "wall", "--threads", "-1"}, "--threads"},
+             {{"compare", "--builtin", "wall", "--threads", "many"}, "--threads"},
+             {{"compare", "--builtin", "wall", "--device", "first"}, "--device"},
+             {{"scenes", "more"}, "more"},
+             {{"completion", "tcsh"}, "tcsh not in {bash,zsh,fish}"},
+         }) {
+        expect_refused(gnomon(mistake.arguments), 2, mistake.message);
+    }
+}
+
+TEST(CommandLine, RefusesWhatItCannotReadAsAJob)
+{
+    const TemporaryFolder folder;
+    const std::string noise{"\xF0\x01\x02\xFF\x00\x7F", 6};
+    const std::string place = folder.path().string();
+    for (const Mistake& mistake : {
+             Mistake{{"compare", place + "/missing.toml"}, "missing.toml"},
+             {{"compare", place + "/missing.glb"}, "missing.glb: there is no such file"},
+             {{"compare", place}, "is a folder"},
+             {{"compare", place + "/a\nb.toml"}, "a b.toml"},
+             {{"compare", folder.write("empty.toml", "")}, "empty.toml: no scene"},
+             {{"compare", folder.write("empty.glb", "")}, "empty.glb: is empty"},
+             {{"compare", folder.write("noise.toml", noise)}, "noise.toml:1:"},
+             {{"compare", folder.write("text.toml", "not toml\n")}, "text.toml:1:"},
+             {{"compare", "/dev/zero"}, "/dev/zero"},
+         }) {
+        expect_refused(gnomon(mistake.arguments), 2, mistake.message);
+    }
+}
+
+/// The settings of the list that a job of `builtin` must not have.
+void expect_settings_refused(const std::string& builtin, const std::vector<std::string>& settings,
+                             const std::string& message)
+{
+    std::vector<std::string> arguments{"compare", "--builtin", builtin};
+    for (const std::string& setting : settings) {
+        arguments.insert(arguments.end(), {"--set", setting});
+    }
+    expect_refused(gnomon(arguments), 2, message);
+}
+
+TEST(JobSettings, RefusesBadNumbers)
+{
+    for (const std::string& value : {"0", "-1", "1000000000", "1e99", "nan", "\"a lot\"", "1024.5",
+                                     "true", "[1024]", "99999999999999999999"}) {
+        expect_settings_refused("wall", {"shadow_map.resolution=" + value},
+                                "shadow_map.resolution");
+    }
+    for (const std::string& value : {"1e-40", "-1e-45", "nan", "inf", "2", "false"}) {
+        expect_settings_refused("sphere-cube", {"bias.constant=" + value}, "bias.constant");
+    }
+}
+
+TEST(JobSettings, RefusesBadRangesOfDepth)
+{
+    expect_settings_refused("sphere-cube", {"shadow_map.near=5", "shadow_map.far=5"},
+                            "must be less than shadow_map.far");
+    expect_settings_refused("yard", {"shadow_map.near=5", "shadow_map.far=2"},
+                            "must be less than shadow_map.far");
+    expect_settings_refused("sphere-cube", {"shadow_map.near=0"}, "must be above 0");
+    expect_settings_refused("sphere-cube", {"shadow_map.near=-1"}, "must be above 0");
+}
+
+TEST(JobSettings, RefusesCamerasAndLightsWithoutADirection)
+{
+    expect_settings_refused("wall", {"camera.eye=[1,2,3]", "camera.target=[1,2,3]"},
+                            "camera.eye equals camera.target");
+    expect_settings_refused(
+        "wall", {"camera.eye=[0,9,0]", "camera.target=[0,0,0]", "camera.up=[0,1,0]"}, "camera.up");
+    expect_settings_refused("sphere-cube", {"light.position=[1,2,3]", "light.target=[1,2,3]"},
+                            "light.position equals light.target");
+    expect_settings_refused("wall", {"light.direction=[0,0,0]"}, "light.direction");
+    expect_settings_refused("wall", {"light.type=point", "light.position=[0,5,0]"}, "point");
+}
+
+TEST(JobSettings, RefusesUnknownKeysAndWrongTypes)
+{
+    expect_settings_refused("wall", {"shadow_map.resolutoin=512"},
+                            "the nearest is shadow_map.resolution");
+    expect_settings_refused("wall", {"scene.wall.thicknes_m=1"},
+                            "the nearest is scene.wall.thickness_m");
+    expect_settings_refused("wall", {"camera.eye=1"}, "camera.eye");
+    expect_settings_refused("wall", {"lookup.filter=3"}, "lookup.filter");
+    expect_settings_refused("wall", {"lookup.filter=blurry"}, "lookup.filter");
+}
+
+TEST(JobSettings, NamesFileAndLineOfAMistake)
+{
+    const TemporaryFolder folder;
+    const auto job =
+        folder.write("job.toml", "[scene]\nbuiltin = \"wall\"\n[shadow_map]\nresolution = 0\n");
+    expect_refused(gnomon({"compare", job}), 2, "job.toml:4");
+}
+
+TEST(JobSettings, RefusesHugeImagesBeforeMemoryIsTaken)
+{
+    const Ending ending = gnomon({"compare", "--builtin", "wall", "--set", "image.width=20000",
+                                  "--set", "image.height=20000"});
+    expect_refused(ending, 2, "image.width");
+    // 20000² verdicts alone would be 1.6 GB; the program with its libraries takes 140 MB.
+    if (!is_sanitized) {
+        EXPECT_LT(ending.peak_memory_bytes, 200U << 20U);
+    }
+}
+
+TEST(JobSettings, RefusesWhatTheMachineHasNoMemoryFor)
+{
+    if (is_sanitized) {
+        GTEST_SKIP() << "AddressSanitizer's shadow memory does not fit the limit";
+    }
+    Start start;
+    start.address_space_bytes = 4ULL << 30U;
+    const Ending ending = gnomon({"compare", "--builtin", "wall", "--set", "image.width=16000",
+                                  "--set", "image.height=8000"},
+                                 start);
+    expect_refused(ending, 2, "are available: make them smaller");
+    EXPECT_LT(ending.peak_memory_bytes, 200U << 20U);
+}
+
+} // namespace
+} // namespace gnomon::testing

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "scene_file_fixture.hpp"
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+
+using scene::testing::TemporaryFolder;
+
+/// How the program is started besides its arguments.
+struct Start {
+    std::vector<std::string> environment;     ///< "NAME=value", added to the test's own
+    std::string stdout_path;                  ///< empty: captured
+    bool closes_stdout = false;               ///< as `>&-` does
+    bool breaks_stdout = false;               ///< a pipe that nobody reads any more
+    std::uint64_t address_space_bytes = 0;    ///< as `ulimit -v` does; 0: no limit
+    std::function<void(pid_t)> while_running; ///< called once the process was started
+};
+
+/// How a process ended.
+struct Ending {
+    std::string command;
+    int exit_code = -1;                 ///< -1 if a signal ended it
+    int signal = 0;                     ///< that signal; SIGKILL if it took longer than a minute
+    std::string out;                    ///< what it wrote to stdout, if captured
+    std::string err;                    ///< what it wrote to stderr
+    double time_s = 0;                  ///< by the clock
+    std::uint64_t peak_memory_bytes = 0; ///< resident, the largest of it and its own children
+};
+
+/// Runs any program, found in PATH, to its end.
+[[nodiscard]] Ending run(const std::vector<std::string>& command, const Start& start = {});
+
+/// Runs gnomon with these arguments.
+[[nodiscard]] Ending gnomon(std::vector<std::string> arguments, const Start& start = {});
+
+/// Arguments that make a comparison small: 160×90 pixels.
+[[nodiscard]] std::vector<std::string> small(std::vector<std::string> arguments);
+
+/// Fails unless the program refused: this exit code, nothing on stdout, and one line on stderr,
+/// "gnomon: …", that contains the text.
+void expect_refused(const Ending& ending, int exit_code, const std::string& text);
+
+/// Fails unless it exited with 0 and kept silent on stderr.
+void expect_done(const Ending& ending);
+
+/// Whether a shell or tool of this name is in PATH.
+[[nodiscard]] bool is_installed(const std::string& name);
+
+/// Whether the long tests were asked for.
+[[nodiscard]] bool runs_full_tests();
+
+/// Models of the four formats in Debian's assimp-testmodels, sorted; empty without the package.
+[[nodiscard]] std::vector<std::filesystem::path> test_models();
+
+inline constexpr const char* test_models_folder = "/usr/share/assimp/models";
+
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool is_sanitized = true; ///< its shadow memory takes terabytes of addresses
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
+} // namespace gnomon::testing
