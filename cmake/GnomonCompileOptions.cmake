@@ -11,12 +11,17 @@ target_compile_options(gnomon_options INTERFACE -ffp-contract=off)
 add_library(gnomon_warnings INTERFACE)
 target_compile_options(gnomon_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wcast-align
+  -Wno-missing-field-initializers # designated initialisers leave the defaults on purpose
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2)
 if(GNOMON_WARNINGS_AS_ERRORS)
   target_compile_options(gnomon_warnings INTERFACE -Werror)
 endif()
 
+# What every program is linked with, tests included.
+add_library(gnomon_program INTERFACE)
+
 if(GNOMON_SANITIZE)
+  target_sources(gnomon_program INTERFACE ${PROJECT_SOURCE_DIR}/tests/house/keep_libraries.cpp)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

@@ -42,7 +42,7 @@ Camera make_camera(const CameraSettings& settings)
 {
     Camera camera;
     camera.projection = settings.projection;
-    camera.eye = Vec3d{Vec3f{settings.eye}};
+    camera.eye = rounded_to_float32(settings.eye);
     const Vec3d view = settings.target - camera.eye;
     if (!(glm::length(view) > 0)) {
         throw InputError("camera.eye equals camera.target: move one of them");

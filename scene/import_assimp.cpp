@@ -189,7 +189,12 @@ void write_instance(const Instance& instance, ImportWriter& writer)
     std::vector<Vec3d> vertices;
     vertices.reserve(instance.mesh->vertices.size());
     for (const Vec3f& vertex : instance.mesh->vertices) {
-        vertices.emplace_back(world * Vec4d{Vec3d{vertex}, 1.0});
+        const Vec3d local{vertex};
+        // A matrix would spread what is not finite over the other coordinates; as it is, the
+        // coordinate that is refused is the file's.
+        const bool is_finite =
+            std::isfinite(local.x) && std::isfinite(local.y) && std::isfinite(local.z);
+        vertices.push_back(is_finite ? Vec3d{world * Vec4d{local, 1.0}} : local);
     }
     std::vector<TriangleIndices> triangles = instance.mesh->triangles;
     if (glm::determinant(glm::dmat3{world}) < 0) {

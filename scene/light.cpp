@@ -10,11 +10,6 @@
 namespace gnomon::scene {
 namespace {
 
-Vec3d rounded(const Vec3d& v)
-{
-    return Vec3d{Vec3f{v}};
-}
-
 bool is_zero(const Vec3d& v)
 {
     return v == Vec3d{0.0};
@@ -27,8 +22,8 @@ Light make_spot(const LightSettings& settings)
     }
     Light light;
     light.type = LightType::spot;
-    light.position = rounded(*settings.position);
-    light.direction = rounded(*settings.target) - light.position;
+    light.position = rounded_to_float32(*settings.position);
+    light.direction = rounded_to_float32(*settings.target) - light.position;
     if (is_zero(light.direction)) {
         throw InputError("light.position equals light.target: move one of them");
     }
@@ -45,9 +40,9 @@ Light make_light(const LightSettings& settings)
     }
     Light light;
     if (settings.direction) {
-        light.direction = rounded(*settings.direction);
+        light.direction = rounded_to_float32(*settings.direction);
     } else if (settings.position && settings.target) {
-        light.direction = rounded(*settings.target - *settings.position);
+        light.direction = rounded_to_float32(*settings.target - *settings.position);
     } else {
         throw InputError("light.type = \"directional\" needs light.direction, or light.position "
                          "and light.target");

@@ -163,7 +163,7 @@ Vec3d camera_position(const LightSettings& settings, const Light& light, const B
     if (light.type == LightType::spot) {
         return light.position;
     }
-    return settings.position ? Vec3d{Vec3f{*settings.position}} : box.centre();
+    return settings.position ? rounded_to_float32(*settings.position) : box.centre();
 }
 
 } // namespace

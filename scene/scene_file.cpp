@@ -89,7 +89,7 @@ std::optional<CameraSettings> camera_settings(const ImportedCamera& camera)
     }
     CameraSettings settings;
     // The exact camera has a float32 eye; rounding it here keeps the view direction as it is.
-    settings.eye = Vec3d{Vec3f{camera.eye}};
+    settings.eye = rounded_to_float32(camera.eye);
     settings.target = settings.eye + glm::normalize(camera.forward);
     settings.up = glm::normalize(camera.up);
     if (camera.vertical_fov_rad > 0 && camera.vertical_fov_rad < glm::radians(180.0)) {
@@ -121,7 +121,7 @@ std::optional<LightSettings> light_settings(const ImportedLight& light)
     }
     settings.type = LightType::spot;
     settings.cone_deg = cone_deg;
-    settings.position = Vec3d{Vec3f{light.position}};
+    settings.position = rounded_to_float32(light.position);
     // The axis is the difference of two float32 points: a near target would round it coarsely.
     const double distance_m = std::max(1.0, glm::length(light.position));
     settings.target = *settings.position + distance_m * direction;

@@ -32,7 +32,7 @@ Vec3f canonical_vertex(const Vec3d& vertex, std::string_view object, std::size_t
 {
     Vec3f result;
     for (int axis = 0; axis < 3; ++axis) {
-        if (!std::isfinite(vertex[axis]) || std::abs(vertex[axis]) > double{max_coordinate_m}) {
+        if (!std::isfinite(vertex[axis]) || std::abs(vertex[axis]) > max_coordinate_m) {
             throw InputError(fmt::format(
                 "object \"{}\", vertex {}: the {} coordinate is {}: coordinates must be finite and "
                 "within ±1e15; repair or scale the mesh",

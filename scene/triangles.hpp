@@ -15,7 +15,7 @@ namespace gnomon::scene {
 /// "No triangle": what a primitive buffer holds where nothing was drawn.
 inline constexpr std::uint32_t no_triangle = 0xFFFFFFFF;
 /// Coordinates beyond this are refused: Embree drops triangles past 1.8e18 in silence.
-inline constexpr float max_coordinate_m = 1e15F;
+inline constexpr double max_coordinate_m = 1e15;
 
 /// Axis-aligned box [m]; empty when `lower.x > upper.x`.
 struct Box {

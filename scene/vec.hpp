@@ -17,4 +17,10 @@ using Vec4d = glm::dvec4;
 using Mat4f = glm::mat4;
 using Mat4d = glm::dmat4;
 
+/// The nearest float32 of each component, as doubles.
+///
+/// Never write `Vec3d{Vec3f{v}}` for this: GCC 12 at -O2 vectorises the two conversions of x and y
+/// and then drops both, so that nothing is rounded.
+[[nodiscard]] Vec3d rounded_to_float32(const Vec3d& v);
+
 } // namespace gnomon::scene

@@ -59,7 +59,7 @@ std::vector<Vec2d> shadow_polygon(const Vec3d& direction)
 {
     std::vector<Vec2d> points;
     for (const Vec3d& corner : scene::Box{box_lower, box_upper}.corners()) {
-        const Vec3d rounded{scene::Vec3f{corner}};
+        const Vec3d rounded = scene::rounded_to_float32(corner);
         const Vec3d on_ground = rounded - rounded.y / direction.y * direction;
         points.emplace_back(on_ground.x, on_ground.z);
     }
