@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <string_view>
@@ -11,8 +12,13 @@
 namespace gnomon::cli {
 namespace {
 
+volatile pid_t owner = 0; ///< the process whose files these are; a fork has the handler too
+
 extern "C" void end_process(int signal)
 {
+    if (::getpid() != owner) {
+        ::_exit(128 + signal);
+    }
     reports::abandon_output_files();
     constexpr std::string_view message = "gnomon: interrupted; run it again\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
@@ -36,6 +42,7 @@ void keep_standard_streams()
 
 void clean_up_on_signals()
 {
+    owner = ::getpid();
     struct sigaction action {};
     action.sa_handler = end_process;
     ::sigfillset(&action.sa_mask);

@@ -12,11 +12,11 @@
 namespace gnomon::raster_gl {
 namespace {
 
-/// epoxy aborts the process when it cannot load libEGL: look first.
+/// epoxy aborts the process when it cannot load libEGL or finds nothing in it: look first.
 void require_libegl()
 {
     static void* const library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-    if (library == nullptr) {
+    if (library == nullptr || dlsym(library, "eglQueryString") == nullptr) {
         throw scene::EnvironmentError(
             fmt::format("EGL: libEGL.so.1 cannot be loaded: {}", driver_remedy));
     }

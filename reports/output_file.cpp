@@ -113,7 +113,7 @@ private:
 
 } // namespace
 
-OutputFile::OutputFile(std::filesystem::path path) : path_{follow_link(path)}
+OutputFile::OutputFile(const std::filesystem::path& path) : path_{follow_link(path)}
 {
     struct stat status {};
     const bool exists = ::stat(path_.c_str(), &status) == 0;

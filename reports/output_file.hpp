@@ -17,7 +17,7 @@ namespace gnomon::reports {
 class OutputFile {
 public:
     /// @throws scene::EnvironmentError  if the path is a folder or its folder cannot be written.
-    explicit OutputFile(std::filesystem::path path);
+    explicit OutputFile(const std::filesystem::path& path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
     ~OutputFile();

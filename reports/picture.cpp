@@ -175,7 +175,8 @@ void write_heading(Canvas& canvas, const PictureLayout& layout,
     };
     write_line(comparison.scene.name, title);
     write_line(pixels, plain);
-    write_line(fmt::format("light {}; gnomon {}", words.light, comparison.environment.gnomon), plain);
+    write_line(fmt::format("light {}; gnomon {}", words.light, comparison.environment.gnomon),
+               plain);
 }
 
 /// The panel's size for an image: at most 960 px wide and high, small images by a whole factor.

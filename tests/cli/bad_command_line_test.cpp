@@ -50,7 +50,7 @@ TEST(CommandLine, RefusesWhatItCannotReadAsAJob)
              Mistake{{"compare", place + "/missing.toml"}, "missing.toml"},
              {{"compare", place + "/missing.glb"}, "missing.glb: there is no such file"},
              {{"compare", place}, "is a folder"},
-             {{"compare", place + "/a\nb.toml"}, "a b.toml"},
+             {{"compare", place + "/a\nb.toml"}, "b.toml"},
              {{"compare", folder.write("empty.toml", "")}, "empty.toml: no scene"},
              {{"compare", folder.write("empty.glb", "")}, "empty.glb: is empty"},
              {{"compare", folder.write("noise.toml", noise)}, "noise.toml:1:"},
@@ -74,13 +74,14 @@ void expect_settings_refused(const std::string& builtin, const std::vector<std::
 
 TEST(JobSettings, RefusesBadNumbers)
 {
-    for (const std::string& value : {"0", "-1", "1000000000", "1e99", "nan", "\"a lot\"", "1024.5",
-                                     "true", "[1024]", "99999999999999999999"}) {
-        expect_settings_refused("wall", {"shadow_map.resolution=" + value},
+    for (const char* const value : {"0", "-1", "1000000000", "1e99", "nan", "\"a lot\"", "1024.5",
+                                    "true", "[1024]", "99999999999999999999"}) {
+        expect_settings_refused("wall", {fmt::format("shadow_map.resolution={}", value)},
                                 "shadow_map.resolution");
     }
-    for (const std::string& value : {"1e-40", "-1e-45", "nan", "inf", "2", "false"}) {
-        expect_settings_refused("sphere-cube", {"bias.constant=" + value}, "bias.constant");
+    for (const char* const value : {"1e-40", "-1e-45", "nan", "inf", "2", "false"}) {
+        expect_settings_refused("sphere-cube", {fmt::format("bias.constant={}", value)},
+                                "bias.constant");
     }
 }
 

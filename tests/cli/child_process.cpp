@@ -43,8 +43,8 @@ public:
         std::string text;
         std::array<char, 65536> buffer{};
         ssize_t got = 0;
-        while ((got = ::pread(fd_, buffer.data(), buffer.size(),
-                              static_cast<off_t>(text.size()))) > 0) {
+        while ((got = ::pread(fd_, buffer.data(), buffer.size(), static_cast<off_t>(text.size()))) >
+               0) {
             text.append(buffer.data(), static_cast<std::size_t>(got));
         }
         return text;

@@ -29,11 +29,11 @@ struct Start {
 /// How a process ended.
 struct Ending {
     std::string command;
-    int exit_code = -1;                 ///< -1 if a signal ended it
-    int signal = 0;                     ///< that signal; SIGKILL if it took longer than a minute
-    std::string out;                    ///< what it wrote to stdout, if captured
-    std::string err;                    ///< what it wrote to stderr
-    double time_s = 0;                  ///< by the clock
+    int exit_code = -1;                  ///< -1 if a signal ended it
+    int signal = 0;                      ///< that signal; SIGKILL if it took longer than a minute
+    std::string out;                     ///< what it wrote to stdout, if captured
+    std::string err;                     ///< what it wrote to stderr
+    double time_s = 0;                   ///< by the clock
     std::uint64_t peak_memory_bytes = 0; ///< resident, the largest of it and its own children
 };
 

@@ -234,16 +234,23 @@ private:
     scene::Image<std::uint32_t> receivers_;
 };
 
-/// Adds the classes that rays in double precision do not meet: a column of each.
+/// Adds the classes that rays in double precision do not meet: a column of each, where the image is
+/// wide enough to hold both.
 scene::TruthLayers with_rare_classes(scene::TruthLayers truth)
 {
-    for (int y = truth.pixel_class.size().height_px / 2; y < truth.pixel_class.size().height_px;
-         y += 3) {
-        truth.pixel_class(2, y) = PixelClass::unmatched;
-        truth.reason(2, y) = scene::ClassReason::snap;
-        truth.pixel_class(4, y) = PixelClass::indeterminate;
-        truth.reason(4, y) = scene::ClassReason::silhouette;
-        truth.witness(2, y) = truth.witness(4, y) = scene::no_triangle;
+    constexpr int unmatched_x = 2;
+    constexpr int indeterminate_x = 4;
+    const scene::ImageSize size = truth.pixel_class.size();
+    if (size.width_px <= indeterminate_x) {
+        return truth;
+    }
+    for (int y = size.height_px / 2; y < size.height_px; y += 3) {
+        truth.pixel_class(unmatched_x, y) = PixelClass::unmatched;
+        truth.reason(unmatched_x, y) = scene::ClassReason::snap;
+        truth.pixel_class(indeterminate_x, y) = PixelClass::indeterminate;
+        truth.reason(indeterminate_x, y) = scene::ClassReason::silhouette;
+        truth.witness(unmatched_x, y) = scene::no_triangle;
+        truth.witness(indeterminate_x, y) = scene::no_triangle;
     }
     return truth;
 }

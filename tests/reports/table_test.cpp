@@ -12,7 +12,6 @@ namespace gnomon::reports {
 namespace {
 
 using scene::ClassReason;
-using scene::PixelClass;
 using testing::HasSubstr;
 
 analysis::Comparison with_counts()

@@ -1,0 +1,208 @@
+#include "child_process.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using std::filesystem::path;
+using Json = nlohmann::json;
+
+const std::vector<std::string> builtins{"sphere-cube",   "sphere-plane", "yard",    "playground",
+                                        "two-distances", "tilted-plane", "wall",    "room",
+                                        "fence",         "terrain",      "columns", "sphere-field"};
+
+Json compare(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), "compare");
+    arguments.emplace_back("--json");
+    const Ending ending = gnomon(arguments);
+    expect_done(ending);
+    return ending.exit_code == 0 ? Json::parse(ending.out) : Json::object();
+}
+
+/// Every class counted, and together every pixel.
+void expect_whole(const Json& result)
+{
+    const Json& pixels = result.at("pixels");
+    std::int64_t sum = 0;
+    for (const char* const name : {"background", "unmatched", "attached", "out_of_light",
+                                   "indeterminate", "lit", "blocked"}) {
+        sum += pixels.at(name).get<std::int64_t>();
+    }
+    const Json& job = result.at("job");
+    EXPECT_EQ(sum, pixels.at("total"));
+    EXPECT_EQ(sum, job.at("image.width").get<std::int64_t>() *
+                       job.at("image.height").get<std::int64_t>());
+}
+
+/// Unmatched pixels among those that show a surface.
+double unmatched_share(const Json& result)
+{
+    const Json& pixels = result.at("pixels");
+    const auto surface =
+        pixels.at("total").get<std::int64_t>() - pixels.at("background").get<std::int64_t>();
+    return pixels.at("unmatched").get<double>() / static_cast<double>(surface);
+}
+
+TEST(Comparison, OfEveryBuiltinSeesTheSameSurfacesTwice)
+{
+    for (const std::string& name : builtins) {
+        SCOPED_TRACE(name);
+        const Json result = compare({"--builtin", name});
+        expect_whole(result);
+        EXPECT_LT(unmatched_share(result), name == "sphere-field" ? 0.03 : 0.01);
+    }
+}
+
+TEST(Comparison, OfScannedMeshesOnGroundCountsEveryPixel)
+{
+    const char* const folder = std::getenv("GNOMON_SHARED_SCENES");
+    if (folder == nullptr) {
+        GTEST_SKIP() << "GNOMON_SHARED_SCENES is not set";
+    }
+    for (const char* const name : {"bunny.obj", "nefertiti.obj", "suzanne.obj"}) {
+        SCOPED_TRACE(name);
+        if (!std::filesystem::exists(path{folder} / name)) {
+            GTEST_SKIP() << name << " is not in GNOMON_SHARED_SCENES";
+        }
+        const Json result = compare({path{folder} / name, "--set", "scene.ground=true", "--set",
+                                     "image.width=640", "--set", "image.height=360"});
+        expect_whole(result);
+        EXPECT_GT(result.at("pixels").at("blocked"), 0);
+    }
+}
+
+TEST(ComparisonJson, HasEveryNameOfTheSchema)
+{
+    const Json result = compare(small({"--builtin", "sphere-cube"}));
+    EXPECT_EQ(result.at("schema"), 1);
+    const std::map<std::string, std::vector<std::string>> groups{
+        {"pixels",
+         {"total", "background", "unmatched", "attached", "out_of_light", "indeterminate", "lit",
+          "blocked"}},
+        {"unmatched_kinds", {"snap", "tie", "mismatch"}},
+        {"indeterminate_kinds", {"silhouette", "vertex", "graze"}},
+        {"causes", {"bias", "precision", "resolution", "coverage"}},
+        {"labels", {"acne", "peter_panning", "leak", "edge", "overshadow"}},
+        {"peter_panning_gap_m", {"median", "p95", "max"}},
+        {"bias_curve",
+         {"best_interval", "best_errors", "acne_free", "panning_free", "allowances",
+          "no_constant_bias_serves"}},
+        {"environment", {"gl_renderer", "gl_version", "embree", "gnomon"}},
+        {"seconds", {"scene", "bvh", "receivers", "shadow_map", "lookup", "truth", "analysis"}}};
+    for (const auto& [group, names] : groups) {
+        ASSERT_TRUE(result.contains(group)) << group;
+        for (const std::string& name : names) {
+            // A group that was not computed is null as a whole.
+            EXPECT_TRUE(result[group].is_null() || result[group].contains(name)) << group << name;
+        }
+    }
+    for (const char* const name : {"false_shadow", "false_lit", "false_shadow_rate",
+                                   "false_lit_rate", "error_rate", "mean_abs_error"}) {
+        EXPECT_TRUE(result.at(name).is_number()) << name;
+    }
+}
+
+TEST(ComparisonJson, LeavesRatesWithoutADenominatorEmpty)
+{
+    // Everything in the closed room is blocked: nothing lit can be shadowed by mistake.
+    const Json result = compare(small({"--builtin", "room"}));
+    EXPECT_EQ(result.at("pixels").at("lit"), 0);
+    EXPECT_TRUE(result.at("false_shadow_rate").is_null());
+    EXPECT_TRUE(result.at("false_lit_rate").is_number());
+}
+
+/// An EXR file: its channels' bytes, and its attributes as text.
+struct Layers {
+    std::map<std::string, std::vector<std::uint32_t>> channels;
+    std::map<std::string, std::string> attributes;
+};
+
+Layers read_layers(const path& file)
+{
+    Layers layers;
+    const auto input = OIIO::ImageInput::open(file.string());
+    if (input == nullptr) {
+        ADD_FAILURE() << OIIO::geterror();
+        return layers;
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    for (int c = 0; c < spec.nchannels; ++c) {
+        auto& values = layers.channels[spec.channel_name(c)];
+        values.resize(spec.image_pixels());
+        // In the channel's own type, 4 bytes each.
+        EXPECT_TRUE(input->read_image(0, 0, c, c + 1, spec.channelformat(c), values.data()));
+    }
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        layers.attributes[attribute.name().string()] = attribute.get_string();
+    }
+    return layers;
+}
+
+struct Result {
+    Json json;
+    Layers layers;
+};
+
+Result compare_with_layers(std::vector<std::string> arguments)
+{
+    const TemporaryFolder folder;
+    const path aov = folder.path() / "a.exr";
+    arguments.insert(arguments.end(), {"--aov", aov});
+    Result result;
+    result.json = compare(arguments);
+    result.layers = read_layers(aov);
+    result.json.erase("seconds");
+    result.layers.channels.erase("witness"); // any certified triangle may serve as one
+    return result;
+}
+
+TEST(Determinism, TheSameJobGivesTheSameBytesOnAnyNumberOfThreads)
+{
+    for (const char* const builtin : {"columns", "sphere-cube"}) {
+        SCOPED_TRACE(builtin);
+        const std::vector<std::string> arguments{"--builtin",       builtin, "--set",
+                                                 "image.width=480", "--set", "image.height=270"};
+        const Result first = compare_with_layers(arguments);
+        ASSERT_GE(first.layers.channels.size(), 9U);
+        for (const char* const threads : {"0", "1", "2"}) {
+            std::vector<std::string> again = arguments;
+            again.insert(again.end(), {"--threads", threads});
+            const Result second = compare_with_layers(again);
+            EXPECT_EQ(first.json, second.json) << threads;
+            EXPECT_EQ(first.layers.attributes, second.layers.attributes) << threads;
+            for (const auto& [name, values] : first.layers.channels) {
+                EXPECT_TRUE(values == second.layers.channels.at(name)) << name << ", " << threads;
+            }
+        }
+    }
+}
+
+TEST(Truth, DoesNotDependOnTheShadowMap)
+{
+    for (const char* const builtin : {"yard", "sphere-cube"}) {
+        const std::vector<std::string> arguments = small({"--builtin", builtin});
+        const Result base = compare_with_layers(arguments);
+        const auto& truth = base.layers.channels.at("truth");
+        for (const char* const setting :
+             {"shadow_map.resolution=333", "shadow_map.depth_format=d16", "bias.constant=0.01",
+              "lookup.filter=pcf5", "shadow_map.fit=camera", "shadow_map.roll_deg=30",
+              "shadow_map.cull=front", "bias.normal_texels=2"}) {
+            std::vector<std::string> changed = arguments;
+            changed.insert(changed.end(), {"--set", setting});
+            const Result other = compare_with_layers(changed);
+            EXPECT_TRUE(truth == other.layers.channels.at("truth")) << builtin << ", " << setting;
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::testing

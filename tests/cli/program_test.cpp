@@ -1,0 +1,227 @@
+#include "child_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace gnomon::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using Json = nlohmann::json;
+
+std::string text_of(const std::filesystem::path& path)
+{
+    std::ifstream stream{path, std::ios::binary};
+    return {std::istreambuf_iterator<char>{stream}, {}};
+}
+
+TEST(Program, AnswersHelpAndVersion)
+{
+    for (const char* const command : {"compare", "scenes", "init", "doctor", "completion"}) {
+        const Ending ending = gnomon({command, "--help"});
+        expect_done(ending);
+        EXPECT_THAT(ending.out, HasSubstr("Usage: gnomon " + std::string{command}));
+    }
+    const Ending help = gnomon({"--help"});
+    expect_done(help);
+    EXPECT_THAT(help.out, HasSubstr("Examples:"));
+    const Ending version = gnomon({"--version"});
+    expect_done(version);
+    EXPECT_THAT(version.out, ::testing::MatchesRegex("gnomon [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(Init, WritesAJobThatCompares)
+{
+    const TemporaryFolder folder;
+    const std::string job = folder.path() / "job.toml";
+    expect_done(gnomon({"init", job}));
+    EXPECT_EQ(gnomon({"init"}).out, text_of(job));
+    const Ending ending = gnomon(small({"compare", job}));
+    expect_done(ending);
+    EXPECT_THAT(ending.out, HasSubstr("sphere-cube"));
+}
+
+TEST(Init, KeepsAFileThatExists)
+{
+    const TemporaryFolder folder;
+    const std::string job = folder.write("job.toml", "mine");
+    expect_refused(gnomon({"init", job}), 2, "pass --force to replace it");
+    EXPECT_EQ(text_of(job), "mine");
+    expect_done(gnomon({"init", "--force", job}));
+    EXPECT_NE(text_of(job), "mine");
+}
+
+/// A default that is inside the range, or one of the words.
+void expect_sound_parameter(const Json& parameter)
+{
+    EXPECT_NE(parameter.at("name"), "");
+    EXPECT_NE(parameter.at("description"), "");
+    EXPECT_TRUE(parameter.at("unit").is_string());
+    const Json& value = parameter.at("default");
+    if (parameter.at("type") == "word") {
+        const Json& words = parameter.at("words");
+        EXPECT_NE(std::find(words.begin(), words.end(), value), words.end());
+        return;
+    }
+    const Json& range = parameter.at("range");
+    ASSERT_EQ(range.size(), 2U);
+    EXPECT_LE(range[0].get<double>(), value.get<double>());
+    EXPECT_GE(range[1].get<double>(), value.get<double>());
+}
+
+TEST(Scenes, ListsEveryBuiltinWithItsParameters)
+{
+    const Ending ending = gnomon({"scenes", "--json"});
+    expect_done(ending);
+    std::set<std::string> names;
+    for (const Json& builtin : Json::parse(ending.out)) {
+        SCOPED_TRACE(builtin.at("name"));
+        names.insert(builtin.at("name"));
+        for (const Json& parameter : builtin.at("parameters")) {
+            SCOPED_TRACE(parameter.at("name"));
+            expect_sound_parameter(parameter);
+        }
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"sphere-cube", "sphere-plane", "yard", "playground",
+                                            "two-distances", "tilted-plane", "wall", "room",
+                                            "fence", "terrain", "columns", "sphere-field"}));
+    const std::string table = gnomon({"scenes"}).out;
+    for (const std::string& name : names) {
+        EXPECT_THAT(table, HasSubstr(name));
+    }
+}
+
+TEST(Doctor, NamesWhatItFinds)
+{
+    const Ending ending = gnomon({"doctor", "--json"});
+    expect_done(ending);
+    const Json found = Json::parse(ending.out);
+    EXPECT_NE(found.at("gl").at("renderer"), "");
+    EXPECT_GE(found.at("gl").at("subpixel_bits"), 4); // the least that OpenGL allows
+    EXPECT_FALSE(found.at("devices").empty());
+    EXPECT_TRUE(found.at("depth_formats").contains("d24"));
+    EXPECT_THAT(found.at("embree").get<std::string>(), HasSubstr("Embree"));
+    EXPECT_GT(found.at("available_memory_bytes"), 0);
+    EXPECT_TRUE(found.at("problems").empty());
+    const Ending text = gnomon({"doctor"});
+    expect_done(text);
+    EXPECT_THAT(text.out, HasSubstr(found.at("gl").at("renderer").get<std::string>()));
+}
+
+/// Ways to a machine on which EGL gives no context.
+std::vector<std::string> machines_without_egl()
+{
+    return {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent", "__EGL_VENDOR_LIBRARY_DIRS=/nonexistent",
+            "LIBGL_DRIVERS_PATH=/nonexistent"};
+}
+
+TEST(WithoutEgl, CompareSaysWhatToInstall)
+{
+    for (const std::string& machine : machines_without_egl()) {
+        Start start;
+        start.environment = {machine};
+        expect_refused(gnomon(small({"compare", "--builtin", "wall"}), start), 4,
+                       "apt-get install");
+    }
+}
+
+TEST(WithoutEgl, CompareSurvivesALibraryThatCannotBeLoaded)
+{
+    const TemporaryFolder folder;
+    folder.write("libEGL.so.1", "this is no library");
+    Start start;
+    start.environment = {"LD_LIBRARY_PATH=" + folder.path().string()};
+    expect_refused(gnomon(small({"compare", "--builtin", "wall"}), start), 4, "libEGL.so.1");
+}
+
+TEST(WithoutEgl, DoctorSaysWhatIsMissing)
+{
+    for (const std::string& machine : machines_without_egl()) {
+        Start start;
+        start.environment = {machine};
+        const Ending ending = gnomon({"doctor", "--json"}, start);
+        EXPECT_EQ(ending.exit_code, 4) << machine;
+        const Json found = Json::parse(ending.out);
+        EXPECT_TRUE(found.at("gl").is_null());
+        ASSERT_EQ(found.at("problems").size(), 1U);
+        EXPECT_THAT(found.at("problems")[0].get<std::string>(), HasSubstr("apt-get install"));
+    }
+}
+
+TEST(WithoutEgl, AnUnknownDeviceIsRefused)
+{
+    for (const char* const device : {"99", "-1"}) {
+        expect_refused(gnomon(small({"compare", "--builtin", "wall", "--device", device})), 4,
+                       "--device");
+    }
+}
+
+/// What bash offers after these words, the last of which is being typed.
+std::set<std::string> completions(const std::string& script_path, const std::string& words)
+{
+    const Ending ending =
+        run({"bash", "-c",
+             fmt::format("source {}; COMP_WORDS=({}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); "
+                         "_gnomon 2>/dev/null; printf '%s\\n' \"${{COMPREPLY[@]}}\"",
+                         script_path, words)});
+    std::istringstream lines{ending.out};
+    return {std::istream_iterator<std::string>{lines}, {}};
+}
+
+TEST(Completion, OffersCommandsOptionsAndNamesInBash)
+{
+    if (!is_installed("bash")) {
+        GTEST_SKIP() << "bash is not installed";
+    }
+    const TemporaryFolder folder;
+    const Ending ending = gnomon({"completion", "bash"});
+    expect_done(ending);
+    const std::string script = folder.write("gnomon.bash", ending.out);
+    expect_done(run({"bash", "-n", script}));
+    using Words = std::set<std::string>;
+    EXPECT_EQ(completions(script, "gnomon comp"), (Words{"compare", "completion"}));
+    EXPECT_THAT(completions(script, "gnomon ''"),
+                IsSupersetOf({"compare", "doctor", "init", "scenes", "completion"}));
+    EXPECT_EQ(completions(script, "gnomon compare --builtin sphere-"),
+              (Words{"sphere-cube", "sphere-field", "sphere-plane"}));
+    EXPECT_THAT(completions(script, "gnomon compare --"),
+                IsSupersetOf({"--aov", "--json", "--picture", "--set"}));
+    EXPECT_THAT(completions(script, "gnomon compare --set shadow_map.r"),
+                IsSupersetOf({"shadow_map.resolution=", "shadow_map.reversed="}));
+    EXPECT_EQ(completions(script, "gnomon completion ''"), (Words{"bash", "fish", "zsh"}));
+}
+
+/// The shell itself must accept its script.
+void expect_script_parses(const std::string& shell)
+{
+    const Ending ending = gnomon({"completion", shell});
+    expect_done(ending);
+    EXPECT_THAT(ending.out, HasSubstr("gnomon"));
+    if (!is_installed(shell)) {
+        GTEST_SKIP() << shell << " is not installed";
+    }
+    const TemporaryFolder folder;
+    expect_done(run({shell, "-n", folder.write("script", ending.out)}));
+}
+
+TEST(Completion, ParsesInZsh)
+{
+    expect_script_parses("zsh");
+}
+
+TEST(Completion, ParsesInFish)
+{
+    expect_script_parses("fish");
+}
+
+} // namespace
+} // namespace gnomon::testing
