@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace gnomon::analysis {
 
@@ -55,7 +56,7 @@ struct Renderers {
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
 
     Environment environment;
-    std::string truth_method; ///< the name of the method behind `find_truth`, e.g. "judged"
+    std::string truth_method; ///< the name of the method behind `find_truth`, e.g. "exact"
     int subpixel_bits = 8;    ///< of the rasteriser behind `draw_receivers`
 };
 
@@ -70,6 +71,7 @@ struct Comparison {
     scene::LookupLayers lookup;
     scene::TruthLayers truth;
     Metrics metrics;
+    std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
 
     std::string truth_method;
     int subpixel_bits = 8;

@@ -131,7 +131,7 @@ int main(int argc, char** argv)
     using gnomon::reference_rt::TruthMethod;
     for (const char* builtin : {"sphere-field", "columns"}) {
         gnomon::benchmarks::add(builtin, "float", TruthMethod::plain);
-        gnomon::benchmarks::add(builtin, "double", TruthMethod::judged);
+        gnomon::benchmarks::add(builtin, "exact", TruthMethod::exact);
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

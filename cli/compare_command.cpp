@@ -12,6 +12,8 @@
 #include "scene/error.hpp"
 #include "scene/load_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -27,7 +29,8 @@ struct CompareOptions {
     bool json = false;
     std::string aov_path;
     std::string picture_path;
-    std::string truth = "double";
+    std::string truth = "exact";
+    bool audit = false;
     std::optional<int> device;
     int threads = 0;
 };
@@ -93,9 +96,25 @@ void write_outputs(const CompareOptions& options, const analysis::Comparison& co
                        : reports::comparison_table(comparison));
 }
 
+/// @throws scene::EnvironmentError  if GL saw what neither snapping nor depth resolution explains.
+void require_no_mismatch(const analysis::Comparison& comparison)
+{
+    const auto count = comparison.metrics.pixels.of(scene::ClassReason::mismatch);
+    if (count > 0) {
+        throw scene::EnvironmentError{fmt::format(
+            "{} pixels mismatch: GL's triangle is neither a first hit nor explained by snapping or "
+            "depth resolution; report it with the job and the output of `gnomon doctor`",
+            count)};
+    }
+}
+
 void compare(const CompareOptions& options)
 {
     require_distinct_paths(options);
+    if (options.audit && options.truth != "exact") {
+        throw scene::InputError{
+            "--audit needs --truth exact: it counts where float methods differ"};
+    }
     require_writable(options);
     const scene::Job job = read_job(options.job).job;
     require_memory(job);
@@ -105,17 +124,24 @@ void compare(const CompareOptions& options)
     const raster_gl::Context context{options.device};
     GlRenderer gl{context, file.scene};
     watch.lap_s();
-    const reference_rt::TruthOptions truth{options.truth == "float"
-                                               ? reference_rt::TruthMethod::plain
-                                               : reference_rt::TruthMethod::judged,
+    const bool is_exact = options.truth == "exact";
+    const reference_rt::TruthOptions truth{is_exact ? reference_rt::TruthMethod::exact
+                                                    : reference_rt::TruthMethod::plain,
                                            options.threads};
-    const reference_rt::ReferenceScene reference{file.scene, options.threads};
+    const reference_rt::ReferenceScene reference{
+        file.scene, {options.threads, is_exact, !is_exact || options.audit}};
     const double bvh_s = watch.lap_s();
     analysis::Comparison comparison =
         analysis::compare(job, file, make_renderers(gl, context.facts(), reference, truth));
     comparison.seconds.scene += scene_s;
     comparison.seconds.bvh = bvh_s;
+    if (options.audit) {
+        comparison.float_audit = reference_rt::audit_float_methods(
+            reference, comparison.view, comparison.receivers.triangle, comparison.truth,
+            options.threads);
+    }
     write_outputs(options, comparison);
+    require_no_mismatch(comparison);
 }
 
 } // namespace
@@ -133,10 +159,12 @@ void add_compare_command(CLI::App& program)
                         "Write a labelled picture: GL's shadows, the true ones, the errors (PNG)");
     command
         ->add_option("--truth", options->truth,
-                     "double: proposals of Embree judged in double; float: plain Embree rays, for "
-                     "comparing speed")
-        ->check(CLI::IsMember({"double", "float"}))
+                     "exact: every scored pixel is proven; float: plain Embree rays, for comparing "
+                     "speed")
+        ->check(CLI::IsMember({"exact", "float"}))
         ->capture_default_str();
+    command->add_flag("--audit", options->audit,
+                      "Count the pixels that each usual float method for shadow rays gets wrong");
     command->add_option(
         "--device", options->device,
         "EGL device, as `gnomon doctor` numbers them; default: the first that works");

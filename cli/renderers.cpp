@@ -1,5 +1,7 @@
 #include "cli/renderers.hpp"
 
+#include "raster_gl/clip_positions.hpp"
+
 #include <stdexcept>
 
 namespace gnomon::cli {
@@ -18,6 +20,13 @@ scene::ReceiverLayers GlRenderer::draw_receivers(const scene::View& view)
 {
     receivers_ = &receiver_pass_.render(scene_, view, box_);
     return {raster_gl::read_triangles(context_, *receivers_)};
+}
+
+std::vector<scene::Vec4f> GlRenderer::receiver_clip_positions(const scene::View& view) const
+{
+    return raster_gl::capture_clip_positions(
+        context_, scene_,
+        scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box_)});
 }
 
 void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
@@ -46,13 +55,13 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     renderers.look_up = [&gl](const scene::Job& job, const scene::View& view) {
         return gl.look_up(job, view);
     };
-    const reference_rt::RasterFacts raster{facts.subpixel_bits};
-    renderers.find_truth = [&reference, raster, options](const scene::View& view,
-                                                         const scene::ReceiverLayers& receivers) {
+    renderers.find_truth = [&gl, &reference, subpixel_bits = facts.subpixel_bits, options](
+                               const scene::View& view, const scene::ReceiverLayers& receivers) {
+        const reference_rt::RasterFacts raster{subpixel_bits, gl.receiver_clip_positions(view)};
         return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
     };
     const bool is_float = options.method == reference_rt::TruthMethod::plain;
-    renderers.truth_method = is_float ? "float" : "double";
+    renderers.truth_method = is_float ? "float" : "exact";
     renderers.subpixel_bits = facts.subpixel_bits;
     renderers.environment = {facts.renderer, facts.version, reference_rt::embree_version(),
                              GNOMON_VERSION};

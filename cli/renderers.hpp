@@ -8,6 +8,8 @@
 #include "raster_gl/shadow_map.hpp"
 #include "reference_rt/truth.hpp"
 
+#include <vector>
+
 namespace gnomon::cli {
 
 /// GL's passes over one scene, with the textures that they keep from call to call.
@@ -17,6 +19,8 @@ public:
     GlRenderer(const raster_gl::Context& context, const scene::TriangleScene& triangles);
 
     [[nodiscard]] scene::ReceiverLayers draw_receivers(const scene::View& view);
+    /// The clip positions that GL gave the vertices when it drew the receivers.
+    [[nodiscard]] std::vector<scene::Vec4f> receiver_clip_positions(const scene::View& view) const;
     void draw_shadow_map(const scene::Job& job, const scene::View& view);
     /// Looks the last receivers up in the last shadow map.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);

@@ -38,11 +38,11 @@ enum class Coherence : std::uint8_t { incoherent, coherent };
 /// How rays are traced: their coherence, and who judges each hit that Embree proposes.
 struct Query {
     /// @param filter   called for each proposed hit, or null. It must not throw.
-    /// @param payload  what `payload_of` hands to the filter; not owned.
+    /// @param payload  what `payload_of` hands to callbacks; not owned.
     explicit Query(Coherence coherence, RTCFilterFunctionN filter = nullptr,
                    void* payload = nullptr);
 
-    QueryContext context{}; ///< first, so that a filter finds the query behind it
+    QueryContext context{}; ///< first, so that a callback finds the query behind it
     void* payload = nullptr;
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments intersect{};
@@ -50,9 +50,9 @@ struct Query {
 #endif
 };
 
-/// The payload of the query whose filter was called.
-template <typename Payload>
-[[nodiscard]] Payload& payload_of(const RTCFilterFunctionNArguments& arguments)
+/// The payload of the query in which a callback was called.
+template <typename Payload, typename Arguments>
+[[nodiscard]] Payload& payload_of(const Arguments& arguments)
 {
     return *static_cast<Payload*>(reinterpret_cast<const Query*>(arguments.context)->payload);
 }

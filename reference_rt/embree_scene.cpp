@@ -3,15 +3,17 @@
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace gnomon::reference_rt {
 
 using scene::TriangleScene;
+using scene::Vec3d;
+using scene::Vec3f;
 
 void EmbreeErrors::record(void* self, RTCError code, const char* message) noexcept
 {
@@ -55,15 +57,6 @@ embree::Device make_device(int threads, EmbreeErrors& errors)
     return device;
 }
 
-double largest_coordinate(const scene::Box& box)
-{
-    double largest = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        largest = std::max({largest, std::abs(box.lower[axis]), std::abs(box.upper[axis])});
-    }
-    return largest;
-}
-
 /// The triangles of each pair of roles, by mask.
 std::array<std::vector<std::uint32_t>, 4> triangles_by_mask(const TriangleScene& scene)
 {
@@ -78,54 +71,166 @@ std::array<std::vector<std::uint32_t>, 4> triangles_by_mask(const TriangleScene&
     return members;
 }
 
+/// A padded box of a triangle, for Embree.
+void bound_triangle(const RTCBoundsFunctionArguments* arguments) noexcept
+{
+    const auto& role =
+        *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
+    const auto& owner = *role.owner;
+    const Corners corners = corners_of(owner.triangles, role.members[arguments->primID]);
+    const Vec3d a = owner.frame.from_world(corners[0]);
+    const Vec3d b = owner.frame.from_world(corners[1]);
+    const Vec3d c = owner.frame.from_world(corners[2]);
+    const Vec3f lower{glm::min(a, glm::min(b, c)) - Vec3d{box_padding}};
+    const Vec3f upper{glm::max(a, glm::max(b, c)) + Vec3d{box_padding}};
+    RTCBounds& box = *arguments->bounds_o;
+    box.lower_x = lower.x;
+    box.lower_y = lower.y;
+    box.lower_z = lower.z;
+    box.upper_x = upper.x;
+    box.upper_y = upper.y;
+    box.upper_z = upper.z;
+}
+
+void judge_packet(const RTCOccludedFunctionNArguments* arguments) noexcept
+{
+    auto& judge = embree::payload_of<CandidateJudge>(*arguments);
+    const auto& role =
+        *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
+    const unsigned n = arguments->N;
+    LaneBits asking = 0;
+    for (unsigned i = 0; i < n; ++i) {
+        asking |= arguments->valid[i] != 0 ? LaneBits{1} << RTCRayN_id(arguments->ray, n, i) : 0;
+    }
+    try {
+        const LaneBits settled = judge.judge_packet(role.members[arguments->primID], asking);
+        if (settled == 0) {
+            return;
+        }
+        for (unsigned i = 0; i < n; ++i) {
+            if ((settled >> RTCRayN_id(arguments->ray, n, i) & 1U) != 0) {
+                RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
+            }
+        }
+    } catch (...) {
+        judge.failure = std::current_exception();
+    }
+}
+
+void judge_ray(const RTCIntersectFunctionNArguments* arguments) noexcept
+{
+    auto& judge = embree::payload_of<CandidateJudge>(*arguments);
+    const auto& role =
+        *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
+    if (arguments->valid[0] == 0) {
+        return;
+    }
+    RTCRayN* ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
+    float& t_far = RTCRayN_tfar(ray, arguments->N, 0);
+    try {
+        t_far = judge.judge_ray(role.members[arguments->primID], t_far);
+    } catch (...) {
+        judge.failure = std::current_exception();
+    }
+}
+
+void rethrow_failure(const CandidateJudge& judge)
+{
+    if (judge.failure) {
+        std::rethrow_exception(judge.failure);
+    }
+}
+
 } // namespace
 
-ReferenceScene::Implementation::Implementation(const TriangleScene& scene_in, int threads)
+ReferenceScene::Implementation::Implementation(const TriangleScene& scene_in,
+                                               const ReferenceOptions& options)
     : triangles{scene_in},
       bounds{scene_in.bounds()},
-      largest_coordinate_m{largest_coordinate(bounds)},
-      device{make_device(threads, errors)},
-      scene{rtcNewScene(device.get())}
+      frame{bounds},
+      device{make_device(options.threads, errors)}
 {
-    errors.check("rtcNewScene");
     // Embree reads 16 bytes at each 12-byte vertex: the last one needs readable bytes behind it.
     triangles.vertices.reserve(triangles.vertices.size() + 1);
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST | embree::filtering_scene);
-    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
     auto members = triangles_by_mask(triangles);
     for (unsigned mask = 1; mask < members.size(); ++mask) {
         if (!members[mask].empty()) {
-            add_geometry(mask, std::move(members[mask]));
+            roles.push_back({this, mask, std::move(members[mask])});
         }
+    }
+    if (options.serves_plain_rays) {
+        native = build(&Implementation::fill_native, RTC_GEOMETRY_TYPE_TRIANGLE);
+    }
+    if (options.serves_exact_truth) {
+        padded = build(&Implementation::fill_padded, RTC_GEOMETRY_TYPE_USER);
+    }
+}
+
+embree::Scene ReferenceScene::Implementation::build(void (Implementation::*fill)(RTCGeometry,
+                                                                                 const Role&),
+                                                    RTCGeometryType type)
+{
+    embree::Scene scene{rtcNewScene(device.get())};
+    errors.check("rtcNewScene");
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST | embree::filtering_scene);
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+    for (unsigned id = 0; id < roles.size(); ++id) {
+        const embree::Geometry geometry{rtcNewGeometry(device.get(), type)};
+        errors.check("rtcNewGeometry");
+        (this->*fill)(geometry.get(), roles[id]);
+        rtcSetGeometryMask(geometry.get(), roles[id].mask);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(scene.get(), geometry.get(), id);
+        errors.check("rtcAttachGeometryByID");
     }
     rtcCommitScene(scene.get());
     errors.check("rtcCommitScene");
+    return scene;
 }
 
-void ReferenceScene::Implementation::add_geometry(unsigned mask, std::vector<std::uint32_t> members)
+void ReferenceScene::Implementation::fill_native(RTCGeometry geometry, const Role& role)
 {
-    const embree::Geometry geometry{rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE)};
-    errors.check("rtcNewGeometry");
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               triangles.vertices.data(), 0, sizeof(scene::Vec3f),
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               triangles.vertices.data(), 0, sizeof(Vec3f),
                                triangles.vertices.size());
     constexpr std::size_t bytes_per_triangle = sizeof(triangles.triangles[0]);
     auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                bytes_per_triangle, members.size()));
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                bytes_per_triangle, role.members.size()));
     errors.check("rtcSetNewGeometryBuffer");
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        std::memcpy(indices + 3 * i, triangles.triangles[members[i]].data(), bytes_per_triangle);
+    for (std::size_t i = 0; i < role.members.size(); ++i) {
+        std::memcpy(indices + 3 * i, triangles.triangles[role.members[i]].data(),
+                    bytes_per_triangle);
     }
-    rtcSetGeometryMask(geometry.get(), mask);
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometryByID(scene.get(), geometry.get(), static_cast<unsigned>(triangle_of.size()));
-    errors.check("rtcAttachGeometryByID");
-    triangle_of.push_back(std::move(members));
 }
 
-ReferenceScene::ReferenceScene(const TriangleScene& triangles, int threads)
-    : implementation_{std::make_unique<Implementation>(triangles, threads)}
+void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Role& role)
+{
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(role.members.size()));
+    // Embree hands the pointer back to the callbacks, which only read.
+    rtcSetGeometryUserData(geometry, const_cast<Role*>(&role));
+    rtcSetGeometryBoundsFunction(geometry, &bound_triangle, nullptr);
+    rtcSetGeometryOccludedFunction(geometry, &judge_packet);
+    rtcSetGeometryIntersectFunction(geometry, &judge_ray);
+}
+
+void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRay16& rays,
+                                                     CandidateJudge& judge) const
+{
+    embree::Query query{embree::Coherence::coherent, nullptr, &judge};
+    embree::occluded16(valid.lane.data(), padded.get(), query, rays);
+    rethrow_failure(judge);
+}
+
+void ReferenceScene::Implementation::find_candidates(RTCRayHit& ray, CandidateJudge& judge) const
+{
+    embree::Query query{embree::Coherence::incoherent, nullptr, &judge};
+    embree::intersect1(padded.get(), query, ray);
+    rethrow_failure(judge);
+}
+
+ReferenceScene::ReferenceScene(const TriangleScene& triangles, const ReferenceOptions& options)
+    : implementation_{std::make_unique<Implementation>(triangles, options)}
 {
 }
 ReferenceScene::~ReferenceScene() = default;

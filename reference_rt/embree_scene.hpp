@@ -1,21 +1,18 @@
 #pragma once
 
 #include "reference_rt/embree.hpp"
+#include "reference_rt/packet.hpp"
 #include "reference_rt/truth.hpp"
+#include "reference_rt/unit_frame.hpp"
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <string>
 #include <vector>
 
 namespace gnomon::reference_rt {
-
-/// What a ray asks for; the bits of the ray and geometry masks.
-enum RayMask : unsigned {
-    casters = 1U << 0,   ///< shadow rays
-    receivers = 1U << 1, ///< camera rays
-};
 
 /// Collects what Embree reports, as its callback must not throw.
 class EmbreeErrors {
@@ -31,27 +28,61 @@ private:
     std::string message_;
 };
 
-/// The triangles, their Embree scene, and the way back from Embree's numbers.
+/// Judges the candidates of one query: the triangles whose padded boxes its rays hit. Exceptions
+/// wait until Embree is left.
+class CandidateJudge {
+public:
+    CandidateJudge() = default;
+    CandidateJudge(const CandidateJudge&) = delete;
+    CandidateJudge& operator=(const CandidateJudge&) = delete;
+    virtual ~CandidateJudge() = default;
+
+    /// For a packet: those of the asking lanes that need no further candidates.
+    [[nodiscard]] virtual LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) = 0;
+    /// For a single ray: the distance beyond which no candidate matters any more.
+    [[nodiscard]] virtual float judge_ray(std::uint32_t triangle, float t_far) = 0;
+
+    std::exception_ptr failure;
+};
+
+/// The triangles, their hierarchies in Embree, and the way back from Embree's numbers.
+///
+/// One geometry for each pair of roles that occurs, numbered alike in both hierarchies.
 struct ReferenceScene::Implementation {
-    Implementation(const scene::TriangleScene& scene, int threads);
+    Implementation(const scene::TriangleScene& scene, const ReferenceOptions& options);
 
     /// The scene's index of Embree's primitive.
     [[nodiscard]] std::uint32_t triangle(unsigned geometry, unsigned primitive) const
     {
-        return triangle_of[geometry][primitive];
+        return roles[geometry].members[primitive];
     }
+
+    /// Shows the judge every triangle that the segments behind `rays` may touch (in the unit frame;
+    /// see `box_padding`). Each lane's id must be its index.
+    void find_candidates(const PacketMask& valid, RTCRay16& rays, CandidateJudge& judge) const;
+    void find_candidates(RTCRayHit& ray, CandidateJudge& judge) const;
+
+    /// The triangles of one pair of roles.
+    struct Role {
+        const Implementation* owner;
+        unsigned mask;
+        std::vector<std::uint32_t> members; ///< [primitive]
+    };
 
     scene::TriangleScene triangles; ///< Embree reads its vertices in place
     scene::Box bounds;
-    double largest_coordinate_m = 0;
+    UnitFrame frame;
+    std::vector<Role> roles; ///< [geometry]
     EmbreeErrors errors;
     embree::Device device; ///< after `errors`, which it reports to until it dies
-    embree::Scene scene;
-    /// [geometry][primitive]; one geometry for each pair of roles that occurs.
-    std::vector<std::vector<std::uint32_t>> triangle_of;
+    embree::Scene native;  ///< float32 triangles in world space, or null
+    embree::Scene padded;  ///< padded boxes in the unit frame, or null
 
 private:
-    void add_geometry(unsigned mask, std::vector<std::uint32_t> members);
+    [[nodiscard]] embree::Scene build(void (Implementation::*fill)(RTCGeometry, const Role&),
+                                      RTCGeometryType type);
+    void fill_native(RTCGeometry geometry, const Role& role);
+    void fill_padded(RTCGeometry geometry, const Role& role);
 };
 
 } // namespace gnomon::reference_rt

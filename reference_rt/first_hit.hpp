@@ -1,55 +1,52 @@
 #pragma once
 
-#include "reference_rt/double_predicates.hpp"
 #include "reference_rt/embree_scene.hpp"
 #include "reference_rt/packet.hpp"
+#include "reference_rt/pencil.hpp"
+#include "reference_rt/predicates.hpp"
 #include "reference_rt/receiver_raster.hpp"
+#include "reference_rt/stand_in.hpp"
 #include "scene/job.hpp"
 
-#include <array>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 namespace gnomon::reference_rt {
 
-/// Whether GL's triangle is a first hit of the pixel's ray; the class and reason if it is not.
-struct FirstHitVerdict {
-    bool is_matched = false;
+/// The class of a pixel in which GL's triangle is no first hit, and why.
+struct UnmatchedVerdict {
     scene::PixelClass pixel_class = scene::PixelClass::background;
     scene::ClassReason reason = scene::ClassReason::none;
 };
 
-/// Compares what GL sees with the first triangle that each pixel's ray meets beyond the near plane.
+/// Compares what GL sees with T*: the closed triangles that a pixel's ray meets first beyond the
+/// near plane.
 class FirstHits {
 public:
     FirstHits(const ReferenceScene::Implementation& reference, const scene::View& view,
               const RasterFacts& facts);
 
-    /// Embree's first hits of a packet of camera rays, `no_triangle` where there is none.
-    [[nodiscard]] PacketOf<std::uint32_t> trace(const PacketMask& valid,
-                                                const PacketOf<scene::Ray>& rays) const;
+    /// The lanes in which GL is right: its triangle is in T*, or it saw nothing and T* is empty.
+    ///
+    /// @param rays       of the valid lanes.
+    /// @param receivers  in the valid lanes, GL's triangle, or `no_triangle`.
+    [[nodiscard]] PacketMask match(const PacketMask& valid, const PacketOf<CameraRay>& rays,
+                                   const PacketOf<Receiver>& receivers, SignCounts& counts) const;
 
-    /// Decides in double a pixel in which GL's triangle and Embree's differ.
-    /// @param triangle  GL's, or `no_triangle`.
-    [[nodiscard]] FirstHitVerdict settle(const scene::Ray& ray, int x, int y,
-                                         std::uint32_t triangle) const;
+    /// Why GL's triangle, or its seeing none, does not match.
+    [[nodiscard]] UnmatchedVerdict explain(const CameraRay& ray, int x, int y,
+                                           std::uint32_t triangle, SignCounts& counts) const;
+
+    /// T*, in no particular order.
+    [[nodiscard]] std::vector<Receiver> first_hits(const CameraRay& ray, SignCounts& counts) const;
 
 private:
-    struct Candidate {
-        std::uint32_t triangle = scene::no_triangle;
-        CameraHit hit;
-    };
-    struct Search;
-    static void judge(const RTCFilterFunctionNArguments* arguments) noexcept;
-
-    [[nodiscard]] std::optional<Candidate> candidate(const scene::Ray& ray,
-                                                     std::uint32_t triangle) const;
-    [[nodiscard]] std::optional<Candidate> nearest(const scene::Ray& ray) const;
-    [[nodiscard]] bool is_tie(const scene::Ray& ray, int x, int y, const Candidate& seen,
-                              const Candidate& nearest) const;
+    [[nodiscard]] bool is_tie(const Receiver& seen, const Receiver& first, int x, int y) const;
 
     const ReferenceScene::Implementation& reference_;
     double near_m_;
+    Pencil pencil_;
+    bool has_eye_; ///< the rays start at one point
     ReceiverRaster raster_;
 };
 

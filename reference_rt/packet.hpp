@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace gnomon::reference_rt {
 
@@ -13,6 +14,9 @@ inline constexpr std::size_t packet_size = tile_side_px * tile_side_px;
 
 template <typename Value>
 using PacketOf = std::array<Value, packet_size>;
+
+/// Lanes by bit.
+using LaneBits = std::uint32_t;
 
 /// −1 for a lane that takes part, else 0; aligned as Embree asks.
 struct alignas(64) PacketMask {
@@ -29,6 +33,12 @@ struct alignas(64) PacketMask {
         }
         return false;
     }
+};
+
+/// What a ray asks for; the bits of the ray and geometry masks.
+enum RayMask : unsigned {
+    casters = 1U << 0,   ///< shadow rays
+    receivers = 1U << 1, ///< camera rays
 };
 
 /// A ray in Embree's precision, from t_near to t_far in units of its direction.
@@ -56,6 +66,24 @@ void set_lane(Ray16& rays, std::size_t lane, const FloatRay& ray)
     rays.mask[lane] = ray.mask;
     rays.id[lane] = static_cast<unsigned>(lane);
     rays.flags[lane] = 0;
+}
+
+/// Writes Embree's single ray.
+template <typename Ray1>
+void set_ray(Ray1& single, const FloatRay& ray)
+{
+    single.org_x = ray.origin.x;
+    single.org_y = ray.origin.y;
+    single.org_z = ray.origin.z;
+    single.tnear = ray.t_near;
+    single.dir_x = ray.direction.x;
+    single.dir_y = ray.direction.y;
+    single.dir_z = ray.direction.z;
+    single.time = 0;
+    single.tfar = ray.t_far;
+    single.mask = ray.mask;
+    single.id = 0;
+    single.flags = 0;
 }
 
 } // namespace gnomon::reference_rt

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace gnomon::reference_rt {
 
@@ -24,44 +25,59 @@ Vec2d centre_of(int x, int y)
     return {x + 0.5, y + 0.5};
 }
 
+/// True when a corner is beyond the near plane, or outside the narrowest guard band in use (Mesa
+/// clips beyond twice the window).
+bool may_be_clipped(const Vec4d& clip)
+{
+    return clip.w <= 0 || clip.z > clip.w || clip.z < 0 || std::abs(clip.x) > 2 * clip.w ||
+           std::abs(clip.y) > 2 * clip.w;
+}
+
 } // namespace
 
-ReceiverRaster::ReceiverRaster(const scene::Camera& camera, scene::ImageSize image,
+ReceiverRaster::ReceiverRaster(const scene::TriangleScene& triangles, const scene::View& view,
                                const scene::Box& box, const RasterFacts& facts)
-    : clip_from_world_{camera_clip_from_world(camera, image, box)},
-      clip_from_world_float_{clip_from_world_},
-      image_{image},
-      facts_{facts}
+    : triangles_{triangles},
+      facts_{facts},
+      image_{view.image},
+      clip_from_world_{camera_clip_from_world(view.camera, view.image, box)},
+      clip_from_world_float_{clip_from_world_}
 {
 }
 
-std::array<ReceiverRaster::Corner, 3> ReceiverRaster::window_corners(const Corners& triangle, int x,
-                                                                     int y) const
+ReceiverRaster::WindowCorners ReceiverRaster::window_corners(std::uint32_t triangle, int x,
+                                                             int y) const
 {
     const scene::Mat4d matrix{clip_from_world_float_};
     const Vec2d centre = centre_of(x, y);
     const Vec2d half{0.5 * image_.width_px, 0.5 * image_.height_px};
-    std::array<Corner, 3> corners;
+    const bool is_captured = !facts_.clip_positions.empty();
+    WindowCorners corners;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec4d clip = matrix * Vec4d{triangle[i], 1};
-        Vec4d sum = glm::abs(matrix[3]); // of the absolute products in each row
-        for (int c = 0; c < 3; ++c) {
-            sum += glm::abs(matrix[c]) * std::abs(triangle[i][c]);
-        }
+        const std::uint32_t vertex = triangles_.triangles[triangle][i];
+        const Vec3d point{triangles_.vertices[vertex]};
+        const Vec4d clip =
+            is_captured ? Vec4d{facts_.clip_positions[vertex]} : matrix * Vec4d{point, 1};
+        corners[i].clip = clip;
         // Window y points down: X = (x/w + 1)W/2, Y = (1 − y/w)H/2.
         corners[i].position = {half.x * clip.x + (half.x - centre.x) * clip.w,
                                -half.y * clip.y + (half.y - centre.y) * clip.w, clip.w};
-        corners[i].error =
-            gamma4 * Vec3d{half.x * sum.x + std::abs(half.x - centre.x) * sum.w,
-                           half.y * sum.y + std::abs(half.y - centre.y) * sum.w, sum.w};
-        corners[i].clip_depth = clip.z;
+        corners[i].error = Vec3d{0};
+        if (!is_captured) {
+            Vec4d sum = glm::abs(matrix[3]); // of the absolute products in each row
+            for (int c = 0; c < 3; ++c) {
+                sum += glm::abs(matrix[c]) * std::abs(point[c]);
+            }
+            corners[i].error =
+                gamma4 * Vec3d{half.x * sum.x + std::abs(half.x - centre.x) * sum.w,
+                               half.y * sum.y + std::abs(half.y - centre.y) * sum.w, sum.w};
+        }
     }
     return corners;
 }
 
-bool ReceiverRaster::is_near_edge(const Corners& triangle, int x, int y) const
+bool ReceiverRaster::is_near_line(const WindowCorners& corners) const
 {
-    const auto corners = window_corners(triangle, x, y);
     const double subpixel_px = std::ldexp(1.0, -facts_.subpixel_bits);
     for (std::size_t i = 0; i < 3; ++i) {
         const Corner& p = corners[i];
@@ -78,26 +94,74 @@ bool ReceiverRaster::is_near_edge(const Corners& triangle, int x, int y) const
     return false;
 }
 
-double ReceiverRaster::depth_error(const Corners& triangle, int x, int y) const
+bool ReceiverRaster::is_near_boundary(const WindowCorners& corners) const
+{
+    // Corners that move by up to r move the boundary by up to r.
+    double reach_px = std::numbers::sqrt2 * std::ldexp(1.0, -facts_.subpixel_bits);
+    std::array<Vec2d, 3> corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& [position, error, clip] = corners[i];
+        corner[i] = Vec2d{position} / position.z;
+        const Vec2d move = (Vec2d{error} + error.z * glm::abs(corner[i])) / position.z;
+        // GL divides and scales in float32: four roundings.
+        const double rounding_px =
+            4 * u32 * (glm::length(corner[i]) + image_.width_px + image_.height_px);
+        reach_px = std::max(reach_px, std::numbers::sqrt2 * std::ldexp(1.0, -facts_.subpixel_bits) +
+                                          glm::length(move) + rounding_px);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2d& from = corner[i];
+        const Vec2d along = corner[(i + 1) % 3] - from;
+        const double length2 = glm::dot(along, along);
+        const double r = length2 > 0 ? std::clamp(-glm::dot(from, along) / length2, 0.0, 1.0) : 0.0;
+        if (glm::length(from + r * along) <= reach_px) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
+                                         bool is_covered) const
+{
+    const WindowCorners corners = window_corners(triangle, x, y);
+    if (std::ranges::any_of(corners,
+                            [](const Corner& corner) { return may_be_clipped(corner.clip); })) {
+        return is_near_line(corners);
+    }
+    if (is_near_boundary(corners)) {
+        return true;
+    }
+    const Vec3d& p = corners[0].position;
+    const Vec3d& q = corners[1].position;
+    const Vec3d& r = corners[2].position;
+    const auto side = [](const Vec3d& from, const Vec3d& to) {
+        return from.x * to.y - from.y * to.x > 0;
+    };
+    const bool is_snapped_over = side(p, q) == side(q, r) && side(q, r) == side(r, p);
+    return is_snapped_over != is_covered;
+}
+
+double ReceiverRaster::depth_error(std::uint32_t triangle, int x, int y) const
 {
     const auto corners = window_corners(triangle, x, y);
-    if (std::ranges::all_of(corners, [](const Corner& c) { return c.position.z > c.error.z; })) {
+    if (std::ranges::all_of(corners, [](const Corner& c) { return c.clip.w > c.error.z; })) {
         scene::WindowTriangle window{};
         double vertex_error = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3d& p = corners[i].position;
             window.position_px[i] = Vec2d{p.x / p.z, p.y / p.z} + centre_of(x, y);
-            window.depth[i] = corners[i].clip_depth / p.z;
-            vertex_error =
-                std::max(vertex_error, scene::vertex_depth_error(clip_from_world_float_,
-                                                                 scene::Vec3f{triangle[i]}, true));
+            window.depth[i] = corners[i].clip.z / p.z;
+            const auto& vertex = triangles_.vertices[triangles_.triangles[triangle][i]];
+            vertex_error = std::max(
+                vertex_error, scene::vertex_depth_error(clip_from_world_float_, vertex, true));
         }
         // Whether depth follows the snapped corners is the driver's secret: assume the worse.
         return scene::driver_depth_bound(window, {facts_.subpixel_bits, true}, vertex_error,
                                          centre_of(x, y));
     }
     // The plane z = gx·X + gy·Y + g through the homogeneous corners, by Cramer's rule.
-    const Vec3d z{corners[0].clip_depth, corners[1].clip_depth, corners[2].clip_depth};
+    const Vec3d z{corners[0].clip.z, corners[1].clip.z, corners[2].clip.z};
     const glm::dmat3 rows =
         glm::transpose(glm::dmat3{corners[0].position, corners[1].position, corners[2].position});
     const double volume = glm::dot(rows[0], glm::cross(rows[1], rows[2]));

@@ -1,31 +1,38 @@
 #pragma once
 
-#include "reference_rt/double_predicates.hpp"
+#include "reference_rt/predicates.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/camera.hpp"
-#include "scene/image.hpp"
+#include "scene/job.hpp"
 #include "scene/vec.hpp"
 
 #include <array>
+#include <cstdint>
 
 namespace gnomon::reference_rt {
 
 /// What GL's receiver pass can and cannot resolve: its sub-pixel grid and its depth buffer.
 class ReceiverRaster {
 public:
-    ReceiverRaster(const scene::Camera& camera, scene::ImageSize image, const scene::Box& box,
-                   const RasterFacts& facts);
+    /// All but `box` must outlive it.
+    ReceiverRaster(const scene::TriangleScene& triangles, const scene::View& view,
+                   const scene::Box& box, const RasterFacts& facts);
 
-    /// True when snapping and the float32 vertex transform may decide whether the triangle covers
-    /// the centre of pixel (x, y): the centre lies within one sub-pixel, and the transform's error,
-    /// of one of its edges' lines.
-    [[nodiscard]] bool is_near_edge(const Corners& triangle, int x, int y) const;
+    /// True when GL, which snaps corners to its sub-pixel grid, may judge the coverage of pixel
+    /// (x, y)'s centre otherwise than exact geometry does.
+    ///
+    /// From GL's own clip positions: within ±1 sub-pixel of the snapped corners the centre may be
+    /// on either side of an edge, or the snapped triangle certainly decides otherwise. For a
+    /// triangle that GL clips: the centre lies within one sub-pixel of an edge's homogeneous line.
+    /// Where GL's positions are not known, the float32 transform's error is allowed for.
+    /// @param is_covered  whether the closed triangle covers the centre, exactly.
+    [[nodiscard]] bool coverage_may_differ(std::uint32_t triangle, int x, int y,
+                                           bool is_covered) const;
 
     /// Bound on the error of the depth stored for the triangle at pixel (x, y), in [0, 1] units.
     ///
     /// The driver bound; for a triangle that reaches behind the camera, whose clipped corners are
     /// not known here, the same with the whole window's extent and depth 1 in their place.
-    [[nodiscard]] double depth_error(const Corners& triangle, int x, int y) const;
+    [[nodiscard]] double depth_error(std::uint32_t triangle, int x, int y) const;
 
     /// Window depth of a world point: reversed, 1 at the near plane.
     [[nodiscard]] double depth(const scene::Vec3d& point) const;
@@ -34,15 +41,19 @@ private:
     /// A corner in window space, homogeneous, seen from a pixel's centre.
     struct Corner {
         scene::Vec3d position; ///< ((X − centre.x)w, (Y − centre.y)w, w), X and Y in pixels
-        scene::Vec3d error;    ///< bounds of the float32 transform's error
-        double clip_depth = 0; ///< z before the division
+        scene::Vec3d error;    ///< of the float32 transform, unless GL itself gave the position
+        scene::Vec4d clip;
     };
-    [[nodiscard]] std::array<Corner, 3> window_corners(const Corners& triangle, int x, int y) const;
+    using WindowCorners = std::array<Corner, 3>;
+    [[nodiscard]] WindowCorners window_corners(std::uint32_t triangle, int x, int y) const;
+    [[nodiscard]] bool is_near_line(const WindowCorners& corners) const;
+    [[nodiscard]] bool is_near_boundary(const WindowCorners& corners) const;
 
+    const scene::TriangleScene& triangles_;
+    const RasterFacts& facts_;
+    scene::ImageSize image_;
     scene::Mat4d clip_from_world_;
     scene::Mat4f clip_from_world_float_;
-    scene::ImageSize image_;
-    RasterFacts facts_;
 };
 
 } // namespace gnomon::reference_rt

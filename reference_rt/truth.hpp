@@ -3,32 +3,48 @@
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 #include "scene/triangles.hpp"
+#include "scene/vec.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace gnomon::reference_rt {
 
 enum class TruthMethod : std::uint8_t {
-    judged, ///< Embree proposes, double arithmetic judges each proposal
-    plain,  ///< float Embree rays alone, `--truth float`: for comparing speed
+    exact, ///< Embree proposes, exact predicates decide
+    plain, ///< float Embree rays, and GL's word for what is seen: for comparing speed
 };
 
 struct TruthOptions {
-    TruthMethod method = TruthMethod::judged;
+    TruthMethod method = TruthMethod::exact;
     int threads = 0; ///< 0: all cores
 };
 
-/// GL's state that the explanation of unmatched pixels needs.
+/// What GL did, as far as the explanation of unmatched pixels needs it.
 struct RasterFacts {
     int subpixel_bits = 8;
+    /// GL's own clip positions of the scene's vertices; empty: they are known only up to the
+    /// rounding of a float32 transform.
+    std::vector<scene::Vec4f> clip_positions;
+};
+
+/// Which hierarchies a reference scene holds.
+struct ReferenceOptions {
+    int threads = 0;                ///< with which they are built; 0: all cores
+    bool serves_exact_truth = true; ///< TruthMethod::exact and `nearest_blockers`
+    bool serves_plain_rays = false; ///< TruthMethod::plain and `audit_float_methods`
 };
 
 /// The scene in Embree's hands; built once, then read by any number of threads.
 class ReferenceScene {
 public:
     /// @throws scene::EnvironmentError  if Embree fails.
-    explicit ReferenceScene(const scene::TriangleScene& triangles, int threads = 0);
+    explicit ReferenceScene(const scene::TriangleScene& triangles,
+                            const ReferenceOptions& options = {});
     ~ReferenceScene();
     ReferenceScene(ReferenceScene&&) noexcept;
     ReferenceScene& operator=(ReferenceScene&&) noexcept;
@@ -44,14 +60,37 @@ private:
 
 /// Decides the class of every pixel (DESIGN §3) for GL's triangle in each.
 ///
-/// Independent of every shadow-map setting. Deterministic for any number of threads.
+/// Independent of every shadow-map setting. Deterministic for any number of threads. Source:
+/// docs/truth.md.
 /// @param receivers  GL's triangle per pixel, of size `view.image`.
-/// @throws std::invalid_argument  if sizes differ or an index is out of range.
+/// @throws std::invalid_argument  if sizes differ, an index is out of range, or `reference` does
+/// not
+///                                serve the method.
 [[nodiscard]] scene::TruthLayers compute_truth(const ReferenceScene& reference,
                                                const scene::View& view,
                                                const scene::Image<std::uint32_t>& receivers,
                                                const RasterFacts& raster,
                                                const TruthOptions& options = {});
+
+/// The exact blocker nearest to the light of each given pixel: the triangle that the open segment
+/// P→light crosses properly, or through a seam (of whose two the lower index counts), nearest to
+/// the light; of several at the same point the lowest index. `no_triangle` where nothing blocks.
+///
+/// @param pixels     row-major pixel indices; GL's triangle in each must be a first hit of its ray.
+/// @param receivers  GL's triangle per pixel, of size `view.image`.
+/// @throws std::invalid_argument  as `compute_truth` does, or if a pixel has no receiver.
+[[nodiscard]] std::vector<std::uint32_t>
+nearest_blockers(const ReferenceScene& reference, const scene::View& view,
+                 const scene::Image<std::uint32_t>& receivers, std::span<const std::size_t> pixels,
+                 int threads = 0);
+
+/// How many scored pixels each of the usual float methods would have got wrong: shadow rays from P
+/// rounded to float32, kept off their own surface in one way or another.
+/// @throws std::invalid_argument  if sizes differ or `reference` does not serve plain rays.
+[[nodiscard]] std::vector<scene::FloatMethodErrors>
+audit_float_methods(const ReferenceScene& reference, const scene::View& view,
+                    const scene::Image<std::uint32_t>& receivers, const scene::TruthLayers& truth,
+                    int threads = 0);
 
 /// P of each pixel, the pixel-centre ray ∩ plane(T), computed in double and rounded to float32;
 /// NaN where there is no receiver.

@@ -61,6 +61,21 @@ void add_metrics(Json& json, const analysis::Metrics& metrics)
     json["bias_curve"] = nullptr;
 }
 
+Json truth_signs(const scene::TruthSigns& signs)
+{
+    return {{"filtered", signs.filtered}, {"exact", signs.exact}};
+}
+
+Json float_audit(const std::vector<scene::FloatMethodErrors>& methods)
+{
+    Json json = Json::object();
+    for (const scene::FloatMethodErrors& method : methods) {
+        json[method.name] = {{"false_blocked", method.false_blocked},
+                             {"false_lit", method.false_lit}};
+    }
+    return json.empty() ? Json(nullptr) : json;
+}
+
 Json environment(const analysis::Environment& environment)
 {
     return {{"gl_renderer", environment.gl_renderer},
@@ -124,6 +139,8 @@ std::string comparison_json(const analysis::Comparison& comparison)
     json["scene"] = scene_object(comparison.scene);
     json["job"] = job_object(comparison.job);
     json["truth_method"] = comparison.truth_method;
+    json["truth_signs"] = truth_signs(comparison.truth.signs);
+    json["float_audit"] = float_audit(comparison.float_audit);
     json["subpixel_bits"] = comparison.subpixel_bits;
     json["exact_inputs"] = exact_inputs_object(comparison.view);
     return text(json, 2) + "\n";

@@ -39,6 +39,15 @@ std::string count_line(std::string_view name, std::string_view count, std::strin
                    pad_left(rate, rate_columns) + "  " + std::string{note});
 }
 
+/// "5 of 1,234 signs needed integers"; empty for a method that decides none.
+std::string signs(const scene::TruthSigns& signs)
+{
+    const std::uint64_t all = signs.filtered + signs.exact;
+    return all == 0 ? std::string{}
+                    : setting_line("", fmt::format("{} of {} signs needed integers",
+                                                   grouped(signs.exact), grouped(all)));
+}
+
 std::string settings(const analysis::Comparison& comparison)
 {
     const Description words = describe(comparison);
@@ -55,6 +64,7 @@ std::string settings(const analysis::Comparison& comparison)
     text += setting_line("", environment.gl_version);
     text +=
         setting_line("truth", fmt::format("{}, {}", comparison.truth_method, environment.embree));
+    text += signs(comparison.truth.signs);
     return text;
 }
 
@@ -121,6 +131,20 @@ std::string errors(const analysis::Metrics& metrics)
            count_line("mean |error|", "", percent(metrics.mean_abs_error), "verdict against truth");
 }
 
+std::string float_audit(const analysis::Comparison& comparison)
+{
+    if (comparison.float_audit.empty()) {
+        return "";
+    }
+    std::string text = "\n";
+    text += count_line("float method", "false blocked", "false lit", "");
+    for (const scene::FloatMethodErrors& method : comparison.float_audit) {
+        text += count_line(method.name, grouped(method.false_blocked), grouped(method.false_lit),
+                           "wrong pixels");
+    }
+    return text;
+}
+
 std::string seconds(const analysis::StageSeconds& seconds)
 {
     return setting_line("seconds",
@@ -136,7 +160,8 @@ std::string seconds(const analysis::StageSeconds& seconds)
 std::string comparison_table(const analysis::Comparison& comparison)
 {
     return settings(comparison) + "\n" + classes(comparison.metrics.pixels) + "\n" +
-           errors(comparison.metrics) + "\n" + seconds(comparison.seconds);
+           errors(comparison.metrics) + float_audit(comparison) + "\n" +
+           seconds(comparison.seconds);
 }
 
 } // namespace gnomon::reports

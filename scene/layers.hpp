@@ -5,6 +5,7 @@
 #include "scene/vec.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace gnomon::scene {
 
@@ -26,11 +27,27 @@ struct LookupLayers {
     Image<LookupSample> samples;
 };
 
+/// How the signs that decide the truth were found.
+struct TruthSigns {
+    std::uint64_t filtered = 0; ///< in double, by a proven error bound
+    std::uint64_t exact = 0;    ///< in integers, where the bound did not suffice
+
+    friend bool operator==(const TruthSigns&, const TruthSigns&) = default;
+};
+
+/// Pixels that a float method for shadow rays gets wrong.
+struct FloatMethodErrors {
+    std::string name;
+    std::uint64_t false_blocked = 0; ///< lit in truth
+    std::uint64_t false_lit = 0;     ///< blocked in truth
+};
+
 /// What is true of each pixel.
 struct TruthLayers {
     Image<PixelClass> pixel_class;
     Image<ClassReason> reason;
     Image<std::uint32_t> witness; ///< a triangle that blocks, `no_triangle` unless `blocked`
+    TruthSigns signs;
 };
 
 /// True when a verdict counts as lit.

@@ -68,7 +68,7 @@ struct FakeRenderers {
             return truth;
         };
         renderers.environment = {"renderer", "version", "embree", "gnomon"};
-        renderers.truth_method = "judged";
+        renderers.truth_method = "exact";
         renderers.subpixel_bits = 4;
     }
 };
@@ -97,7 +97,7 @@ TEST(Compare, CarriesItsInputsAndItsEnvironment)
     EXPECT_EQ(result.scene.objects, 1U);
     EXPECT_EQ(result.scene.ignored_primitives, 3U);
     EXPECT_EQ(result.scene.hash, scene::content_hash(file.scene));
-    EXPECT_EQ(result.truth_method, "judged");
+    EXPECT_EQ(result.truth_method, "exact");
     EXPECT_EQ(result.subpixel_bits, 4);
     EXPECT_EQ(result.environment.gl_renderer, "renderer");
 }

@@ -176,8 +176,9 @@ inline Image<std::uint32_t> brute_force_receivers(const TriangleScene& scene, co
 inline scene::TruthLayers truth_of(const TriangleScene& scene, const View& view,
                                    const TruthOptions& options = {})
 {
-    return compute_truth(ReferenceScene{scene}, view, brute_force_receivers(scene, view), {},
-                         options);
+    const bool is_plain = options.method == TruthMethod::plain;
+    return compute_truth(ReferenceScene{scene, {0, !is_plain, is_plain}}, view,
+                         brute_force_receivers(scene, view), {}, options);
 }
 
 template <typename Value>

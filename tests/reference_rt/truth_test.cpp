@@ -202,10 +202,10 @@ TEST(ComputeTruth, IsTheSameForAnyNumberOfThreads)
     const View view = boxes_view(spot({2, 3, 1}, {0, 0, 0}, 90));
     const auto receivers = brute_force_receivers(scene, view);
     const ReferenceScene reference{scene};
-    const auto one = compute_truth(reference, view, receivers, {}, {TruthMethod::judged, 1});
+    const auto one = compute_truth(reference, view, receivers, {}, {TruthMethod::exact, 1});
     for (const int threads : {2, 7}) {
         const auto many =
-            compute_truth(reference, view, receivers, {}, {TruthMethod::judged, threads});
+            compute_truth(reference, view, receivers, {}, {TruthMethod::exact, threads});
         EXPECT_TRUE(std::ranges::equal(one.pixel_class, many.pixel_class));
         EXPECT_TRUE(std::ranges::equal(one.reason, many.reason));
         EXPECT_TRUE(std::ranges::equal(one.witness, many.witness));

@@ -52,10 +52,13 @@ void expect_unmatched(const Reclassified& pixel, ClassReason reason)
 
 TEST(Unmatched, AcceptsBothFirstHitsOfASharedEdge)
 {
-    // Centres with x − ½ = y − ½ from the middle lie on the diagonal: (32 + k, 23 − k).
+    // In a square image, whose sx and sy have the same bits, the centres of (32 + k, 31 − k) lie on
+    // the diagonal exactly.
     const TriangleScene scene = square_and_sheet(1);
+    View view = front_view();
+    view.image = {64, 64};
     for (const std::uint32_t triangle : {0U, 1U}) {
-        const auto pixel = class_when_seeing(scene, front_view(), 34, 21, triangle);
+        const auto pixel = class_when_seeing(scene, view, 34, 29, triangle);
         EXPECT_TRUE(scene::is_scored(pixel.pixel_class)) << "triangle " << triangle;
         EXPECT_EQ(pixel.reason, ClassReason::none);
     }

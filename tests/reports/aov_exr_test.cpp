@@ -167,7 +167,7 @@ TEST(WriteAov, CarriesTheJobAsJson)
     const auto job = nlohmann::json::parse(layers.text("job"));
     EXPECT_EQ(job["shadow_map.resolution"], 48);
     EXPECT_EQ(layers.text("scene_hash"), example().comparison.scene.hash);
-    EXPECT_EQ(layers.text("truth_method"), "judged");
+    EXPECT_EQ(layers.text("truth_method"), "exact");
 }
 
 TEST(WriteAov, WritesTheSameBytesAgain)

@@ -104,7 +104,7 @@ TEST(ComparisonJson, NamesSceneAndMethod)
     EXPECT_THAT(names(object["scene"]),
                 UnorderedElementsAre("name", "triangles", "objects", "dropped_triangles",
                                      "ignored_primitives", "hash"));
-    EXPECT_EQ(object["truth_method"], "judged");
+    EXPECT_EQ(object["truth_method"], "exact");
 }
 
 TEST(ComparisonJson, WritesJobValuesInTheirTypes)

@@ -270,7 +270,7 @@ Example::Example(const ExampleOptions& options) : file{example_scene(options)}
         return with_rare_classes(rays.find_truth(view));
     };
     renderers.environment = {"brute-force rays", "4.5 (example)", "Embree 3.13.5", "Gnomon 0.1.0"};
-    renderers.truth_method = "judged";
+    renderers.truth_method = "exact";
     comparison = analysis::compare(example_job(options), file, renderers);
 }
 

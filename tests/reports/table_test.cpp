@@ -61,7 +61,7 @@ TEST(ComparisonTable, NamesSceneSettingsAndEnvironment)
     EXPECT_THAT(table, HasSubstr("shadow map      48x48 d24, fit scene\n"));
     EXPECT_THAT(table, HasSubstr("lookup          nearest, outside lit\n"));
     EXPECT_THAT(table, HasSubstr("bias            constant 0.002, slope 0, normal 0 texels\n"));
-    EXPECT_THAT(table, HasSubstr("truth           judged, Embree 3.13.5\n"));
+    EXPECT_THAT(table, HasSubstr("truth           exact, Embree 3.13.5\n"));
     EXPECT_THAT(table, HasSubstr("seconds         scene "));
 }
 

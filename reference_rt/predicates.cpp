@@ -1,0 +1,280 @@
+#include "reference_rt/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::reference_rt {
+
+using scene::Light;
+using scene::LightType;
+using scene::Ray;
+using scene::Vec3d;
+
+namespace {
+
+/// δ and ν of a receiver.
+template <typename Delta, typename Nu>
+struct PlaneHit {
+    Delta delta;
+    Nu nu;
+};
+auto plane_hit(FilterField, const Receiver& receiver)
+{
+    return PlaneHit<Filtered<7>, Filtered<8>>{receiver.delta, receiver.nu};
+}
+auto plane_hit(ExactField, const Receiver& receiver)
+{
+    const Ray& ray = receiver.camera_ray.ray;
+    const auto normal = normal_of<ExactField>(receiver.corners);
+    return PlaneHit<Dyadic, Dyadic>{
+        dot(normal, vector<ExactField>(ray.direction)),
+        dot(normal, difference<ExactField>(receiver.corners[0], ray.origin))};
+}
+
+Vec3<Filtered<1>> negated(const Vec3<Filtered<0>>& v)
+{
+    return {Filtered<0>{-v.x.value, v.x.permanent}, Filtered<0>{-v.y.value, v.y.permanent},
+            Filtered<0>{-v.z.value, v.z.permanent}};
+}
+Vec3<Dyadic> negated(const Vec3<Dyadic>& v)
+{
+    const Dyadic zero;
+    return {zero - v.x, zero - v.y, zero - v.z};
+}
+
+/// g(x): from x to the light.
+template <typename Field>
+auto towards(const Light& light, const Vec3d& x)
+{
+    return light.type == LightType::directional
+               ? negated(vector<Field>(light.direction))
+               : decltype(negated(vector<Field>(x))){difference<Field>(light.position, x)};
+}
+
+/// δ N·(P − o): its sign is that of N·(P − o) but for δ's.
+template <typename Field, typename Normal>
+auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const Vec3d& o)
+{
+    const Ray& ray = receiver.camera_ray.ray;
+    const auto [delta, nu] = plane_hit(field, receiver);
+    return delta * dot(normal, difference<Field>(ray.origin, o)) +
+           nu * dot(normal, vector<Field>(ray.direction));
+}
+
+Sign edge_sign(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const Light& light,
+               SignCounts& counts)
+{
+    return receiver.delta_sign *
+           sign_of(counts, receiver.camera_ray.is_tame, [&]<typename Field>(Field field) {
+               const auto normal = cross(difference<Field>(v, u), towards<Field>(light, u));
+               return scaled_side(field, receiver, normal, u);
+           });
+}
+
+Sign light_sign(const Corners& s, const Light& light, SignCounts& counts)
+{
+    return sign_of(counts, true, [&]<typename Field>(Field) {
+        return dot(normal_of<Field>(s), towards<Field>(light, s[0]));
+    });
+}
+
+Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
+{
+    const auto formula = [&]<typename Field>(Field field) {
+        return scaled_side(field, receiver, normal_of<Field>(s), s[0]);
+    };
+    if (const auto sign = filtered_sign(counts, receiver.camera_ray.is_tame, formula)) {
+        return receiver.delta_sign * *sign;
+    }
+    // P lies in the plane of T: where S does too, three signs of low degree say so sooner.
+    return is_coplanar(receiver, s, counts) ? 0 : receiver.delta_sign * exact_sign(counts, formula);
+}
+
+} // namespace
+
+Receiver::Receiver(const Facet& facet, const CameraRay& camera_ray_in, SignCounts& counts)
+    : triangle{facet.triangle},
+      camera_ray{camera_ray_in},
+      corners{facet.corners}
+{
+    const Ray& ray = camera_ray.ray;
+    delta = dot(facet.normal, vector<FilterField>(ray.direction));
+    nu = dot(facet.normal, difference<FilterField>(corners[0], ray.origin));
+    delta_sign = sign_of(counts, camera_ray.is_tame,
+                         [&](auto field) { return plane_hit(field, *this).delta; });
+}
+
+double Receiver::t_error() const
+{
+    return (nu.error() + std::abs(t()) * delta.error()) / (std::abs(delta.value) - delta.error());
+}
+
+Vec3d exact_offset(const Receiver& receiver, const Vec3d& origin)
+{
+    const Ray& ray = receiver.camera_ray.ray;
+    const auto [delta, nu] = plane_hit(ExactField{}, receiver);
+    const auto offset =
+        delta * difference<ExactField>(ray.origin, origin) + nu * vector<ExactField>(ray.direction);
+    return {Dyadic::quotient(offset.x, delta), Dyadic::quotient(offset.y, delta),
+            Dyadic::quotient(offset.z, delta)};
+}
+
+Vec3d exact_offset(const Ray& ray, double t, const Vec3d& origin)
+{
+    const Dyadic one{1.0};
+    const auto offset =
+        difference<ExactField>(ray.origin, origin) + Dyadic{t} * vector<ExactField>(ray.direction);
+    return {Dyadic::quotient(offset.x, one), Dyadic::quotient(offset.y, one),
+            Dyadic::quotient(offset.z, one)};
+}
+
+bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts)
+{
+    std::array<Sign, 3> side{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d& u = corners[i];
+        const Vec3d& v = corners[(i + 1) % 3];
+        side[i] = sign_of(counts, ray.is_tame, [&]<typename Field>(Field) {
+            const auto normal =
+                cross(difference<Field>(u, ray.ray.origin), difference<Field>(v, u));
+            return dot(normal, vector<Field>(ray.ray.direction));
+        });
+        if (i > 0 && side[0] * side[i] < 0) {
+            return false;
+        }
+    }
+    // The three add up to δ; all of them zero, the line runs in the plane.
+    return side[1] * side[2] >= 0 && (side[0] != 0 || side[1] != 0 || side[2] != 0);
+}
+
+bool is_beyond(const Receiver& hit, double near, SignCounts& counts)
+{
+    return hit.delta_sign * sign_of(counts, hit.camera_ray.is_tame,
+                                    [&]<typename Field>(Field field) {
+                                        const auto [delta, nu] = plane_hit(field, hit);
+                                        return nu - Field::number(near) * delta;
+                                    }) >
+           0;
+}
+
+Sign compare_distance(const Receiver& a, const Receiver& b, SignCounts& counts)
+{
+    const auto formula = [&](auto field) {
+        const auto p = plane_hit(field, a);
+        const auto q = plane_hit(field, b);
+        return p.nu * q.delta - q.nu * p.delta;
+    };
+    if (const auto sign = filtered_sign(counts, a.camera_ray.is_tame, formula)) {
+        return a.delta_sign * b.delta_sign * *sign;
+    }
+    return is_coplanar(a, b.corners, counts)
+               ? 0
+               : a.delta_sign * b.delta_sign * exact_sign(counts, formula);
+}
+
+bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts)
+{
+    const Corners& t = receiver.corners;
+    return std::ranges::all_of(s, [&](const Vec3d& corner) {
+        return corner == t[0] || corner == t[1] || corner == t[2] ||
+               sign_of(counts, true, [&]<typename Field>(Field) {
+                   return dot(normal_of<Field>(t), difference<Field>(corner, t[0]));
+               }) == 0;
+    });
+}
+
+bool is_attached(const Receiver& receiver, const Light& light, SignCounts& counts)
+{
+    // Towards the camera is −d, and n·(−d) = −δ.
+    return light_sign(receiver.corners, light, counts) != -receiver.delta_sign;
+}
+
+bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& counts)
+{
+    if (light.type == LightType::directional) {
+        return false;
+    }
+    const auto from_light = [&]<typename Field>(Field field) { // δ(P − L)
+        const auto [delta, nu] = plane_hit(field, receiver);
+        const Ray& ray = receiver.camera_ray.ray;
+        return delta * difference<Field>(ray.origin, light.position) +
+               nu * vector<Field>(ray.direction);
+    };
+    const bool is_tame = receiver.camera_ray.is_tame;
+    const Sign along = sign_of(counts, is_tame, [&]<typename Field>(Field field) {
+        return dot(from_light(field), vector<Field>(light.direction));
+    });
+    if (receiver.delta_sign * along <= 0) {
+        return true;
+    }
+    return sign_of(counts, is_tame, [&]<typename Field>(Field field) {
+               const auto axis = vector<Field>(light.direction);
+               const auto offset = from_light(field);
+               const auto projection = dot(offset, axis);
+               const auto cosine = Field::number(light.cos_half_cone);
+               return projection * projection -
+                      cosine * cosine * dot(offset, offset) * dot(axis, axis);
+           }) < 0;
+}
+
+ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s, const Light& light,
+                         SignCounts& counts)
+{
+    const auto& [u, v, w] = s;
+    return {{edge_sign(receiver, u, v, light, counts), edge_sign(receiver, v, w, light, counts),
+             edge_sign(receiver, w, u, light, counts)},
+            point_sign(receiver, s, counts),
+            light_sign(s, light, counts)};
+}
+
+Contact find_contact(const Receiver& receiver, const Corners& s, const Light& light,
+                     SignCounts& counts, int& edge)
+{
+    ShadowSigns signs;
+    for (std::size_t i = 0; i < 3; ++i) {
+        signs.edge[i] = edge_sign(receiver, s[i], s[(i + 1) % 3], light, counts);
+        if (i > 0 && signs.edge[i] * signs.edge[i - 1] < 0) {
+            return Contact::none; // unless the segment runs in the plane: then all three are 0
+        }
+    }
+    signs.light = light_sign(s, light, counts);
+    signs.point = point_sign(receiver, s, counts);
+    const Contact contact = classify_contact(signs);
+    if (contact == Contact::edge) {
+        edge = touched_edge(signs);
+    }
+    return contact;
+}
+
+Sign apex_side(const Light& light, const Vec3d& u, const Vec3d& v, const Vec3d& apex,
+               SignCounts& counts)
+{
+    return sign_of(counts, true, [&]<typename Field>(Field) {
+        return dot(cross(difference<Field>(v, u), towards<Field>(light, u)),
+                   difference<Field>(apex, u));
+    });
+}
+
+Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a, const Corners& b,
+                               const Light& light, SignCounts& counts)
+{
+    // At P the height above the plane of S is A/δ, A = δM·(P − u), and it changes towards the light
+    // by B = M·g(u), of the other sign: the crossing is at A/(A − δB) of a segment, at −A/(δB) of a
+    // sun's ray. Both grow with |A/B|.
+    const auto heights = [&]<typename Field>(Field field, const Corners& s) {
+        const auto normal = normal_of<Field>(s);
+        return std::pair{scaled_side(field, receiver, normal, s[0]),
+                         dot(normal, towards<Field>(light, s[0]))};
+    };
+    const Sign product = sign_of(counts, receiver.camera_ray.is_tame, [&](auto field) {
+        const auto [a_point, a_light] = heights(field, a);
+        const auto [b_point, b_light] = heights(field, b);
+        return a_point * b_light - b_point * a_light;
+    });
+    // |A_a B_b| − |A_b B_a| = f (A_a B_b − A_b B_a), f = −sgn(δ) sgn(A_a) sgn(A_b), and with
+    // sgn(A) = −sgn(δ) sgn(B): f = −sgn(δ) sgn(B_a) sgn(B_b).
+    return -receiver.delta_sign * light_sign(a, light, counts) * light_sign(b, light, counts) *
+           product;
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,143 @@
+#pragma once
+
+#include "reference_rt/arithmetic.hpp"
+#include "reference_rt/contact.hpp"
+#include "scene/camera.hpp"
+#include "scene/light.hpp"
+#include "scene/triangles.hpp"
+#include "scene/vec.hpp"
+
+#include <array>
+#include <cstdint>
+
+/// Exact answers about exact inputs: each sign is decided in double where the error bound allows,
+/// else in integers. What the signs mean is decided in contact.hpp.
+namespace gnomon::reference_rt {
+
+/// A triangle's corners; float32 values held as doubles, hence exact.
+using Corners = std::array<scene::Vec3d, 3>;
+[[nodiscard]] inline Corners corners_of(const scene::TriangleScene& scene, std::uint32_t triangle)
+{
+    const auto corners = scene.corners(triangle);
+    return {scene::Vec3d{corners[0]}, scene::Vec3d{corners[1]}, scene::Vec3d{corners[2]}};
+}
+
+/// A pixel's ray.
+struct CameraRay {
+    scene::Ray ray{};    ///< E, d
+    bool is_tame = true; ///< may the filter be asked (arithmetic.hpp)
+
+    CameraRay() = default;
+    explicit CameraRay(const scene::Ray& ray_in)
+        : ray{ray_in},
+          is_tame{reference_rt::is_tame(ray.origin) && reference_rt::is_tame(ray.direction)}
+    {
+    }
+};
+
+/// (b − a) × (c − a).
+template <typename Field>
+[[nodiscard]] auto normal_of(const Corners& t)
+{
+    return cross(difference<Field>(t[1], t[0]), difference<Field>(t[2], t[0]));
+}
+
+using FilteredNormal = decltype(normal_of<FilterField>({}));
+
+/// What of a triangle T = (a, b, c) does not depend on the ray.
+struct Facet {
+    Facet() = default;
+    Facet(std::uint32_t triangle_in, const Corners& corners_in)
+        : triangle{triangle_in},
+          corners{corners_in},
+          normal{normal_of<FilterField>(corners)}
+    {
+    }
+
+    std::uint32_t triangle = scene::no_triangle;
+    Corners corners{};
+    FilteredNormal normal{}; ///< n
+};
+
+/// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of
+/// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
+struct Receiver {
+    Receiver() = default;
+    Receiver(const Facet& facet, const CameraRay& camera_ray_in, SignCounts& counts);
+
+    /// P rounded [m]; its error is a few roundings of E and of t·d, and t's.
+    [[nodiscard]] scene::Vec3d point() const
+    {
+        return camera_ray.ray.origin + t() * camera_ray.ray.direction;
+    }
+    /// ν/δ.
+    [[nodiscard]] double t() const { return nu.value / delta.value; }
+    /// Bound of the error of `t()`; meaningless where the filter cannot tell the sign of δ.
+    [[nodiscard]] double t_error() const;
+
+    std::uint32_t triangle = scene::no_triangle; ///< T
+    CameraRay camera_ray;
+    Corners corners{}; ///< a, b, c
+    Filtered<7> delta;
+    Filtered<8> nu;
+    Sign delta_sign = 0; ///< exact
+};
+
+/// P − origin to within 2^-50 of its size, however badly δ is conditioned.
+/// Precondition: δ is not 0.
+[[nodiscard]] scene::Vec3d exact_offset(const Receiver& receiver, const scene::Vec3d& origin);
+/// E + t·d − origin to within 2^-50 of its size.
+[[nodiscard]] scene::Vec3d exact_offset(const scene::Ray& ray, double t,
+                                        const scene::Vec3d& origin);
+
+/// True when the ray's line meets the closed triangle at one point.
+[[nodiscard]] bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts);
+
+/// True when ν/δ > near. Precondition: δ is not 0.
+[[nodiscard]] bool is_beyond(const Receiver& hit, double near, SignCounts& counts);
+
+/// −1 when hit a comes before b on their common ray, 1 when after, 0 at the same point.
+[[nodiscard]] Sign compare_distance(const Receiver& a, const Receiver& b, SignCounts& counts);
+
+/// True when S lies in the plane of T.
+[[nodiscard]] bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts);
+
+/// True when the light is behind, or in the plane of, the side of T that the camera sees.
+[[nodiscard]] bool is_attached(const Receiver& receiver, const scene::Light& light,
+                               SignCounts& counts);
+
+/// True when P is outside a spot's cone (DESIGN §7); never for a directional light.
+[[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,
+                                   SignCounts& counts);
+
+/// How S meets the open segment from P to the light: its five signs, as far as they are needed.
+///
+/// With g(x) = L − x, or −ℓ for a directional light that travels along ℓ:
+///
+///     ε(u, v) = sgn ((v − u) × g(u))·(P − u)     for the three edges
+///     σ0 = sgn M·(P − u),   σ1 = sgn M·g(u),   M = (v − u) × (w − u)
+///     sgn N·(P − o) = sgn(δ) · sgn(δ N·(E − o) + ν N·d)
+///
+/// @param edge  the touched edge, 0 for (u, v), when the contact is `edge`.
+[[nodiscard]] Contact find_contact(const Receiver& receiver, const Corners& s,
+                                   const scene::Light& light, SignCounts& counts, int& edge);
+
+/// The five signs, all of them.
+[[nodiscard]] ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s,
+                                       const scene::Light& light, SignCounts& counts);
+
+/// Side of `apex` from the plane through the light and the edge (u, v).
+[[nodiscard]] Sign apex_side(const scene::Light& light, const scene::Vec3d& u,
+                             const scene::Vec3d& v, const scene::Vec3d& apex, SignCounts& counts);
+
+/// True when the open segment P→light, lying in the plane of S, meets the closed triangle S.
+[[nodiscard]] bool runs_through(const Receiver& receiver, const Corners& s,
+                                const scene::Light& light);
+
+/// 1 when the segment P→light meets the plane of a nearer to the light than the plane of b, −1 when
+/// farther, 0 at the same point. Precondition: it crosses both planes between P and the light.
+[[nodiscard]] Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a,
+                                             const Corners& b, const scene::Light& light,
+                                             SignCounts& counts);
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,204 @@
+#include "reference_rt/shadow_segments.hpp"
+
+#include "reference_rt/stand_in.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace gnomon::reference_rt {
+
+using scene::no_triangle;
+using scene::Vec3d;
+
+namespace {
+
+struct EdgeContact {
+    std::size_t lane = 0;
+    std::uint32_t triangle = no_triangle;
+    int edge = 0;
+};
+
+/// The edge of a triangle, and the corner opposite.
+struct EdgeOf {
+    Vec3d u, v, apex;
+};
+EdgeOf edge_of(const Corners& corners, int edge)
+{
+    const auto i = static_cast<std::size_t>(edge);
+    return {corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]};
+}
+
+/// The segments of one packet while Embree traverses the boxes.
+class Segments final : public CandidateJudge {
+public:
+    Segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
+             const PacketOf<Receiver>& receivers, SegmentGoal goal, SignCounts& counts)
+        : reference_{reference},
+          light_{light},
+          receivers_{receivers},
+          goal_{goal},
+          counts_{counts}
+    {
+    }
+
+    void trace(const PacketMask& valid)
+    {
+        RTCRay16 packet;
+        for (std::size_t i = 0; i < packet_size; ++i) {
+            if (valid[i]) {
+                const BoundedPoint point = unit_point(receivers_[i], reference_.frame);
+                points_.set(i, point.position, point.error);
+                own_[i] = receivers_[i].triangle;
+                set_lane(packet, i,
+                         shadow_stand_in(point.position, light_.light, reference_.frame));
+            }
+        }
+        reference_.find_candidates(valid, packet, *this);
+        resolve_edges();
+    }
+
+    LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
+    {
+        const Corners corners = corners_of(reference_.triangles, triangle);
+        const ShadowPlanes planes = shadow_planes(reference_.frame, light_.pencil, corners);
+        const LineVerdicts lines = judge_lines(points_, planes.edges);
+        LaneBits open = asking & ~lines.outside;
+        if (open == 0) {
+            return 0;
+        }
+        open &= ~lanes_on(triangle); // the segment meets the plane of T at P only
+        LaneBits crossing = 0;
+        if (planes.light != 0) {
+            const LaneBits sure = open & lines.inside;
+            crossing = sure & certainly_on_side(points_, planes.surface, -planes.light);
+            open &= ~(crossing | (sure & certainly_on_side(points_, planes.surface, planes.light)));
+        }
+        LaneBits settled = 0;
+        for (LaneBits rest = crossing; rest != 0; rest &= rest - 1) {
+            settled |= block(static_cast<std::size_t>(std::countr_zero(rest)), triangle);
+        }
+        for (LaneBits rest = open; rest != 0; rest &= rest - 1) {
+            settled |= decide(static_cast<std::size_t>(std::countr_zero(rest)), triangle, corners);
+        }
+        return settled;
+    }
+
+    float judge_ray(std::uint32_t /*triangle*/, float t_far) override { return t_far; }
+
+    [[nodiscard]] const PacketOf<SegmentContacts>& contacts() const { return contacts_; }
+
+private:
+    /// The lanes whose receiver lies on the triangle.
+    [[nodiscard]] LaneBits lanes_on(std::uint32_t triangle) const
+    {
+        LaneBits lanes = 0;
+        for (std::size_t i = 0; i < packet_size; ++i) {
+            lanes |= own_[i] == triangle ? LaneBits{1} << i : 0;
+        }
+        return lanes;
+    }
+
+    [[nodiscard]] Corners corners(std::uint32_t triangle) const
+    {
+        return corners_of(reference_.triangles, triangle);
+    }
+
+    /// The lane's bit when the triangle settles it; contacts that do not are kept.
+    LaneBits decide(std::size_t lane, std::uint32_t triangle, const Corners& s)
+    {
+        int edge = 0;
+        switch (find_contact(receivers_[lane], s, light_.light, counts_, edge)) {
+        case Contact::none:
+            break;
+        case Contact::cross:
+            return block(lane, triangle);
+        case Contact::edge:
+            edges_.push_back({lane, triangle, edge});
+            break;
+        case Contact::vertex:
+            contacts_[lane].touches_vertex = true;
+            break;
+        case Contact::plane:
+            contacts_[lane].runs_in_triangle |= runs_through(receivers_[lane], s, light_.light);
+            break;
+        }
+        return 0;
+    }
+
+    LaneBits block(std::size_t lane, std::uint32_t triangle)
+    {
+        std::uint32_t& witness = contacts_[lane].witness;
+        if (goal_ == SegmentGoal::any_blocker) {
+            witness = triangle;
+            return LaneBits{1} << lane;
+        }
+        witness = witness == no_triangle ? triangle : nearer(receivers_[lane], witness, triangle);
+        return 0;
+    }
+
+    [[nodiscard]] std::uint32_t nearer(const Receiver& receiver, std::uint32_t a, std::uint32_t b)
+    {
+        const Sign order =
+            compare_nearness_to_light(receiver, corners(a), corners(b), light_.light, counts_);
+        return order == 0 ? std::min(a, b) : (order > 0 ? a : b);
+    }
+
+    /// True when the two triangles' surface passes through the segment at the edge of `contact`.
+    [[nodiscard]] bool forms_seam(const EdgeContact& contact, const EdgeContact& other)
+    {
+        const EdgeOf a = edge_of(corners(contact.triangle), contact.edge);
+        const EdgeOf b = edge_of(corners(other.triangle), other.edge);
+        const bool is_shared = (a.u == b.u && a.v == b.v) || (a.u == b.v && a.v == b.u);
+        return is_shared && is_seam(apex_side(light_.light, a.u, a.v, a.apex, counts_),
+                                    apex_side(light_.light, a.u, a.v, b.apex, counts_));
+    }
+
+    /// Pairs up the edge contacts: a seam blocks, with its lower triangle as the witness.
+    void resolve_edges()
+    {
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            const EdgeContact& contact = edges_[i];
+            contacts_[contact.lane].touches_edge = true;
+            for (std::size_t j = 0; j < i; ++j) {
+                const EdgeContact& other = edges_[j];
+                if (other.lane == contact.lane && forms_seam(contact, other)) {
+                    block_by_seam(contact.lane, std::min(contact.triangle, other.triangle));
+                }
+            }
+        }
+    }
+
+    void block_by_seam(std::size_t lane, std::uint32_t triangle)
+    {
+        std::uint32_t& witness = contacts_[lane].witness;
+        if (goal_ == SegmentGoal::nearest_blocker) {
+            block(lane, triangle);
+        } else if (witness == no_triangle) {
+            witness = triangle; // any proper crossing is the plainer proof
+        }
+    }
+
+    const ReferenceScene::Implementation& reference_;
+    const SegmentLight& light_;
+    const PacketOf<Receiver>& receivers_;
+    SegmentGoal goal_;
+    SignCounts& counts_;
+    LanePoints points_;
+    PacketOf<std::uint32_t> own_{};
+    PacketOf<SegmentContacts> contacts_;
+    std::vector<EdgeContact> edges_;
+};
+
+} // namespace
+
+PacketOf<SegmentContacts> trace_segments(const ReferenceScene::Implementation& reference,
+                                         const SegmentLight& light, const PacketMask& valid,
+                                         const PacketOf<Receiver>& receivers, SegmentGoal goal,
+                                         SignCounts& counts)
+{
+    Segments segments{reference, light, receivers, goal, counts};
+    segments.trace(valid);
+    return segments.contacts();
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "reference_rt/contact.hpp"
+#include "reference_rt/embree_scene.hpp"
+#include "reference_rt/packet.hpp"
+#include "reference_rt/pencil.hpp"
+#include "reference_rt/predicates.hpp"
+#include "scene/light.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::reference_rt {
+
+/// What a search along the segments to the light is for.
+enum class SegmentGoal : std::uint8_t {
+    any_blocker,     ///< a lane is settled by the first triangle that properly crosses it
+    nearest_blocker, ///< the witness is the blocker nearest to the light
+};
+
+/// Everything about the light that all segments of an image share.
+struct SegmentLight {
+    SegmentLight(const ReferenceScene::Implementation& reference, const scene::Light& light_in)
+        : light{light_in},
+          pencil{reference.frame, light_in}
+    {
+    }
+
+    const scene::Light& light;
+    Pencil pencil;
+};
+
+/// What meets the open segments P→light of a packet: every triangle that the segment touches is a
+/// candidate, and each is decided exactly.
+[[nodiscard]] PacketOf<SegmentContacts>
+trace_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
+               const PacketMask& valid, const PacketOf<Receiver>& receivers, SegmentGoal goal,
+               SignCounts& counts);
+
+} // namespace gnomon::reference_rt
