@@ -41,8 +41,10 @@ struct Subject {
     {
         scene_s = seconds_of([&] { file = scene::load_scene(job.scene); });
         upload_s = seconds_of([&] { gl = std::make_unique<cli::GlRenderer>(context, file.scene); });
-        bvh_s = seconds_of(
-            [&] { reference = std::make_unique<reference_rt::ReferenceScene>(file.scene); });
+        bvh_s = seconds_of([&] {
+            reference = std::make_unique<reference_rt::ReferenceScene>(
+                file.scene, reference_rt::ReferenceOptions{.serves_plain_rays = true});
+        });
     }
     [[nodiscard]] analysis::Comparison compare(reference_rt::TruthMethod method) const
     {
