@@ -81,7 +81,7 @@ std::string bash_script(const std::vector<Command>& commands)
     case "$previous" in
         --builtin) COMPREPLY=($(compgen -W "{}" -- "$current")); return ;;
         --set) COMPREPLY=($(compgen -W "{}" -- "$current")); compopt -o nospace; return ;;
-        --truth) COMPREPLY=($(compgen -W "double float" -- "$current")); return ;;
+        --truth) COMPREPLY=($(compgen -W "exact float" -- "$current")); return ;;
         completion) COMPREPLY=($(compgen -W "bash zsh fish" -- "$current")); return ;;
     esac
     if [ "$COMP_CWORD" -eq 1 ]; then
@@ -123,7 +123,7 @@ std::string fish_script(const std::vector<Command>& commands)
         for (const Flag& flag : command.flags) {
             const std::string values = flag.name == "--builtin" ? builtin_names()
                                        : flag.name == "--set"   ? key_names()
-                                       : flag.name == "--truth" ? "double float"
+                                       : flag.name == "--truth" ? "exact float"
                                                                 : "";
             script += fmt::format(
                 "complete -c gnomon -n '__fish_seen_subcommand_from {}' -l {} -d {}{}\n",

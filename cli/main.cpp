@@ -1,3 +1,4 @@
+#include "cli/certify_command.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/doctor_command.hpp"
@@ -40,9 +41,10 @@ void describe(CLI::App& program)
                    "  gnomon compare --builtin sphere-plane\n"
                    "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
                    "  gnomon init job.toml\n\n"
-                   "Exit status: 0 done; 2 usage, or a job or scene that is bad, missing or\n"
-                   "unreadable; 4 GL, Embree or output failed; 130 interrupted.");
+                   "Exit status: 0 done; 1 `certify` refutes; 2 usage, or a job or scene that is\n"
+                   "bad, missing or unreadable; 4 GL, Embree or output failed; 130 interrupted.");
     gnomon::cli::add_compare_command(program);
+    gnomon::cli::add_certify_command(program);
     gnomon::cli::add_scenes_command(program);
     gnomon::cli::add_init_command(program);
     gnomon::cli::add_doctor_command(program);

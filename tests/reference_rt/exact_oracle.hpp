@@ -4,7 +4,7 @@
 #include "scene/light.hpp"
 #include "scene/triangles.hpp"
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@
 /// coordinates) instead of evaluating the reference's five signs.
 namespace gnomon::reference_rt::test {
 
-using Rational = boost::multiprecision::cpp_rational;
+using Rational = boost::multiprecision::mpq_rational;
 
 struct RationalVec {
     Rational x, y, z;
