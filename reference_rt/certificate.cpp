@@ -156,8 +156,8 @@ public:
             kinds[i] = derive(sample[i]);
             progress.add(1);
         });
-        for (std::size_t i = 0; i < sample.size(); ++i) {
-            ++result_.derived[code(claims_.pixel_class[sample[i]])];
+        for (const std::size_t pixel : sample) {
+            ++result_.derived[code(claims_.pixel_class[pixel])];
         }
         const auto count = [&](ClassReason kind) {
             return static_cast<std::uint64_t>(std::ranges::count(kinds, kind));

@@ -116,23 +116,21 @@ CameraRay BruteForce::ray(int x, int y) const
     return CameraRay{scene::pixel_ray(view_.camera, view_.image, x, y)};
 }
 
-std::vector<std::uint32_t> BruteForce::first_hits(const CameraRay& ray) const
+BruteForce::FirstHits BruteForce::first_hits(const CameraRay& ray) const
 {
-    std::vector<std::uint32_t> first;
-    Fraction nearest;
+    FirstHits first;
     for (const std::uint32_t candidate :
          receivers_.candidates(Point{ray.origin}, Point{ray.direction, Rational{}})) {
         const auto t = hit_parameter(ray, triangle(candidate));
         if (!t || compare(*t, near_) <= 0) {
             continue;
         }
-        const Sign order = first.empty() ? -1 : compare(*t, nearest);
+        const Sign order = first.triangles.empty() ? -1 : compare(*t, first.t);
         if (order < 0) {
-            first.clear();
-            nearest = *t;
+            first = {{}, *t};
         }
         if (order <= 0) {
-            first.push_back(candidate);
+            first.triangles.push_back(candidate);
         }
     }
     return first;
@@ -141,7 +139,7 @@ std::vector<std::uint32_t> BruteForce::first_hits(const CameraRay& ray) const
 Finding BruteForce::decide(int x, int y, std::uint32_t receiver) const
 {
     const CameraRay camera = ray(x, y);
-    const auto first = first_hits(camera);
+    const auto [first, t] = first_hits(camera);
     if (first.empty() && receiver == no_triangle) {
         return {PixelClass::background};
     }
@@ -152,7 +150,7 @@ Finding BruteForce::decide(int x, int y, std::uint32_t receiver) const
     if (faces_away(camera, light_, seen)) {
         return {PixelClass::attached, ClassReason::none, receiver};
     }
-    const Point p = point_at(camera, *plane_parameter(camera, seen));
+    const Point p = point_at(camera, t);
     if (view_.light.type == scene::LightType::spot && !is_in_cone(p, view_.light)) {
         return {PixelClass::out_of_light, ClassReason::none, receiver};
     }

@@ -47,10 +47,16 @@ public:
                                                std::uint32_t witness) const;
 
 private:
+    struct FirstHits {
+        std::vector<std::uint32_t> triangles;
+        Fraction t;
+    };
+
     [[nodiscard]] Triangle triangle(std::uint32_t index) const;
     [[nodiscard]] bool is_triangle(std::uint32_t index) const;
     [[nodiscard]] CameraRay ray(int x, int y) const;
-    [[nodiscard]] std::vector<std::uint32_t> first_hits(const CameraRay& ray) const;
+    /// Everything that the ray meets at the smallest t beyond the near plane, in order.
+    [[nodiscard]] FirstHits first_hits(const CameraRay& ray) const;
     [[nodiscard]] Finding decide_segment(const Point& p, std::uint32_t receiver) const;
     [[nodiscard]] std::optional<Finding> contact(const Point& p, std::uint32_t candidate) const;
     [[nodiscard]] std::uint32_t seam_partner(std::uint32_t triangle, std::size_t edge) const;
