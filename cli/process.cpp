@@ -3,10 +3,10 @@
 #include "reports/output_file.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <string_view>
 
 namespace gnomon::cli {

@@ -97,7 +97,8 @@ int Canvas::text_width_px(std::string_view text, const TextStyle& style) const
 {
     const OIIO::ROI extent =
         OIIO::ImageBufAlgo::text_size(drawable(text), style.size_px, font(style));
-    return extent.defined() ? extent.xend : 0;
+    // Of a text without glyphs OpenImageIO gives a box that is inside out.
+    return std::max(extent.xend, 0);
 }
 
 std::string Canvas::fitted(std::string_view text, const TextStyle& style, int width_px) const

@@ -16,7 +16,6 @@ namespace gnomon::reports {
 namespace {
 
 using nlohmann::json;
-using testing::ElementsAre;
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 

@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
-#include <stdlib.h>
 #include <vector>
 
 namespace gnomon::reports {

@@ -1,6 +1,7 @@
 #include "reports/picture.hpp"
 
 #include "example_comparison.hpp"
+#include "reports/canvas.hpp"
 #include "reports/panels.hpp"
 #include "scene/error.hpp"
 
@@ -158,6 +159,14 @@ TEST(LayOutPicture, KeepsExtremeShapesSmall)
         EXPECT_LE(layout.canvas.width_px, 3200);
         EXPECT_LE(layout.canvas.height_px, 2400);
     }
+}
+
+TEST(Canvas, MeasuresATextWithoutGlyphsAsNothing)
+{
+    const Canvas canvas{{8, 8}, {255, 255, 255}, default_font_folder};
+    const TextStyle style{12, false, {0, 0, 0}};
+    EXPECT_EQ(canvas.text_width_px("", style), 0);
+    EXPECT_GT(canvas.text_width_px("i", style), 0);
 }
 
 TEST(WritePicture, WritesAPngOfTheLayoutsSizeWithTheErrorColours)

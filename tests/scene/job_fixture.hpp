@@ -50,7 +50,7 @@ inline const std::filesystem::path& job_folder()
 inline std::filesystem::path write_job(const std::string& text,
                                        const std::string& name = "job.toml")
 {
-    const auto path = job_folder() / name;
+    std::filesystem::path path = job_folder() / name;
     // Some file systems flush a file that is truncated and written anew, not a new one.
     std::filesystem::remove(path);
     std::ofstream{path, std::ios::binary} << text;

@@ -39,7 +39,7 @@ public:
 
     std::filesystem::path write(const std::string& name, std::string_view contents) const
     {
-        const auto file = path_ / name;
+        std::filesystem::path file = path_ / name;
         std::filesystem::create_directories(file.parent_path());
         std::ofstream{file, std::ios::binary} << contents;
         return file;

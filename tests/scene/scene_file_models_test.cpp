@@ -52,7 +52,8 @@ void expect_sound(const TriangleScene& scene, const std::string& label)
             << label;
     }
     for (const Vec3f& v : scene.vertices) {
-        ASSERT_TRUE(std::abs(double{v.x}) <= max_coordinate_m && std::abs(double{v.y}) <= max_coordinate_m &&
+        ASSERT_TRUE(std::abs(double{v.x}) <= max_coordinate_m &&
+                    std::abs(double{v.y}) <= max_coordinate_m &&
                     std::abs(double{v.z}) <= max_coordinate_m)
             << label;
     }
