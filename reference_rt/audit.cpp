@@ -29,26 +29,19 @@ using Wrong = std::array<FloatMethodErrors, methods.size()>;
 struct Scored {
     PacketMask lanes;
     PacketMask blocked;
-    PacketOf<Receiver> receivers;
 };
 
-Scored scored_of(const Tile& tile, const ReferenceScene::Implementation& reference,
-                 const Image<std::uint32_t>& receivers, const scene::TruthLayers& truth)
+Scored scored_of(const Tile& tile, const scene::TruthLayers& truth)
 {
     Scored scored;
-    SignCounts ignored;
     for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!tile.valid[i]) {
+        if (!tile.seen[i]) {
             continue;
         }
         const PixelClass pixel_class = truth.pixel_class(tile.x[i], tile.y[i]);
-        if (!scene::is_scored(pixel_class)) {
-            continue;
+        if (scene::is_scored(pixel_class)) {
+            scored.lanes.add(i);
         }
-        const std::uint32_t triangle = receivers(tile.x[i], tile.y[i]);
-        scored.lanes.add(i);
-        scored.receivers[i] = Receiver{Facet{triangle, corners_of(reference.triangles, triangle)},
-                                       tile.rays[i], ignored};
         if (pixel_class == PixelClass::blocked) {
             scored.blocked.add(i);
         }
@@ -80,16 +73,19 @@ std::vector<FloatMethodErrors> audit_float_methods(const ReferenceScene& referen
                                     "receivers and truth be of the image's size"};
     }
     tbb::combinable<Wrong> wrong;
+    tbb::combinable<Tile> tiles;
     for_each_tile(view.image, threads, [&](int column, int row) {
-        const Scored scored =
-            scored_of(gather_tile(view, column, row), implementation, receivers, truth);
+        SignCounts ignored; // of methods that prove nothing
+        Tile& tile = tiles.local();
+        fill_tile(tile, implementation.triangles, view, receivers, column, row, ignored);
+        const Scored scored = scored_of(tile, truth);
         if (!scored.lanes.any()) {
             return;
         }
         for (std::size_t m = 0; m < methods.size(); ++m) {
             count_wrong(scored,
                         trace_plain(implementation, view.light, methods[m].first, scored.lanes,
-                                    scored.receivers),
+                                    tile.receivers),
                         wrong.local()[m]);
         }
     });

@@ -20,15 +20,11 @@ struct Search {
     const Image<std::uint32_t>& receivers;
     SegmentLight light;
 
-    [[nodiscard]] Receiver receiver_of(std::size_t pixel, SignCounts& counts) const
+    [[nodiscard]] CameraRay ray_of(std::size_t pixel) const
     {
         const auto width = static_cast<std::size_t>(view.image.width_px);
-        const std::uint32_t triangle = receivers[pixel];
-        return Receiver{
-            Facet{triangle, corners_of(reference.triangles, triangle)},
-            CameraRay{pixel_ray(view.camera, view.image, static_cast<int>(pixel % width),
-                                static_cast<int>(pixel / width))},
-            counts};
+        return CameraRay{pixel_ray(view.camera, view.image, static_cast<int>(pixel % width),
+                                   static_cast<int>(pixel / width))};
     }
 
     /// Finds the blockers of at most a packet of pixels.
@@ -36,9 +32,12 @@ struct Search {
     {
         SignCounts counts;
         PacketMask valid;
+        PacketOf<Facet> facets;
         PacketOf<Receiver> packet;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            packet[i] = receiver_of(pixels[i], counts);
+            const std::uint32_t triangle = receivers[pixels[i]];
+            facets[i] = Facet{triangle, corners_of(reference.triangles, triangle)};
+            packet[i] = Receiver{facets[i], ray_of(pixels[i]), counts};
             if (packet[i].delta_sign != 0) { // else edge-on: there is no point P
                 valid.add(i);
             }

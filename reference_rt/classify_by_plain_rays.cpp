@@ -2,11 +2,12 @@
 #include "reference_rt/plain_shadow.hpp"
 #include "reference_rt/tiles.hpp"
 
+#include <tbb/combinable.h>
+
 namespace gnomon::reference_rt {
 
 using scene::ClassReason;
 using scene::Image;
-using scene::no_triangle;
 using scene::PixelClass;
 using scene::TruthLayers;
 using scene::View;
@@ -16,25 +17,22 @@ TruthLayers classify_by_plain_rays(const ReferenceScene::Implementation& referen
                                    int threads)
 {
     TruthLayers layers = empty_layers(view.image);
+    tbb::combinable<Tile> tiles;
     for_each_tile(view.image, threads, [&](int column, int row) {
         SignCounts ignored; // of a method that proves nothing
-        const Tile tile = gather_tile(view, column, row);
+        Tile& tile = tiles.local();
+        fill_tile(tile, reference.triangles, view, receivers, column, row, ignored);
         PacketMask open;
-        PacketOf<Receiver> lane_receivers;
         for (std::size_t i = 0; i < packet_size; ++i) {
-            const std::uint32_t triangle =
-                tile.valid[i] ? receivers(tile.x[i], tile.y[i]) : no_triangle;
-            if (triangle == no_triangle) {
+            if (!tile.seen[i]) {
                 continue;
             }
-            Receiver& receiver = lane_receivers[i];
-            receiver = Receiver{Facet{triangle, corners_of(reference.triangles, triangle)},
-                                tile.rays[i], ignored};
+            const Receiver& receiver = tile.receivers[i];
             PixelClass& pixel_class = layers.pixel_class(tile.x[i], tile.y[i]);
             if (receiver.delta_sign == 0) { // edge-on: there is no point P
                 pixel_class = PixelClass::unmatched;
                 layers.reason(tile.x[i], tile.y[i]) = ClassReason::snap;
-            } else if (is_attached(receiver, view.light, ignored)) {
+            } else if (is_attached(receiver, light_side(receiver.corners(), view.light, ignored))) {
                 pixel_class = PixelClass::attached;
             } else if (is_out_of_light(receiver, view.light, ignored)) {
                 pixel_class = PixelClass::out_of_light;
@@ -46,7 +44,7 @@ TruthLayers classify_by_plain_rays(const ReferenceScene::Implementation& referen
             return;
         }
         const PacketMask blocked =
-            trace_plain(reference, view.light, PlainOffset::ray_start, open, lane_receivers);
+            trace_plain(reference, view.light, PlainOffset::ray_start, open, tile.receivers);
         for (std::size_t i = 0; i < packet_size; ++i) {
             if (open[i]) {
                 layers.pixel_class(tile.x[i], tile.y[i]) =

@@ -9,7 +9,6 @@ namespace gnomon::reference_rt {
 
 using scene::ClassReason;
 using scene::Image;
-using scene::no_triangle;
 using scene::PixelClass;
 using scene::TruthLayers;
 using scene::View;
@@ -33,76 +32,71 @@ public:
     /// Classifies the pixels of one tile; different tiles may run at the same time.
     void classify_tile(int column, int row)
     {
-        SignCounts& counts = counts_.local();
-        const Tile tile = gather_tile(view_, column, row);
-        const auto receivers = make_receivers(tile, counts);
-        const PacketMask matched = first_hits_.match(tile.valid, tile.rays, receivers, counts);
+        Worker& worker = workers_.local();
+        const Tile& tile = worker.tile;
+        fill_tile(worker.tile, reference_.triangles, view_, receivers_, column, row, worker.counts);
+        const PacketMask matched = first_hits_.match(tile, worker.counts);
+        find_light_sides(worker);
         PacketMask open; // lanes that the shadow rays decide
         for (std::size_t i = 0; i < packet_size; ++i) {
-            if (!tile.valid[i]) {
-                continue;
-            }
-            if (!matched[i]) {
-                const auto [pixel_class, reason] = first_hits_.explain(
-                    tile.rays[i], tile.x[i], tile.y[i], receivers[i].triangle, counts);
+            if (tile.valid[i] && !matched[i]) {
+                const auto [pixel_class, reason] =
+                    first_hits_.explain(tile.rays[i], tile.x[i], tile.y[i],
+                                        receivers_(tile.x[i], tile.y[i]), worker.counts);
                 write(tile, i, pixel_class, reason);
-            } else if (receivers[i].triangle != no_triangle &&
-                       may_be_lit(tile, i, receivers[i], counts)) {
+            } else if (tile.seen[i] && may_be_lit(worker, i)) {
                 open.add(i);
             }
         }
         if (open.any()) {
-            cast_shadow_rays(tile, open, receivers, counts);
+            cast_shadow_rays(tile, open, worker.counts);
         }
     }
 
     [[nodiscard]] TruthLayers take()
     {
-        const SignCounts counts =
-            counts_.combine([](SignCounts a, const SignCounts& b) { return a += b; });
-        layers_.signs = {counts.filtered, counts.exact};
+        workers_.combine_each([&](const Worker& worker) {
+            layers_.signs.filtered += worker.counts.filtered;
+            layers_.signs.exact += worker.counts.exact;
+        });
         return std::move(layers_);
     }
 
 private:
-    [[nodiscard]] PacketOf<Receiver> make_receivers(const Tile& tile, SignCounts& counts) const
+    /// What a thread keeps from tile to tile.
+    struct Worker {
+        Tile tile;
+        PacketOf<Sign> light_side{}; ///< of each facet
+        SignCounts counts;
+    };
+
+    void find_light_sides(Worker& worker) const
     {
-        PacketOf<Receiver> receivers;
-        Facet facet; // neighbouring pixels often show the same triangle
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            const std::uint32_t triangle =
-                tile.valid[i] ? receivers_(tile.x[i], tile.y[i]) : no_triangle;
-            if (triangle == no_triangle) {
-                continue;
-            }
-            if (facet.triangle != triangle) {
-                facet = Facet{triangle, corners_of(reference_.triangles, triangle)};
-            }
-            receivers[i] = Receiver{facet, tile.rays[i], counts};
+        for (std::size_t f = 0; f < worker.tile.facet_count; ++f) {
+            worker.light_side[f] =
+                light_side(worker.tile.facets[f].corners, view_.light, worker.counts);
         }
-        return receivers;
     }
 
     /// False when the light cannot reach the side that is seen; its class is written.
-    [[nodiscard]] bool may_be_lit(const Tile& tile, std::size_t i, const Receiver& receiver,
-                                  SignCounts& counts)
+    [[nodiscard]] bool may_be_lit(Worker& worker, std::size_t i)
     {
-        if (is_attached(receiver, view_.light, counts)) {
+        const Tile& tile = worker.tile;
+        if (is_attached(tile.receivers[i], worker.light_side[tile.facet_of[i]])) {
             write(tile, i, PixelClass::attached, ClassReason::none);
             return false;
         }
-        if (is_out_of_light(receiver, view_.light, counts)) {
+        if (is_out_of_light(tile.receivers[i], view_.light, worker.counts)) {
             write(tile, i, PixelClass::out_of_light, ClassReason::none);
             return false;
         }
         return true;
     }
 
-    void cast_shadow_rays(const Tile& tile, const PacketMask& open,
-                          const PacketOf<Receiver>& receivers, SignCounts& counts)
+    void cast_shadow_rays(const Tile& tile, const PacketMask& open, SignCounts& counts)
     {
-        const auto contacts =
-            trace_segments(reference_, light_, open, receivers, SegmentGoal::any_blocker, counts);
+        const auto contacts = trace_segments(reference_, light_, open, tile.receivers,
+                                             SegmentGoal::any_blocker, counts);
         for (std::size_t i = 0; i < packet_size; ++i) {
             if (open[i]) {
                 const Shadowing shadowing = classify_segment(contacts[i]);
@@ -124,7 +118,7 @@ private:
     FirstHits first_hits_;
     SegmentLight light_;
     TruthLayers layers_;
-    tbb::combinable<SignCounts> counts_;
+    tbb::combinable<Worker> workers_;
 };
 
 } // namespace

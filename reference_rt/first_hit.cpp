@@ -1,28 +1,31 @@
 #include "reference_rt/first_hit.hpp"
 
+#include "reference_rt/stand_in.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace gnomon::reference_rt {
 
 using scene::ClassReason;
 using scene::no_triangle;
 using scene::PixelClass;
-using scene::Vec3d;
 
 namespace {
 
-/// The hit of a ray with a closed triangle beyond the near plane, if there is one.
-std::optional<Receiver> closed_hit(const CameraRay& ray, std::uint32_t triangle,
-                                   const Corners& corners, double near_m, SignCounts& counts)
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// True when the ray meets the closed facet beyond the near plane; `hit` is made where it meets it.
+bool is_hit(const CameraRay& ray, const Facet& facet, double near_m, SignCounts& counts,
+            Receiver& hit)
 {
-    if (!meets(ray, corners, counts)) {
-        return std::nullopt;
+    if (!meets(ray, facet.corners, counts)) {
+        return false;
     }
-    const Receiver hit{Facet{triangle, corners}, ray, counts};
-    return is_beyond(hit, near_m, counts) ? std::optional{hit} : std::nullopt;
+    hit = Receiver{facet, ray, counts};
+    return is_beyond(hit, near_m, counts);
 }
 
 /// The camera rays of one packet: which are hidden from their receivers, or see where GL does not.
@@ -35,22 +38,20 @@ public:
         double near_m;
     };
 
-    Sight(const Setting& setting, const PacketOf<CameraRay>& rays,
-          const PacketOf<Receiver>& receivers, SignCounts& counts)
+    Sight(const Setting& setting, const Tile& tile, SignCounts& counts)
         : setting_{setting},
-          rays_{rays},
-          receivers_{receivers},
+          tile_{tile},
           counts_{counts}
     {
     }
 
     /// The lanes in which GL is right.
-    PacketMask match(const PacketMask& valid)
+    PacketMask match()
     {
         RTCRay16 packet;
         PacketMask traced;
         for (std::size_t i = 0; i < packet_size; ++i) {
-            if (valid[i] && has_usable_receiver(i)) {
+            if (tile_.valid[i] && may_match(i)) {
                 traced.add(i);
                 prepare(i, packet);
             }
@@ -79,10 +80,15 @@ public:
         }
         const LaneBits own = lanes_on(triangle);
         covered_ |= own & lines.inside;
+        LaneBits rest = open & ~own;
+        if (rest == 0) {
+            return 0;
+        }
+        const Facet facet{triangle, corners};
         LaneBits hidden = 0;
-        for (LaneBits rest = open & ~own; rest != 0; rest &= rest - 1) {
+        for (; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            hidden |= hides(lane, triangle, corners) ? rest & (~rest + 1) : 0;
+            hidden |= hides(lane, facet) ? LaneBits{1} << lane : 0;
         }
         hidden_ |= hidden;
         return hidden;
@@ -92,27 +98,24 @@ public:
 
 private:
     /// False where GL's triangle is edge-on, or not beyond the near plane: it is no hit.
-    [[nodiscard]] bool has_usable_receiver(std::size_t i)
+    [[nodiscard]] bool may_match(std::size_t i)
     {
-        const Receiver& receiver = receivers_[i];
-        return receiver.triangle == no_triangle ||
+        const Receiver& receiver = tile_.receivers[i];
+        return !tile_.seen[i] ||
                (receiver.delta_sign != 0 && is_beyond(receiver, setting_.near_m, counts_));
     }
 
     void prepare(std::size_t i, RTCRay16& packet)
     {
-        const UnitFrame& frame = setting_.reference.frame;
-        const CameraStandIn stand_in{rays_[i], frame};
+        const CameraStandIn stand_in{tile_.rays[i], setting_.reference.frame};
         if (setting_.has_eye) {
-            points_.set(i, stand_in.direction(), 0);
+            points_.set(i, tile_.rays[i].ray.direction, 0);
         } else {
             points_.set(i, stand_in.origin().position, stand_in.origin().error);
         }
-        own_[i] = receivers_[i].triangle;
+        own_[i] = tile_.seen[i] ? tile_.receivers[i].triangle() : no_triangle;
         set_lane(packet, i,
-                 own_[i] == no_triangle
-                     ? stand_in.ray()
-                     : stand_in.ray(stand_in.t_beyond(unit_point(receivers_[i], frame).position)));
+                 stand_in.ray(tile_.seen[i] ? stand_in.t_beyond(tile_.receivers[i]) : infinity));
     }
 
     /// The valid lanes in which GL saw the triangle.
@@ -125,24 +128,23 @@ private:
         return lanes;
     }
 
-    /// True when the lane's ray meets the triangle before its receiver, or without having one.
-    [[nodiscard]] bool hides(std::size_t lane, std::uint32_t triangle, const Corners& corners)
+    /// True when the lane's ray meets the facet before its receiver, or without having one.
+    [[nodiscard]] bool hides(std::size_t lane, const Facet& facet)
     {
-        const auto hit = closed_hit(rays_[lane], triangle, corners, setting_.near_m, counts_);
-        return hit &&
-               (own_[lane] == no_triangle || compare_distance(*hit, receivers_[lane], counts_) < 0);
+        Receiver hit;
+        return is_hit(tile_.rays[lane], facet, setting_.near_m, counts_, hit) &&
+               (!tile_.seen[lane] || compare_distance(hit, tile_.receivers[lane], counts_) < 0);
     }
 
     /// True when nothing was expected, or the ray meets the closed T.
     [[nodiscard]] bool receiver_is_hit(std::size_t i)
     {
-        return own_[i] == no_triangle || (covered_ >> i & 1U) != 0 ||
-               meets(rays_[i], receivers_[i].corners, counts_);
+        return !tile_.seen[i] || (covered_ >> i & 1U) != 0 ||
+               meets(tile_.rays[i], tile_.receivers[i].corners(), counts_);
     }
 
     Setting setting_;
-    const PacketOf<CameraRay>& rays_;
-    const PacketOf<Receiver>& receivers_;
+    const Tile& tile_;
     SignCounts& counts_;
     LanePoints points_;
     PacketOf<std::uint32_t> own_{};
@@ -163,34 +165,34 @@ public:
     {
     }
 
-    std::vector<Receiver> find()
+    std::vector<std::uint32_t> find()
     {
         RTCRayHit single{};
-        set_ray(single.ray, stand_in_.ray());
+        set_ray(single.ray, stand_in_.ray(infinity));
         single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         reference_.find_candidates(single, *this);
-        return std::move(nearest_);
+        return std::move(triangles_);
     }
 
     LaneBits judge_packet(std::uint32_t /*triangle*/, LaneBits /*asking*/) override { return 0; }
 
     float judge_ray(std::uint32_t triangle, float t_far) override
     {
-        const auto hit = closed_hit(ray_, triangle, corners_of(reference_.triangles, triangle),
-                                    near_m_, counts_);
-        if (!hit) {
+        const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
+        Receiver hit;
+        if (!is_hit(ray_, facet, near_m_, counts_, hit)) {
             return t_far;
         }
-        const Sign order =
-            nearest_.empty() ? -1 : compare_distance(*hit, nearest_.front(), counts_);
+        const Sign order = triangles_.empty() ? -1 : compare_distance(hit, nearest_, counts_);
         if (order < 0) {
-            nearest_.clear();
+            triangles_.clear();
+            nearest_facet_ = facet;
+            nearest_ = Receiver{nearest_facet_, ray_, counts_};
         }
         if (order <= 0) {
-            nearest_.push_back(*hit);
+            triangles_.push_back(triangle);
         }
-        const auto& nearest = nearest_.front();
-        return std::min(t_far, stand_in_.t_beyond(unit_point(nearest, reference_.frame).position));
+        return std::min(t_far, stand_in_.t_beyond(nearest_));
     }
 
 private:
@@ -199,7 +201,9 @@ private:
     double near_m_;
     SignCounts& counts_;
     CameraStandIn stand_in_;
-    std::vector<Receiver> nearest_;
+    std::vector<std::uint32_t> triangles_; ///< all at the same distance
+    Facet nearest_facet_;
+    Receiver nearest_;
 };
 
 } // namespace
@@ -214,22 +218,26 @@ FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scen
 {
 }
 
-PacketMask FirstHits::match(const PacketMask& valid, const PacketOf<CameraRay>& rays,
-                            const PacketOf<Receiver>& receivers, SignCounts& counts) const
+PacketMask FirstHits::match(const Tile& tile, SignCounts& counts) const
 {
-    return Sight{{reference_, pencil_, has_eye_, near_m_}, rays, receivers, counts}.match(valid);
+    return Sight{{reference_, pencil_, has_eye_, near_m_}, tile, counts}.match();
 }
 
-std::vector<Receiver> FirstHits::first_hits(const CameraRay& ray, SignCounts& counts) const
+std::vector<std::uint32_t> FirstHits::first_hits(const CameraRay& ray, SignCounts& counts) const
 {
     return NearestHits{reference_, ray, near_m_, counts}.find();
 }
 
-bool FirstHits::is_tie(const Receiver& seen, const Receiver& first, int x, int y) const
+bool FirstHits::is_tie(const CameraRay& ray, std::uint32_t seen, std::uint32_t first, int x,
+                       int y) const
 {
-    const double gap = std::abs(raster_.depth(seen.point()) - raster_.depth(first.point()));
-    return gap <=
-           raster_.depth_error(seen.triangle, x, y) + raster_.depth_error(first.triangle, x, y);
+    SignCounts ignored; // points only
+    const auto depth = [&](std::uint32_t triangle) {
+        const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
+        return raster_.depth(Receiver{facet, ray, ignored}.point());
+    };
+    return std::abs(depth(seen) - depth(first)) <=
+           raster_.depth_error(seen, x, y) + raster_.depth_error(first, x, y);
 }
 
 UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uint32_t triangle,
@@ -242,21 +250,21 @@ UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uin
     if (triangle == no_triangle && first.empty()) {
         return {PixelClass::background, ClassReason::none};
     }
-    const bool is_first_snapped = std::ranges::any_of(first, [&](const Receiver& hit) {
-        return raster_.coverage_may_differ(hit.triangle, x, y, true);
-    });
+    const bool is_first_snapped = std::ranges::any_of(
+        first, [&](std::uint32_t hit) { return raster_.coverage_may_differ(hit, x, y, true); });
     if (is_first_snapped) {
         return unmatched(ClassReason::snap);
     }
     if (triangle == no_triangle) {
         return unmatched(ClassReason::mismatch);
     }
-    const Corners corners = corners_of(reference_.triangles, triangle);
-    const auto seen = closed_hit(ray, triangle, corners, near_m_, counts);
-    if (raster_.coverage_may_differ(triangle, x, y, seen.has_value())) {
+    const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
+    Receiver hit;
+    const bool is_seen = is_hit(ray, facet, near_m_, counts, hit);
+    if (raster_.coverage_may_differ(triangle, x, y, is_seen)) {
         return unmatched(ClassReason::snap);
     }
-    return unmatched(seen && !first.empty() && is_tie(*seen, first.front(), x, y)
+    return unmatched(is_seen && !first.empty() && is_tie(ray, triangle, first.front(), x, y)
                          ? ClassReason::tie
                          : ClassReason::mismatch);
 }

@@ -5,7 +5,7 @@
 #include "reference_rt/pencil.hpp"
 #include "reference_rt/predicates.hpp"
 #include "reference_rt/receiver_raster.hpp"
-#include "reference_rt/stand_in.hpp"
+#include "reference_rt/tiles.hpp"
 #include "scene/job.hpp"
 
 #include <cstdint>
@@ -28,20 +28,19 @@ public:
 
     /// The lanes in which GL is right: its triangle is in T*, or it saw nothing and T* is empty.
     ///
-    /// @param rays       of the valid lanes.
-    /// @param receivers  in the valid lanes, GL's triangle, or `no_triangle`.
-    [[nodiscard]] PacketMask match(const PacketMask& valid, const PacketOf<CameraRay>& rays,
-                                   const PacketOf<Receiver>& receivers, SignCounts& counts) const;
+    [[nodiscard]] PacketMask match(const Tile& tile, SignCounts& counts) const;
 
     /// Why GL's triangle, or its seeing none, does not match.
     [[nodiscard]] UnmatchedVerdict explain(const CameraRay& ray, int x, int y,
                                            std::uint32_t triangle, SignCounts& counts) const;
 
     /// T*, in no particular order.
-    [[nodiscard]] std::vector<Receiver> first_hits(const CameraRay& ray, SignCounts& counts) const;
+    [[nodiscard]] std::vector<std::uint32_t> first_hits(const CameraRay& ray,
+                                                        SignCounts& counts) const;
 
 private:
-    [[nodiscard]] bool is_tie(const Receiver& seen, const Receiver& first, int x, int y) const;
+    [[nodiscard]] bool is_tie(const CameraRay& ray, std::uint32_t seen, std::uint32_t first, int x,
+                              int y) const;
 
     const ReferenceScene::Implementation& reference_;
     double near_m_;

@@ -41,9 +41,9 @@ Rational dot(const RationalVec& a, const RationalVec& b)
 
 RationalVec rational_point(const Receiver& receiver)
 {
-    const RationalVec a = rational(receiver.corners[0]);
-    const RationalVec normal = cross(difference(rational(receiver.corners[1]), a),
-                                     difference(rational(receiver.corners[2]), a));
+    const RationalVec a = rational(receiver.corners()[0]);
+    const RationalVec normal = cross(difference(rational(receiver.corners()[1]), a),
+                                     difference(rational(receiver.corners()[2]), a));
     const RationalVec origin = rational(receiver.camera_ray.ray.origin);
     const RationalVec direction = rational(receiver.camera_ray.ray.direction);
     const Rational t = dot(normal, difference(a, origin)) / dot(normal, direction);

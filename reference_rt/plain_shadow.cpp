@@ -45,7 +45,7 @@ void reject_own_triangle(const RTCFilterFunctionNArguments* arguments) noexcept
         const std::uint32_t triangle =
             own.reference.triangle(RTCHitN_geomID(arguments->hit, arguments->N, i),
                                    RTCHitN_primID(arguments->hit, arguments->N, i));
-        if (own.receivers[RTCRayN_id(arguments->ray, arguments->N, i)].triangle == triangle) {
+        if (own.receivers[RTCRayN_id(arguments->ray, arguments->N, i)].triangle() == triangle) {
             arguments->valid[i] = 0;
         }
     }
@@ -60,8 +60,8 @@ FloatRay plain_ray(const Receiver& receiver, const scene::Light& light, PlainOff
     const double length = glm::length(to_light);
     Vec3f origin{point};
     if (offset == PlainOffset::integer) {
-        const Vec3d n = glm::normalize(glm::cross(receiver.corners[1] - receiver.corners[0],
-                                                  receiver.corners[2] - receiver.corners[0]));
+        const Vec3d n = glm::normalize(glm::cross(receiver.corners()[1] - receiver.corners()[0],
+                                                  receiver.corners()[2] - receiver.corners()[0]));
         origin = offset_by_ulps(origin, Vec3f{glm::dot(n, to_light) < 0 ? -n : n});
     }
     return {origin, Vec3f{to_light / length}, offset == PlainOffset::ray_start ? t_near : 0.0F,

@@ -25,10 +25,10 @@ auto plane_hit(FilterField, const Receiver& receiver)
 auto plane_hit(ExactField, const Receiver& receiver)
 {
     const Ray& ray = receiver.camera_ray.ray;
-    const auto normal = normal_of<ExactField>(receiver.corners);
+    const auto normal = normal_of<ExactField>(receiver.corners());
     return PlaneHit<Dyadic, Dyadic>{
         dot(normal, vector<ExactField>(ray.direction)),
-        dot(normal, difference<ExactField>(receiver.corners[0], ray.origin))};
+        dot(normal, difference<ExactField>(receiver.corners()[0], ray.origin))};
 }
 
 Vec3<Filtered<1>> negated(const Vec3<Filtered<0>>& v)
@@ -71,13 +71,6 @@ Sign edge_sign(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const L
            });
 }
 
-Sign light_sign(const Corners& s, const Light& light, SignCounts& counts)
-{
-    return sign_of(counts, true, [&]<typename Field>(Field) {
-        return dot(normal_of<Field>(s), towards<Field>(light, s[0]));
-    });
-}
-
 Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
 {
     const auto formula = [&]<typename Field>(Field field) {
@@ -92,21 +85,9 @@ Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
 
 } // namespace
 
-Receiver::Receiver(const Facet& facet, const CameraRay& camera_ray_in, SignCounts& counts)
-    : triangle{facet.triangle},
-      camera_ray{camera_ray_in},
-      corners{facet.corners}
+Sign Receiver::exact_delta_sign(SignCounts& counts) const
 {
-    const Ray& ray = camera_ray.ray;
-    delta = dot(facet.normal, vector<FilterField>(ray.direction));
-    nu = dot(facet.normal, difference<FilterField>(corners[0], ray.origin));
-    delta_sign = sign_of(counts, camera_ray.is_tame,
-                         [&](auto field) { return plane_hit(field, *this).delta; });
-}
-
-double Receiver::t_error() const
-{
-    return (nu.error() + std::abs(t()) * delta.error()) / (std::abs(delta.value) - delta.error());
+    return exact_sign(counts, [&](auto field) { return plane_hit(field, *this).delta; });
 }
 
 Vec3d exact_offset(const Receiver& receiver, const Vec3d& origin)
@@ -167,14 +148,14 @@ Sign compare_distance(const Receiver& a, const Receiver& b, SignCounts& counts)
     if (const auto sign = filtered_sign(counts, a.camera_ray.is_tame, formula)) {
         return a.delta_sign * b.delta_sign * *sign;
     }
-    return is_coplanar(a, b.corners, counts)
+    return is_coplanar(a, b.corners(), counts)
                ? 0
                : a.delta_sign * b.delta_sign * exact_sign(counts, formula);
 }
 
 bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts)
 {
-    const Corners& t = receiver.corners;
+    const Corners& t = receiver.corners();
     return std::ranges::all_of(s, [&](const Vec3d& corner) {
         return corner == t[0] || corner == t[1] || corner == t[2] ||
                sign_of(counts, true, [&]<typename Field>(Field) {
@@ -183,10 +164,11 @@ bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts)
     });
 }
 
-bool is_attached(const Receiver& receiver, const Light& light, SignCounts& counts)
+Sign light_side(const Corners& corners, const Light& light, SignCounts& counts)
 {
-    // Towards the camera is −d, and n·(−d) = −δ.
-    return light_sign(receiver.corners, light, counts) != -receiver.delta_sign;
+    return sign_of(counts, true, [&]<typename Field>(Field) {
+        return dot(normal_of<Field>(corners), towards<Field>(light, corners[0]));
+    });
 }
 
 bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& counts)
@@ -224,7 +206,7 @@ ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s, const Light
     return {{edge_sign(receiver, u, v, light, counts), edge_sign(receiver, v, w, light, counts),
              edge_sign(receiver, w, u, light, counts)},
             point_sign(receiver, s, counts),
-            light_sign(s, light, counts)};
+            light_side(s, light, counts)};
 }
 
 Contact find_contact(const Receiver& receiver, const Corners& s, const Light& light,
@@ -237,7 +219,7 @@ Contact find_contact(const Receiver& receiver, const Corners& s, const Light& li
             return Contact::none; // unless the segment runs in the plane: then all three are 0
         }
     }
-    signs.light = light_sign(s, light, counts);
+    signs.light = light_side(s, light, counts);
     signs.point = point_sign(receiver, s, counts);
     const Contact contact = classify_contact(signs);
     if (contact == Contact::edge) {
@@ -273,7 +255,7 @@ Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a, const
     });
     // |A_a B_b| − |A_b B_a| = f (A_a B_b − A_b B_a), f = −sgn(δ) sgn(A_a) sgn(A_b), and with
     // sgn(A) = −sgn(δ) sgn(B): f = −sgn(δ) sgn(B_a) sgn(B_b).
-    return -receiver.delta_sign * light_sign(a, light, counts) * light_sign(b, light, counts) *
+    return -receiver.delta_sign * light_side(a, light, counts) * light_side(b, light, counts) *
            product;
 }
 

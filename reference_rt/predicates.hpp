@@ -63,7 +63,20 @@ struct Facet {
 /// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
 struct Receiver {
     Receiver() = default;
-    Receiver(const Facet& facet, const CameraRay& camera_ray_in, SignCounts& counts);
+    /// The facet must outlive the receiver.
+    Receiver(const Facet& facet_in, const CameraRay& camera_ray_in, SignCounts& counts)
+        : facet{&facet_in},
+          camera_ray{camera_ray_in},
+          delta{dot(facet->normal, vector<FilterField>(camera_ray.ray.direction))},
+          nu{dot(facet->normal, difference<FilterField>(corners()[0], camera_ray.ray.origin))}
+    {
+        const auto sign = filtered_sign(counts, camera_ray.is_tame, [&](auto) { return delta; });
+        delta_sign = sign ? *sign : exact_delta_sign(counts);
+    }
+    Receiver(const Facet&& facet_in, const CameraRay& camera_ray_in, SignCounts& counts) = delete;
+
+    [[nodiscard]] std::uint32_t triangle() const { return facet->triangle; }
+    [[nodiscard]] const Corners& corners() const { return facet->corners; }
 
     /// P rounded [m]; its error is a few roundings of E and of t·d, and t's.
     [[nodiscard]] scene::Vec3d point() const
@@ -72,15 +85,25 @@ struct Receiver {
     }
     /// ν/δ.
     [[nodiscard]] double t() const { return nu.value / delta.value; }
-    /// Bound of the error of `t()`; meaningless where the filter cannot tell the sign of δ.
-    [[nodiscard]] double t_error() const;
+    /// Bound of the error of `t()`; infinite where the filter cannot tell the sign of δ.
+    [[nodiscard]] double t_error() const
+    {
+        const double smallest_delta = std::abs(delta.value) - delta.error();
+        if (!(smallest_delta > 0) || !camera_ray.is_tame) {
+            return std::numeric_limits<double>::infinity();
+        }
+        const double distance = std::abs(t());
+        return (nu.error() + distance * delta.error()) / smallest_delta + unit_roundoff * distance;
+    }
 
-    std::uint32_t triangle = scene::no_triangle; ///< T
+    const Facet* facet = nullptr; ///< T; not owned
     CameraRay camera_ray;
-    Corners corners{}; ///< a, b, c
     Filtered<7> delta;
     Filtered<8> nu;
     Sign delta_sign = 0; ///< exact
+
+private:
+    [[nodiscard]] Sign exact_delta_sign(SignCounts& counts) const;
 };
 
 /// P − origin to within 2^-50 of its size, however badly δ is conditioned.
@@ -102,9 +125,17 @@ struct Receiver {
 /// True when S lies in the plane of T.
 [[nodiscard]] bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts);
 
+/// Side of the light from the plane of a triangle.
+[[nodiscard]] Sign light_side(const Corners& corners, const scene::Light& light,
+                              SignCounts& counts);
+
 /// True when the light is behind, or in the plane of, the side of T that the camera sees.
-[[nodiscard]] bool is_attached(const Receiver& receiver, const scene::Light& light,
-                               SignCounts& counts);
+/// @param light_side  of the light from the plane of T.
+[[nodiscard]] constexpr bool is_attached(const Receiver& receiver, Sign light_side)
+{
+    // Towards the camera is −d, and n·(−d) = −δ.
+    return light_side != -receiver.delta_sign;
+}
 
 /// True when P is outside a spot's cone (DESIGN §7); never for a directional light.
 [[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,

@@ -1,7 +1,5 @@
 #include "reference_rt/shadow_segments.hpp"
 
-#include "reference_rt/stand_in.hpp"
-
 #include <algorithm>
 #include <bit>
 
@@ -48,9 +46,8 @@ public:
             if (valid[i]) {
                 const BoundedPoint point = unit_point(receivers_[i], reference_.frame);
                 points_.set(i, point.position, point.error);
-                own_[i] = receivers_[i].triangle;
-                set_lane(packet, i,
-                         shadow_stand_in(point.position, light_.light, reference_.frame));
+                own_[i] = receivers_[i].triangle();
+                set_lane(packet, i, light_.stand_in.ray(point.position));
             }
         }
         reference_.find_candidates(valid, packet, *this);

@@ -5,6 +5,7 @@
 #include "reference_rt/packet.hpp"
 #include "reference_rt/pencil.hpp"
 #include "reference_rt/predicates.hpp"
+#include "reference_rt/stand_in.hpp"
 #include "scene/light.hpp"
 
 #include <cstdint>
@@ -22,12 +23,14 @@ enum class SegmentGoal : std::uint8_t {
 struct SegmentLight {
     SegmentLight(const ReferenceScene::Implementation& reference, const scene::Light& light_in)
         : light{light_in},
-          pencil{reference.frame, light_in}
+          pencil{reference.frame, light_in},
+          stand_in{light_in, reference.frame}
     {
     }
 
     const scene::Light& light;
     Pencil pencil;
+    ShadowStandIn stand_in;
 };
 
 /// What meets the open segments P→light of a packet: every triangle that the segment touches is a

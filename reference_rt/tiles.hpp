@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference_rt/embree_scene.hpp"
 #include "reference_rt/packet.hpp"
 #include "reference_rt/predicates.hpp"
 #include "scene/image.hpp"
@@ -14,26 +15,59 @@
 
 namespace gnomon::reference_rt {
 
-/// 4×4 pixels and their rays; lanes beyond the image's border are not valid.
+/// 4×4 pixels, what GL saw in them, and where their rays meet that. A worker keeps one and fills it
+/// again for each tile.
 struct Tile {
-    PacketMask valid;
+    PacketMask valid; ///< lanes within the image's border
+    PacketMask seen;  ///< lanes in which GL saw a triangle
     PacketOf<int> x{};
     PacketOf<int> y{};
     PacketOf<CameraRay> rays;
+    PacketOf<Receiver> receivers; ///< of the lanes in `seen`
+    PacketOf<std::size_t> facet_of{};
+    PacketOf<Facet> facets;
+    std::size_t facet_count = 0;
 };
 
-[[nodiscard]] inline Tile gather_tile(const scene::View& view, int column, int row)
+/// Fills the tile; `receivers` is GL's triangle per pixel.
+inline void fill_tile(Tile& tile, const scene::TriangleScene& triangles, const scene::View& view,
+                      const scene::Image<std::uint32_t>& receivers, int column, int row,
+                      SignCounts& counts)
 {
-    Tile tile;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        tile.x[i] = column * tile_side_px + static_cast<int>(i) % tile_side_px;
-        tile.y[i] = row * tile_side_px + static_cast<int>(i) / tile_side_px;
-        if (tile.x[i] < view.image.width_px && tile.y[i] < view.image.height_px) {
-            tile.valid.add(i);
-            tile.rays[i] = CameraRay{pixel_ray(view.camera, view.image, tile.x[i], tile.y[i])};
-        }
+    tile.valid = {};
+    tile.seen = {};
+    tile.facet_count = 0;
+    std::array<double, tile_side_px> sx{};
+    for (int i = 0; i < tile_side_px; ++i) {
+        sx[static_cast<std::size_t>(i)] =
+            pixel_sx(view.camera, view.image, column * tile_side_px + i);
     }
-    return tile;
+    double sy = 0;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        const int x = column * tile_side_px + static_cast<int>(i) % tile_side_px;
+        const int y = row * tile_side_px + static_cast<int>(i) / tile_side_px;
+        if (i % tile_side_px == 0) {
+            sy = pixel_sy(view.camera, view.image, y);
+        }
+        if (x >= view.image.width_px || y >= view.image.height_px) {
+            continue;
+        }
+        tile.valid.add(i);
+        tile.x[i] = x;
+        tile.y[i] = y;
+        tile.rays[i] = CameraRay{pixel_ray(view.camera, sx[i % tile_side_px], sy)};
+        const std::uint32_t triangle = receivers(x, y);
+        if (triangle == scene::no_triangle) {
+            continue;
+        }
+        // Neighbouring pixels often show the same triangle.
+        if (tile.facet_count == 0 || tile.facets[tile.facet_count - 1].triangle != triangle) {
+            tile.facets[tile.facet_count++] = Facet{triangle, corners_of(triangles, triangle)};
+        }
+        tile.seen.add(i);
+        tile.facet_of[i] = tile.facet_count - 1;
+        tile.receivers[i] = Receiver{tile.facets[tile.facet_count - 1], tile.rays[i], counts};
+    }
 }
 
 /// Runs `job` with that many threads; 0 means all cores.

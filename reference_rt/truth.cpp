@@ -16,7 +16,6 @@ namespace gnomon::reference_rt {
 using scene::Image;
 using scene::ImageSize;
 using scene::no_triangle;
-using scene::Ray;
 using scene::TruthLayers;
 using scene::Vec3f;
 using scene::View;
@@ -75,11 +74,10 @@ Image<Vec3f> receiver_points(const scene::TriangleScene& triangles, const View& 
         for (int x = 0; x < view.image.width_px; ++x) {
             const std::uint32_t triangle = receivers(x, y);
             if (triangle != no_triangle) {
-                const Ray ray = pixel_ray(view.camera, view.image, x, y);
-                SignCounts ignored;
-                points(x, y) = Vec3f{Receiver{Facet{triangle, corners_of(triangles, triangle)},
-                                              CameraRay{ray}, ignored}
-                                         .point()};
+                SignCounts ignored; // points only
+                const CameraRay ray{pixel_ray(view.camera, view.image, x, y)};
+                const Facet facet{triangle, corners_of(triangles, triangle)};
+                points(x, y) = Vec3f{Receiver{facet, ray, ignored}.point()};
             }
         }
     });

@@ -42,22 +42,24 @@ private:
 /// Half of float32's spacing at 1: what rounding to float32 may add, relative.
 inline constexpr double float_roundoff = 0x1p-24;
 
+/// How far from the frame's origin a ray may begin.
+inline constexpr double farthest_origin = 8;
+
 /// By how much the boxes that Embree traverses are larger than the triangles in them, on each side,
 /// in the unit frame. A ray that stands in for an exact segment must then hit the box of every
 /// triangle that the segment touches. Let X be a point of the segment in a triangle, u = 2^-24; the
-/// ray's point for X strays from X by at most
+/// ray's point for X strays from X, in each component, by at most
 ///
-///     2.5u    the origin, not farther than 2.5 from the frame's, rounded to float32;
+///     8u      the origin, not farther than 8 from the frame's, rounded to float32;
 ///     1u      what the origin was off before: `max_origin_error`;
-///     4.3u    the direction rounded to float32: u for each unit of way, which in the box is at
-///             most 2.5 + √3 long;
+///     10u     the direction rounded to float32: u for each unit of way, at most 8 + √3;
 ///     1e-17   components below 1e-18, which Embree replaces to divide by them.
 ///
 /// A slab's distance is (plane − origin)·(1/d): two roundings, and a reciprocal of 4u, as the
 /// hardware's estimate after one Newton step has: as if the plane had moved by 6u of its distance
-/// from the origin, at most 3.6, so 22u. The box is rounded to float32: 1u. The sum is 31u.
+/// from the origin, at most 9.1, so 55u. The box is rounded to float32: 1u. The sum is 75u.
 /// Axis-parallel rays need nothing else: their origin is strictly inside the padded slab.
-inline constexpr double box_padding = 40 * float_roundoff;
+inline constexpr double box_padding = 96 * float_roundoff;
 /// What the stand-in origin may be off before it is rounded, in the unit frame.
 inline constexpr double max_origin_error = float_roundoff;
 

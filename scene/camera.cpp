@@ -82,13 +82,22 @@ CameraSettings frame_box(const Box& box, ImageSize image)
     return settings;
 }
 
-Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y)
+double pixel_sx(const Camera& camera, ImageSize image, int x)
 {
     const double width = image.width_px;
     const double height = image.height_px;
     const double aspect = width / height;
-    const double sx = (2.0 * (x + 0.5) / width - 1.0) * aspect * camera.half_height;
-    const double sy = (1.0 - 2.0 * (y + 0.5) / height) * camera.half_height;
+    return (2.0 * (x + 0.5) / width - 1.0) * aspect * camera.half_height;
+}
+
+double pixel_sy(const Camera& camera, ImageSize image, int y)
+{
+    const double height = image.height_px;
+    return (1.0 - 2.0 * (y + 0.5) / height) * camera.half_height;
+}
+
+Ray pixel_ray(const Camera& camera, double sx, double sy)
+{
     const Vec3d start = camera.projection == Projection::perspective ? camera.forward : camera.eye;
     Vec3d moved;
     for (int axis = 0; axis < 3; ++axis) {
@@ -96,6 +105,11 @@ Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y)
     }
     return camera.projection == Projection::perspective ? Ray{camera.eye, moved}
                                                         : Ray{moved, camera.forward};
+}
+
+Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y)
+{
+    return pixel_ray(camera, pixel_sx(camera, image, x), pixel_sy(camera, image, y));
 }
 
 double receiver_near_m(const Box& box)

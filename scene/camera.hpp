@@ -54,6 +54,11 @@ struct Ray {
 /// Evaluated in double in exactly this order, without contraction; the bits are the definition.
 [[nodiscard]] Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y);
 
+/// The same ray from its column's sx and its row's sy, for whoever needs many.
+[[nodiscard]] Ray pixel_ray(const Camera& camera, double sx, double sy);
+[[nodiscard]] double pixel_sx(const Camera& camera, ImageSize image, int x);
+[[nodiscard]] double pixel_sy(const Camera& camera, ImageSize image, int y);
+
 /// Distance of the receivers' near plane: 1e-6 × the scene's diagonal [m].
 [[nodiscard]] double receiver_near_m(const Box& box);
 

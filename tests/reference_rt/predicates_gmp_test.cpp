@@ -144,7 +144,8 @@ private:
     void move_towards_segment(Question& question, bool whole_triangle)
     {
         SignCounts counts;
-        const Receiver receiver{Facet{0, question.t}, CameraRay{question.ray}, counts};
+        const Facet facet{0, question.t};
+        const Receiver receiver{facet, CameraRay{question.ray}, counts};
         if (receiver.delta_sign == 0) {
             return;
         }
@@ -166,7 +167,8 @@ private:
 int check(const Question& question, SignCounts& counts)
 {
     const auto& [ray, t, s, light] = question;
-    const Receiver receiver{Facet{0, t}, CameraRay{ray}, counts};
+    const Facet facet{0, t};
+    const Receiver receiver{facet, CameraRay{ray}, counts};
     const Rational3 a{t[0]};
     const Rational3 normal = cross(Rational3{t[1]} - a, Rational3{t[2]} - a);
     const mpq_class delta = dot(normal, Rational3{ray.direction});
@@ -193,12 +195,13 @@ int check(const Question& question, SignCounts& counts)
               side(c[0], c[1] - c[0], towards(c[0]), c[2]));
     const mpq_class seen = -dot(normal, Rational3{ray.direction});
     const Sign lamp = sgn(dot(normal, towards(a)));
-    EXPECT_EQ(is_attached(receiver, light, counts), lamp == 0 || lamp != sgn(seen));
+    EXPECT_EQ(is_attached(receiver, light_side(t, light, counts)), lamp == 0 || lamp != sgn(seen));
     EXPECT_EQ(is_beyond(receiver, 0.5, counts), r > mpq_class{0.5});
     EXPECT_EQ(is_coplanar(receiver, s, counts), dot(normal, c[0] - a) == 0 &&
                                                     dot(normal, c[1] - a) == 0 &&
                                                     dot(normal, c[2] - a) == 0);
-    const Receiver other{Facet{1, s}, CameraRay{ray}, counts};
+    const Facet other_facet{1, s};
+    const Receiver other{other_facet, CameraRay{ray}, counts};
     const mpq_class other_delta = dot(m, Rational3{ray.direction});
     if (other_delta != 0) {
         const mpq_class other_r = dot(m, c[0] - Rational3{ray.origin}) / other_delta;
@@ -250,10 +253,9 @@ TEST(Predicates, UseIntegersWhereDirectionsAreTiny)
 
 TEST(CompareNearnessToLight, OrdersBlockersExactly)
 {
-    const Corners ground{Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}};
+    const Facet ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
     SignCounts counts;
-    const Receiver receiver{Facet{0, ground}, CameraRay{Ray{Vec3d{0.5, 4, 0}, Vec3d{0, -1, 0}}},
-                            counts};
+    const Receiver receiver{ground, CameraRay{Ray{Vec3d{0.5, 4, 0}, Vec3d{0, -1, 0}}}, counts};
     const auto roof = [](double height, double tilt) {
         return Corners{Vec3d{-1, height - tilt, -1}, Vec3d{2, height + 2 * tilt, -1},
                        Vec3d{0.5, height + 0.5 * tilt, 2}};

@@ -10,12 +10,12 @@ using scene::LightType;
 using scene::Ray;
 using scene::Vec3d;
 
-const Corners ground{Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}};
+const Facet ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
 
-Receiver make_receiver(const Corners& corners, const Ray& ray)
+Receiver make_receiver(const Facet& facet, const Ray& ray)
 {
     SignCounts counts;
-    return Receiver{Facet{0, corners}, CameraRay{ray}, counts};
+    return Receiver{facet, CameraRay{ray}, counts};
 }
 
 /// P = (x, 0, z), seen from 4 above it; the coordinates are short binary fractions, so every
@@ -145,11 +145,14 @@ TEST(IsAttached, HoldsBehindAndInThePlane)
 {
     SignCounts counts;
     const Receiver receiver = receiver_at(0, 0);
-    EXPECT_FALSE(is_attached(receiver, sun({0, -1, 0}), counts));
-    EXPECT_TRUE(is_attached(receiver, sun({0, 1, 0}), counts));
-    EXPECT_TRUE(is_attached(receiver, sun({1, 0, 0.5}), counts));
-    EXPECT_FALSE(is_attached(receiver, lamp({0, 1, 0}, {0, -1, 0}, 0.5), counts));
-    EXPECT_TRUE(is_attached(receiver, lamp({3, 0, 0}, {-1, 0, 0}, 0.5), counts));
+    const auto attached_by = [&](const Light& light) {
+        return is_attached(receiver, light_side(receiver.corners(), light, counts));
+    };
+    EXPECT_FALSE(attached_by(sun({0, -1, 0})));
+    EXPECT_TRUE(attached_by(sun({0, 1, 0})));
+    EXPECT_TRUE(attached_by(sun({1, 0, 0.5})));
+    EXPECT_FALSE(attached_by(lamp({0, 1, 0}, {0, -1, 0}, 0.5)));
+    EXPECT_TRUE(attached_by(lamp({3, 0, 0}, {-1, 0, 0}, 0.5)));
 }
 
 TEST(IsOutOfLight, FollowsTheConeAndItsSide)
