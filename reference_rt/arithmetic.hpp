@@ -97,6 +97,9 @@ template <typename Number>
 struct Vec3 {
     Number x, y, z;
 };
+/// Clang before 17 deduces no aggregate's arguments by itself.
+template <typename Number>
+Vec3(Number, Number, Number) -> Vec3<Number>;
 
 template <typename Field>
 [[nodiscard]] auto vector(const scene::Vec3d& v)

@@ -3,6 +3,8 @@
 #include "raster_gl/depth_formats.hpp"
 #include "scene/error.hpp"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 
@@ -99,7 +101,7 @@ TEST(ShadowMap, LeavesOutObjectsThatDoNotCast)
     GlCase whole{"sphere-plane"};
     std::string names;
     for (const auto& object : whole.file.scene.objects) {
-        names += (names.empty() ? "\"" : ", \"") + object.name + "\"";
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", object.name);
     }
     GlCase c{"sphere-plane", {{"scene.no_cast", "[" + names + "]"}}};
     c.draw_shadow_map();
