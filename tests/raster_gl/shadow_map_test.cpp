@@ -103,7 +103,7 @@ TEST(ShadowMap, LeavesOutObjectsThatDoNotCast)
     for (const auto& object : whole.file.scene.objects) {
         names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", object.name);
     }
-    GlCase c{"sphere-plane", {{"scene.no_cast", "[" + names + "]"}}};
+    GlCase c{"sphere-plane", {{"scene.no_cast", fmt::format("[{}]", names)}}};
     c.draw_shadow_map();
     for (const float depth : read_shader_depths(*tests::shared_context(), *c.map)) {
         ASSERT_EQ(depth, 1.0F);
