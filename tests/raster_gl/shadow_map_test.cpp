@@ -41,7 +41,7 @@ TEST(ShadowMap, UnormTexelsAreTheExactlyRoundedCodeOfTheirZ)
         GlCase c{scene};
         for (int bits = 8; bits <= 24; ++bits) {
             for (const char* reversed : {"false", "true"}) {
-                c.set({{"shadow_map.depth_format", "u" + std::to_string(bits)},
+                c.set({{"shadow_map.depth_format", fmt::format("u{}", bits)},
                        {"shadow_map.resolution", "400"},
                        {"shadow_map.reversed", reversed}});
                 c.draw_shadow_map();
