@@ -69,7 +69,7 @@ std::vector<Vec2d> shadow_polygon(const Vec3d& direction)
 /// Writes box and ground as an OBJ file; returns its path.
 std::filesystem::path write_scene(const std::filesystem::path& folder)
 {
-    const auto path = folder / "box.obj";
+    auto path = folder / "box.obj";
     std::ofstream file{path};
     file << "o ground\nv -6 0 6\nv 6 0 6\nv 6 0 -6\nv -6 0 -6\nf 1 2 3 4\no box\n";
     for (const Vec3d& corner : scene::Box{box_lower, box_upper}.corners()) {
