@@ -108,7 +108,9 @@ void judge_packet(const RTCOccludedFunctionNArguments* arguments) noexcept
             return;
         }
         for (unsigned i = 0; i < n; ++i) {
-            if ((settled >> RTCRayN_id(arguments->ray, n, i) & 1U) != 0) {
+            // An idle lane's id is whatever was there before.
+            if (arguments->valid[i] != 0 &&
+                (settled >> RTCRayN_id(arguments->ray, n, i) & 1U) != 0) {
                 RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
             }
         }
