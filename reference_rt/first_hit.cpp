@@ -71,9 +71,9 @@ public:
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
         const Corners corners = corners_of(setting_.reference.triangles, triangle);
-        const LineVerdicts lines =
-            judge_lines(points_, edge_planes(setting_.reference.frame, setting_.pencil, corners,
-                                             setting_.has_eye));
+        const LineVerdicts lines = judge_lines(
+            points_, make_planes(setting_.reference.frame, setting_.pencil, corners,
+                                 setting_.has_eye ? LaneKind::directions : LaneKind::points));
         const LaneBits open = asking & ~lines.outside;
         if (open == 0) {
             return 0;
@@ -101,7 +101,7 @@ private:
     [[nodiscard]] bool may_match(std::size_t i)
     {
         const Receiver& receiver = tile_.receivers[i];
-        return !tile_.seen[i] ||
+        return !tile_.seen[i] || receiver.t - receiver.t_error > setting_.near_m ||
                (receiver.delta_sign != 0 && is_beyond(receiver, setting_.near_m, counts_));
     }
 
