@@ -228,18 +228,6 @@ std::vector<std::uint32_t> FirstHits::first_hits(const CameraRay& ray, SignCount
     return NearestHits{reference_, ray, near_m_, counts}.find();
 }
 
-bool FirstHits::is_tie(const CameraRay& ray, std::uint32_t seen, std::uint32_t first, int x,
-                       int y) const
-{
-    SignCounts ignored; // points only
-    const auto depth = [&](std::uint32_t triangle) {
-        const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
-        return raster_.depth(Receiver{facet, ray, ignored}.point());
-    };
-    return std::abs(depth(seen) - depth(first)) <=
-           raster_.depth_error(seen, x, y) + raster_.depth_error(first, x, y);
-}
-
 UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uint32_t triangle,
                                     SignCounts& counts) const
 {
@@ -264,7 +252,7 @@ UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uin
     if (raster_.coverage_may_differ(triangle, x, y, is_seen)) {
         return unmatched(ClassReason::snap);
     }
-    return unmatched(is_seen && !first.empty() && is_tie(ray, triangle, first.front(), x, y)
+    return unmatched(is_seen && !first.empty() && raster_.is_tie(first.front(), triangle, x, y)
                          ? ClassReason::tie
                          : ClassReason::mismatch);
 }
