@@ -73,11 +73,12 @@ std::vector<FloatMethodErrors> audit_float_methods(const ReferenceScene& referen
                                     "receivers and truth be of the image's size"};
     }
     tbb::combinable<Wrong> wrong;
+    const TileSource source{implementation.triangles, view, receivers};
     tbb::combinable<Tile> tiles;
     for_each_tile(view.image, threads, [&](int column, int row) {
         SignCounts ignored; // of methods that prove nothing
         Tile& tile = tiles.local();
-        fill_tile(tile, implementation.triangles, view, receivers, column, row, ignored);
+        source.fill(tile, column, row, ignored);
         const Scored scored = scored_of(tile, truth);
         if (!scored.lanes.any()) {
             return;

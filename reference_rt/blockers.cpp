@@ -33,11 +33,13 @@ struct Search {
         SignCounts counts;
         PacketMask valid;
         PacketOf<Facet> facets;
+        PacketOf<CameraRay> rays;
         PacketOf<Receiver> packet;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const std::uint32_t triangle = receivers[pixels[i]];
             facets[i] = Facet{triangle, corners_of(reference.triangles, triangle)};
-            packet[i] = Receiver{facets[i], ray_of(pixels[i]), counts};
+            rays[i] = ray_of(pixels[i]);
+            packet[i] = Receiver{facets[i], rays[i], counts};
             if (packet[i].delta_sign != 0) { // else edge-on: there is no point P
                 valid.add(i);
             }

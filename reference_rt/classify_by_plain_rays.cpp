@@ -17,11 +17,12 @@ TruthLayers classify_by_plain_rays(const ReferenceScene::Implementation& referen
                                    int threads)
 {
     TruthLayers layers = empty_layers(view.image);
+    const TileSource source{reference.triangles, view, receivers};
     tbb::combinable<Tile> tiles;
     for_each_tile(view.image, threads, [&](int column, int row) {
         SignCounts ignored; // of a method that proves nothing
         Tile& tile = tiles.local();
-        fill_tile(tile, reference.triangles, view, receivers, column, row, ignored);
+        source.fill(tile, column, row, ignored);
         PacketMask open;
         for (std::size_t i = 0; i < packet_size; ++i) {
             if (!tile.seen[i]) {

@@ -23,6 +23,7 @@ public:
         : reference_{reference},
           view_{view},
           receivers_{receivers},
+          source_{reference.triangles, view, receivers},
           first_hits_{reference, view, raster},
           light_{reference, view.light},
           layers_{empty_layers(view.image)}
@@ -34,7 +35,7 @@ public:
     {
         Worker& worker = workers_.local();
         const Tile& tile = worker.tile;
-        fill_tile(worker.tile, reference_.triangles, view_, receivers_, column, row, worker.counts);
+        source_.fill(worker.tile, column, row, worker.counts);
         const PacketMask matched = first_hits_.match(tile, worker.counts);
         find_light_sides(worker);
         PacketMask open; // lanes that the shadow rays decide
@@ -115,6 +116,7 @@ private:
     const ReferenceScene::Implementation& reference_;
     const View& view_;
     const Image<std::uint32_t>& receivers_;
+    TileSource source_;
     FirstHits first_hits_;
     SegmentLight light_;
     TruthLayers layers_;

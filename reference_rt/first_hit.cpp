@@ -71,9 +71,9 @@ public:
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
         const Corners corners = corners_of(setting_.reference.triangles, triangle);
-        const LineVerdicts lines =
-            judge_lines(points_, edge_planes(setting_.reference.frame, setting_.pencil, corners,
-                                             setting_.has_eye));
+        const LineVerdicts lines = judge_lines(
+            points_, make_planes(setting_.reference.frame, setting_.pencil, corners,
+                                 setting_.has_eye ? LaneKind::directions : LaneKind::points));
         const LaneBits open = asking & ~lines.outside;
         if (open == 0) {
             return 0;
@@ -101,7 +101,7 @@ private:
     [[nodiscard]] bool may_match(std::size_t i)
     {
         const Receiver& receiver = tile_.receivers[i];
-        return !tile_.seen[i] ||
+        return !tile_.seen[i] || receiver.t - receiver.t_error > setting_.near_m ||
                (receiver.delta_sign != 0 && is_beyond(receiver, setting_.near_m, counts_));
     }
 
@@ -228,18 +228,6 @@ std::vector<std::uint32_t> FirstHits::first_hits(const CameraRay& ray, SignCount
     return NearestHits{reference_, ray, near_m_, counts}.find();
 }
 
-bool FirstHits::is_tie(const CameraRay& ray, std::uint32_t seen, std::uint32_t first, int x,
-                       int y) const
-{
-    SignCounts ignored; // points only
-    const auto depth = [&](std::uint32_t triangle) {
-        const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
-        return raster_.depth(Receiver{facet, ray, ignored}.point());
-    };
-    return std::abs(depth(seen) - depth(first)) <=
-           raster_.depth_error(seen, x, y) + raster_.depth_error(first, x, y);
-}
-
 UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uint32_t triangle,
                                     SignCounts& counts) const
 {
@@ -264,7 +252,7 @@ UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uin
     if (raster_.coverage_may_differ(triangle, x, y, is_seen)) {
         return unmatched(ClassReason::snap);
     }
-    return unmatched(is_seen && !first.empty() && is_tie(ray, triangle, first.front(), x, y)
+    return unmatched(is_seen && !first.empty() && raster_.is_tie(first.front(), triangle, x, y)
                          ? ClassReason::tie
                          : ClassReason::mismatch);
 }

@@ -39,9 +39,6 @@ public:
                                                         SignCounts& counts) const;
 
 private:
-    [[nodiscard]] bool is_tie(const CameraRay& ray, std::uint32_t seen, std::uint32_t first, int x,
-                              int y) const;
-
     const ReferenceScene::Implementation& reference_;
     double near_m_;
     Pencil pencil_;

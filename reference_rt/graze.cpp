@@ -44,8 +44,8 @@ RationalVec rational_point(const Receiver& receiver)
     const RationalVec a = rational(receiver.corners()[0]);
     const RationalVec normal = cross(difference(rational(receiver.corners()[1]), a),
                                      difference(rational(receiver.corners()[2]), a));
-    const RationalVec origin = rational(receiver.camera_ray.ray.origin);
-    const RationalVec direction = rational(receiver.camera_ray.ray.direction);
+    const RationalVec origin = rational(receiver.ray().origin);
+    const RationalVec direction = rational(receiver.ray().direction);
     const Rational t = dot(normal, difference(a, origin)) / dot(normal, direction);
     return {origin[0] + t * direction[0], origin[1] + t * direction[1],
             origin[2] + t * direction[2]};

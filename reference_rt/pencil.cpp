@@ -1,8 +1,5 @@
 #include "reference_rt/pencil.hpp"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <cmath>
 
 namespace gnomon::reference_rt {
@@ -11,51 +8,59 @@ using scene::Vec3d;
 
 namespace {
 
-double sum_of_sizes(const Vec3d& v)
+/// Compiles a function for several instruction sets and takes the best at run time; results are the
+/// same, as nothing is contracted. The choice is made before AddressSanitizer is ready.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define GNOMON_WIDEST_VECTORS [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
+#else
+#define GNOMON_WIDEST_VECTORS
+#endif
+
+/// −1 in the lanes of which something holds, else 0.
+using LaneMask = decltype(LaneFloats{} < LaneFloats{});
+
+LaneBits bits_of(const LaneMask& mask)
 {
-    const Vec3d size = glm::abs(v);
-    return size.x + size.y + size.z;
+    constexpr LaneMask bit{1 << 0, 1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                           1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+    const LaneMask chosen = mask & bit;
+    int bits = 0;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        bits |= chosen[i];
+    }
+    return static_cast<LaneBits>(bits);
 }
 
-/// The error of N = a × b in double is below 4u·|a|₁|b|₁, and moves N·(x − o) by at most 6 times as
-/// much; of a float's rounding of N and of the offset, see `LanePoints::set`. The last term covers
-/// every product that underflows.
-float size_of(const Vec3d& normal, const Vec3d& a, const Vec3d& b)
-{
-    return static_cast<float>(sum_of_sizes(normal) + 0x1p-20 * sum_of_sizes(a) * sum_of_sizes(b)) +
-           0x1p-90F;
-}
-
-Plane plane_through(const Vec3d& normal, double offset, const Vec3d& a, const Vec3d& b)
-{
-    return {static_cast<float>(normal.x), static_cast<float>(normal.y),
-            static_cast<float>(normal.z), static_cast<float>(offset), size_of(normal, a, b)};
-}
-
-struct Edges {
-    std::array<Vec3d, 3> along; ///< in unit lengths
-    std::array<Vec3d, 3> towards;
+/// A double for each plane.
+using Planes [[gnu::vector_size(4 * sizeof(double))]] = double;
+struct Planes3 {
+    Planes x, y, z;
 };
 
-Edges edges_of(const UnitFrame& frame, const Pencil& pencil, const Corners& corners)
+Planes3 cross(const Planes3& a, const Planes3& b)
 {
-    Edges edges;
-    for (std::size_t i = 0; i < 3; ++i) {
-        edges.along[i] = frame.scale() * (corners[(i + 1) % 3] - corners[i]);
-        edges.towards[i] = pencil.towards(corners[i]);
-    }
-    return edges;
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-EdgePlanes planes_of(const Edges& edges, const std::array<Vec3d, 3>& corner)
+Planes sum_of_sizes(const Planes3& v)
 {
-    EdgePlanes planes;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d normal = glm::cross(edges.along[i], edges.towards[i]);
-        planes.edge[i] =
-            plane_through(normal, glm::dot(normal, corner[i]), edges.along[i], edges.towards[i]);
+    const auto size = [](const Planes& x) { return x < 0 ? -x : x; };
+    return size(v.x) + size(v.y) + size(v.z);
+}
+
+void store(const Planes& values, std::array<float, 4>& target)
+{
+    for (std::size_t i = 0; i < 4; ++i) {
+        target[i] = static_cast<float>(values[i]);
     }
-    return planes;
+}
+
+/// A component of the four planes' corners, and of the corners after them.
+template <int axis>
+Planes component(const Corners& c, std::size_t shift)
+{
+    return Planes{c[shift][axis], c[(1 + shift) % 3][axis], c[(2 + shift) % 3][axis],
+                  c[shift][axis]};
 }
 
 } // namespace
@@ -84,84 +89,81 @@ Pencil::Pencil(const UnitFrame& frame, const scene::Camera& camera)
     }
 }
 
-// The value of a plane at a lane's point is s = fl(N·p − k), with N, p and k rounded to float32 and
-// |x − o| <= 1 + |p| for the plane's corner o. With u = 2^-24 it is off by at most |N|₁ times
-//     error + u|p|    the point,           u|p|        the normal,
-//     3u|p| + u       the sum, and k,      u(1 + |p|)  the last difference,
-// where |p| is the largest component; 8u(1 + |p|) is more than all but the first together.
-void LanePoints::set(std::size_t lane, const Vec3d& point, double error)
+GNOMON_WIDEST_VECTORS
+TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil, const Corners& corners,
+                           LaneKind kind)
 {
-    x[lane] = static_cast<float>(point.x);
-    y[lane] = static_cast<float>(point.y);
-    z[lane] = static_cast<float>(point.z);
-    reach[lane] = static_cast<float>(1.01 * (error + 8 * float_roundoff * (1 + largest(point))));
-}
-
-EdgePlanes edge_planes(const UnitFrame& frame, const Pencil& pencil, const Corners& corners,
-                       bool has_apex_at_origin)
-{
-    if (has_apex_at_origin) {
-        return planes_of(edges_of(frame, pencil, corners), {});
-    }
-    return planes_of(
-        edges_of(frame, pencil, corners),
-        {frame.from_world(corners[0]), frame.from_world(corners[1]), frame.from_world(corners[2])});
-}
-
-ShadowPlanes shadow_planes(const UnitFrame& frame, const Pencil& pencil, const Corners& corners)
-{
-    const Edges edges = edges_of(frame, pencil, corners);
-    const std::array<Vec3d, 3> corner{frame.from_world(corners[0]), frame.from_world(corners[1]),
-                                      frame.from_world(corners[2])};
-    ShadowPlanes planes;
-    planes.edges = planes_of(edges, corner);
-    const Vec3d normal = glm::cross(edges.along[0], edges.along[1]);
-    planes.surface =
-        plane_through(normal, glm::dot(normal, corner[0]), edges.along[0], edges.along[1]);
-    const double height = glm::dot(normal, edges.towards[0]);
-    // 10 roundings of terms that are at most this large.
-    const double bound = 0x1p-48 * sum_of_sizes(edges.along[0]) * sum_of_sizes(edges.along[1]) *
-                         sum_of_sizes(edges.towards[0]);
-    planes.light = static_cast<Sign>(height > bound) - static_cast<Sign>(height < -bound);
+    const Planes3 from{component<0>(corners, 0), component<1>(corners, 0),
+                       component<2>(corners, 0)};
+    const Planes3 to{component<0>(corners, 1), component<1>(corners, 1), component<2>(corners, 1)};
+    const double scale = frame.scale();
+    const Planes3 along{scale * (to.x - from.x), scale * (to.y - from.y), scale * (to.z - from.z)};
+    const Vec3d& direction = pencil.direction_;
+    const Vec3d& apex = pencil.apex_;
+    const Planes zero{};
+    const Planes3 towards =
+        pencil.is_parallel_
+            ? Planes3{zero + direction.x, zero + direction.y, zero + direction.z}
+            : Planes3{pencil.scale_ * (apex.x - from.x), pencil.scale_ * (apex.y - from.y),
+                      pencil.scale_ * (apex.z - from.z)};
+    constexpr std::size_t surface = TrianglePlanes::surface;
+    Planes3 other = towards; // the edge planes' second direction; the surface has its next edge
+    other.x[surface] = along.x[1];
+    other.y[surface] = along.y[1];
+    other.z[surface] = along.z[1];
+    const Planes3 normal = cross(along, other);
+    const Vec3d& centre = frame.centre();
+    const Planes offset = kind == LaneKind::directions
+                              ? zero
+                              : normal.x * (scale * (from.x - centre.x)) +
+                                    normal.y * (scale * (from.y - centre.y)) +
+                                    normal.z * (scale * (from.z - centre.z));
+    // The error of a × b in double is below 4u|a|₁|b|₁, and moves the plane's value by at most 6
+    // times as much: nothing beside 2^-20 times the lanes' reach. 2^-90 covers every underflow.
+    const Planes product = sum_of_sizes(along) * sum_of_sizes(other);
+    TrianglePlanes planes;
+    store(normal.x, planes.x);
+    store(normal.y, planes.y);
+    store(normal.z, planes.z);
+    store(offset, planes.offset);
+    store(sum_of_sizes(normal) + 0x1p-20 * product + 0x1p-90, planes.size);
+    const double height = normal.x[surface] * towards.x[surface] +
+                          normal.y[surface] * towards.y[surface] +
+                          normal.z[surface] * towards.z[surface];
+    // Ten roundings of terms that are at most this large.
+    const double bound = 0x1p-48 * product[surface] * sum_of_sizes(towards)[surface];
+    planes.towards = static_cast<Sign>(height > bound) - static_cast<Sign>(height < -bound);
     return planes;
 }
 
-LineVerdicts judge_lines(const LanePoints& points, const EdgePlanes& planes)
+GNOMON_WIDEST_VECTORS
+LineVerdicts judge_lines(const LanePoints& points, const TrianglePlanes& planes)
 {
-    const auto& [a, b, c] = planes.edge;
-    LineVerdicts verdicts;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        const float x = points.x[i];
-        const float y = points.y[i];
-        const float z = points.z[i];
-        const float reach = points.reach[i];
-        const float p = a.x * x + a.y * y + a.z * z - a.offset;
-        const float q = b.x * x + b.y * y + b.z * z - b.offset;
-        const float r = c.x * x + c.y * y + c.z * z - c.offset;
-        const float p_error = a.size * reach;
-        const float q_error = b.size * reach;
-        const float r_error = c.size * reach;
-        const int above = static_cast<int>(p > p_error) + static_cast<int>(q > q_error) +
-                          static_cast<int>(r > r_error);
-        const int below = static_cast<int>(p < -p_error) + static_cast<int>(q < -q_error) +
-                          static_cast<int>(r < -r_error);
-        const LaneBits bit = LaneBits{1} << i;
-        verdicts.inside |= above == 3 || below == 3 ? bit : 0;
-        verdicts.outside |= above > 0 && below > 0 ? bit : 0;
+    LaneMask all_above = ~LaneMask{};
+    LaneMask all_below = ~LaneMask{};
+    LaneMask any_above{};
+    LaneMask any_below{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const LaneFloats value = planes.x[i] * points.x + planes.y[i] * points.y +
+                                 planes.z[i] * points.z - planes.offset[i];
+        const LaneFloats error = planes.size[i] * points.reach;
+        const LaneMask above = value > error;
+        const LaneMask below = value < -error;
+        all_above &= above;
+        all_below &= below;
+        any_above |= above;
+        any_below |= below;
     }
-    return verdicts;
+    return {bits_of(all_above | all_below), bits_of(any_above & any_below)};
 }
 
-LaneBits certainly_on_side(const LanePoints& points, const Plane& plane, Sign side)
+GNOMON_WIDEST_VECTORS
+LaneBits certainly_on_side(const LanePoints& points, const TrianglePlanes& planes, Sign side)
 {
-    const auto sign = static_cast<float>(side);
-    LaneBits lanes = 0;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        const float value =
-            plane.x * points.x[i] + plane.y * points.y[i] + plane.z * points.z[i] - plane.offset;
-        lanes |= sign * value > plane.size * points.reach[i] ? LaneBits{1} << i : 0;
-    }
-    return lanes;
+    constexpr std::size_t i = TrianglePlanes::surface;
+    const LaneFloats value =
+        planes.x[i] * points.x + planes.y[i] * points.y + planes.z[i] * points.z - planes.offset[i];
+    return bits_of(static_cast<float>(side) * value > planes.size[i] * points.reach);
 }
 
 } // namespace gnomon::reference_rt

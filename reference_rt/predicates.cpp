@@ -24,7 +24,7 @@ auto plane_hit(FilterField, const Receiver& receiver)
 }
 auto plane_hit(ExactField, const Receiver& receiver)
 {
-    const Ray& ray = receiver.camera_ray.ray;
+    const Ray& ray = receiver.ray();
     const auto normal = normal_of<ExactField>(receiver.corners());
     return PlaneHit<Dyadic, Dyadic>{
         dot(normal, vector<ExactField>(ray.direction)),
@@ -55,7 +55,7 @@ auto towards(const Light& light, const Vec3d& x)
 template <typename Field, typename Normal>
 auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const Vec3d& o)
 {
-    const Ray& ray = receiver.camera_ray.ray;
+    const Ray& ray = receiver.ray();
     const auto [delta, nu] = plane_hit(field, receiver);
     return delta * dot(normal, difference<Field>(ray.origin, o)) +
            nu * dot(normal, vector<Field>(ray.direction));
@@ -65,7 +65,7 @@ Sign edge_sign(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const L
                SignCounts& counts)
 {
     return receiver.delta_sign *
-           sign_of(counts, receiver.camera_ray.is_tame, [&]<typename Field>(Field field) {
+           sign_of(counts, receiver.is_tame(), [&]<typename Field>(Field field) {
                const auto normal = cross(difference<Field>(v, u), towards<Field>(light, u));
                return scaled_side(field, receiver, normal, u);
            });
@@ -76,7 +76,7 @@ Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
     const auto formula = [&]<typename Field>(Field field) {
         return scaled_side(field, receiver, normal_of<Field>(s), s[0]);
     };
-    if (const auto sign = filtered_sign(counts, receiver.camera_ray.is_tame, formula)) {
+    if (const auto sign = filtered_sign(counts, receiver.is_tame(), formula)) {
         return receiver.delta_sign * *sign;
     }
     // P lies in the plane of T: where S does too, three signs of low degree say so sooner.
@@ -92,7 +92,7 @@ Sign Receiver::exact_delta_sign(SignCounts& counts) const
 
 Vec3d exact_offset(const Receiver& receiver, const Vec3d& origin)
 {
-    const Ray& ray = receiver.camera_ray.ray;
+    const Ray& ray = receiver.ray();
     const auto [delta, nu] = plane_hit(ExactField{}, receiver);
     const auto offset =
         delta * difference<ExactField>(ray.origin, origin) + nu * vector<ExactField>(ray.direction);
@@ -130,7 +130,7 @@ bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts)
 
 bool is_beyond(const Receiver& hit, double near, SignCounts& counts)
 {
-    return hit.delta_sign * sign_of(counts, hit.camera_ray.is_tame,
+    return hit.delta_sign * sign_of(counts, hit.is_tame(),
                                     [&]<typename Field>(Field field) {
                                         const auto [delta, nu] = plane_hit(field, hit);
                                         return nu - Field::number(near) * delta;
@@ -145,7 +145,7 @@ Sign compare_distance(const Receiver& a, const Receiver& b, SignCounts& counts)
         const auto q = plane_hit(field, b);
         return p.nu * q.delta - q.nu * p.delta;
     };
-    if (const auto sign = filtered_sign(counts, a.camera_ray.is_tame, formula)) {
+    if (const auto sign = filtered_sign(counts, a.is_tame(), formula)) {
         return a.delta_sign * b.delta_sign * *sign;
     }
     return is_coplanar(a, b.corners(), counts)
@@ -178,11 +178,11 @@ bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& c
     }
     const auto from_light = [&]<typename Field>(Field field) { // δ(P − L)
         const auto [delta, nu] = plane_hit(field, receiver);
-        const Ray& ray = receiver.camera_ray.ray;
+        const Ray& ray = receiver.ray();
         return delta * difference<Field>(ray.origin, light.position) +
                nu * vector<Field>(ray.direction);
     };
-    const bool is_tame = receiver.camera_ray.is_tame;
+    const bool is_tame = receiver.is_tame();
     const Sign along = sign_of(counts, is_tame, [&]<typename Field>(Field field) {
         return dot(from_light(field), vector<Field>(light.direction));
     });
@@ -248,7 +248,7 @@ Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a, const
         return std::pair{scaled_side(field, receiver, normal, s[0]),
                          dot(normal, towards<Field>(light, s[0]))};
     };
-    const Sign product = sign_of(counts, receiver.camera_ray.is_tame, [&](auto field) {
+    const Sign product = sign_of(counts, receiver.is_tame(), [&](auto field) {
         const auto [a_point, a_light] = heights(field, a);
         const auto [b_point, b_light] = heights(field, b);
         return a_point * b_light - b_point * a_light;

@@ -59,48 +59,59 @@ struct Facet {
     FilteredNormal normal{}; ///< n
 };
 
+/// ν of the plane of T for rays from E: n·(a − E).
+[[nodiscard]] inline Filtered<8> nu_of(const Facet& facet, const scene::Vec3d& eye)
+{
+    return dot(facet.normal, difference<FilterField>(facet.corners[0], eye));
+}
+
 /// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of
 /// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
 struct Receiver {
     Receiver() = default;
-    /// The facet must outlive the receiver.
-    Receiver(const Facet& facet_in, const CameraRay& camera_ray_in, SignCounts& counts)
-        : facet{&facet_in},
-          camera_ray{camera_ray_in},
-          delta{dot(facet->normal, vector<FilterField>(camera_ray.ray.direction))},
-          nu{dot(facet->normal, difference<FilterField>(corners()[0], camera_ray.ray.origin))}
+    /// Facet and ray must outlive the receiver.
+    Receiver(const Facet& facet_in, const CameraRay& ray_in, SignCounts& counts)
+        : Receiver{facet_in, ray_in, nu_of(facet_in, ray_in.ray.origin), counts}
     {
-        const auto sign = filtered_sign(counts, camera_ray.is_tame, [&](auto) { return delta; });
-        delta_sign = sign ? *sign : exact_delta_sign(counts);
     }
-    Receiver(const Facet&& facet_in, const CameraRay& camera_ray_in, SignCounts& counts) = delete;
+    /// @param nu_in  ν, which all rays from one eye share.
+    Receiver(const Facet& facet_in, const CameraRay& ray_in, const Filtered<8>& nu_in,
+             SignCounts& counts)
+        : facet{&facet_in},
+          camera_ray{&ray_in},
+          delta{dot(facet->normal, vector<FilterField>(ray_in.ray.direction))},
+          nu{nu_in}
+    {
+        const auto sign = filtered_sign(counts, is_tame(), [&](auto) { return delta; });
+        delta_sign = sign ? *sign : exact_delta_sign(counts);
+        const double inverse = 1 / delta.value;
+        t = nu.value * inverse;
+        if (is_tame() && std::abs(delta.value) > 8 * delta.error()) {
+            // |ν̂/δ̂ − ν/δ| <= (|ν̂ − ν| + |ν̂/δ̂||δ̂ − δ|)/|δ|, and |δ| >= 7/8 |δ̂|; the inverse and
+            // the product round.
+            t_error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
+                      3 * unit_roundoff * std::abs(t);
+        }
+    }
+    Receiver(const Facet&&, const CameraRay&, SignCounts&) = delete;
+    Receiver(const Facet&, const CameraRay&&, SignCounts&) = delete;
 
     [[nodiscard]] std::uint32_t triangle() const { return facet->triangle; }
     [[nodiscard]] const Corners& corners() const { return facet->corners; }
+    [[nodiscard]] const scene::Ray& ray() const { return camera_ray->ray; }
+    [[nodiscard]] bool is_tame() const { return camera_ray->is_tame; }
 
     /// P rounded [m]; its error is a few roundings of E and of t·d, and t's.
-    [[nodiscard]] scene::Vec3d point() const
-    {
-        return camera_ray.ray.origin + t() * camera_ray.ray.direction;
-    }
-    /// ν/δ.
-    [[nodiscard]] double t() const { return nu.value / delta.value; }
-    /// Bound of the error of `t()`; infinite where the filter cannot tell the sign of δ.
-    [[nodiscard]] double t_error() const
-    {
-        const double smallest_delta = std::abs(delta.value) - delta.error();
-        if (!(smallest_delta > 0) || !camera_ray.is_tame) {
-            return std::numeric_limits<double>::infinity();
-        }
-        const double distance = std::abs(t());
-        return (nu.error() + distance * delta.error()) / smallest_delta + unit_roundoff * distance;
-    }
+    [[nodiscard]] scene::Vec3d point() const { return ray().origin + t * ray().direction; }
 
-    const Facet* facet = nullptr; ///< T; not owned
-    CameraRay camera_ray;
+    const Facet* facet = nullptr;          ///< T; not owned
+    const CameraRay* camera_ray = nullptr; ///< not owned
     Filtered<7> delta;
     Filtered<8> nu;
     Sign delta_sign = 0; ///< exact
+    double t = 0;        ///< ν/δ
+    /// Bound of the error of `t`; infinite where δ is hardly known.
+    double t_error = std::numeric_limits<double>::infinity();
 
 private:
     [[nodiscard]] Sign exact_delta_sign(SignCounts& counts) const;

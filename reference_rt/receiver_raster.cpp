@@ -40,15 +40,14 @@ ReceiverRaster::ReceiverRaster(const scene::TriangleScene& triangles, const scen
     : triangles_{triangles},
       facts_{facts},
       image_{view.image},
-      clip_from_world_{camera_clip_from_world(view.camera, view.image, box)},
-      clip_from_world_float_{clip_from_world_}
+      clip_from_world_{camera_clip_from_world(view.camera, view.image, box)}
 {
 }
 
 ReceiverRaster::WindowCorners ReceiverRaster::window_corners(std::uint32_t triangle, int x,
                                                              int y) const
 {
-    const scene::Mat4d matrix{clip_from_world_float_};
+    const scene::Mat4d matrix{clip_from_world_};
     const Vec2d centre = centre_of(x, y);
     const Vec2d half{0.5 * image_.width_px, 0.5 * image_.height_px};
     const bool is_captured = !facts_.clip_positions.empty();
@@ -125,57 +124,72 @@ bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
                                          bool is_covered) const
 {
     const WindowCorners corners = window_corners(triangle, x, y);
-    if (std::ranges::any_of(corners,
-                            [](const Corner& corner) { return may_be_clipped(corner.clip); })) {
-        return is_near_line(corners);
-    }
-    if (is_near_boundary(corners)) {
+    const bool is_clipped = std::ranges::any_of(
+        corners, [](const Corner& corner) { return may_be_clipped(corner.clip); });
+    if (is_clipped ? is_near_line(corners) : is_near_boundary(corners)) {
         return true;
     }
+    // The centre is the origin. With homogeneous corners it is inside where its sides of the edges'
+    // lines all equal the triangle's orientation, whatever the signs of w.
     const Vec3d& p = corners[0].position;
     const Vec3d& q = corners[1].position;
     const Vec3d& r = corners[2].position;
-    const auto side = [](const Vec3d& from, const Vec3d& to) {
-        return from.x * to.y - from.y * to.x > 0;
+    const bool is_turned = glm::dot(p, glm::cross(q, r)) < 0;
+    const auto is_inside = [&](const Vec3d& from, const Vec3d& to) {
+        return (from.x * to.y - from.y * to.x < 0) == is_turned;
     };
-    const bool is_snapped_over = side(p, q) == side(q, r) && side(q, r) == side(r, p);
+    const bool is_snapped_over = is_inside(p, q) && is_inside(q, r) && is_inside(r, p);
     return is_snapped_over != is_covered;
 }
 
-double ReceiverRaster::depth_error(std::uint32_t triangle, int x, int y) const
+/// How far a corner's depth may be from that of `corners`.
+double ReceiverRaster::vertex_error(std::uint32_t triangle, const WindowCorners& corners) const
 {
-    const auto corners = window_corners(triangle, x, y);
-    if (std::ranges::all_of(corners, [](const Corner& c) { return c.clip.w > c.error.z; })) {
-        scene::WindowTriangle window{};
-        double vertex_error = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3d& p = corners[i].position;
-            window.position_px[i] = Vec2d{p.x / p.z, p.y / p.z} + centre_of(x, y);
-            window.depth[i] = corners[i].clip.z / p.z;
-            const auto& vertex = triangles_.vertices[triangles_.triangles[triangle][i]];
-            vertex_error = std::max(
-                vertex_error, scene::vertex_depth_error(clip_from_world_float_, vertex, true));
-        }
-        // Whether depth follows the snapped corners is the driver's secret: assume the worse.
-        return scene::driver_depth_bound(window, {facts_.subpixel_bits, true}, vertex_error,
-                                         centre_of(x, y));
+    double error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& vertex = triangles_.vertices[triangles_.triangles[triangle][i]];
+        error = std::max(error, facts_.clip_positions.empty()
+                                    ? scene::vertex_depth_error(clip_from_world_, vertex, true)
+                                    // GL's own position: the reciprocal and the product round.
+                                    : 2 * u32 * std::abs(corners[i].clip.z / corners[i].clip.w));
     }
-    // The plane z = gx·X + gy·Y + g through the homogeneous corners, by Cramer's rule.
+    return error;
+}
+
+ReceiverRaster::Depth ReceiverRaster::depth(std::uint32_t triangle, int x, int y) const
+{
+    const WindowCorners corners = window_corners(triangle, x, y);
+    // The plane z = gx·X + gy·Y + g through the homogeneous corners, by Cramer's rule; the centre
+    // is the origin.
     const Vec3d z{corners[0].clip.z, corners[1].clip.z, corners[2].clip.z};
     const glm::dmat3 rows =
         glm::transpose(glm::dmat3{corners[0].position, corners[1].position, corners[2].position});
     const double volume = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
+    const double g = glm::dot(rows[0], glm::cross(rows[1], z)) / volume;
+    if (std::ranges::none_of(corners, [](const Corner& c) { return may_be_clipped(c.clip); })) {
+        scene::WindowTriangle window{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3d& p = corners[i].position;
+            window.position_px[i] = Vec2d{p.x / p.z, p.y / p.z} + centre_of(x, y);
+            window.depth[i] = corners[i].clip.z / p.z;
+        }
+        // Whether depth follows the snapped corners is the driver's secret: assume the worse.
+        return {g, scene::driver_depth_bound(window, {facts_.subpixel_bits, true},
+                                             vertex_error(triangle, corners), centre_of(x, y))};
+    }
+    // The clipped corners are not known here: the whole window's extent and depth 1 stand for them.
     const double gx = glm::dot(z, glm::cross(rows[1], rows[2])) / volume;
     const double gy = glm::dot(rows[0], glm::cross(z, rows[2])) / volume;
     const double bound =
         6 * u32 * (1 + 2 * (std::abs(gx) * image_.width_px + std::abs(gy) * image_.height_px));
-    return std::isfinite(bound) ? bound : 1.0;
+    return {g, std::isfinite(bound) ? bound : 1.0};
 }
 
-double ReceiverRaster::depth(const Vec3d& point) const
+bool ReceiverRaster::is_tie(std::uint32_t nearer, std::uint32_t farther, int x, int y) const
 {
-    const Vec4d clip = clip_from_world_ * Vec4d{point, 1};
-    return clip.z / clip.w;
+    const Depth front = depth(nearer, x, y);
+    const Depth back = depth(farther, x, y);
+    return !(front.value - back.value > front.error + back.error);
 }
 
 } // namespace gnomon::reference_rt

@@ -20,22 +20,17 @@ public:
     /// True when GL, which snaps corners to its sub-pixel grid, may judge the coverage of pixel
     /// (x, y)'s centre otherwise than exact geometry does.
     ///
-    /// From GL's own clip positions: within ±1 sub-pixel of the snapped corners the centre may be
-    /// on either side of an edge, or the snapped triangle certainly decides otherwise. For a
-    /// triangle that GL clips: the centre lies within one sub-pixel of an edge's homogeneous line.
-    /// Where GL's positions are not known, the float32 transform's error is allowed for.
+    /// From GL's own clip positions: corners that move by ±1 sub-pixel may put the centre on either
+    /// side of an edge, or they certainly decide otherwise. For a triangle that GL clips: the
+    /// centre lies within one sub-pixel of an edge's homogeneous line, or the lines decide
+    /// otherwise. Where GL's positions are not known, the float32 transform's error is allowed for.
     /// @param is_covered  whether the closed triangle covers the centre, exactly.
     [[nodiscard]] bool coverage_may_differ(std::uint32_t triangle, int x, int y,
                                            bool is_covered) const;
 
-    /// Bound on the error of the depth stored for the triangle at pixel (x, y), in [0, 1] units.
-    ///
-    /// The driver bound; for a triangle that reaches behind the camera, whose clipped corners are
-    /// not known here, the same with the whole window's extent and depth 1 in their place.
-    [[nodiscard]] double depth_error(std::uint32_t triangle, int x, int y) const;
-
-    /// Window depth of a world point: reversed, 1 at the near plane.
-    [[nodiscard]] double depth(const scene::Vec3d& point) const;
+    /// True when GL's depth buffer does not certainly put `nearer` before `farther` at pixel (x,
+    /// y): by the planes through GL's own clip positions, and the driver bound of each.
+    [[nodiscard]] bool is_tie(std::uint32_t nearer, std::uint32_t farther, int x, int y) const;
 
 private:
     /// A corner in window space, homogeneous, seen from a pixel's centre.
@@ -45,15 +40,21 @@ private:
         scene::Vec4d clip;
     };
     using WindowCorners = std::array<Corner, 3>;
+    /// Window depth at a pixel's centre, reversed: 1 at the near plane.
+    struct Depth {
+        double value = 0;
+        double error = 0; ///< of what GL stores
+    };
     [[nodiscard]] WindowCorners window_corners(std::uint32_t triangle, int x, int y) const;
+    [[nodiscard]] Depth depth(std::uint32_t triangle, int x, int y) const;
+    [[nodiscard]] double vertex_error(std::uint32_t triangle, const WindowCorners& corners) const;
     [[nodiscard]] bool is_near_line(const WindowCorners& corners) const;
     [[nodiscard]] bool is_near_boundary(const WindowCorners& corners) const;
 
     const scene::TriangleScene& triangles_;
     const RasterFacts& facts_;
     scene::ImageSize image_;
-    scene::Mat4d clip_from_world_;
-    scene::Mat4f clip_from_world_float_;
+    scene::Mat4f clip_from_world_;
 };
 
 } // namespace gnomon::reference_rt

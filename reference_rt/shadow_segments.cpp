@@ -57,18 +57,19 @@ public:
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
         const Corners corners = corners_of(reference_.triangles, triangle);
-        const ShadowPlanes planes = shadow_planes(reference_.frame, light_.pencil, corners);
-        const LineVerdicts lines = judge_lines(points_, planes.edges);
+        const TrianglePlanes planes =
+            make_planes(reference_.frame, light_.pencil, corners, LaneKind::points);
+        const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
         if (open == 0) {
             return 0;
         }
         open &= ~lanes_on(triangle); // the segment meets the plane of T at P only
         LaneBits crossing = 0;
-        if (planes.light != 0) {
+        if (planes.towards != 0) {
             const LaneBits sure = open & lines.inside;
-            crossing = sure & certainly_on_side(points_, planes.surface, -planes.light);
-            open &= ~(crossing | (sure & certainly_on_side(points_, planes.surface, planes.light)));
+            crossing = sure & certainly_on_side(points_, planes, -planes.towards);
+            open &= ~(crossing | (sure & certainly_on_side(points_, planes, planes.towards)));
         }
         LaneBits settled = 0;
         for (LaneBits rest = crossing; rest != 0; rest &= rest - 1) {

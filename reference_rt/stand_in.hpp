@@ -24,11 +24,11 @@ struct BoundedPoint {
 /// P. Precondition: δ is not 0.
 [[nodiscard]] inline BoundedPoint unit_point(const Receiver& receiver, const UnitFrame& frame)
 {
-    const scene::Ray& ray = receiver.camera_ray.ray;
+    const scene::Ray& ray = receiver.ray();
     const scene::Vec3d origin = frame.from_world(ray.origin);
-    const scene::Vec3d step = frame.scale() * receiver.t() * ray.direction;
+    const scene::Vec3d step = frame.scale() * receiver.t * ray.direction;
     // Of t; of the product, of the difference and of the sum.
-    const double error = frame.scale() * largest(ray.direction) * receiver.t_error() +
+    const double error = frame.scale() * largest(ray.direction) * receiver.t_error +
                          4 * unit_roundoff * (largest(origin) + largest(step));
     if (error <= 0.25 * max_origin_error) {
         return {origin + step, error};
@@ -58,8 +58,8 @@ public:
     {
         // Twice the padding, as the direction is 1 long: the stand-in's point may lag behind.
         constexpr double margin = 2 * box_padding;
-        const double t = frame_.scale() * hit.t() - t_begin_;
-        const double error = frame_.scale() * hit.t_error();
+        const double t = frame_.scale() * hit.t - t_begin_;
+        const double error = frame_.scale() * hit.t_error;
         return error <= 0.25 * margin && t_begin_ <= farthest_resolved
                    ? static_cast<float>((1 + 0x1p-20) * t + margin)
                    : std::numeric_limits<float>::infinity();

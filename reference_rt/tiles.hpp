@@ -26,49 +26,75 @@ struct Tile {
     PacketOf<Receiver> receivers; ///< of the lanes in `seen`
     PacketOf<std::size_t> facet_of{};
     PacketOf<Facet> facets;
+    PacketOf<Filtered<8>> nu; ///< of each facet, for the ray that saw it first
     std::size_t facet_count = 0;
 };
 
-/// Fills the tile; `receivers` is GL's triangle per pixel.
-inline void fill_tile(Tile& tile, const scene::TriangleScene& triangles, const scene::View& view,
-                      const scene::Image<std::uint32_t>& receivers, int column, int row,
-                      SignCounts& counts)
-{
-    tile.valid = {};
-    tile.seen = {};
-    tile.facet_count = 0;
-    std::array<double, tile_side_px> sx{};
-    for (int i = 0; i < tile_side_px; ++i) {
-        sx[static_cast<std::size_t>(i)] =
-            pixel_sx(view.camera, view.image, column * tile_side_px + i);
+/// Fills tiles with what GL saw in them.
+class TileSource {
+public:
+    /// @param receivers  GL's triangle per pixel. All arguments must outlive the source.
+    TileSource(const scene::TriangleScene& triangles, const scene::View& view,
+               const scene::Image<std::uint32_t>& receivers)
+        : triangles_{triangles},
+          view_{view},
+          receivers_{receivers},
+          has_eye_{view.camera.projection == scene::Projection::perspective}
+    {
     }
-    double sy = 0;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        const int x = column * tile_side_px + static_cast<int>(i) % tile_side_px;
-        const int y = row * tile_side_px + static_cast<int>(i) / tile_side_px;
-        if (i % tile_side_px == 0) {
-            sy = pixel_sy(view.camera, view.image, y);
+
+    void fill(Tile& tile, int column, int row, SignCounts& counts) const
+    {
+        tile.valid = {};
+        tile.seen = {};
+        tile.facet_count = 0;
+        std::array<double, tile_side_px> sx{};
+        std::array<double, tile_side_px> sy{};
+        for (int i = 0; i < tile_side_px; ++i) {
+            const auto lane = static_cast<std::size_t>(i);
+            sx[lane] = pixel_sx(view_.camera, view_.image, column * tile_side_px + i);
+            sy[lane] = pixel_sy(view_.camera, view_.image, row * tile_side_px + i);
         }
-        if (x >= view.image.width_px || y >= view.image.height_px) {
-            continue;
+        for (std::size_t i = 0; i < packet_size; ++i) {
+            const int x = column * tile_side_px + static_cast<int>(i) % tile_side_px;
+            const int y = row * tile_side_px + static_cast<int>(i) / tile_side_px;
+            if (x < view_.image.width_px && y < view_.image.height_px) {
+                tile.valid.add(i);
+                tile.x[i] = x;
+                tile.y[i] = y;
+                tile.rays[i] =
+                    CameraRay{pixel_ray(view_.camera, sx[i % tile_side_px], sy[i / tile_side_px])};
+                see(tile, i, receivers_(x, y), counts);
+            }
         }
-        tile.valid.add(i);
-        tile.x[i] = x;
-        tile.y[i] = y;
-        tile.rays[i] = CameraRay{pixel_ray(view.camera, sx[i % tile_side_px], sy)};
-        const std::uint32_t triangle = receivers(x, y);
+    }
+
+private:
+    void see(Tile& tile, std::size_t i, std::uint32_t triangle, SignCounts& counts) const
+    {
         if (triangle == scene::no_triangle) {
-            continue;
-        }
-        // Neighbouring pixels often show the same triangle.
-        if (tile.facet_count == 0 || tile.facets[tile.facet_count - 1].triangle != triangle) {
-            tile.facets[tile.facet_count++] = Facet{triangle, corners_of(triangles, triangle)};
+            return;
         }
         tile.seen.add(i);
-        tile.facet_of[i] = tile.facet_count - 1;
-        tile.receivers[i] = Receiver{tile.facets[tile.facet_count - 1], tile.rays[i], counts};
+        // Neighbouring pixels often show the same triangle.
+        if (tile.facet_count == 0 || tile.facets[tile.facet_count - 1].triangle != triangle) {
+            tile.facets[tile.facet_count] = Facet{triangle, corners_of(triangles_, triangle)};
+            tile.nu[tile.facet_count] =
+                nu_of(tile.facets[tile.facet_count], tile.rays[i].ray.origin);
+            ++tile.facet_count;
+        }
+        const std::size_t last = tile.facet_count - 1;
+        tile.facet_of[i] = last;
+        const Facet& facet = tile.facets[last];
+        tile.receivers[i] = has_eye_ ? Receiver{facet, tile.rays[i], tile.nu[last], counts}
+                                     : Receiver{facet, tile.rays[i], counts};
     }
-}
+
+    const scene::TriangleScene& triangles_;
+    const scene::View& view_;
+    const scene::Image<std::uint32_t>& receivers_;
+    bool has_eye_;
+};
 
 /// Runs `job` with that many threads; 0 means all cores.
 template <typename Job>

@@ -96,17 +96,6 @@ double pixel_sy(const Camera& camera, ImageSize image, int y)
     return (1.0 - 2.0 * (y + 0.5) / height) * camera.half_height;
 }
 
-Ray pixel_ray(const Camera& camera, double sx, double sy)
-{
-    const Vec3d start = camera.projection == Projection::perspective ? camera.forward : camera.eye;
-    Vec3d moved;
-    for (int axis = 0; axis < 3; ++axis) {
-        moved[axis] = (start[axis] + sx * camera.right[axis]) + sy * camera.up[axis];
-    }
-    return camera.projection == Projection::perspective ? Ray{camera.eye, moved}
-                                                        : Ray{moved, camera.forward};
-}
-
 Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y)
 {
     return pixel_ray(camera, pixel_sx(camera, image, x), pixel_sy(camera, image, y));

@@ -55,7 +55,15 @@ struct Ray {
 [[nodiscard]] Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y);
 
 /// The same ray from its column's sx and its row's sy, for whoever needs many.
-[[nodiscard]] Ray pixel_ray(const Camera& camera, double sx, double sy);
+[[nodiscard]] inline Ray pixel_ray(const Camera& camera, double sx, double sy)
+{
+    const bool has_eye = camera.projection == Projection::perspective;
+    const Vec3d& start = has_eye ? camera.forward : camera.eye;
+    const Vec3d moved{(start.x + sx * camera.right.x) + sy * camera.up.x,
+                      (start.y + sx * camera.right.y) + sy * camera.up.y,
+                      (start.z + sx * camera.right.z) + sy * camera.up.z};
+    return has_eye ? Ray{camera.eye, moved} : Ray{moved, camera.forward};
+}
 [[nodiscard]] double pixel_sx(const Camera& camera, ImageSize image, int x);
 [[nodiscard]] double pixel_sy(const Camera& camera, ImageSize image, int y);
 

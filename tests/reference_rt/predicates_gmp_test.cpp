@@ -145,7 +145,8 @@ private:
     {
         SignCounts counts;
         const Facet facet{0, question.t};
-        const Receiver receiver{facet, CameraRay{question.ray}, counts};
+        const CameraRay ray{question.ray};
+        const Receiver receiver{facet, ray, counts};
         if (receiver.delta_sign == 0) {
             return;
         }
@@ -168,7 +169,8 @@ int check(const Question& question, SignCounts& counts)
 {
     const auto& [ray, t, s, light] = question;
     const Facet facet{0, t};
-    const Receiver receiver{facet, CameraRay{ray}, counts};
+    const CameraRay camera_ray{ray};
+    const Receiver receiver{facet, camera_ray, counts};
     const Rational3 a{t[0]};
     const Rational3 normal = cross(Rational3{t[1]} - a, Rational3{t[2]} - a);
     const mpq_class delta = dot(normal, Rational3{ray.direction});
@@ -201,7 +203,7 @@ int check(const Question& question, SignCounts& counts)
                                                     dot(normal, c[1] - a) == 0 &&
                                                     dot(normal, c[2] - a) == 0);
     const Facet other_facet{1, s};
-    const Receiver other{other_facet, CameraRay{ray}, counts};
+    const Receiver other{other_facet, camera_ray, counts};
     const mpq_class other_delta = dot(m, Rational3{ray.direction});
     if (other_delta != 0) {
         const mpq_class other_r = dot(m, c[0] - Rational3{ray.origin}) / other_delta;
@@ -255,7 +257,8 @@ TEST(CompareNearnessToLight, OrdersBlockersExactly)
 {
     const Facet ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
     SignCounts counts;
-    const Receiver receiver{ground, CameraRay{Ray{Vec3d{0.5, 4, 0}, Vec3d{0, -1, 0}}}, counts};
+    const CameraRay ray{Ray{Vec3d{0.5, 4, 0}, Vec3d{0, -1, 0}}};
+    const Receiver receiver{ground, ray, counts};
     const auto roof = [](double height, double tilt) {
         return Corners{Vec3d{-1, height - tilt, -1}, Vec3d{2, height + 2 * tilt, -1},
                        Vec3d{0.5, height + 0.5 * tilt, 2}};

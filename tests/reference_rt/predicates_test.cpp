@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+
 namespace gnomon::reference_rt {
 namespace {
 
@@ -14,8 +16,9 @@ const Facet ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
 
 Receiver make_receiver(const Facet& facet, const Ray& ray)
 {
+    static std::deque<CameraRay> rays; // which receivers point to
     SignCounts counts;
-    return Receiver{facet, CameraRay{ray}, counts};
+    return Receiver{facet, rays.emplace_back(ray), counts};
 }
 
 /// P = (x, 0, z), seen from 4 above it; the coordinates are short binary fractions, so every
