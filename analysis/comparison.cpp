@@ -34,7 +34,7 @@ auto timed(double& seconds, Stage&& stage)
 void require_renderers(const Renderers& renderers)
 {
     if (!renderers.draw_receivers || !renderers.draw_shadow_map || !renderers.look_up ||
-        !renderers.find_truth) {
+        !renderers.find_truth || (renderers.make_exact_light && !renderers.read_map_depths)) {
         throw std::invalid_argument("compare: renderers: a stage has no callable");
     }
 }
@@ -91,6 +91,11 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     require_size("witness", result.truth.witness, view.image);
 
     result.metrics = timed(seconds.analysis, [&] { return measure(result.truth, result.lookup); });
+    if (renderers.make_exact_light) {
+        result.diagnosis = timed(seconds.analysis, [&] {
+            return diagnose(job, view, {result.receivers, result.truth, result.lookup}, renderers);
+        });
+    }
     return result;
 }
 

@@ -1,24 +1,18 @@
 #pragma once
 
+#include "analysis/diagnosis.hpp"
 #include "analysis/metrics.hpp"
+#include "analysis/renderers.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 #include "scene/scene_file.hpp"
 
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon::analysis {
-
-/// What computed a result; part of every result.
-struct Environment {
-    std::string gl_renderer;
-    std::string gl_version;
-    std::string embree;
-    std::string gnomon;
-};
 
 /// Wall time of each stage [s].
 struct StageSeconds {
@@ -44,22 +38,6 @@ struct SceneSummary {
 [[nodiscard]] SceneSummary summarise_scene(const scene::SceneSettings& settings,
                                            const scene::TriangleScene& triangles);
 
-/// The two renderers as callables, one for each stage, so that `analysis` needs neither GL nor
-/// Embree and a sweep can call just the stages whose inputs changed.
-///
-/// Each returns when its work is done: an asynchronous renderer waits, so that stages can be timed.
-/// `look_up` answers for the receivers and the shadow map drawn last, which the renderer keeps.
-struct Renderers {
-    std::function<scene::ReceiverLayers(const scene::View&)> draw_receivers;
-    std::function<void(const scene::Job&, const scene::View&)> draw_shadow_map;
-    std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
-    std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
-
-    Environment environment;
-    std::string truth_method; ///< the name of the method behind `find_truth`, e.g. "exact"
-    int subpixel_bits = 8;    ///< of the rasteriser behind `draw_receivers`
-};
-
 /// One configuration's result: everything that reports show.
 struct Comparison {
     scene::Job job;
@@ -71,6 +49,7 @@ struct Comparison {
     scene::LookupLayers lookup;
     scene::TruthLayers truth;
     Metrics metrics;
+    std::optional<Diagnosis> diagnosis;                ///< empty: not asked for
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
 
     std::string truth_method;

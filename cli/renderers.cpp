@@ -40,7 +40,15 @@ scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View
         throw std::invalid_argument("GlRenderer::look_up: draw receivers and shadow map first");
     }
     lookup_pass_.render(scene_, *receivers_, *shadow_map_, job.lookup, view);
-    return lookup_pass_.read_samples();
+    return lookup_pass_.read();
+}
+
+scene::Image<float> GlRenderer::read_map_depths() const
+{
+    if (shadow_map_ == nullptr) {
+        throw std::invalid_argument("GlRenderer::read_map_depths: draw the shadow map first");
+    }
+    return raster_gl::read_shader_depths(context_, *shadow_map_);
 }
 
 analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& facts,
@@ -60,6 +68,7 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
         const reference_rt::RasterFacts raster{subpixel_bits, gl.receiver_clip_positions(view)};
         return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
     };
+    renderers.read_map_depths = [&gl] { return gl.read_map_depths(); };
     const bool is_float = options.method == reference_rt::TruthMethod::plain;
     renderers.truth_method = is_float ? "float" : "exact";
     renderers.subpixel_bits = facts.subpixel_bits;

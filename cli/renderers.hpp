@@ -24,6 +24,8 @@ public:
     void draw_shadow_map(const scene::Job& job, const scene::View& view);
     /// Looks the last receivers up in the last shadow map.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
+    /// The last shadow map's depths, as shaders see them.
+    [[nodiscard]] scene::Image<float> read_map_depths() const;
 
 private:
     const raster_gl::Context& context_;

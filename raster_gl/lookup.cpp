@@ -151,19 +151,13 @@ void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
     context_.check("looking up the shadow map");
 }
 
-scene::LookupLayers LookupPass::read_samples() const
+scene::LookupLayers LookupPass::read() const
 {
     scene::LookupLayers layers{
-        read_texture<scene::LookupSample>(samples_, size_, GL_RGBA, GL_FLOAT)};
+        read_texture<scene::LookupSample>(samples_, size_, GL_RGBA, GL_FLOAT),
+        read_texture<scene::Vec2f>(texels_, size_, GL_RG, GL_FLOAT)};
     context_.check("reading the lookup");
     return layers;
-}
-
-scene::Image<scene::Vec2f> LookupPass::read_texels() const
-{
-    auto texels = read_texture<scene::Vec2f>(texels_, size_, GL_RG, GL_FLOAT);
-    context_.check("reading the lookup's texels");
-    return texels;
 }
 
 } // namespace gnomon::raster_gl

@@ -22,16 +22,12 @@ class LookupPass {
 public:
     explicit LookupPass(const Context& context);
 
-    /// Draws the lookup; read the result with `read_samples` and `read_texels`.
+    /// Draws the lookup; read the result with `read`.
     /// @throws std::invalid_argument  if the receivers are not of the view's size.
     void render(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
                 const scene::LookupSettings& settings, const scene::View& view);
 
-    /// r, d, tan θ and verdict of each pixel.
-    [[nodiscard]] scene::LookupLayers read_samples() const;
-    /// uv · resolution of each pixel's lookup point, in float32, as the lookup computed it: origin
-    /// at the map's lower left, the texel is its floor.
-    [[nodiscard]] scene::Image<scene::Vec2f> read_texels() const;
+    [[nodiscard]] scene::LookupLayers read() const;
 
 private:
     using Variant = std::tuple<scene::Filter, scene::Outside, bool, bool>;

@@ -56,7 +56,8 @@ struct SheetQuery {
     std::uint32_t triangle = 0;
 };
 
-/// Where the light of a blocked pixel is stopped: at its blocker, the exact one nearest to the light.
+/// Where the light of a blocked pixel is stopped: at its blocker, the exact one nearest to the
+/// light.
 struct BlockerHit {
     std::uint32_t triangle = no_triangle;
     double gap_m = 0;           ///< from P to the blocker, along the segment
@@ -77,16 +78,15 @@ public:
 
     /// The first hit of each texel-centre ray, with a triangle that the culling leaves, at a matrix
     /// depth in [0, 1]. A seam is a hit; other degenerate contacts are none.
-    [[nodiscard]] virtual std::vector<TexelHit>
-    first_hits(std::span<const Texel> texels) const = 0;
+    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels) const = 0;
 
-    /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r the
-    /// exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
+    /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
+    /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
     /// @param clamps  limits r to [0, 1] first, as the policy `clamp` does.
-    [[nodiscard]] virtual std::vector<float>
-    critical_biases(std::span<const NearestQuery> queries, bool clamps) const = 0;
-    [[nodiscard]] virtual std::vector<float>
-    critical_biases(std::span<const LinearQuery> queries, bool clamps) const = 0;
+    [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const NearestQuery> queries,
+                                                             bool clamps) const = 0;
+    [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const LinearQuery> queries,
+                                                             bool clamps) const = 0;
 
     /// 1 where a triangle that the culling leaves crosses the open segment P→light, properly or
     /// through a seam, at a matrix depth in [0, 1].

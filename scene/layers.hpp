@@ -16,15 +16,18 @@ struct ReceiverLayers {
 
 /// What the lookup computed for one pixel; all zero where there is no receiver.
 struct LookupSample {
-    float receiver_depth = 0; ///< r, before any bias, not clamped
-    float map_depth =
-        0; ///< d of the centre tap (linear: interpolated); NaN where the policy decided
+    float receiver_depth = 0; ///< r, before any bias; limited to [0, 1] by `clamp` only
+    /// d of the centre tap (linear: interpolated); NaN where the policy decided
+    float map_depth = 0;
     float tan_theta = 0; ///< tangent of the angle between geometric normal and light, >= 0, finite
     float verdict = 0;   ///< 1 lit, 0 shadowed, between for filtered lookups
 };
 
 struct LookupLayers {
     Image<LookupSample> samples;
+    /// uv · resolution of each lookup, in float32, as the lookup computed it: the origin is at the
+    /// map's lower left, the centre texel is the floor.
+    Image<Vec2f> texels = {};
 };
 
 /// How the signs that decide the truth were found.

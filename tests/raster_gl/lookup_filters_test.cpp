@@ -60,8 +60,8 @@ TEST(LinearLookup, InterpolatesDepthThenCompares)
             GlCase c{scene, keys("linear", reversed)};
             c.draw_all();
             const auto map = read_shader_depths(*tests::shared_context(), *c.map);
-            const auto samples = c.lookup_pass.read_samples().samples;
-            const auto texels = c.lookup_pass.read_texels();
+            const auto samples = c.lookup_pass.read().samples;
+            const auto texels = c.lookup_pass.read().texels;
             const auto triangles = read_triangles(*tests::shared_context(), *c.receivers);
             for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
                 if (triangles[i] == scene::no_triangle) {
@@ -88,8 +88,8 @@ TEST(HardwareLookup, WeighsTheFourComparisons)
             GlCase c{scene, keys("hardware", reversed)};
             c.draw_all();
             const auto map = read_shader_depths(*tests::shared_context(), *c.map);
-            const auto samples = c.lookup_pass.read_samples().samples;
-            const auto texels = c.lookup_pass.read_texels();
+            const auto samples = c.lookup_pass.read().samples;
+            const auto texels = c.lookup_pass.read().texels;
             const auto triangles = read_triangles(*tests::shared_context(), *c.receivers);
             std::size_t between = 0;
             for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
@@ -126,8 +126,8 @@ TEST(FilteredLookup, AnswersThePolicyWhereTheWholeFootprintIsOutside)
                       {"lookup.filter", filter},
                       {"lookup.outside", outside}}};
             c.draw_all();
-            const auto samples = c.lookup_pass.read_samples().samples;
-            const auto texels = c.lookup_pass.read_texels();
+            const auto samples = c.lookup_pass.read().samples;
+            const auto texels = c.lookup_pass.read().texels;
             const auto triangles = read_triangles(*tests::shared_context(), *c.receivers);
             std::size_t beyond = 0;
             for (std::size_t i = 0; i < samples.pixel_count(); ++i) {

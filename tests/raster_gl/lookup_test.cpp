@@ -106,8 +106,8 @@ std::size_t expect_agreement(GlCase& c, const std::string& label)
     const auto triangles = read_triangles(context, *c.receivers);
     const auto clip = read_light_clip(context, *c.receivers);
     const auto map = read_shader_depths(context, *c.map);
-    const auto samples = c.lookup_pass.read_samples().samples;
-    const auto texels = c.lookup_pass.read_texels();
+    const auto samples = c.lookup_pass.read().samples;
+    const auto texels = c.lookup_pass.read().texels;
     const HandLookup by_hand{c, map};
     const bool ieee = tests::shader_arithmetic_is_ieee();
     std::size_t receivers = 0;
@@ -195,7 +195,7 @@ TEST(Lookup, AnswersThePolicyBeyondTheMap)
         c.draw_all();
         EXPECT_GT(expect_agreement(c, outside), 20000U);
         int decided_by_policy = 0;
-        for (const scene::LookupSample& sample : c.lookup_pass.read_samples().samples) {
+        for (const scene::LookupSample& sample : c.lookup_pass.read().samples) {
             decided_by_policy += std::isnan(sample.map_depth) ? 1 : 0;
         }
         EXPECT_EQ(decided_by_policy > 0, std::string{outside} != "clamp") << outside;
@@ -209,7 +209,7 @@ TEST(Lookup, TakesTanThetaFromTheGeometricNormal)
         GlCase c{"tilted-plane", with({{"scene.tilted-plane.angle_deg", angle}})};
         c.draw_all();
         const double expected = std::tan(std::stod(angle) * M_PI / 180);
-        for (const scene::LookupSample& sample : c.lookup_pass.read_samples().samples) {
+        for (const scene::LookupSample& sample : c.lookup_pass.read().samples) {
             // The corners' heights are rounded to float32 and the normal's length and components
             // too: a few times 2^-24, amplified by d tan/dθ = 1 + tan².
             ASSERT_NEAR(sample.tan_theta, expected, 1e-6 * (1 + expected * expected)) << angle;
@@ -225,7 +225,7 @@ TEST(Lookup, TakesEachPixelsOwnNormal)
         c.draw_all();
         const auto triangles = read_triangles(*tests::shared_context(), *c.receivers);
         const auto positions = read_world_positions(*tests::shared_context(), *c.receivers);
-        const auto samples = c.lookup_pass.read_samples().samples;
+        const auto samples = c.lookup_pass.read().samples;
         for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
             if (triangles[i] == scene::no_triangle) {
                 ASSERT_EQ(samples[i].receiver_depth, 0.0F) << "background is left alone";
@@ -255,10 +255,10 @@ TEST(Lookup, MovesBySoManyTexelWidthsAlongTheNormal)
     constexpr double offset_texels = 3;
     GlCase c{"tilted-plane", base};
     c.draw_all();
-    const auto plain = c.lookup_pass.read_samples().samples;
+    const auto plain = c.lookup_pass.read().samples;
     c.set(with({{"bias.normal_texels", std::to_string(offset_texels)}}));
     c.draw_all();
-    const auto moved = c.lookup_pass.read_samples().samples;
+    const auto moved = c.lookup_pass.read().samples;
     const scene::LightFrustum& f = c.view.frustum;
     // A plane at 45°: the normal's component along the light is cos 45°, towards the light.
     const double expected = offset_texels * f.texel_width_m(1, c.map->resolution_texels) *

@@ -190,7 +190,7 @@ TEST(ReceiverDepth, LiesWithinItsBoundOfTheExactDepthOfP)
         GlCase c{scene, {{"image.width", "480"}, {"image.height", "270"}}};
         c.draw_all();
         const auto triangles = read_triangles(*tests::shared_context(), *c.receivers);
-        const auto samples = c.lookup_pass.read_samples().samples;
+        const auto samples = c.lookup_pass.read().samples;
         const Model model{c};
         Check check;
         for (int y = 0; y < 270; ++y) {

@@ -1,0 +1,281 @@
+#include "analysis/causes.hpp"
+
+#include "analysis/exact_lookup.hpp"
+#include "analysis/footprint.hpp"
+#include "analysis/texel_hits.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace gnomon::analysis {
+
+using scene::Outside;
+using scene::PixelClass;
+
+namespace {
+
+/// Taps that are held at the same time: bounds the memory, whatever the image and filter.
+constexpr std::size_t taps_at_once = std::size_t{1} << 20U;
+
+class CauseFinder {
+public:
+    explicit CauseFinder(const CauseInputs& inputs)
+        : inputs_{inputs},
+          rules_{inputs.lookup, inputs.resolution_texels, inputs.reversed},
+          footprint_{inputs.lookup, inputs.resolution_texels},
+          causes_{inputs.truth.pixel_class.size()}
+    {
+    }
+
+    scene::Image<PixelCause> find()
+    {
+        const auto width = static_cast<std::size_t>(filter_width_texels(inputs_.lookup.filter));
+        const std::size_t at_once = taps_at_once / (width * width);
+        Lookups lit{{}, {}, width * width};
+        Lookups blocked{{}, {}, width * width};
+        for (std::size_t pixel = 0; pixel < causes_.pixel_count(); ++pixel) {
+            collect(pixel, lit, blocked);
+            if (lit.pixels.size() + blocked.pixels.size() >= at_once) {
+                explain(lit, blocked);
+            }
+        }
+        explain(lit, blocked);
+        return std::move(causes_);
+    }
+
+private:
+    /// Keeps the pixel when the map is wrong about it without any bias.
+    void collect(std::size_t pixel, Lookups& lit, Lookups& blocked)
+    {
+        const PixelClass truth = inputs_.truth.pixel_class[pixel];
+        const scene::LookupSample& sample = inputs_.unbiased.samples[pixel];
+        if (!scene::is_scored(truth) ||
+            scene::is_lit(sample.verdict) == (truth == PixelClass::lit)) {
+            return;
+        }
+        const std::vector<Tap> taps = footprint_.taps(inputs_.unbiased.texels[pixel]);
+        if (rules_.is_policy(sample.receiver_depth, taps)) {
+            causes_[pixel] = {Cause::coverage, false, std::numeric_limits<float>::infinity()};
+            return;
+        }
+        Lookups& lookups = truth == PixelClass::lit ? lit : blocked;
+        lookups.pixels.push_back(pixel);
+        lookups.taps.insert(lookups.taps.end(), taps.begin(), taps.end());
+    }
+
+    void explain(Lookups& lit, Lookups& blocked)
+    {
+        std::vector<scene::Texel> texels;
+        for (const Lookups* lookups : {&lit, &blocked}) {
+            for (const Tap& tap : lookups->taps) {
+                if (tap.is_inside) {
+                    texels.push_back(tap.texel);
+                }
+            }
+        }
+        const TexelHits hits{inputs_.light, texels};
+        explain_lit(lit, hits);
+        explain_blocked(blocked, hits);
+        for (Lookups* lookups : {&lit, &blocked}) {
+            lookups->pixels.clear();
+            lookups->taps.clear();
+        }
+    }
+
+    void explain_lit(const Lookups& lookups, const TexelHits& hits)
+    {
+        const auto critical = exact_critical_biases(rules_, lookups, hits, inputs_.light);
+        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
+            const std::size_t pixel = lookups.pixels[i];
+            // V3: nothing crosses the segment, so only a policy can shadow.
+            const bool is_lit = !is_uncovered(pixel) || inputs_.lookup.outside == Outside::lit;
+            causes_[pixel] = {is_lit ? Cause::resolution : Cause::coverage, false, critical[i]};
+        }
+        find_own_sheets(lookups, hits);
+    }
+
+    /// True where an infinitely fine map has nothing to say of P.
+    [[nodiscard]] bool is_uncovered(std::size_t pixel) const
+    {
+        return !footprint_.is_inside(inputs_.unbiased.texels[pixel]) ||
+               rules_.is_beyond_far(inputs_.unbiased.samples[pixel].receiver_depth);
+    }
+
+    /// The depth that the map stores at a tap: GL's.
+    [[nodiscard]] float stored_depth(std::size_t pixel, const Tap& tap) const
+    {
+        if (inputs_.lookup.filter == scene::Filter::nearest) {
+            return inputs_.unbiased.samples[pixel].map_depth;
+        }
+        // The map's rows are counted from the top, texels from the bottom.
+        return inputs_.map_depths(tap.texel.x, inputs_.resolution_texels - 1 - tap.texel.y);
+    }
+
+    [[nodiscard]] bool shadows(std::size_t pixel, const Tap& tap) const
+    {
+        if (!tap.is_inside && !interpolates()) {
+            return inputs_.lookup.outside == Outside::shadowed;
+        }
+        const float depth = tap.is_inside ? stored_depth(pixel, tap) : rules_.border_depth();
+        return !rules_.is_lit(inputs_.unbiased.samples[pixel].receiver_depth, depth);
+    }
+
+    [[nodiscard]] bool interpolates() const
+    {
+        return inputs_.lookup.filter == scene::Filter::linear ||
+               inputs_.lookup.filter == scene::Filter::hardware;
+    }
+
+    /// `sees`: at least half, by weight, of the taps that shadow see the receiver's own sheet.
+    void find_own_sheets(const Lookups& lookups, const TexelHits& hits)
+    {
+        std::vector<scene::SheetQuery> queries;
+        std::vector<std::size_t> lookup_of;
+        std::vector<double> weights;
+        std::vector<double> balance(lookups.pixels.size()); // own sheet's weight less the others'
+        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
+            for (const Tap& tap : lookups.taps_of(i)) {
+                if (!shadows(lookups.pixels[i], tap)) {
+                    continue;
+                }
+                balance[i] -= tap.weight;
+                const std::uint32_t triangle =
+                    tap.is_inside ? hits[tap.texel].triangle : scene::no_triangle;
+                if (triangle != scene::no_triangle) {
+                    queries.push_back({lookups.pixels[i], tap.texel, triangle});
+                    lookup_of.push_back(i);
+                    weights.push_back(tap.weight);
+                }
+            }
+        }
+        const auto own = inputs_.light.are_own_sheets(queries);
+        std::vector<bool> has_own(lookups.pixels.size());
+        for (std::size_t q = 0; q < queries.size(); ++q) {
+            if (own[q] != 0) {
+                balance[lookup_of[q]] += 2 * weights[q];
+                has_own[lookup_of[q]] = true;
+            }
+        }
+        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
+            causes_[lookups.pixels[i]].sees = has_own[i] && balance[i] >= 0;
+        }
+    }
+
+    void explain_blocked(const Lookups& lookups, const TexelHits& hits)
+    {
+        const auto critical = exact_critical_biases(rules_, lookups, hits, inputs_.light);
+        std::vector<std::size_t> lost; // exact depths do not help
+        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
+            if (critical[i] > 0) {
+                causes_[lookups.pixels[i]].unbiased = Cause::precision;
+            } else {
+                lost.push_back(lookups.pixels[i]);
+            }
+        }
+        const auto crossed = inputs_.light.are_crossed(lost);
+        std::vector<std::size_t> between_texels;
+        for (std::size_t i = 0; i < lost.size(); ++i) {
+            const bool is_shadowed = is_uncovered(lost[i])
+                                         ? inputs_.lookup.outside == Outside::shadowed
+                                         : crossed[i] != 0;
+            causes_[lost[i]].unbiased = is_shadowed ? Cause::resolution : Cause::coverage;
+            if (is_shadowed) {
+                between_texels.push_back(lost[i]);
+            }
+        }
+        look_around(between_texels);
+    }
+
+    /// `sees`: some texel around the taps sees the blocker, or anything as near to the light.
+    void look_around(std::span<const std::size_t> pixels)
+    {
+        std::vector<scene::Texel> texels;
+        std::vector<std::size_t> ends;
+        for (const std::size_t pixel : pixels) {
+            const auto ring = footprint_.ring(inputs_.unbiased.texels[pixel]);
+            texels.insert(texels.end(), ring.begin(), ring.end());
+            ends.push_back(texels.size());
+        }
+        const TexelHits hits{inputs_.light, texels};
+        const auto blockers = inputs_.light.find_blockers(pixels);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const double middle_m = 0.5 * (blockers[i].zeta_m + blockers[i].receiver_zeta_m);
+            for (; next < ends[i]; ++next) {
+                causes_[pixels[i]].sees |= hits[texels[next]].zeta_m < middle_m;
+            }
+        }
+    }
+
+    const CauseInputs& inputs_;
+    LookupRules rules_;
+    Footprint footprint_;
+    scene::Image<PixelCause> causes_;
+};
+
+void require_sizes(const CauseInputs& inputs)
+{
+    const scene::ImageSize size = inputs.truth.pixel_class.size();
+    if (inputs.unbiased.samples.size() != size || inputs.unbiased.texels.size() != size) {
+        throw std::invalid_argument("find_causes: the lookup is not of the truth's size");
+    }
+    const scene::ImageSize map{inputs.resolution_texels, inputs.resolution_texels};
+    if (inputs.lookup.filter != scene::Filter::nearest && inputs.map_depths.size() != map) {
+        throw std::invalid_argument("find_causes: map_depths is not of the map's size");
+    }
+}
+
+} // namespace
+
+scene::Image<PixelCause> find_causes(const CauseInputs& inputs)
+{
+    require_sizes(inputs);
+    return CauseFinder{inputs}.find();
+}
+
+Cause cause_of(const PixelCause& pixel, PixelClass truth, float bias)
+{
+    if (pixel.unbiased == Cause::none) {
+        return Cause::bias;
+    }
+    const bool is_repaired_by_exact_depths =
+        truth == PixelClass::lit && bias >= pixel.exact_critical_bias;
+    return is_repaired_by_exact_depths ? Cause::precision : pixel.unbiased;
+}
+
+Label label_of(const PixelCause& pixel, PixelClass truth, Cause cause)
+{
+    if (truth == PixelClass::lit) {
+        const bool is_by_map = cause == Cause::precision || cause == Cause::resolution;
+        return !is_by_map ? Label::overshadow : (pixel.sees ? Label::acne : Label::edge);
+    }
+    if (cause == Cause::bias) {
+        return Label::peter_panning;
+    }
+    return cause == Cause::resolution && pixel.sees ? Label::edge : Label::leak;
+}
+
+CauseLayers classify_errors(const scene::TruthLayers& truth, const scene::LookupLayers& lookup,
+                            const scene::Image<PixelCause>& pixels, const scene::Bias& bias)
+{
+    CauseLayers layers{scene::Image<Cause>{truth.pixel_class.size()},
+                       scene::Image<Label>{truth.pixel_class.size()},
+                       {}};
+    for (std::size_t i = 0; i < pixels.pixel_count(); ++i) {
+        const PixelClass pixel_class = truth.pixel_class[i];
+        const scene::LookupSample& sample = lookup.samples[i];
+        if (!scene::is_scored(pixel_class) ||
+            scene::is_lit(sample.verdict) == (pixel_class == PixelClass::lit)) {
+            continue;
+        }
+        const float slope_term = bias.slope * sample.tan_theta;
+        layers.cause[i] = cause_of(pixels[i], pixel_class, bias.constant + slope_term);
+        layers.label[i] = label_of(pixels[i], pixel_class, layers.cause[i]);
+        ++layers.counts.by_cause[static_cast<std::size_t>(layers.cause[i])];
+        ++layers.counts.by_label[static_cast<std::size_t>(layers.label[i])];
+    }
+    return layers;
+}
+
+} // namespace gnomon::analysis

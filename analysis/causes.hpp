@@ -1,0 +1,69 @@
+#pragma once
+
+#include "analysis/cause.hpp"
+#include "scene/exact_light.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+#include <limits>
+
+namespace gnomon::analysis {
+
+/// Everything that decides a pixel's cause, whatever the bias: one answer for all of them.
+///
+/// A pixel that the map without any bias (V1) gets right can only be wrong by its bias.
+struct PixelCause {
+    /// V3's word where V1 is wrong: `resolution` or `coverage`, and for a blocked pixel also
+    /// `precision`; `none` where V1 is right.
+    Cause unbiased = Cause::none;
+    /// A lit pixel that V1 shadows: is the surface seen at its taps its own sheet? A blocked pixel
+    /// of cause `resolution`: does a texel around its taps see the blocker?
+    bool sees = false;
+    /// A lit pixel that V1 shadows: the smallest bias with which exact depths are lit (V2), the
+    /// slope's part included.
+    float exact_critical_bias = -std::numeric_limits<float>::infinity();
+};
+
+/// Cause and label of a scored pixel whose verdict is wrong.
+/// @param bias  constant and slope bias together, as the lookup added them: fl(b + fl(slope·tan
+/// θ)).
+[[nodiscard]] Cause cause_of(const PixelCause& pixel, scene::PixelClass truth, float bias);
+[[nodiscard]] Label label_of(const PixelCause& pixel, scene::PixelClass truth, Cause cause);
+
+/// True when a lit pixel is acne wherever it is false shadow: this does not depend on the bias.
+[[nodiscard]] inline bool is_acne_if_shadowed(const PixelCause& pixel, scene::PixelClass truth)
+{
+    return truth == scene::PixelClass::lit && pixel.unbiased == Cause::resolution && pixel.sees;
+}
+
+/// What the causes are found from.
+struct CauseInputs {
+    scene::LookupSettings lookup;
+    int resolution_texels = 0;
+    bool reversed = false;
+    const scene::TruthLayers& truth;
+    const scene::LookupLayers& unbiased;   ///< the lookup at the receiver itself, all biases zero
+    const scene::Image<float>& map_depths; ///< as shaders see them; empty for `nearest`
+    const scene::ExactLight& light;
+};
+
+/// Finds the causes of every scored pixel that the map without bias gets wrong, for all biases.
+///
+/// V2 puts exact depths at the same taps, V3 is one infinitely fine lookup (DESIGN §4).
+/// @throws std::invalid_argument  if layers differ in size, or map depths are missing.
+[[nodiscard]] scene::Image<PixelCause> find_causes(const CauseInputs& inputs);
+
+/// Each wrong pixel's cause and label.
+struct CauseLayers {
+    scene::Image<Cause> cause;
+    scene::Image<Label> label;
+    CauseCounts counts;
+};
+
+/// The causes at the job's bias.
+[[nodiscard]] CauseLayers classify_errors(const scene::TruthLayers& truth,
+                                          const scene::LookupLayers& lookup,
+                                          const scene::Image<PixelCause>& pixels,
+                                          const scene::Bias& bias);
+
+} // namespace gnomon::analysis

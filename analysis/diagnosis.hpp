@@ -1,0 +1,30 @@
+#pragma once
+
+#include "analysis/causes.hpp"
+#include "analysis/gaps.hpp"
+#include "analysis/renderers.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+namespace gnomon::analysis {
+
+/// Why pixels are wrong, at the job's bias and at every other.
+struct Diagnosis {
+    scene::Image<PixelCause> pixels; ///< whatever the bias
+    CauseLayers causes;              ///< at the job's
+    Gaps peter_panning;              ///< at the job's
+};
+
+/// What a comparison found.
+struct ComparedLayers {
+    const scene::ReceiverLayers& receivers;
+    const scene::TruthLayers& truth;
+    const scene::LookupLayers& lookup;
+};
+
+/// Finds causes, labels and gaps. Asks `look_up`, `read_map_depths` and `make_exact_light`, which
+/// must still answer for the job's receivers and map.
+[[nodiscard]] Diagnosis diagnose(const scene::Job& job, const scene::View& view,
+                                 const ComparedLayers& layers, const Renderers& renderers);
+
+} // namespace gnomon::analysis

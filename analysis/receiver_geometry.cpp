@@ -1,0 +1,35 @@
+#include "analysis/receiver_geometry.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace gnomon::analysis {
+
+using scene::Vec3d;
+
+ReceiverGeometry::Hit ReceiverGeometry::hit(std::size_t pixel) const
+{
+    const auto width = static_cast<std::size_t>(view_.image.width_px);
+    const scene::Ray ray = pixel_ray(view_.camera, view_.image, static_cast<int>(pixel % width),
+                                     static_cast<int>(pixel / width));
+    const auto corners = scene_.corners(receivers_[pixel]);
+    const Vec3d a{corners[0]};
+    const Vec3d normal = glm::cross(Vec3d{corners[1]} - a, Vec3d{corners[2]} - a);
+    return {ray, glm::dot(normal, a - ray.origin) / glm::dot(normal, ray.direction)};
+}
+
+Vec3d ReceiverGeometry::point(std::size_t pixel) const
+{
+    const auto [ray, t] = hit(pixel);
+    return ray.origin + t * ray.direction;
+}
+
+double ReceiverGeometry::footprint_m(std::size_t pixel) const
+{
+    const double at_unit_distance = 2 * view_.camera.half_height / view_.image.height_px;
+    // A ray's direction advances by 1 along the view, so that t is the distance along it.
+    return view_.camera.projection == scene::Projection::perspective
+               ? at_unit_distance * hit(pixel).t
+               : at_unit_distance;
+}
+
+} // namespace gnomon::analysis

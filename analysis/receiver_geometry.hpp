@@ -1,0 +1,46 @@
+#pragma once
+
+#include "scene/image.hpp"
+#include "scene/job.hpp"
+#include "scene/triangles.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gnomon::analysis {
+
+/// Where P lies, in double: for bins and units, not for decisions.
+class ReceiverGeometry {
+public:
+    /// All arguments must outlive this.
+    ReceiverGeometry(const scene::TriangleScene& scene, const scene::View& view,
+                     const scene::Image<std::uint32_t>& receivers)
+        : scene_{scene},
+          view_{view},
+          receivers_{receivers}
+    {
+    }
+
+    /// P, the pixel-centre ray ∩ plane(T) [m]. Precondition: the pixel has a receiver.
+    [[nodiscard]] scene::Vec3d point(std::size_t pixel) const;
+    /// Light distance of P [m].
+    [[nodiscard]] double zeta_m(std::size_t pixel) const
+    {
+        return view_.frustum.zeta_m(point(pixel));
+    }
+    /// Width of the pixel at P, across the view [m].
+    [[nodiscard]] double footprint_m(std::size_t pixel) const;
+
+private:
+    struct Hit {
+        scene::Ray ray;
+        double t;
+    };
+    [[nodiscard]] Hit hit(std::size_t pixel) const;
+
+    const scene::TriangleScene& scene_;
+    const scene::View& view_;
+    const scene::Image<std::uint32_t>& receivers_;
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "scene/exact_light.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace gnomon::analysis {
+
+/// What computed a result; part of every result.
+struct Environment {
+    std::string gl_renderer;
+    std::string gl_version;
+    std::string embree;
+    std::string gnomon;
+};
+
+/// The two renderers as callables, one for each stage, so that `analysis` needs neither GL nor
+/// Embree and a sweep can call just the stages whose inputs changed.
+///
+/// Each returns when its work is done: an asynchronous renderer waits, so that stages can be timed.
+/// `look_up` answers for the receivers and the shadow map drawn last, which the renderer keeps.
+struct Renderers {
+    std::function<scene::ReceiverLayers(const scene::View&)> draw_receivers;
+    std::function<void(const scene::Job&, const scene::View&)> draw_shadow_map;
+    std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
+    std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
+    /// The depths of the map drawn last, as shaders see them, top left first.
+    std::function<scene::Image<float>()> read_map_depths;
+    /// Empty: errors stay without a diagnosis. What it makes may refer to its arguments.
+    std::function<std::unique_ptr<scene::ExactLight>(const scene::Job&, const scene::View&,
+                                                     const scene::ReceiverLayers&)>
+        make_exact_light;
+
+    Environment environment;
+    std::string truth_method; ///< the name of the method behind `find_truth`, e.g. "exact"
+    int subpixel_bits = 8;    ///< of the rasteriser behind `draw_receivers`
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,303 @@
+#include "analysis/causes.hpp"
+
+#include "fake_light.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+namespace gnomon::analysis {
+namespace {
+
+using scene::Filter;
+using scene::Outside;
+using scene::PixelClass;
+
+constexpr int resolution = 8;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
+
+/// One pixel before a map of 8×8 texels, looked up at the centre of texel (4, 4) with r = ½.
+struct OnePixel {
+    scene::LookupSettings settings{Filter::nearest, Outside::lit};
+    bool reversed = false;
+    scene::TruthLayers truth;
+    scene::LookupLayers lookup;   ///< with the job's bias
+    scene::LookupLayers unbiased; ///< without
+    scene::Image<float> map_depths{{resolution, resolution}, 1.0F};
+    FakeLight light;
+
+    explicit OnePixel(PixelClass pixel_class)
+    {
+        truth.pixel_class = scene::Image<PixelClass>{{1, 1}, pixel_class};
+        unbiased.samples = scene::Image<scene::LookupSample>{{1, 1}, {0.5F, 0.5F, 0, 1}};
+        unbiased.texels = scene::Image<scene::Vec2f>{{1, 1}, {4.5F, 4.5F}};
+        lookup = unbiased;
+        light.receiver_depths[0] = 0.5;
+    }
+
+    /// What the map without bias, and the job's lookup, say.
+    OnePixel& verdicts(float v0, float v1)
+    {
+        lookup.samples[0].verdict = v0;
+        unbiased.samples[0].verdict = v1;
+        unbiased.samples[0].map_depth = v1 < 0.5F ? 0.25F : 0.5F;
+        return *this;
+    }
+    OnePixel& sees(int x, int y, double depth, double zeta_m = 1, std::uint32_t triangle = 7)
+    {
+        light.hits[{x, y}] = {triangle, depth, zeta_m};
+        return *this;
+    }
+
+    [[nodiscard]] PixelCause found() const
+    {
+        return find_causes({settings, resolution, reversed, truth, unbiased, map_depths, light})[0];
+    }
+    [[nodiscard]] CauseLayers classified(const scene::Bias& bias = {}) const
+    {
+        const scene::Image<PixelCause> pixels{{1, 1}, found()};
+        return classify_errors(truth, lookup, pixels, bias);
+    }
+};
+
+void expect(const CauseLayers& layers, Cause cause, Label label)
+{
+    EXPECT_EQ(cause_names[static_cast<std::size_t>(layers.cause[0])],
+              cause_names[static_cast<std::size_t>(cause)]);
+    EXPECT_EQ(label_names[static_cast<std::size_t>(layers.label[0])],
+              label_names[static_cast<std::size_t>(label)]);
+    EXPECT_EQ(layers.counts.of(cause), 1U);
+    EXPECT_EQ(layers.counts.of(label), 1U);
+}
+
+TEST(Causes, RightPixelsAndThoseNotScoredHaveNone)
+{
+    for (const PixelClass pixel_class : {PixelClass::lit, PixelClass::attached}) {
+        OnePixel pixel{pixel_class};
+        pixel.verdicts(1, pixel_class == PixelClass::lit ? 1 : 0);
+        const CauseLayers layers = pixel.classified();
+        EXPECT_EQ(layers.cause[0], Cause::none);
+        EXPECT_EQ(layers.label[0], Label::none);
+        EXPECT_EQ(layers.counts.of(Cause::none), 0U);
+        EXPECT_EQ(pixel.light.traced_texels, 0U);
+    }
+}
+
+TEST(Causes, WhatIsRightWithoutBiasIsWrongByBias)
+{
+    expect(OnePixel{PixelClass::blocked}.verdicts(1, 0).classified(), Cause::bias,
+           Label::peter_panning);
+    expect(OnePixel{PixelClass::lit}.verdicts(0, 1).classified(), Cause::bias, Label::overshadow);
+}
+
+TEST(Causes, ExactDepthsThatTheKeptBiasLightsMakeItPrecision)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.verdicts(0, 0).sees(4, 4, 0.4375); // the exact critical bias is 1/16
+    pixel.light.own.insert({0, 7});
+    expect(pixel.classified({0.0625F, 0, 0}), Cause::precision, Label::acne);
+    expect(pixel.classified({std::nextafter(0.0625F, 0.0F), 0, 0}), Cause::resolution, Label::acne);
+}
+
+TEST(Causes, TheSlopesPartOfTheBiasIsKeptToo)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.verdicts(0, 0).sees(4, 4, 0.4375);
+    pixel.lookup.samples[0].tan_theta = 2;
+    expect(pixel.classified({0.03125F, 0.015625F, 0}), Cause::precision, Label::edge);
+}
+
+TEST(Causes, AnotherSheetIsAnEdge)
+{
+    OnePixel pixel{PixelClass::lit};
+    expect(pixel.verdicts(0, 0).sees(4, 4, 0.25).classified(), Cause::resolution, Label::edge);
+}
+
+TEST(Causes, WhatTheExactTexelsShadowWasLostToPrecision)
+{
+    OnePixel pixel{PixelClass::blocked};
+    expect(pixel.verdicts(1, 1).sees(4, 4, 0.4999).classified(), Cause::precision, Label::leak);
+}
+
+TEST(Causes, WhatLiesBetweenTexelsWasLostToResolution)
+{
+    OnePixel pixel{PixelClass::blocked};
+    pixel.verdicts(1, 1).sees(4, 4, 0.5, 10);
+    pixel.light.crossed.insert(0);
+    pixel.light.blockers[0] = {3, 6, 4, 10}; // the middle is at ζ = 7
+    expect(pixel.classified(), Cause::resolution, Label::leak);
+    pixel.sees(5, 5, 0.2, 7.5);
+    expect(pixel.classified(), Cause::resolution, Label::leak);
+    pixel.sees(3, 4, 0.2, 6.5);
+    expect(pixel.classified(), Cause::resolution, Label::edge);
+}
+
+TEST(Causes, WhatNoInfinitelyFineMapSeesIsCoverage)
+{
+    OnePixel pixel{PixelClass::blocked};
+    expect(pixel.verdicts(1, 1).sees(4, 4, 0.5).classified(), Cause::coverage, Label::leak);
+}
+
+TEST(Causes, ThePolicyOutsideTheMapLeavesOnlyCoverage)
+{
+    for (const PixelClass truth : {PixelClass::lit, PixelClass::blocked}) {
+        const bool is_lit = truth == PixelClass::lit;
+        OnePixel pixel{truth};
+        pixel.settings.outside = is_lit ? Outside::shadowed : Outside::lit;
+        pixel.unbiased.texels[0] = {9.5F, 4.5F};
+        pixel.verdicts(is_lit ? 0 : 1, is_lit ? 0 : 1);
+        pixel.unbiased.samples[0].map_depth = not_a_depth;
+        pixel.light.crossed.insert(0);
+        expect(pixel.classified({1, 0, 0}), Cause::coverage,
+               is_lit ? Label::overshadow : Label::leak);
+        EXPECT_EQ(pixel.light.traced_texels, 0U);
+    }
+}
+
+TEST(Causes, BeyondTheFarPlaneThePolicyDecides)
+{
+    for (const bool reversed : {false, true}) {
+        OnePixel pixel{PixelClass::blocked};
+        pixel.reversed = reversed;
+        pixel.unbiased.samples[0].receiver_depth = reversed ? -0.001F : 1.001F;
+        pixel.light.crossed.insert(0);
+        expect(pixel.verdicts(1, 1).classified(), Cause::coverage, Label::leak);
+    }
+}
+
+TEST(Causes, ClampedLookupsOutsideTheMapCannotBeRepairedByAFinerOne)
+{
+    OnePixel pixel{PixelClass::blocked};
+    pixel.settings.outside = Outside::clamp;
+    pixel.unbiased.texels[0] = {9.5F, 4.5F};
+    pixel.light.crossed.insert(0);
+    expect(pixel.verdicts(1, 1).sees(7, 4, 0.5).classified(), Cause::coverage, Label::leak);
+    pixel.sees(7, 4, 0.4);
+    expect(pixel.classified(), Cause::precision, Label::leak);
+}
+
+TEST(Causes, PcfIsRepairedWhenTheMiddleTapIs)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings.filter = Filter::pcf3;
+    pixel.verdicts(0, 0);
+    // Critical biases ½ − depth: four taps at 0, then 1/8 as the fifth, four at ½.
+    for (int i = 0; i < 9; ++i) {
+        pixel.sees(3 + i % 3, 3 + i / 3, i < 4 ? 0.5 : (i == 4 ? 0.375 : 0.0));
+    }
+    EXPECT_EQ(pixel.found().exact_critical_bias, 0.125F);
+    expect(pixel.classified({0.125F, 0, 0}), Cause::precision, Label::edge);
+    expect(pixel.classified({0.124F, 0, 0}), Cause::resolution, Label::edge);
+}
+
+TEST(Causes, EqualDepthsAmongPcfTapsAreRanked)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings.filter = Filter::pcf3;
+    pixel.verdicts(0, 0);
+    for (int i = 0; i < 9; ++i) {
+        pixel.sees(3 + i % 3, 3 + i / 3, i < 2 ? 0.5 : 0.25);
+    }
+    EXPECT_EQ(pixel.found().exact_critical_bias, 0.25F);
+}
+
+TEST(Causes, PolicyTapsOfPcfCountAsTheyDecide)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings = {Filter::pcf3, Outside::shadowed};
+    pixel.unbiased.texels[0] = {0.5F, 0.5F}; // five of nine taps are outside
+    pixel.verdicts(0, 0);
+    EXPECT_EQ(pixel.found().exact_critical_bias, infinity);
+    expect(pixel.classified({1, 0, 0}), Cause::resolution, Label::edge);
+}
+
+TEST(Causes, ReversedDepthsAreReadTheOtherWay)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.reversed = true;
+    pixel.settings.filter = Filter::pcf3;
+    pixel.verdicts(0, 0);
+    for (int i = 0; i < 9; ++i) { // nearer is greater
+        pixel.sees(3 + i % 3, 3 + i / 3, i < 4 ? 0.5 : (i == 4 ? 0.625 : 1.0));
+    }
+    // The fake's critical biases are r − d: the fifth smallest depth is 5/8.
+    EXPECT_EQ(pixel.found().exact_critical_bias, -0.125F);
+}
+
+TEST(Causes, AcneNeedsHalfOfTheShadowingTapsOnTheOwnSheet)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings.filter = Filter::pcf3;
+    pixel.verdicts(0, 0);
+    // Six taps shadow; the map's rows are counted from the top.
+    for (int i = 0; i < 9; ++i) {
+        const int x = 3 + i % 3;
+        const int y = 3 + i / 3;
+        pixel.map_depths(x, resolution - 1 - y) = i < 6 ? 0.25F : 0.75F;
+        pixel.sees(x, y, 0.25, 1, static_cast<std::uint32_t>(i));
+    }
+    pixel.light.own = {{0, 0}, {0, 1}, {0, 8}}; // triangle 8 is seen where nothing shadows
+    expect(pixel.classified(), Cause::resolution, Label::edge);
+    pixel.light.own.insert({0, 2});
+    expect(pixel.classified(), Cause::resolution, Label::acne);
+}
+
+TEST(Causes, LinearComparesTheInterpolatedDepth)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings.filter = Filter::linear;
+    pixel.unbiased.texels[0] = {4.75F, 4.5F}; // ¾ of texel (4, 4), ¼ of (5, 4)
+    pixel.verdicts(0, 0).sees(4, 4, 0.5).sees(5, 4, 0.25);
+    EXPECT_EQ(pixel.found().exact_critical_bias, 0.0625F);
+}
+
+TEST(Causes, HardwareComparesEachTapAndWeighsTheVerdicts)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings.filter = Filter::hardware;
+    pixel.verdicts(0, 0);
+    pixel.unbiased.texels[0] = {4.75F, 4.5F};
+    pixel.sees(4, 4, 0.375).sees(5, 4, 0.5);
+    EXPECT_EQ(pixel.found().exact_critical_bias, 0.125F); // ¾ of the weight waits for texel (4, 4)
+    pixel.unbiased.texels[0] = {5.25F, 4.5F};
+    EXPECT_EQ(pixel.found().exact_critical_bias, 0.0F); // ¾ of it is lit without bias
+}
+
+TEST(Causes, OutsideTheMapLinearTapsAreAsFarOrNearAsThePolicySays)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings = {Filter::linear, Outside::shadowed};
+    pixel.unbiased.texels[0] = {0.25F, 4.5F}; // ¼ of its depth comes from outside: 0
+    pixel.verdicts(0, 0).sees(0, 4, 0.5);
+    EXPECT_EQ(pixel.found().exact_critical_bias, 0.125F);
+    pixel.settings.outside = Outside::lit;
+    EXPECT_EQ(pixel.found().exact_critical_bias, -0.125F);
+}
+
+TEST(Causes, AcneDoesNotDependOnTheBias)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.verdicts(0, 0).sees(4, 4, 0.4375);
+    EXPECT_FALSE(is_acne_if_shadowed(pixel.found(), PixelClass::lit));
+    pixel.light.own.insert({0, 7});
+    EXPECT_TRUE(is_acne_if_shadowed(pixel.found(), PixelClass::lit));
+    EXPECT_FALSE(is_acne_if_shadowed(pixel.found(), PixelClass::blocked));
+}
+
+TEST(Causes, LayersOfOtherSizesAreRejected)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.settings.filter = Filter::pcf3;
+    pixel.map_depths = scene::Image<float>{};
+    EXPECT_THROW((void)pixel.found(), std::invalid_argument);
+    OnePixel other{PixelClass::lit};
+    other.unbiased.samples = scene::Image<scene::LookupSample>{{2, 1}};
+    EXPECT_THROW((void)other.found(), std::invalid_argument);
+}
+
+} // namespace
+} // namespace gnomon::analysis

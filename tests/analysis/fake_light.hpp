@@ -1,0 +1,97 @@
+#pragma once
+
+#include "scene/exact_light.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// An exact light that says what it was told to: depths by texel and by pixel.
+class FakeLight final : public scene::ExactLight {
+public:
+    std::map<std::pair<int, int>, scene::TexelHit> hits; ///< by (x, y); others see nothing
+    std::map<std::size_t, double> receiver_depths;       ///< by pixel
+    std::set<std::size_t> crossed;                       ///< pixels
+    std::set<std::pair<std::size_t, std::uint32_t>> own; ///< pixel and triangle
+    std::map<std::size_t, scene::BlockerHit> blockers;   ///< by pixel
+    mutable std::size_t traced_texels = 0;
+
+    [[nodiscard]] std::vector<scene::TexelHit>
+    first_hits(std::span<const scene::Texel> texels) const override
+    {
+        traced_texels += texels.size();
+        return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
+    }
+
+    [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::NearestQuery> queries,
+                                                     bool clamps) const override
+    {
+        return answer<float>(queries, [&](const scene::NearestQuery& q) {
+            return static_cast<float>(receiver(q.pixel, clamps) - depth(q.tap));
+        });
+    }
+
+    [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::LinearQuery> queries,
+                                                     bool clamps) const override
+    {
+        return answer<float>(queries, [&](const scene::LinearQuery& q) {
+            double interpolated = 0;
+            for (std::size_t i = 0; i < 4; ++i) {
+                interpolated += q.weights[i] * depth(q.taps[i]);
+            }
+            return static_cast<float>(receiver(q.pixel, clamps) - interpolated);
+        });
+    }
+
+    [[nodiscard]] std::vector<std::uint8_t>
+    are_crossed(std::span<const std::size_t> pixels) const override
+    {
+        return answer<std::uint8_t>(pixels, [&](std::size_t p) { return crossed.contains(p); });
+    }
+
+    [[nodiscard]] std::vector<std::uint8_t>
+    are_own_sheets(std::span<const scene::SheetQuery> queries) const override
+    {
+        return answer<std::uint8_t>(queries, [&](const scene::SheetQuery& q) {
+            return own.contains({q.pixel, q.triangle});
+        });
+    }
+
+    [[nodiscard]] std::vector<scene::BlockerHit>
+    find_blockers(std::span<const std::size_t> pixels) const override
+    {
+        return answer<scene::BlockerHit>(pixels, [&](std::size_t p) { return blockers.at(p); });
+    }
+
+private:
+    template <typename Answer, typename Queries, typename Find>
+    static std::vector<Answer> answer(const Queries& queries, const Find& find)
+    {
+        std::vector<Answer> answers;
+        for (const auto& query : queries) {
+            answers.push_back(static_cast<Answer>(find(query)));
+        }
+        return answers;
+    }
+
+    [[nodiscard]] scene::TexelHit hit(const scene::Texel& texel) const
+    {
+        const auto found = hits.find({texel.x, texel.y});
+        return found == hits.end() ? scene::TexelHit{} : found->second;
+    }
+    [[nodiscard]] double receiver(std::size_t pixel, bool clamps) const
+    {
+        const double depth = receiver_depths.at(pixel);
+        return clamps ? std::clamp(depth, 0.0, 1.0) : depth;
+    }
+    [[nodiscard]] double depth(const scene::ExactTap& tap) const
+    {
+        return tap.triangle == scene::no_triangle ? double{tap.constant} : hit(tap.texel).depth;
+    }
+};
+
+} // namespace gnomon::analysis
