@@ -36,7 +36,7 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
     const auto& witness = comparison.truth.witness;
     const auto& triangle = comparison.receivers.triangle;
     const auto& samples = comparison.lookup.samples;
-    return {
+    std::vector<ExrChannel> channels{
         {"truth", float32, [&](std::size_t i) { return bits(truth_code(classes[i])); }},
         {"class", uint32, [&](std::size_t i) { return static_cast<std::uint32_t>(classes[i]); }},
         {"verdict", float32, [&](std::size_t i) { return bits(samples[i].verdict); }},
@@ -48,6 +48,16 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
         {"receiver_depth", float32, [&](std::size_t i) { return bits(samples[i].receiver_depth); }},
         {"map_depth", float32, [&](std::size_t i) { return bits(samples[i].map_depth); }},
     };
+    if (comparison.diagnosis) {
+        const analysis::CauseLayers& causes = comparison.diagnosis->causes;
+        channels.push_back({"cause", uint32, [&](std::size_t i) {
+                                return static_cast<std::uint32_t>(causes.cause[i]);
+                            }});
+        channels.push_back({"label", uint32, [&](std::size_t i) {
+                                return static_cast<std::uint32_t>(causes.label[i]);
+                            }});
+    }
+    return channels;
 }
 
 std::vector<ExrAttribute> attributes(const analysis::Comparison& comparison)

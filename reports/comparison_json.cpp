@@ -54,10 +54,41 @@ void add_metrics(Json& json, const analysis::Metrics& metrics)
     json["false_lit_rate"] = number_or_null(metrics.false_lit_rate);
     json["error_rate"] = number_or_null(metrics.error_rate);
     json["mean_abs_error"] = number_or_null(metrics.mean_abs_error);
-    // Not computed: null, never a number.
-    json["causes"] = nullptr;
-    json["labels"] = nullptr;
-    json["peter_panning_gap_m"] = {{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
+}
+
+/// Counts by name; the first name, "none", is left out.
+template <typename Names, typename Counts>
+Json counts_by_name(const Names& names, const Counts& counts)
+{
+    Json json = Json::object();
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        json[std::string{names[i]}] = counts[i];
+    }
+    return json;
+}
+
+Json lengths(const std::optional<analysis::LengthStatistics>& lengths)
+{
+    return lengths ? Json{{"median", lengths->median}, {"p95", lengths->p95}, {"max", lengths->max}}
+                   : Json{{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
+}
+
+/// Without a diagnosis everything is null, never a number.
+void add_diagnosis(Json& json, const std::optional<analysis::Diagnosis>& diagnosis)
+{
+    if (!diagnosis) {
+        json["causes"] = nullptr;
+        json["labels"] = nullptr;
+        json["peter_panning_gap_m"] = lengths(std::nullopt);
+        json["peter_panning_gap_texels"] = lengths(std::nullopt);
+        json["bias_curve"] = nullptr;
+        return;
+    }
+    const analysis::CauseCounts& counts = diagnosis->causes.counts;
+    json["causes"] = counts_by_name(analysis::cause_names, counts.by_cause);
+    json["labels"] = counts_by_name(analysis::label_names, counts.by_label);
+    json["peter_panning_gap_m"] = lengths(diagnosis->peter_panning.metres);
+    json["peter_panning_gap_texels"] = lengths(diagnosis->peter_panning.texels);
     json["bias_curve"] = nullptr;
 }
 
@@ -134,6 +165,7 @@ std::string comparison_json(const analysis::Comparison& comparison)
 {
     Json json{{"schema", 1}};
     add_metrics(json, comparison.metrics);
+    add_diagnosis(json, comparison.diagnosis);
     json["environment"] = environment(comparison.environment);
     json["seconds"] = seconds(comparison.seconds);
     json["scene"] = scene_object(comparison.scene);

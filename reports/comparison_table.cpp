@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -131,6 +132,44 @@ std::string errors(const analysis::Metrics& metrics)
            count_line("mean |error|", "", percent(metrics.mean_abs_error), "verdict against truth");
 }
 
+/// Wrong pixels by name; the first name, "none", is left out.
+template <typename Names, typename Counts>
+std::string named_counts(std::string_view head, const Names& names, const Counts& counts,
+                         std::uint64_t wrong)
+{
+    std::string text = count_line(head, "pixels", "of wrong", "");
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        std::string name{names[i]};
+        std::ranges::replace(name, '_', '-');
+        std::optional<double> share;
+        if (wrong > 0) {
+            share = static_cast<double>(counts[i]) / static_cast<double>(wrong);
+        }
+        text += count_line(name, grouped(counts[i]), percent(share), "");
+    }
+    return text;
+}
+
+std::string diagnosis(const analysis::Comparison& comparison)
+{
+    if (!comparison.diagnosis) {
+        return "";
+    }
+    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
+    const std::uint64_t wrong = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    std::string text = "\n";
+    text += named_counts("cause", analysis::cause_names, diagnosis.causes.counts.by_cause, wrong);
+    text += "\n";
+    text += named_counts("called", analysis::label_names, diagnosis.causes.counts.by_label, wrong);
+    if (const auto& gap = diagnosis.peter_panning.metres) {
+        text += setting_line("", fmt::format("peter-panning gap: median {:.4g} m, 95 % {:.4g} m, "
+                                             "largest {:.4g} m ({:.3g} texels)",
+                                             gap->median, gap->p95, gap->max,
+                                             diagnosis.peter_panning.texels->max));
+    }
+    return text;
+}
+
 std::string float_audit(const analysis::Comparison& comparison)
 {
     if (comparison.float_audit.empty()) {
@@ -159,9 +198,9 @@ std::string seconds(const analysis::StageSeconds& seconds)
 
 std::string comparison_table(const analysis::Comparison& comparison)
 {
-    return settings(comparison) + "\n" + classes(comparison.metrics.pixels) + "\n" +
-           errors(comparison.metrics) + float_audit(comparison) + "\n" +
-           seconds(comparison.seconds);
+    return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
+                       classes(comparison.metrics.pixels), errors(comparison.metrics),
+                       diagnosis(comparison), float_audit(comparison), seconds(comparison.seconds));
 }
 
 } // namespace gnomon::reports
