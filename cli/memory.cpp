@@ -1,5 +1,6 @@
 #include "cli/memory.hpp"
 
+#include "cli/control_group.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -61,8 +62,9 @@ std::optional<std::uint64_t> free_address_space_bytes()
 std::uint64_t available_memory_bytes()
 {
     constexpr std::uint64_t unknown = std::numeric_limits<std::uint64_t>::max();
-    const std::uint64_t available = std::min(free_memory_bytes().value_or(unknown),
-                                             free_address_space_bytes().value_or(unknown));
+    const std::uint64_t available = std::min({free_memory_bytes().value_or(unknown),
+                                              free_address_space_bytes().value_or(unknown),
+                                              control_group_memory_bytes().value_or(unknown)});
     return available == unknown ? 0 : available;
 }
 

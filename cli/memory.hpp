@@ -6,8 +6,8 @@
 
 namespace gnomon::cli {
 
-/// Memory that new work may take [bytes]: MemAvailable, or what `ulimit -v` leaves if that is less;
-/// 0 if unknown.
+/// Memory that new work may take [bytes]: MemAvailable, or what `ulimit -v` or the control groups
+/// leave if that is less; 0 if unknown.
 [[nodiscard]] std::uint64_t available_memory_bytes();
 
 /// Memory that an image and a shadow map of the job's sizes take, on the GPU and off it [bytes].
