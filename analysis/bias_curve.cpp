@@ -1,0 +1,266 @@
+#include "analysis/bias_curve.hpp"
+
+#include "analysis/bias_order.hpp"
+#include "analysis/radix_sort.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::PixelClass;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+void require_same_size(scene::ImageSize criticals, scene::ImageSize classes)
+{
+    if (criticals != classes) {
+        throw std::invalid_argument(fmt::format(
+            "BiasCurve: criticals: {}x{}, but the classes are {}x{}", criticals.width_px,
+            criticals.height_px, classes.width_px, classes.height_px));
+    }
+}
+
+std::optional<double> ratio(std::uint64_t part, std::uint64_t whole)
+{
+    if (whole == 0) {
+        return std::nullopt;
+    }
+    return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// Calls `visit(interval, errors)` for every interval of constant counts, in ascending order.
+template <typename Visit>
+void for_each_interval(const BiasCurve& curve, const Visit& visit)
+{
+    const auto& lit = curve.lit();
+    const auto& blocked = curve.blocked();
+    auto next_lit = std::upper_bound(lit.begin(), lit.end(), -infinity);
+    auto next_blocked = std::upper_bound(blocked.begin(), blocked.end(), -infinity);
+    const auto errors = [&] {
+        return ErrorCounts{static_cast<std::uint64_t>(lit.end() - next_lit),
+                           static_cast<std::uint64_t>(next_blocked - blocked.begin())};
+    };
+    float lo = -infinity;
+    while (true) {
+        const float next = std::min(next_lit != lit.end() ? *next_lit : infinity,
+                                    next_blocked != blocked.end() ? *next_blocked : infinity);
+        if (next == infinity) {
+            visit(BiasInterval{lo, infinity}, errors());
+            return;
+        }
+        visit(BiasInterval{lo, previous_bias(next)}, errors());
+        while (next_lit != lit.end() && *next_lit == next) {
+            ++next_lit;
+        }
+        while (next_blocked != blocked.end() && *next_blocked == next) {
+            ++next_blocked;
+        }
+        lo = next;
+    }
+}
+
+/// A finite bias of the interval: its lower end where it has one.
+float lowest_finite(const BiasInterval& interval)
+{
+    if (std::isfinite(interval.lo)) {
+        return interval.lo;
+    }
+    return std::isfinite(interval.hi) ? interval.hi : 0.0F;
+}
+
+std::vector<CurvePoint> thinned(const std::vector<CurvePoint>& points, std::size_t most_points)
+{
+    if (points.size() <= most_points) {
+        return points;
+    }
+    std::vector<CurvePoint> result;
+    result.reserve(most_points);
+    for (std::size_t i = 0; i < most_points; ++i) {
+        result.push_back(points[i * (points.size() - 1) / (most_points - 1)]);
+    }
+    return result;
+}
+
+/// Finite critical biases of all scored pixels, ascending, as often as they occur.
+std::vector<float> finite_criticals(const BiasCurve& curve)
+{
+    std::vector<float> all(curve.scored());
+    std::merge(curve.lit().begin(), curve.lit().end(), curve.blocked().begin(),
+               curve.blocked().end(), all.begin());
+    const auto first = std::upper_bound(all.begin(), all.end(), -infinity);
+    const auto last = std::lower_bound(first, all.end(), infinity);
+    return {first, last};
+}
+
+/// Appends biases in a geometric sequence over the positive criticals.
+void append_logarithmic(std::vector<float>& biases, const std::vector<float>& criticals,
+                        std::size_t count)
+{
+    const auto positive = std::upper_bound(criticals.begin(), criticals.end(), 0.0F);
+    if (positive == criticals.end()) {
+        return;
+    }
+    const double first = std::log(double{*positive});
+    const double last = std::log(double{criticals.back()});
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count);
+        const auto bias = static_cast<float>(std::exp(std::lerp(first, last, share)));
+        biases.push_back(std::clamp(bias, *positive, criticals.back()));
+    }
+}
+
+void sort_and_remove_repeats(std::vector<float>& values)
+{
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+} // namespace
+
+float BiasInterval::middle() const
+{
+    if (!std::isfinite(lo) || !std::isfinite(hi)) {
+        return lowest_finite(*this);
+    }
+    const auto mean = static_cast<float>(0.5 * (double{lo} + double{hi}));
+    // No bias is subnormal, and an interval whose middle is contains 0.
+    return std::fpclassify(mean) == FP_SUBNORMAL ? 0.0F : mean;
+}
+
+BiasCurve::BiasCurve(const scene::Image<float>& criticals, const scene::Image<PixelClass>& classes)
+{
+    require_same_size(criticals.size(), classes.size());
+    std::vector<std::uint32_t> lit;
+    std::vector<std::uint32_t> blocked;
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        if (!scene::is_scored(classes[i])) {
+            continue;
+        }
+        if (std::isnan(criticals[i])) {
+            throw std::invalid_argument(
+                fmt::format("BiasCurve: criticals: that of scored pixel {} is NaN", i));
+        }
+        (classes[i] == PixelClass::lit ? lit : blocked).push_back(sort_key(criticals[i]));
+    }
+    tbb::parallel_invoke([&] { lit_ = sorted_values(std::move(lit)); },
+                         [&] { blocked_ = sorted_values(std::move(blocked)); });
+}
+
+ErrorCounts BiasCurve::at(float bias) const
+{
+    if (bias != 0.0F && !std::isnormal(bias)) {
+        throw std::invalid_argument(
+            fmt::format("BiasCurve::at: bias: {} is neither 0 nor a normal float32", bias));
+    }
+    const auto right = std::upper_bound(lit_.begin(), lit_.end(), bias);
+    const auto wrong = std::upper_bound(blocked_.begin(), blocked_.end(), bias);
+    return {static_cast<std::uint64_t>(lit_.end() - right),
+            static_cast<std::uint64_t>(wrong - blocked_.begin())};
+}
+
+std::optional<double> BiasCurve::error_rate(const ErrorCounts& errors) const
+{
+    return ratio(errors.total(), scored());
+}
+
+std::optional<double> BiasCurve::false_shadow_rate(const ErrorCounts& errors) const
+{
+    return ratio(errors.false_shadow, lit_.size());
+}
+
+std::optional<double> BiasCurve::false_lit_rate(const ErrorCounts& errors) const
+{
+    return ratio(errors.false_lit, blocked_.size());
+}
+
+BestBiases find_best_biases(const BiasCurve& curve)
+{
+    BestBiases best;
+    BestBiases run; // neighbouring intervals with as many errors
+    bool is_first = true;
+    const auto finish_run = [&] {
+        const bool is_better = run.errors.total() < best.errors.total() ||
+                               (run.errors.total() == best.errors.total() &&
+                                run.interval.width() > best.interval.width());
+        if (is_first || is_better) {
+            best = run;
+        }
+        is_first = false;
+    };
+    for_each_interval(curve, [&](const BiasInterval& interval, const ErrorCounts& errors) {
+        if (interval.lo != -infinity && errors.total() == run.errors.total()) {
+            run.interval.hi = interval.hi;
+            return;
+        }
+        if (interval.lo != -infinity) {
+            finish_run();
+        }
+        run = {interval, errors};
+    });
+    finish_run();
+    return best;
+}
+
+std::vector<CurvePoint> pareto_front(const BiasCurve& curve, std::size_t most_points)
+{
+    if (most_points < 2) {
+        throw std::invalid_argument(
+            fmt::format("pareto_front: most_points: {} is below 2", most_points));
+    }
+    // Upwards false shadow never grows and false lit never falls, so a point survives when the one
+    // before it has more false shadow and the one after it more false lit.
+    std::vector<CurvePoint> front;
+    for_each_interval(curve, [&](const BiasInterval& interval, const ErrorCounts& errors) {
+        const CurvePoint point{lowest_finite(interval), errors};
+        if (front.empty() || errors.false_lit > front.back().errors.false_lit) {
+            if (front.empty() || errors.false_shadow < front.back().errors.false_shadow) {
+                front.push_back(point);
+            }
+        } else if (errors.false_shadow < front.back().errors.false_shadow) {
+            front.back() = point;
+        }
+    });
+    return thinned(front, most_points);
+}
+
+std::vector<CurvePoint> sample_curve(const BiasCurve& curve, std::size_t most_points)
+{
+    if (most_points < 8) {
+        throw std::invalid_argument(
+            fmt::format("sample_curve: most_points: {} is below 8", most_points));
+    }
+    std::vector<float> biases{0.0F};
+    const std::vector<float> criticals = finite_criticals(curve);
+    if (!criticals.empty()) {
+        std::vector<float> distinct = criticals;
+        distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+        const float below = previous_bias(distinct.front());
+        biases.push_back(below);
+        if (distinct.size() <= most_points - 2) {
+            biases.insert(biases.end(), distinct.begin(), distinct.end());
+        } else {
+            const std::size_t count = (most_points - 2) / 2;
+            for (std::size_t i = 0; i < count; ++i) {
+                biases.push_back(criticals[i * (criticals.size() - 1) / (count - 1)]);
+            }
+            append_logarithmic(biases, criticals, count);
+        }
+    }
+    sort_and_remove_repeats(biases);
+    std::vector<CurvePoint> points;
+    points.reserve(biases.size());
+    for (const float bias : biases) {
+        points.push_back({bias, curve.at(bias)});
+    }
+    return points;
+}
+
+} // namespace gnomon::analysis

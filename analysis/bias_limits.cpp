@@ -1,0 +1,180 @@
+#include "analysis/bias_limits.hpp"
+
+#include "analysis/bias_order.hpp"
+#include "analysis/radix_sort.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::PixelClass;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+/// The allowances are 1/n: integers divide without rounding.
+constexpr std::array<std::uint64_t, 3> allowed_one_in{10000, 1000, 100};
+constexpr std::size_t verdict_allowance = 1; // no_constant_bias_serves is decided at 0.1 %
+constexpr std::size_t smallest_piece = 1024; // pixels; asking costs something each time
+
+struct KeyedPixel {
+    std::uint32_t key; ///< sort_key of the critical bias
+    std::size_t pixel;
+};
+
+/// Blocked pixels in ascending order of critical bias.
+std::vector<KeyedPixel> sorted_blocked(const scene::Image<float>& criticals,
+                                       const scene::Image<PixelClass>& classes)
+{
+    std::vector<KeyedPixel> pixels;
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        if (classes[i] == PixelClass::blocked) {
+            pixels.push_back({sort_key(criticals[i]), i});
+        }
+    }
+    radix_sort(pixels, [](const KeyedPixel& pixel) { return pixel.key; });
+    return pixels;
+}
+
+/// Critical biases of the lit pixels that are acne where they are shadowed, ascending.
+std::vector<float> acne_criticals(const scene::Image<float>& criticals,
+                                  const scene::Image<PixelClass>& classes,
+                                  const scene::Image<std::uint8_t>& acne_if_shadowed)
+{
+    std::vector<std::uint32_t> keys;
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        if (classes[i] == PixelClass::lit && acne_if_shadowed[i] != 0) {
+            keys.push_back(sort_key(criticals[i]));
+        }
+    }
+    return sorted_values(std::move(keys));
+}
+
+/// Smallest bias with at most `allowed` of the ascending critical biases above it.
+float smallest_leaving(const std::vector<float>& criticals, std::uint64_t allowed)
+{
+    return criticals.size() <= allowed ? -infinity : criticals[criticals.size() - 1 - allowed];
+}
+
+/// Largest bias with at most `allowed` of the ascending critical biases at or below it.
+float largest_keeping(std::span<const float> criticals, std::uint64_t allowed)
+{
+    if (criticals.size() <= allowed || criticals[allowed] == infinity) {
+        return infinity; // what is shadowed with every bias limits none
+    }
+    return previous_bias(criticals[allowed]);
+}
+
+/// Walks the blocked pixels upwards and keeps the critical biases of those that are not forgiven.
+class Unforgiven {
+public:
+    Unforgiven(const std::vector<KeyedPixel>& pixels, const ForgiveGaps& forgive)
+        : pixels_{pixels},
+          forgive_{forgive}
+    {
+    }
+
+    /// The first critical biases, `count` or more where there are as many, that are at least
+    /// `least` and not forgiven. To be called with growing `least`.
+    std::vector<float> first(std::uint64_t count, float least)
+    {
+        const auto from = std::lower_bound(found_.begin(), found_.end(), least);
+        std::vector<float> result{from, found_.end()};
+        const auto skipped = std::partition_point(
+            pixels_.begin() + static_cast<std::ptrdiff_t>(next_), pixels_.end(),
+            [&](const KeyedPixel& pixel) { return value_of_key(pixel.key) < least; });
+        next_ = static_cast<std::size_t>(skipped - pixels_.begin());
+        while (result.size() < count && next_ < pixels_.size() &&
+               value_of_key(pixels_[next_].key) != infinity) {
+            take_piece(count - result.size(), result);
+        }
+        found_ = result;
+        return result;
+    }
+
+private:
+    void take_piece(std::uint64_t wanted, std::vector<float>& result)
+    {
+        const std::size_t size = std::min<std::size_t>(
+            std::max<std::size_t>(wanted, smallest_piece), pixels_.size() - next_);
+        std::vector<std::size_t> piece(size);
+        for (std::size_t i = 0; i < size; ++i) {
+            piece[i] = pixels_[next_ + i].pixel;
+        }
+        const std::vector<std::uint8_t> forgiven =
+            forgive_ ? forgive_(piece) : std::vector<std::uint8_t>(size, 0);
+        if (forgiven.size() != size) {
+            throw std::invalid_argument(fmt::format(
+                "find_bias_bounds: forgive: {} answers about {} pixels", forgiven.size(), size));
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            if (forgiven[i] == 0) {
+                result.push_back(value_of_key(pixels_[next_ + i].key));
+            }
+        }
+        next_ += size;
+    }
+
+    const std::vector<KeyedPixel>& pixels_;
+    const ForgiveGaps& forgive_;
+    std::size_t next_ = 0;
+    std::vector<float> found_;
+};
+
+void require_same_sizes(scene::ImageSize criticals, scene::ImageSize classes, scene::ImageSize acne)
+{
+    if (criticals != classes || criticals != acne) {
+        throw std::invalid_argument(fmt::format(
+            "find_bias_bounds: the images differ in size: criticals {}x{}, classes {}x{}, "
+            "acne_if_shadowed {}x{}",
+            criticals.width_px, criticals.height_px, classes.width_px, classes.height_px,
+            acne.width_px, acne.height_px));
+    }
+}
+
+} // namespace
+
+bool BiasLimits::cross() const
+{
+    return acne_free == infinity || panning_free == -infinity || acne_free > panning_free;
+}
+
+BiasBounds find_bias_bounds(const BiasCurve& curve, const scene::Image<float>& criticals,
+                            const scene::Image<PixelClass>& classes,
+                            const scene::Image<std::uint8_t>& acne_if_shadowed,
+                            const ForgiveGaps& forgive)
+{
+    require_same_sizes(criticals.size(), classes.size(), acne_if_shadowed.size());
+    const std::vector<float> acne = acne_criticals(criticals, classes, acne_if_shadowed);
+    const std::vector<KeyedPixel> blocked = sorted_blocked(criticals, classes);
+    const std::vector<float>& all = curve.blocked();
+    const std::uint64_t scored = curve.scored();
+    const float above_zero = next_bias(0.0F);
+
+    BiasBounds bounds;
+    const auto beyond_zero = std::lower_bound(all.begin(), all.end(), above_zero);
+    bounds.strict.acne_free = smallest_leaving(acne, 0);
+    bounds.strict.panning_free = largest_keeping(all, 0);
+    bounds.strict.panning_free_beyond_zero = largest_keeping({beyond_zero, all.end()}, 0);
+
+    const std::uint64_t most = scored / allowed_one_in.back() + 1;
+    Unforgiven unforgiven{blocked, forgive};
+    const std::vector<float> from_start = unforgiven.first(most, -infinity);
+    const std::vector<float> from_zero = unforgiven.first(most, above_zero);
+    for (std::size_t i = 0; i < allowed_one_in.size(); ++i) {
+        BiasLimits& limits = bounds.allowances[i];
+        limits.allowance = 1.0 / static_cast<double>(allowed_one_in[i]);
+        limits.allowed_pixels = scored / allowed_one_in[i];
+        limits.acne_free = smallest_leaving(acne, limits.allowed_pixels);
+        limits.panning_free = largest_keeping(from_start, limits.allowed_pixels);
+        limits.panning_free_beyond_zero = largest_keeping(from_zero, limits.allowed_pixels);
+    }
+    bounds.no_constant_bias_serves = bounds.allowances[verdict_allowance].cross();
+    return bounds;
+}
+
+} // namespace gnomon::analysis
