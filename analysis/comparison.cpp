@@ -93,7 +93,8 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     result.metrics = timed(seconds.analysis, [&] { return measure(result.truth, result.lookup); });
     if (renderers.make_exact_light) {
         result.diagnosis = timed(seconds.analysis, [&] {
-            return diagnose(job, view, {result.receivers, result.truth, result.lookup}, renderers);
+            return diagnose(job, view, {file.scene, result.receivers, result.truth, result.lookup},
+                            renderers);
         });
     }
     return result;

@@ -1,5 +1,8 @@
 #include "analysis/diagnosis.hpp"
 
+#include "analysis/critical_bias.hpp"
+#include "analysis/receiver_geometry.hpp"
+
 #include <vector>
 
 namespace gnomon::analysis {
@@ -26,6 +29,42 @@ std::vector<std::size_t> pixels_of(const CauseLayers& causes, Label label)
     return pixels;
 }
 
+scene::Image<std::uint8_t> acne_flags(const scene::TruthLayers& truth,
+                                      const scene::Image<PixelCause>& pixels)
+{
+    scene::Image<std::uint8_t> flags{truth.pixel_class.size()};
+    for (std::size_t i = 0; i < flags.pixel_count(); ++i) {
+        flags[i] = is_acne_if_shadowed(pixels[i], truth.pixel_class[i]) ? 1 : 0;
+    }
+    return flags;
+}
+
+/// A gap of at most the width of the pixel is forgiven.
+ForgiveGaps forgive_footprints(const scene::ExactLight& light, const ReceiverGeometry& geometry)
+{
+    return [&light, &geometry](std::span<const std::size_t> pixels) {
+        const auto blockers = light.find_blockers(pixels);
+        std::vector<std::uint8_t> forgiven(pixels.size());
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            forgiven[i] = blockers[i].gap_m <= geometry.footprint_m(pixels[i]) ? 1 : 0;
+        }
+        return forgiven;
+    };
+}
+
+BiasAnswers answer_biases(const LookupRule& rule, const ComparedLayers& layers,
+                          const scene::Image<float>& map_depths,
+                          const scene::Image<std::uint8_t>& acne, const ForgiveGaps& forgive)
+{
+    const auto& classes = layers.truth.pixel_class;
+    auto critical = critical_biases(
+        deciding_samples(layers.lookup, layers.lookup.texels, map_depths, rule), rule);
+    BiasCurve curve{critical, classes};
+    const BestBiases best = find_best_biases(curve);
+    const BiasBounds bounds = find_bias_bounds(curve, critical, classes, acne, forgive);
+    return {std::move(critical), std::move(curve), best, bounds};
+}
+
 } // namespace
 
 Diagnosis diagnose(const scene::Job& job, const scene::View& view, const ComparedLayers& layers,
@@ -43,6 +82,12 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     diagnosis.causes = classify_errors(layers.truth, layers.lookup, diagnosis.pixels, view.bias);
     diagnosis.peter_panning = measure_gaps(
         *light, pixels_of(diagnosis.causes, Label::peter_panning), view.frustum, resolution);
+    if (job.lookup.filter != scene::Filter::hardware) {
+        const ReceiverGeometry geometry{layers.triangles, view, layers.receivers.triangle};
+        diagnosis.biases = answer_biases(lookup_rule(job, view), layers, map_depths,
+                                         acne_flags(layers.truth, diagnosis.pixels),
+                                         forgive_footprints(*light, geometry));
+    }
     return diagnosis;
 }
 

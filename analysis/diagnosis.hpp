@@ -1,29 +1,44 @@
 #pragma once
 
+#include "analysis/bias_curve.hpp"
+#include "analysis/bias_limits.hpp"
 #include "analysis/causes.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
+#include <optional>
+
 namespace gnomon::analysis {
+
+/// Every constant bias at once, with the job's slope and normal offset.
+struct BiasAnswers {
+    scene::Image<float> critical_bias; ///< of each pixel; 0 where there is no receiver
+    BiasCurve curve;
+    BestBiases best;
+    BiasBounds bounds;
+};
 
 /// Why pixels are wrong, at the job's bias and at every other.
 struct Diagnosis {
     scene::Image<PixelCause> pixels; ///< whatever the bias
     CauseLayers causes;              ///< at the job's
     Gaps peter_panning;              ///< at the job's
+    /// Empty for `hardware`: its weights are the driver's own.
+    std::optional<BiasAnswers> biases;
 };
 
 /// What a comparison found.
 struct ComparedLayers {
+    const scene::TriangleScene& triangles;
     const scene::ReceiverLayers& receivers;
     const scene::TruthLayers& truth;
     const scene::LookupLayers& lookup;
 };
 
-/// Finds causes, labels and gaps. Asks `look_up`, `read_map_depths` and `make_exact_light`, which
-/// must still answer for the job's receivers and map.
+/// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and
+/// `make_exact_light`, which must still answer for the job's receivers and map.
 [[nodiscard]] Diagnosis diagnose(const scene::Job& job, const scene::View& view,
                                  const ComparedLayers& layers, const Renderers& renderers);
 

@@ -9,11 +9,14 @@
 #include <fmt/ranges.h>
 
 #include <bit>
+#include <limits>
 #include <stdexcept>
 
 namespace gnomon::reports {
 
 namespace {
+
+constexpr float not_a_bias = std::numeric_limits<float>::quiet_NaN();
 
 std::uint32_t bits(float value)
 {
@@ -49,6 +52,12 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
         {"map_depth", float32, [&](std::size_t i) { return bits(samples[i].map_depth); }},
     };
     if (comparison.diagnosis) {
+        if (const auto& biases = comparison.diagnosis->biases) {
+            const scene::Image<float>& critical = biases->critical_bias;
+            channels.push_back({"critical_bias", float32, [&](std::size_t i) {
+                                    return bits(is_scored(classes[i]) ? critical[i] : not_a_bias);
+                                }});
+        }
         const analysis::CauseLayers& causes = comparison.diagnosis->causes;
         channels.push_back({"cause", uint32, [&](std::size_t i) {
                                 return static_cast<std::uint32_t>(causes.cause[i]);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <optional>
 
 namespace gnomon::reports {
@@ -73,6 +74,42 @@ Json lengths(const std::optional<analysis::LengthStatistics>& lengths)
                    : Json{{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
 }
 
+/// JSON has no infinities: a limit that does not exist is null.
+Json finite_or_null(float value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+void add_limits(Json& json, const analysis::BiasLimits& limits)
+{
+    json["acne_free"] = finite_or_null(limits.acne_free);
+    json["panning_free"] = finite_or_null(limits.panning_free);
+    json["panning_free_beyond_zero"] = finite_or_null(limits.panning_free_beyond_zero);
+}
+
+Json bias_curve(const analysis::BiasAnswers& answers)
+{
+    const analysis::BestBiases& best = answers.best;
+    Json json{{"best_interval",
+               Json::array({finite_or_null(best.interval.lo), finite_or_null(best.interval.hi)})},
+              {"best_errors", best.errors.total()}};
+    add_limits(json, answers.bounds.strict);
+    json["allowances"] = Json::array();
+    for (const analysis::BiasLimits& limits : answers.bounds.allowances) {
+        Json entry{{"allowance", limits.allowance}};
+        add_limits(entry, limits);
+        json["allowances"].push_back(std::move(entry));
+    }
+    json["no_constant_bias_serves"] = answers.bounds.no_constant_bias_serves;
+    json["pareto_front"] = Json::array();
+    for (const analysis::CurvePoint& point : analysis::pareto_front(answers.curve, 33)) {
+        json["pareto_front"].push_back({{"bias", finite_or_null(point.bias)},
+                                        {"false_shadow", point.errors.false_shadow},
+                                        {"false_lit", point.errors.false_lit}});
+    }
+    return json;
+}
+
 /// Without a diagnosis everything is null, never a number.
 void add_diagnosis(Json& json, const std::optional<analysis::Diagnosis>& diagnosis)
 {
@@ -89,7 +126,7 @@ void add_diagnosis(Json& json, const std::optional<analysis::Diagnosis>& diagnos
     json["labels"] = counts_by_name(analysis::label_names, counts.by_label);
     json["peter_panning_gap_m"] = lengths(diagnosis->peter_panning.metres);
     json["peter_panning_gap_texels"] = lengths(diagnosis->peter_panning.texels);
-    json["bias_curve"] = nullptr;
+    json["bias_curve"] = diagnosis->biases ? bias_curve(*diagnosis->biases) : Json(nullptr);
 }
 
 Json truth_signs(const scene::TruthSigns& signs)
