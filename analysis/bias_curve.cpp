@@ -181,32 +181,50 @@ std::optional<double> BiasCurve::false_lit_rate(const ErrorCounts& errors) const
     return ratio(errors.false_lit, blocked_.size());
 }
 
-BestBiases find_best_biases(const BiasCurve& curve)
+BestBiases find_best_biases(const BiasCurve& curve, const BiasInterval& within)
 {
-    BestBiases best;
-    BestBiases run; // neighbouring intervals with as many errors
-    bool is_first = true;
+    std::optional<BestBiases> best;
+    std::optional<BestBiases> run; // neighbouring intervals with as many errors
     const auto finish_run = [&] {
-        const bool is_better = run.errors.total() < best.errors.total() ||
-                               (run.errors.total() == best.errors.total() &&
-                                run.interval.width() > best.interval.width());
-        if (is_first || is_better) {
+        const bool is_better = !best || run->errors.total() < best->errors.total() ||
+                               (run->errors.total() == best->errors.total() &&
+                                run->interval.width() > best->interval.width());
+        if (is_better) {
             best = run;
         }
-        is_first = false;
     };
-    for_each_interval(curve, [&](const BiasInterval& interval, const ErrorCounts& errors) {
-        if (interval.lo != -infinity && errors.total() == run.errors.total()) {
-            run.interval.hi = interval.hi;
+    for_each_interval(curve, [&](BiasInterval interval, const ErrorCounts& errors) {
+        interval = {std::max(interval.lo, within.lo), std::min(interval.hi, within.hi)};
+        if (interval.lo > interval.hi) {
             return;
         }
-        if (interval.lo != -infinity) {
+        if (run && errors.total() == run->errors.total()) {
+            run->interval.hi = interval.hi;
+            return;
+        }
+        if (run) {
             finish_run();
         }
-        run = {interval, errors};
+        run = BestBiases{interval, errors};
     });
     finish_run();
-    return best;
+    return *best;
+}
+
+std::optional<BiasInterval> biases_with_at_most(const BiasCurve& curve, const ErrorCounts& most)
+{
+    const auto& lit = curve.lit();
+    const auto& blocked = curve.blocked();
+    BiasInterval interval = every_bias;
+    if (most.false_shadow < lit.size()) {
+        interval.lo = lit[lit.size() - 1 - most.false_shadow];
+    }
+    if (most.false_lit < blocked.size()) {
+        interval.hi = previous_bias(blocked[most.false_lit]);
+    }
+    const bool is_possible =
+        interval.lo <= interval.hi && interval.lo != infinity && interval.hi != -infinity;
+    return is_possible ? std::optional{interval} : std::nullopt;
 }
 
 std::vector<CurvePoint> pareto_front(const BiasCurve& curve, std::size_t most_points)

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -72,11 +73,22 @@ struct BestBiases {
     ErrorCounts errors;    ///< at its lower end
 };
 
+/// All biases.
+inline constexpr BiasInterval every_bias{-std::numeric_limits<float>::infinity(),
+                                         std::numeric_limits<float>::infinity()};
+
 /// The longest interval of biases that all have the fewest errors.
 ///
 /// `lo` is a critical bias, or −∞; `hi` is the last bias before the critical bias from which on
 /// there are more errors, or +∞. Of several intervals it is the widest, of those the lowest.
-[[nodiscard]] BestBiases find_best_biases(const BiasCurve& curve);
+/// @param within  where the biases are looked for; lo <= hi. An end of it may be an end of the
+///                interval found.
+[[nodiscard]] BestBiases find_best_biases(const BiasCurve& curve,
+                                          const BiasInterval& within = every_bias);
+
+/// The biases with at most so many wrong pixels of each kind; empty if there is none.
+[[nodiscard]] std::optional<BiasInterval> biases_with_at_most(const BiasCurve& curve,
+                                                              const ErrorCounts& most);
 
 /// One bias and its exact counts.
 struct CurvePoint {

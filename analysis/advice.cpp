@@ -1,0 +1,124 @@
+#include "analysis/advice.hpp"
+
+#include "analysis/metrics.hpp"
+#include "analysis/tune_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+using scene::Job;
+
+namespace {
+
+constexpr int largest_resolution_texels = 16384;
+
+/// A job with some keys changed, and the keys.
+struct Variant {
+    Job job;
+    std::vector<std::string> keys;
+};
+
+bool has(const CauseCounts& counts, Cause cause)
+{
+    return counts.of(cause) > 0;
+}
+
+/// The map of the job with what the causes of its errors call for.
+std::vector<Variant> variants(const Comparison& comparison)
+{
+    const Job& job = comparison.job;
+    const CauseCounts& counts = comparison.diagnosis->causes.counts;
+    std::vector<Variant> tried;
+    if (has(counts, Cause::bias) || has(counts, Cause::resolution) ||
+        has(counts, Cause::precision)) {
+        tried.push_back({job, {}}); // another bias may do
+    }
+    const int resolution = 2 * job.shadow_map.resolution_texels;
+    if (has(counts, Cause::resolution) && resolution <= largest_resolution_texels) {
+        tried.push_back({job, {fmt::format("shadow_map.resolution = {}", resolution)}});
+        tried.back().job.shadow_map.resolution_texels = resolution;
+    }
+    if (has(counts, Cause::precision) && !job.shadow_map.depth_format.is_float()) {
+        tried.push_back({job, {"shadow_map.depth_format = \"d32f\""}});
+        tried.back().job.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+    }
+    if (!has(counts, Cause::coverage)) {
+        return tried;
+    }
+    if (job.shadow_map.cull != scene::Cull::none) {
+        tried.push_back({job, {"shadow_map.cull = \"none\""}});
+        tried.back().job.shadow_map.cull = scene::Cull::none;
+    }
+    scene::FrustumSettings& frustum = tried.emplace_back(Variant{job, {}}).job.shadow_map.frustum;
+    frustum.fit = scene::Fit::scene;
+    frustum.near_m.reset();
+    frustum.far_m.reset();
+    tried.back().keys = {"shadow_map.fit = \"scene\"", "shadow_map.near = \"auto\"",
+                         "shadow_map.far = \"auto\""};
+    return tried;
+}
+
+class Adviser {
+public:
+    Adviser(const Comparison& comparison, const scene::SceneFile& file, const Renderers& renderers)
+        : comparison_{comparison},
+          file_{file},
+          renderers_{renderers}
+    {
+    }
+
+    std::vector<Advice> run()
+    {
+        for (const Variant& variant : variants(comparison_)) {
+            try_variant(variant);
+        }
+        return std::move(advice_);
+    }
+
+private:
+    void try_variant(const Variant& variant)
+    {
+        scene::View view = scene::resolve_view(variant.job, file_.scene, file_.defaults);
+        renderers_.draw_receivers(view);
+        renderers_.draw_shadow_map(variant.job, view);
+        if (!variant.keys.empty()) {
+            measure_with(variant.job, view, variant.keys);
+        }
+        TunedSetting best{.map = variant.job.shadow_map, .slope = double{view.bias.slope}};
+        BiasSearch{variant.job, view, comparison_.truth, renderers_}.find_constant(
+            {.max_false_shadow_rate = 1, .max_false_lit_rate = 1}, best);
+        view.bias.constant = best.constant;
+        std::vector<std::string> keys = variant.keys;
+        keys.push_back(fmt::format("bias.constant = {}", best.constant));
+        measure_with(variant.job, view, std::move(keys));
+    }
+
+    void measure_with(const Job& job, const scene::View& view, std::vector<std::string> keys)
+    {
+        const Metrics metrics = measure(comparison_.truth, renderers_.look_up(job, view));
+        advice_.push_back(
+            {std::move(keys), {metrics.false_shadow, metrics.false_lit}, metrics.error_rate});
+    }
+
+    const Comparison& comparison_;
+    const scene::SceneFile& file_;
+    const Renderers& renderers_;
+    std::vector<Advice> advice_;
+};
+
+} // namespace
+
+std::vector<Advice> advise(const Comparison& comparison, const scene::SceneFile& file,
+                           const Renderers& renderers)
+{
+    if (!comparison.diagnosis) {
+        throw std::invalid_argument("advise: comparison: it has no diagnosis");
+    }
+    return Adviser{comparison, file, renderers}.run();
+}
+
+} // namespace gnomon::analysis
