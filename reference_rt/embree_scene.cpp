@@ -92,48 +92,67 @@ void bound_triangle(const RTCBoundsFunctionArguments* arguments) noexcept
     box.upper_z = upper.z;
 }
 
+/// Visits the asking rays: Embree's index and the lane. An idle ray's id is whatever was there
+/// before.
+template <typename Visit>
+void for_each_asking(const int* valid, RTCRayN* rays, unsigned n, const Visit& visit)
+{
+    for (unsigned i = 0; i < n; ++i) {
+        if (valid[i] != 0) {
+            visit(i, RTCRayN_id(rays, n, i));
+        }
+    }
+}
+
+LaneBits asking_lanes(const int* valid, RTCRayN* rays, unsigned n)
+{
+    LaneBits asking = 0;
+    for_each_asking(valid, rays, n,
+                    [&](unsigned /*i*/, unsigned lane) { asking |= LaneBits{1} << lane; });
+    return asking;
+}
+
 void judge_packet(const RTCOccludedFunctionNArguments* arguments) noexcept
 {
     auto& judge = embree::payload_of<CandidateJudge>(*arguments);
     const auto& role =
         *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
     const unsigned n = arguments->N;
-    LaneBits asking = 0;
-    for (unsigned i = 0; i < n; ++i) {
-        asking |= arguments->valid[i] != 0 ? LaneBits{1} << RTCRayN_id(arguments->ray, n, i) : 0;
-    }
+    const LaneBits asking = asking_lanes(arguments->valid, arguments->ray, n);
     try {
         const LaneBits settled = judge.judge_packet(role.members[arguments->primID], asking);
         if (settled == 0) {
             return;
         }
-        for (unsigned i = 0; i < n; ++i) {
-            // An idle lane's id is whatever was there before.
-            if (arguments->valid[i] != 0 &&
-                (settled >> RTCRayN_id(arguments->ray, n, i) & 1U) != 0) {
+        for_each_asking(arguments->valid, arguments->ray, n, [&](unsigned i, unsigned lane) {
+            if ((settled >> lane & 1U) != 0) {
                 RTCRayN_tfar(arguments->ray, n, i) = -std::numeric_limits<float>::infinity();
             }
-        }
+        });
     } catch (...) {
         judge.failure = std::current_exception();
     }
 }
 
-void judge_ray(const RTCIntersectFunctionNArguments* arguments) noexcept
+void judge_distances(const RTCIntersectFunctionNArguments* arguments) noexcept
 {
     auto& judge = embree::payload_of<CandidateJudge>(*arguments);
     const auto& role =
         *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
-    if (arguments->valid[0] == 0) {
-        return;
-    }
-    RTCRayN* ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
-    float& t_far = RTCRayN_tfar(ray, arguments->N, 0);
+    const unsigned n = arguments->N;
+    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
+    const LaneBits asking = asking_lanes(arguments->valid, rays, n);
+    PacketOf<float> t_far;
+    for_each_asking(arguments->valid, rays, n,
+                    [&](unsigned i, unsigned lane) { t_far[lane] = RTCRayN_tfar(rays, n, i); });
     try {
-        t_far = judge.judge_ray(role.members[arguments->primID], t_far);
+        judge.judge_distances(role.members[arguments->primID], asking, t_far);
     } catch (...) {
         judge.failure = std::current_exception();
+        return;
     }
+    for_each_asking(arguments->valid, rays, n,
+                    [&](unsigned i, unsigned lane) { RTCRayN_tfar(rays, n, i) = t_far[lane]; });
 }
 
 void rethrow_failure(const CandidateJudge& judge)
@@ -213,7 +232,7 @@ void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Rol
     rtcSetGeometryUserData(geometry, const_cast<Role*>(&role));
     rtcSetGeometryBoundsFunction(geometry, &bound_triangle, nullptr);
     rtcSetGeometryOccludedFunction(geometry, &judge_packet);
-    rtcSetGeometryIntersectFunction(geometry, &judge_ray);
+    rtcSetGeometryIntersectFunction(geometry, &judge_distances);
 }
 
 void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRay16& rays,
@@ -221,6 +240,14 @@ void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RT
 {
     embree::Query query{embree::Coherence::coherent, nullptr, &judge};
     embree::occluded16(valid.lane.data(), padded.get(), query, rays);
+    rethrow_failure(judge);
+}
+
+void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRayHit16& rays,
+                                                     CandidateJudge& judge) const
+{
+    embree::Query query{embree::Coherence::coherent, nullptr, &judge};
+    embree::intersect16(valid.lane.data(), padded.get(), query, rays);
     rethrow_failure(judge);
 }
 

@@ -39,8 +39,10 @@ public:
 
     /// For a packet: those of the asking lanes that need no further candidates.
     [[nodiscard]] virtual LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) = 0;
-    /// For a single ray: the distance beyond which no candidate matters any more.
-    [[nodiscard]] virtual float judge_ray(std::uint32_t triangle, float t_far) = 0;
+    /// For a search that narrows: lowers the asking lanes' distances beyond which no candidate
+    /// matters any more. A single ray is lane 0.
+    virtual void judge_distances(std::uint32_t triangle, LaneBits asking,
+                                 PacketOf<float>& t_far) = 0;
 
     std::exception_ptr failure;
 };
@@ -60,6 +62,8 @@ struct ReferenceScene::Implementation {
     /// Shows the judge every triangle that the segments behind `rays` may touch (in the unit frame;
     /// see `box_padding`). Each lane's id must be its index.
     void find_candidates(const PacketMask& valid, RTCRay16& rays, CandidateJudge& judge) const;
+    /// As above, from near to far as a rule, and only up to the judge's distances.
+    void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateJudge& judge) const;
     void find_candidates(RTCRayHit& ray, CandidateJudge& judge) const;
 
     /// The triangles of one pair of roles.

@@ -94,7 +94,10 @@ public:
         return hidden;
     }
 
-    float judge_ray(std::uint32_t /*triangle*/, float t_far) override { return t_far; }
+    void judge_distances(std::uint32_t /*triangle*/, LaneBits /*asking*/,
+                         PacketOf<float>& /*t_far*/) override
+    {
+    }
 
 private:
     /// False where GL's triangle is edge-on, or not beyond the near plane: it is no hit.
@@ -176,12 +179,13 @@ public:
 
     LaneBits judge_packet(std::uint32_t /*triangle*/, LaneBits /*asking*/) override { return 0; }
 
-    float judge_ray(std::uint32_t triangle, float t_far) override
+    void judge_distances(std::uint32_t triangle, LaneBits /*asking*/,
+                         PacketOf<float>& t_far) override
     {
         const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
         Receiver hit;
         if (!is_hit(ray_, facet, near_m_, counts_, hit)) {
-            return t_far;
+            return;
         }
         const Sign order = triangles_.empty() ? -1 : compare_distance(hit, nearest_, counts_);
         if (order < 0) {
@@ -192,7 +196,7 @@ public:
         if (order <= 0) {
             triangles_.push_back(triangle);
         }
-        return std::min(t_far, stand_in_.t_beyond(nearest_));
+        t_far[0] = std::min(t_far[0], stand_in_.t_beyond(nearest_));
     }
 
 private:

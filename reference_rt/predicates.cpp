@@ -1,5 +1,7 @@
 #include "reference_rt/predicates.hpp"
 
+#include "reference_rt/terms.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,55 +13,6 @@ using scene::Ray;
 using scene::Vec3d;
 
 namespace {
-
-/// δ and ν of a receiver.
-template <typename Delta, typename Nu>
-struct PlaneHit {
-    Delta delta;
-    Nu nu;
-};
-auto plane_hit(FilterField, const Receiver& receiver)
-{
-    return PlaneHit<Filtered<7>, Filtered<8>>{receiver.delta, receiver.nu};
-}
-auto plane_hit(ExactField, const Receiver& receiver)
-{
-    const Ray& ray = receiver.ray();
-    const auto normal = normal_of<ExactField>(receiver.corners());
-    return PlaneHit<Dyadic, Dyadic>{
-        dot(normal, vector<ExactField>(ray.direction)),
-        dot(normal, difference<ExactField>(receiver.corners()[0], ray.origin))};
-}
-
-Vec3<Filtered<1>> negated(const Vec3<Filtered<0>>& v)
-{
-    return {Filtered<0>{-v.x.value, v.x.permanent}, Filtered<0>{-v.y.value, v.y.permanent},
-            Filtered<0>{-v.z.value, v.z.permanent}};
-}
-Vec3<Dyadic> negated(const Vec3<Dyadic>& v)
-{
-    const Dyadic zero;
-    return {zero - v.x, zero - v.y, zero - v.z};
-}
-
-/// g(x): from x to the light.
-template <typename Field>
-auto towards(const Light& light, const Vec3d& x)
-{
-    return light.type == LightType::directional
-               ? negated(vector<Field>(light.direction))
-               : decltype(negated(vector<Field>(x))){difference<Field>(light.position, x)};
-}
-
-/// δ N·(P − o): its sign is that of N·(P − o) but for δ's.
-template <typename Field, typename Normal>
-auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const Vec3d& o)
-{
-    const Ray& ray = receiver.ray();
-    const auto [delta, nu] = plane_hit(field, receiver);
-    return delta * dot(normal, difference<Field>(ray.origin, o)) +
-           nu * dot(normal, vector<Field>(ray.direction));
-}
 
 Sign edge_sign(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const Light& light,
                SignCounts& counts)
@@ -100,6 +53,11 @@ Vec3d exact_offset(const Receiver& receiver, const Vec3d& origin)
             Dyadic::quotient(offset.z, delta)};
 }
 
+Vec3d sharp_point(const Receiver& receiver)
+{
+    return exact_offset(receiver, Vec3d{0.0});
+}
+
 Vec3d exact_offset(const Ray& ray, double t, const Vec3d& origin)
 {
     const Dyadic one{1.0};
@@ -109,17 +67,19 @@ Vec3d exact_offset(const Ray& ray, double t, const Vec3d& origin)
             Dyadic::quotient(offset.z, one)};
 }
 
+Sign passing_side(const CameraRay& ray, const Vec3d& u, const Vec3d& v, SignCounts& counts)
+{
+    return sign_of(counts, ray.is_tame, [&]<typename Field>(Field) {
+        const auto normal = cross(difference<Field>(u, ray.ray.origin), difference<Field>(v, u));
+        return dot(normal, vector<Field>(ray.ray.direction));
+    });
+}
+
 bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts)
 {
     std::array<Sign, 3> side{};
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d& u = corners[i];
-        const Vec3d& v = corners[(i + 1) % 3];
-        side[i] = sign_of(counts, ray.is_tame, [&]<typename Field>(Field) {
-            const auto normal =
-                cross(difference<Field>(u, ray.ray.origin), difference<Field>(v, u));
-            return dot(normal, vector<Field>(ray.ray.direction));
-        });
+        side[i] = passing_side(ray, corners[i], corners[(i + 1) % 3], counts);
         if (i > 0 && side[0] * side[i] < 0) {
             return false;
         }
@@ -231,10 +191,17 @@ Contact find_contact(const Receiver& receiver, const Corners& s, const Light& li
 Sign apex_side(const Light& light, const Vec3d& u, const Vec3d& v, const Vec3d& apex,
                SignCounts& counts)
 {
-    return sign_of(counts, true, [&]<typename Field>(Field) {
+    return sign_of(counts, is_tame(light.direction), [&]<typename Field>(Field) {
         return dot(cross(difference<Field>(v, u), towards<Field>(light, u)),
                    difference<Field>(apex, u));
     });
+}
+
+bool forms_seam(const EdgeOf& a, const EdgeOf& b, const Light& light, SignCounts& counts)
+{
+    const bool is_shared = (a.u == b.u && a.v == b.v) || (a.u == b.v && a.v == b.u);
+    return is_shared && is_seam(apex_side(light, a.u, a.v, a.apex, counts),
+                                apex_side(light, a.u, a.v, b.apex, counts));
 }
 
 Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a, const Corners& b,

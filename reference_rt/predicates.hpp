@@ -120,9 +120,16 @@ private:
 /// P − origin to within 2^-50 of its size, however badly δ is conditioned.
 /// Precondition: δ is not 0.
 [[nodiscard]] scene::Vec3d exact_offset(const Receiver& receiver, const scene::Vec3d& origin);
+/// P rounded, to within a few roundings of its size.
+/// Precondition: δ is not 0.
+[[nodiscard]] scene::Vec3d sharp_point(const Receiver& receiver);
 /// E + t·d − origin to within 2^-50 of its size.
 [[nodiscard]] scene::Vec3d exact_offset(const scene::Ray& ray, double t,
                                         const scene::Vec3d& origin);
+
+/// The side on which a ray's line passes the edge from u to v: ((u − E) × (v − u))·d.
+[[nodiscard]] Sign passing_side(const CameraRay& ray, const scene::Vec3d& u, const scene::Vec3d& v,
+                                SignCounts& counts);
 
 /// True when the ray's line meets the closed triangle at one point.
 [[nodiscard]] bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts);
@@ -171,6 +178,22 @@ private:
 /// Side of `apex` from the plane through the light and the edge (u, v).
 [[nodiscard]] Sign apex_side(const scene::Light& light, const scene::Vec3d& u,
                              const scene::Vec3d& v, const scene::Vec3d& apex, SignCounts& counts);
+
+/// An edge of a triangle, and the corner opposite.
+struct EdgeOf {
+    scene::Vec3d u, v, apex;
+};
+/// @param edge  0 for the edge from the first corner to the second.
+[[nodiscard]] inline EdgeOf edge_of(const Corners& corners, int edge)
+{
+    const auto i = static_cast<std::size_t>(edge);
+    return {corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]};
+}
+
+/// True when two triangles' surface passes through a ray of the light that meets both edges: they
+/// are the same edge, and the apexes on opposite sides of it.
+[[nodiscard]] bool forms_seam(const EdgeOf& a, const EdgeOf& b, const scene::Light& light,
+                              SignCounts& counts);
 
 /// True when the open segment P→light, lying in the plane of S, meets the closed triangle S.
 [[nodiscard]] bool runs_through(const Receiver& receiver, const Corners& s,

@@ -1,5 +1,7 @@
 #include "reference_rt/shadow_segments.hpp"
 
+#include "reference_rt/crossing.hpp"
+
 #include <algorithm>
 #include <bit>
 
@@ -16,25 +18,17 @@ struct EdgeContact {
     int edge = 0;
 };
 
-/// The edge of a triangle, and the corner opposite.
-struct EdgeOf {
-    Vec3d u, v, apex;
-};
-EdgeOf edge_of(const Corners& corners, int edge)
-{
-    const auto i = static_cast<std::size_t>(edge);
-    return {corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]};
-}
-
 /// The segments of one packet while Embree traverses the boxes.
 class Segments final : public CandidateJudge {
 public:
     Segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
-             const PacketOf<Receiver>& receivers, SegmentGoal goal, SignCounts& counts)
+             const PacketOf<Receiver>& receivers, SegmentGoal goal, const SegmentScope& scope,
+             SignCounts& counts)
         : reference_{reference},
           light_{light},
           receivers_{receivers},
           goal_{goal},
+          scope_{scope},
           counts_{counts}
     {
     }
@@ -61,7 +55,7 @@ public:
             make_planes(reference_.frame, light_.pencil, corners, LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
-        if (open == 0) {
+        if (open == 0 || is_culled(planes.towards, corners)) {
             return 0;
         }
         open &= ~lanes_on(triangle); // the segment meets the plane of T at P only
@@ -73,7 +67,8 @@ public:
         }
         LaneBits settled = 0;
         for (LaneBits rest = crossing; rest != 0; rest &= rest - 1) {
-            settled |= block(static_cast<std::size_t>(std::countr_zero(rest)), triangle);
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            settled |= is_in_range(lane, corners) ? block(lane, triangle) : 0;
         }
         for (LaneBits rest = open; rest != 0; rest &= rest - 1) {
             settled |= decide(static_cast<std::size_t>(std::countr_zero(rest)), triangle, corners);
@@ -81,7 +76,10 @@ public:
         return settled;
     }
 
-    float judge_ray(std::uint32_t /*triangle*/, float t_far) override { return t_far; }
+    void judge_distances(std::uint32_t /*triangle*/, LaneBits /*asking*/,
+                         PacketOf<float>& /*t_far*/) override
+    {
+    }
 
     [[nodiscard]] const PacketOf<SegmentContacts>& contacts() const { return contacts_; }
 
@@ -101,6 +99,18 @@ private:
         return corners_of(reference_.triangles, triangle);
     }
 
+    /// @param towards  side of the light from the triangle where it is certain, else 0.
+    [[nodiscard]] bool is_culled(Sign towards, const Corners& s)
+    {
+        return scope_.cull != scene::Cull::none &&
+               !is_left(scope_.cull, towards != 0 ? towards : light_side(s, light_.light, counts_));
+    }
+    [[nodiscard]] bool is_in_range(std::size_t lane, const Corners& s)
+    {
+        return scope_.depth == nullptr ||
+               crosses_in_range(receivers_[lane], s, light_.light, *scope_.depth, counts_);
+    }
+
     /// The lane's bit when the triangle settles it; contacts that do not are kept.
     LaneBits decide(std::size_t lane, std::uint32_t triangle, const Corners& s)
     {
@@ -109,9 +119,11 @@ private:
         case Contact::none:
             break;
         case Contact::cross:
-            return block(lane, triangle);
+            return is_in_range(lane, s) ? block(lane, triangle) : 0;
         case Contact::edge:
-            edges_.push_back({lane, triangle, edge});
+            if (is_in_range(lane, s)) {
+                edges_.push_back({lane, triangle, edge});
+            }
             break;
         case Contact::vertex:
             contacts_[lane].touches_vertex = true;
@@ -144,11 +156,9 @@ private:
     /// True when the two triangles' surface passes through the segment at the edge of `contact`.
     [[nodiscard]] bool forms_seam(const EdgeContact& contact, const EdgeContact& other)
     {
-        const EdgeOf a = edge_of(corners(contact.triangle), contact.edge);
-        const EdgeOf b = edge_of(corners(other.triangle), other.edge);
-        const bool is_shared = (a.u == b.u && a.v == b.v) || (a.u == b.v && a.v == b.u);
-        return is_shared && is_seam(apex_side(light_.light, a.u, a.v, a.apex, counts_),
-                                    apex_side(light_.light, a.u, a.v, b.apex, counts_));
+        return reference_rt::forms_seam(edge_of(corners(contact.triangle), contact.edge),
+                                        edge_of(corners(other.triangle), other.edge), light_.light,
+                                        counts_);
     }
 
     /// Pairs up the edge contacts: a seam blocks, with its lower triangle as the witness.
@@ -180,6 +190,7 @@ private:
     const SegmentLight& light_;
     const PacketOf<Receiver>& receivers_;
     SegmentGoal goal_;
+    SegmentScope scope_;
     SignCounts& counts_;
     LanePoints points_;
     PacketOf<std::uint32_t> own_{};
@@ -192,9 +203,9 @@ private:
 PacketOf<SegmentContacts> trace_segments(const ReferenceScene::Implementation& reference,
                                          const SegmentLight& light, const PacketMask& valid,
                                          const PacketOf<Receiver>& receivers, SegmentGoal goal,
-                                         SignCounts& counts)
+                                         SignCounts& counts, const SegmentScope& scope)
 {
-    Segments segments{reference, light, receivers, goal, counts};
+    Segments segments{reference, light, receivers, goal, scope, counts};
     segments.trace(valid);
     return segments.contacts();
 }

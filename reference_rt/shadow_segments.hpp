@@ -2,10 +2,12 @@
 
 #include "reference_rt/contact.hpp"
 #include "reference_rt/embree_scene.hpp"
+#include "reference_rt/light_depth.hpp"
 #include "reference_rt/packet.hpp"
 #include "reference_rt/pencil.hpp"
 #include "reference_rt/predicates.hpp"
 #include "reference_rt/stand_in.hpp"
+#include "scene/job.hpp"
 #include "scene/light.hpp"
 
 #include <cstdint>
@@ -17,6 +19,12 @@ namespace gnomon::reference_rt {
 enum class SegmentGoal : std::uint8_t {
     any_blocker,     ///< a lane is settled by the first triangle that properly crosses it
     nearest_blocker, ///< the witness is the blocker nearest to the light
+};
+
+/// What of the scene a shadow map could hold; without depth and culling, all of it.
+struct SegmentScope {
+    const LightDepth* depth = nullptr; ///< crossings count at a depth in [0, 1]; not owned
+    scene::Cull cull = scene::Cull::none;
 };
 
 /// Everything about the light that all segments of an image share.
@@ -34,10 +42,10 @@ struct SegmentLight {
 };
 
 /// What meets the open segments P→light of a packet: every triangle that the segment touches is a
-/// candidate, and each is decided exactly.
+/// candidate, and each is decided exactly. What is out of scope is no contact.
 [[nodiscard]] PacketOf<SegmentContacts>
 trace_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
                const PacketMask& valid, const PacketOf<Receiver>& receivers, SegmentGoal goal,
-               SignCounts& counts);
+               SignCounts& counts, const SegmentScope& scope = {});
 
 } // namespace gnomon::reference_rt

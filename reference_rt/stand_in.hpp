@@ -36,8 +36,8 @@ struct BoundedPoint {
     return exact_unit_point(receiver, frame);
 }
 
-/// A camera ray in the unit frame that begins near the scene. Its direction is the exact one's,
-/// which is about 1 long or longer.
+/// A camera's or a texel's ray in the unit frame that begins near the scene. Its direction is the
+/// exact one's, which is about 1 long or longer.
 class CameraStandIn {
 public:
     CameraStandIn(const CameraRay& camera_ray, const UnitFrame& frame)
@@ -64,9 +64,9 @@ public:
                    ? static_cast<float>((1 + 0x1p-20) * t + margin)
                    : std::numeric_limits<float>::infinity();
     }
-    [[nodiscard]] FloatRay ray(float t_far) const
+    [[nodiscard]] FloatRay ray(float t_far, RayMask mask = receivers) const
     {
-        return {scene::Vec3f{origin_.position}, scene::Vec3f{direction_}, 0, t_far, receivers};
+        return {scene::Vec3f{origin_.position}, scene::Vec3f{direction_}, 0, t_far, mask};
     }
 
 private:

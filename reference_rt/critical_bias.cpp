@@ -1,0 +1,118 @@
+#include "reference_rt/critical_bias.hpp"
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace gnomon::reference_rt {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// What a texel's ray meets; it stays where it is, as the hit refers to its ray and facet.
+struct TapHit {
+    CameraRay ray;
+    Facet facet;
+    Receiver hit;
+};
+
+Fraction number(double x)
+{
+    return {Dyadic{x}, Dyadic{1}};
+}
+
+/// The exact difference that a bias must make up for.
+Fraction exact_excess(const DepthTerm& receiver, std::span<const DepthTerm> taps,
+                      std::span<const double> weights, bool is_reversed)
+{
+    Fraction excess = receiver.exact();
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+        Fraction tap = taps[i].exact();
+        tap.numerator = Dyadic{weights[i]} * tap.numerator;
+        excess = excess - tap;
+    }
+    if (is_reversed) {
+        excess.numerator = Dyadic{} - excess.numerator;
+    }
+    return excess;
+}
+
+float smallest_bias_of(const Fraction& excess)
+{
+    if (excess.denominator.sign() == 0) {
+        return infinity;
+    }
+    const double x = excess.value();
+    const double reach = 0x1p-51 * std::abs(x);
+    const float bias = smallest_bias_from(x - reach);
+    const float next = smallest_bias_from(x + reach);
+    // Between two floats there are many doubles: `bias` is the only one within the error of x.
+    return bias == next || (excess - number(double{bias})).sign() <= 0 ? bias : next;
+}
+
+} // namespace
+
+float smallest_bias_from(double x)
+{
+    constexpr double smallest_normal = std::numeric_limits<float>::min();
+    if (x > -smallest_normal && x <= smallest_normal) {
+        return x > 0 ? std::numeric_limits<float>::min() : 0.0F;
+    }
+    const auto nearest = static_cast<float>(x);
+    return double{nearest} < x ? std::nextafter(nearest, infinity) : nearest;
+}
+
+Fraction DepthTerm::exact() const
+{
+    return hit_ == nullptr ? number(bounded_.value) : depth_->exactly_at(*hit_);
+}
+
+DepthTerm DepthTerm::clamped() const
+{
+    const Bounded rest = Bounded{1, 0} - bounded_;
+    if (bounded_.is_certainly_positive() && rest.is_certainly_positive()) {
+        return *this;
+    }
+    const Fraction depth = exact();
+    if (depth.sign() < 0) {
+        return DepthTerm{0};
+    }
+    return (depth - number(1)).sign() > 0 ? DepthTerm{1} : *this;
+}
+
+template <std::size_t n>
+float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
+                         const std::array<double, n>& weights) const
+{
+    std::array<TapHit, n> hits;
+    std::array<DepthTerm, n> terms;
+    SignCounts counts;
+    Bounded excess = receiver.bounded();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (taps[i].triangle == scene::no_triangle) {
+            terms[i] = DepthTerm{double{taps[i].constant}};
+        } else {
+            TapHit& tap = hits[i];
+            tap.ray = CameraRay{rays_.ray(taps[i].texel)};
+            tap.facet = Facet{taps[i].triangle, corners_of(triangles_, taps[i].triangle)};
+            tap.hit = Receiver{tap.facet, tap.ray, counts};
+            terms[i] = DepthTerm{depth_, depth_.along(tap.ray.ray), tap.hit};
+        }
+        excess = excess - Bounded{weights[i], 0} * terms[i].bounded();
+    }
+    if (depth_.is_reversed()) {
+        excess.value = -excess.value;
+    }
+    const float bias = smallest_bias_from(excess.lower());
+    return bias == smallest_bias_from(excess.upper())
+               ? bias
+               : smallest_bias_of(exact_excess(receiver, terms, weights, depth_.is_reversed()));
+}
+
+template float CriticalBias::find(const DepthTerm&, const std::array<scene::ExactTap, 1>&,
+                                  const std::array<double, 1>&) const;
+template float CriticalBias::find(const DepthTerm&, const std::array<scene::ExactTap, 4>&,
+                                  const std::array<double, 4>&) const;
+
+} // namespace gnomon::reference_rt

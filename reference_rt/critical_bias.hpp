@@ -1,0 +1,65 @@
+#pragma once
+
+#include "reference_rt/light_depth.hpp"
+#include "reference_rt/predicates.hpp"
+#include "reference_rt/texel_rays.hpp"
+#include "scene/exact_light.hpp"
+#include "scene/triangles.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace gnomon::reference_rt {
+
+/// The smallest bias that is not below `x`: 0 or a normal float32, as GL's biases are.
+[[nodiscard]] float smallest_bias_from(double x);
+
+/// The depth of a point: bounded, and what makes it exact.
+class DepthTerm {
+public:
+    /// A constant.
+    explicit DepthTerm(double constant = 0) : bounded_{constant, 0} {}
+    /// Of the hit of a ray with a plane; all arguments must outlive the term.
+    DepthTerm(const LightDepth& depth, const ClipLine& line, const Receiver& hit)
+        : bounded_{depth.at(line, parameter_of(hit))},
+          depth_{&depth},
+          hit_{&hit}
+    {
+    }
+
+    [[nodiscard]] const Bounded& bounded() const { return bounded_; }
+    [[nodiscard]] Fraction exact() const;
+    /// The same, limited to [0, 1].
+    [[nodiscard]] DepthTerm clamped() const;
+
+private:
+    Bounded bounded_;
+    const LightDepth* depth_ = nullptr;
+    const Receiver* hit_ = nullptr;
+};
+
+/// Finds the smallest bias with which a depth is not in front of a map's, both exact.
+class CriticalBias {
+public:
+    /// All arguments must outlive it.
+    CriticalBias(const scene::TriangleScene& triangles, const TexelRays& rays,
+                 const LightDepth& depth)
+        : triangles_{triangles},
+          rays_{rays},
+          depth_{depth}
+    {
+    }
+
+    /// The smallest B with r − B <= d (reversed: r + B >= d), d = Σ weight·depth of the taps;
+    /// infinite where the receiver lies in the light's camera plane.
+    template <std::size_t n>
+    [[nodiscard]] float find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
+                             const std::array<double, n>& weights) const;
+
+private:
+    const scene::TriangleScene& triangles_;
+    const TexelRays& rays_;
+    const LightDepth& depth_;
+};
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,275 @@
+#include "reference_rt/exact_light.hpp"
+
+#include "reference_rt/critical_bias.hpp"
+#include "reference_rt/crossing.hpp"
+#include "reference_rt/light_depth.hpp"
+#include "reference_rt/pixel_packets.hpp"
+#include "reference_rt/shadow_segments.hpp"
+#include "reference_rt/texel_first_hits.hpp"
+#include "reference_rt/texel_order.hpp"
+#include "reference_rt/texel_rays.hpp"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <stdexcept>
+
+namespace gnomon::reference_rt {
+
+using scene::BlockerHit;
+using scene::ExactTap;
+using scene::Image;
+using scene::LinearQuery;
+using scene::NearestQuery;
+using scene::no_triangle;
+using scene::SheetQuery;
+using scene::Texel;
+using scene::TexelHit;
+using scene::Vec3d;
+using scene::View;
+
+namespace {
+
+/// The taps of a query and their weights.
+std::array<ExactTap, 1> taps_of(const NearestQuery& query)
+{
+    return {query.tap};
+}
+const std::array<ExactTap, 4>& taps_of(const LinearQuery& query)
+{
+    return query.taps;
+}
+std::array<double, 1> weights_of(const NearestQuery& /*query*/)
+{
+    return {1.0};
+}
+const std::array<double, 4>& weights_of(const LinearQuery& query)
+{
+    return query.weights;
+}
+
+/// P as it stands to the light; made again only when the pixel changes.
+class LitPoint {
+public:
+    LitPoint(const SeenPixels& seen, const LightDepth& depth) : seen_{seen}, depth_{depth} {}
+
+    void move_to(std::size_t pixel)
+    {
+        if (pixel == pixel_) {
+            return;
+        }
+        pixel_ = pixel;
+        facet_ = seen_.facet_of(pixel);
+        ray_ = seen_.ray_of(pixel);
+        SignCounts counts;
+        receiver_ = Receiver{facet_, ray_, counts};
+        term_ = receiver_.delta_sign == 0 ? DepthTerm{}
+                                          : DepthTerm{depth_, depth_.along(ray_.ray), receiver_};
+    }
+    [[nodiscard]] const DepthTerm& term() const { return term_; }
+
+private:
+    const SeenPixels& seen_;
+    const LightDepth& depth_;
+    std::size_t pixel_ = static_cast<std::size_t>(-1);
+    Facet facet_;
+    CameraRay ray_;
+    Receiver receiver_;
+    DepthTerm term_;
+};
+
+class LightRays final : public scene::ExactLight {
+public:
+    LightRays(const ReferenceScene& reference, const View& view,
+              const Image<std::uint32_t>& receivers, int resolution_texels, scene::Cull cull,
+              int threads)
+        : reference_{reference.implementation()},
+          view_{view},
+          seen_{reference_.triangles, view, receivers},
+          rays_{view.frustum, view.light, resolution_texels},
+          depth_{view.frustum},
+          cull_{cull},
+          segments_{reference_, view.light},
+          threads_{threads}
+    {
+    }
+
+    std::vector<TexelHit> first_hits(std::span<const Texel> texels) const override
+    {
+        for (const Texel& texel : texels) {
+            check(texel);
+        }
+        const TexelFirstHits finder{reference_, rays_, depth_, cull_};
+        std::vector<TexelHit> hits(texels.size());
+        with_threads(threads_, [&] {
+            const TexelOrder order{texels};
+            for_each_packet(texels.size(), 0, [&](std::size_t first, std::size_t count) {
+                PacketOf<Texel> packet;
+                PacketOf<TexelHit> found;
+                for (std::size_t i = 0; i < count; ++i) {
+                    packet[i] = texels[order[first + i]];
+                }
+                finder.find(std::span{packet}.first(count), std::span{found}.first(count));
+                for (std::size_t i = 0; i < count; ++i) {
+                    hits[order[first + i]] = found[i];
+                }
+            });
+        });
+        reference_.errors.check("first_hits");
+        return hits;
+    }
+
+    std::vector<float> critical_biases(std::span<const NearestQuery> queries,
+                                       bool clamps) const override
+    {
+        return find_biases(queries, clamps);
+    }
+    std::vector<float> critical_biases(std::span<const LinearQuery> queries,
+                                       bool clamps) const override
+    {
+        return find_biases(queries, clamps);
+    }
+
+    std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels) const override
+    {
+        seen_.check(pixels, "are_crossed");
+        std::vector<std::uint8_t> crossed(pixels.size(), 0);
+        for_each_packet(pixels.size(), threads_, [&](std::size_t first, std::size_t count) {
+            SignCounts counts;
+            const PixelPacket packet{seen_, pixels.subspan(first, count), counts};
+            if (!packet.valid.any()) {
+                return;
+            }
+            const auto contacts =
+                trace_segments(reference_, segments_, packet.valid, packet.receivers,
+                               SegmentGoal::any_blocker, counts, {&depth_, cull_});
+            for (std::size_t i = 0; i < count; ++i) {
+                crossed[first + i] = contacts[i].witness != no_triangle ? 1 : 0;
+            }
+        });
+        reference_.errors.check("are_crossed");
+        return crossed;
+    }
+
+    std::vector<std::uint8_t> are_own_sheets(std::span<const SheetQuery> queries) const override
+    {
+        return std::vector<std::uint8_t>(queries.size(), 0);
+    }
+
+    std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels) const override
+    {
+        seen_.check(pixels, "find_blockers");
+        std::vector<BlockerHit> hits(pixels.size());
+        for_each_packet(pixels.size(), threads_, [&](std::size_t first, std::size_t count) {
+            SignCounts counts;
+            const PixelPacket packet{seen_, pixels.subspan(first, count), counts};
+            if (!packet.valid.any()) {
+                return;
+            }
+            const auto contacts =
+                trace_segments(reference_, segments_, packet.valid, packet.receivers,
+                               SegmentGoal::nearest_blocker, counts);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (contacts[i].witness != no_triangle) {
+                    hits[first + i] = blocker_hit(packet.receivers[i], contacts[i].witness);
+                }
+            }
+        });
+        reference_.errors.check("find_blockers");
+        return hits;
+    }
+
+private:
+    template <typename Query>
+    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
+    {
+        check(queries);
+        const CriticalBias critical{reference_.triangles, rays_, depth_};
+        std::vector<float> biases(queries.size());
+        with_threads(threads_, [&] {
+            tbb::parallel_for(tbb::blocked_range<std::size_t>{0, queries.size(), 256},
+                              [&](const tbb::blocked_range<std::size_t>& range) {
+                                  LitPoint point{seen_, depth_};
+                                  for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                                      point.move_to(queries[i].pixel);
+                                      biases[i] = critical.find(
+                                          clamps ? point.term().clamped() : point.term(),
+                                          taps_of(queries[i]), weights_of(queries[i]));
+                                  }
+                              });
+        });
+        return biases;
+    }
+
+    template <typename Query>
+    void check(std::span<const Query> queries) const
+    {
+        for (const Query& query : queries) {
+            seen_.check({&query.pixel, 1}, "critical_biases");
+            for (const ExactTap& tap : taps_of(query)) {
+                if (tap.triangle != no_triangle) {
+                    check(tap.texel);
+                    check(tap.triangle);
+                }
+            }
+        }
+    }
+    void check(Texel texel) const
+    {
+        const int n = rays_.resolution_texels();
+        if (texel.x < 0 || texel.y < 0 || texel.x >= n || texel.y >= n) {
+            throw std::invalid_argument{fmt::format(
+                "ExactLight: texel ({}, {}) is outside the map of {} texels", texel.x, texel.y, n)};
+        }
+    }
+    void check(std::uint32_t triangle) const
+    {
+        if (triangle >= reference_.triangles.triangles.size()) {
+            throw std::invalid_argument{
+                fmt::format("ExactLight: triangle {} is not in the scene", triangle)};
+        }
+    }
+
+    [[nodiscard]] BlockerHit blocker_hit(const Receiver& receiver, std::uint32_t blocker) const
+    {
+        const scene::Light& light = view_.light;
+        const bool is_sun = light.type == scene::LightType::directional;
+        const Vec3d point = sharp_point(receiver);
+        const Vec3d towards = is_sun ? -light.direction : -exact_offset(receiver, light.position);
+        const double way =
+            way_to_crossing(receiver, corners_of(reference_.triangles, blocker), light);
+        return {blocker, way * glm::length(towards), view_.frustum.zeta_m(point + way * towards),
+                view_.frustum.zeta_m(point)};
+    }
+
+    const ReferenceScene::Implementation& reference_;
+    const View& view_;
+    SeenPixels seen_;
+    TexelRays rays_;
+    LightDepth depth_;
+    scene::Cull cull_;
+    SegmentLight segments_;
+    int threads_;
+};
+
+} // namespace
+
+std::unique_ptr<scene::ExactLight> make_exact_light(const ReferenceScene& reference,
+                                                    const View& view,
+                                                    const Image<std::uint32_t>& receivers,
+                                                    int resolution_texels, scene::Cull cull,
+                                                    int threads)
+{
+    if (!reference.implementation().padded || receivers.size() != view.image) {
+        throw std::invalid_argument{"make_exact_light: the reference must serve exact truth, and "
+                                    "receivers be of the image's size"};
+    }
+    if (resolution_texels < 1 || resolution_texels > 16384) {
+        throw std::invalid_argument{fmt::format(
+            "make_exact_light: resolution_texels = {} is not in [1, 16384]", resolution_texels)};
+    }
+    return std::make_unique<LightRays>(reference, view, receivers, resolution_texels, cull,
+                                       threads);
+}
+
+} // namespace gnomon::reference_rt

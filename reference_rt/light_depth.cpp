@@ -1,0 +1,110 @@
+#include "reference_rt/light_depth.hpp"
+
+#include "reference_rt/terms.hpp"
+
+#include <cmath>
+
+namespace gnomon::reference_rt {
+
+using scene::Ray;
+using scene::Vec3d;
+using scene::Vec4d;
+
+namespace {
+
+/// |δ| row·(P, 1)
+Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, Dyadic>& plane)
+{
+    const Ray& ray = hit.ray();
+    const auto axis = vector<ExactField>(Vec3d{row});
+    const Dyadic value = plane.delta * (dot(axis, vector<ExactField>(ray.origin)) + Dyadic{row.w}) +
+                         plane.nu * dot(axis, vector<ExactField>(ray.direction));
+    return hit.delta_sign > 0 ? value : Dyadic{} - value;
+}
+
+} // namespace
+
+LightDepth::LightDepth(const scene::LightFrustum& frustum) : frustum_{frustum}, rows_{frustum} {}
+
+ClipLine LightDepth::along(const Ray& ray) const
+{
+    return {row_at(rows_.z, ray.origin, 1), row_at(rows_.z, ray.direction, 0),
+            row_at(rows_.w, ray.origin, 1), row_at(rows_.w, ray.direction, 0)};
+}
+
+Bounded LightDepth::at(const ClipLine& line, const Bounded& t) const
+{
+    const Bounded ratio = line.z(t) / line.w(t);
+    constexpr Bounded half{0.5, 0};
+    return is_reversed() ? ratio : half * ratio + half;
+}
+
+bool LightDepth::is_level(const Facet& facet) const
+{
+    const auto slope = cross(vector<FilterField>(Vec3d{rows_.z}), facet.normal);
+    return Vec3d{rows_.w} == Vec3d{0.0} && slope.x.permanent == 0 && slope.y.permanent == 0 &&
+           slope.z.permanent == 0;
+}
+
+Fraction LightDepth::exactly_at(const Receiver& hit) const
+{
+    if (is_level(*hit.facet)) { // short numbers, for a common case that doubles never decide
+        const Dyadic w{rows_.w.w};
+        const Dyadic z =
+            dot(vector<ExactField>(Vec3d{rows_.z}), vector<ExactField>(hit.corners()[0])) +
+            Dyadic{rows_.z.w};
+        return is_reversed() ? Fraction{z, w} : Fraction{z + w, w + w};
+    }
+    const auto plane = plane_hit(ExactField{}, hit);
+    const Dyadic z = scaled_row(rows_.z, hit, plane);
+    const Dyadic w = scaled_row(rows_.w, hit, plane);
+    return is_reversed() ? Fraction{z, w} : Fraction{z + w, w + w};
+}
+
+bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit) const
+{
+    const Bounded t = parameter_of(hit);
+    const Bounded w = line.w(t);
+    const Bounded depth = at(line, t);
+    const Bounded rest = Bounded{1, 0} - depth;
+    if (w.is_certainly_positive() && depth.is_certainly_positive() &&
+        rest.is_certainly_positive()) {
+        return true;
+    }
+    if (w.is_certainly_negative() || depth.is_certainly_negative() ||
+        rest.is_certainly_negative()) {
+        return false;
+    }
+    const Fraction exact = exactly_at(hit);
+    return exact.denominator.sign() > 0 && exact.sign() >= 0 &&
+           (exact - Fraction{Dyadic{1}, Dyadic{1}}).sign() <= 0;
+}
+
+double LightDepth::depth(const ClipLine& line, const Receiver& hit) const
+{
+    const Bounded depth = at(line, parameter_of(hit));
+    return depth.error <= 0x1p-48 ? depth.value : exactly_at(hit).value();
+}
+
+double LightDepth::zeta_m(const Receiver& hit) const
+{
+    const Ray& ray = hit.ray();
+    const Vec3d& forward = frustum_.forward;
+    const Vec3d& origin = frustum_.origin;
+    const std::array<double, 6> axis{forward.x,  forward.y,  forward.z,
+                                     -forward.x, -forward.y, -forward.z};
+    const Bounded start = compensated_dot<6>(
+        axis, {ray.origin.x, ray.origin.y, ray.origin.z, origin.x, origin.y, origin.z});
+    const Bounded step = row_at(Vec4d{forward, 0}, ray.direction, 0);
+    const Bounded zeta = start + parameter_of(hit) * step;
+    if (zeta.error <= 0x1p-45 * std::abs(zeta.value)) {
+        return zeta.value;
+    }
+    const auto plane = plane_hit(ExactField{}, hit);
+    const auto along = vector<ExactField>(forward);
+    return Dyadic::quotient(plane.delta * dot(along, difference<ExactField>(ray.origin, origin)) +
+                                plane.nu * dot(along, vector<ExactField>(ray.direction)),
+                            plane.delta);
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "reference_rt/bounded.hpp"
+#include "reference_rt/dyadic.hpp"
+#include "reference_rt/predicates.hpp"
+#include "reference_rt/texel_rays.hpp"
+#include "scene/camera.hpp"
+#include "scene/light_frustum.hpp"
+
+namespace gnomon::reference_rt {
+
+/// z and w of the light's clip space along a ray, each as start + t·step.
+struct ClipLine {
+    Bounded z_start, z_step;
+    Bounded w_start, w_step;
+
+    [[nodiscard]] Bounded z(const Bounded& t) const { return z_start + t * z_step; }
+    [[nodiscard]] Bounded w(const Bounded& t) const { return w_start + t * w_step; }
+};
+
+/// A number as a quotient.
+struct Fraction {
+    Dyadic numerator;
+    Dyadic denominator;
+
+    [[nodiscard]] Sign sign() const { return numerator.sign() * denominator.sign(); }
+    /// Within 2^-52 of its size.
+    [[nodiscard]] double value() const { return Dyadic::quotient(numerator, denominator); }
+    friend Fraction operator-(const Fraction& a, const Fraction& b)
+    {
+        return {a.numerator * b.denominator - b.numerator * a.denominator,
+                a.denominator * b.denominator};
+    }
+};
+
+/// The matrix depth that the float32 `light_clip_from_world` gives to a point H, with Z and W two
+/// of its rows: ½(Z·H)/(W·H) + ½, or reversed (Z·H)/(W·H).
+class LightDepth {
+public:
+    explicit LightDepth(const scene::LightFrustum& frustum);
+
+    [[nodiscard]] const ClipRows& rows() const { return rows_; }
+    [[nodiscard]] bool is_reversed() const { return frustum_.reversed; }
+
+    [[nodiscard]] ClipLine along(const scene::Ray& ray) const;
+
+    /// Depth where the ray of `line` meets a plane at `t`.
+    [[nodiscard]] Bounded at(const ClipLine& line, const Bounded& t) const;
+    /// The same point's depth, exactly. The denominator has the sign of W·H: 0 in the light's
+    /// camera plane. Precondition: δ is not 0.
+    [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
+
+    /// True when the point is in front of the light and its depth in [0, 1].
+    [[nodiscard]] bool is_in_range(const ClipLine& line, const Receiver& hit) const;
+
+    /// The point's depth, within 2^-48 where it is in [0, 1].
+    [[nodiscard]] double depth(const ClipLine& line, const Receiver& hit) const;
+    /// ζ [m] of the point, to a relative 2^-44.
+    [[nodiscard]] double zeta_m(const Receiver& hit) const;
+
+private:
+    /// True where the facet's plane certainly has one depth: it faces a directional light.
+    [[nodiscard]] bool is_level(const Facet& facet) const;
+
+    const scene::LightFrustum& frustum_;
+    ClipRows rows_;
+};
+
+/// The parameter of a hit and its error.
+[[nodiscard]] inline Bounded parameter_of(const Receiver& hit)
+{
+    return {hit.t, hit.t_error};
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "reference_rt/embree_scene.hpp"
+#include "reference_rt/packet.hpp"
+#include "reference_rt/predicates.hpp"
+#include "reference_rt/tiles.hpp"
+#include "scene/image.hpp"
+#include "scene/job.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace gnomon::reference_rt {
+
+/// The pixels of one view with GL's triangle in each. Everything must outlive it.
+struct SeenPixels {
+    const scene::TriangleScene& triangles;
+    const scene::View& view;
+    const scene::Image<std::uint32_t>& receivers;
+
+    [[nodiscard]] CameraRay ray_of(std::size_t pixel) const
+    {
+        const auto width = static_cast<std::size_t>(view.image.width_px);
+        return CameraRay{pixel_ray(view.camera, view.image, static_cast<int>(pixel % width),
+                                   static_cast<int>(pixel / width))};
+    }
+    [[nodiscard]] Facet facet_of(std::size_t pixel) const
+    {
+        return {receivers[pixel], corners_of(triangles, receivers[pixel])};
+    }
+    /// @throws std::invalid_argument  naming `caller`, if a pixel has no receiver in the scene.
+    void check(std::span<const std::size_t> pixels, const char* caller) const;
+};
+
+/// The receivers of up to sixteen pixels, wherever they are. It stays where it is, as receivers
+/// refer to rays and facets.
+struct PixelPacket {
+    PixelPacket(const SeenPixels& seen, std::span<const std::size_t> pixels, SignCounts& counts)
+    {
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            facets[i] = seen.facet_of(pixels[i]);
+            rays[i] = seen.ray_of(pixels[i]);
+            receivers[i] = Receiver{facets[i], rays[i], counts};
+            if (receivers[i].delta_sign != 0) {
+                valid.add(i);
+            }
+        }
+    }
+    PixelPacket(const PixelPacket&) = delete;
+    PixelPacket& operator=(const PixelPacket&) = delete;
+
+    PacketMask valid; ///< lanes with a point P: not edge-on
+    PacketOf<Facet> facets;
+    PacketOf<CameraRay> rays;
+    PacketOf<Receiver> receivers;
+};
+
+/// Calls `run(first, count)` for runs of at most sixteen of `total`, several at the same time.
+template <typename Run>
+void for_each_packet(std::size_t total, int threads, const Run& run)
+{
+    with_threads(threads, [&] {
+        tbb::parallel_for(std::size_t{0}, (total + packet_size - 1) / packet_size,
+                          [&](std::size_t packet) {
+                              const std::size_t first = packet * packet_size;
+                              run(first, std::min(packet_size, total - first));
+                          });
+    });
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "reference_rt/embree_scene.hpp"
+#include "reference_rt/light_depth.hpp"
+#include "reference_rt/pencil.hpp"
+#include "reference_rt/texel_rays.hpp"
+#include "scene/exact_light.hpp"
+#include "scene/job.hpp"
+
+#include <span>
+
+namespace gnomon::reference_rt {
+
+/// Finds what the light sees through the centres of texels.
+class TexelFirstHits {
+public:
+    /// All arguments must outlive it.
+    TexelFirstHits(const ReferenceScene::Implementation& reference, const TexelRays& rays,
+                   const LightDepth& depth, scene::Cull cull)
+        : reference_{reference},
+          rays_{rays},
+          depth_{depth},
+          cull_{cull},
+          pencil_{reference.frame, rays.light()}
+    {
+    }
+
+    /// The first hits of at most a packet of texels, best neighbours.
+    void find(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
+
+private:
+    const ReferenceScene::Implementation& reference_;
+    const TexelRays& rays_;
+    const LightDepth& depth_;
+    scene::Cull cull_;
+    Pencil pencil_;
+};
+
+} // namespace gnomon::reference_rt

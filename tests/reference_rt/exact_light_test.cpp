@@ -1,0 +1,155 @@
+#include "light_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace gnomon::reference_rt::test {
+namespace {
+
+constexpr std::array culls{Cull::none, Cull::front, Cull::back};
+
+/// Runs `check` for every light over scenes at random and on a lattice.
+template <typename Check>
+void for_each_case(const Check& check)
+{
+    for (const LightCase& light : light_cases()) {
+        for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+            const bool is_lattice = seed % 2 == 0;
+            SCOPED_TRACE(testing::Message() << light.name << ", seed " << seed);
+            check(LitScene{random_sheets(seed, is_lattice), light.light, light.frustum});
+        }
+    }
+}
+
+TEST(FirstHits, AreThoseOfBruteForceInRationals)
+{
+    int hits = 0;
+    for_each_case([&](const LitScene& lit) {
+        for (const Cull cull : culls) {
+            const auto texels = lit.all_texels();
+            const auto found = lit.exact_light(cull)->first_hits(texels);
+            ASSERT_EQ(found.size(), texels.size());
+            for (std::size_t i = 0; i < texels.size(); ++i) {
+                const scene::Ray ray = lit.texel_ray(texels[i]);
+                const Passing first = first_hit_of(lit.triangles, lit.view, ray, cull);
+                ASSERT_EQ(found[i].triangle, first.triangle)
+                    << "texel " << texels[i].x << ' ' << texels[i].y << ", cull "
+                    << scene::cull_name(cull);
+                if (first.triangle == no_triangle) {
+                    EXPECT_EQ(found[i].depth, lit.view.frustum.reversed ? 0 : 1);
+                    EXPECT_EQ(found[i].zeta_m, std::numeric_limits<double>::infinity());
+                    continue;
+                }
+                ++hits;
+                const RationalVec point =
+                    RationalVec{ray.origin} + first.t * RationalVec{ray.direction};
+                const Rational depth = *matrix_depth(lit.view.frustum, point);
+                EXPECT_LE(abs(depth - Rational{found[i].depth}), Rational{0x1p-48});
+                const Rational zeta = dot(RationalVec{lit.view.frustum.forward},
+                                          point - RationalVec{lit.view.frustum.origin});
+                EXPECT_LE(abs(zeta - Rational{found[i].zeta_m}), 0x1p-44 * abs(zeta));
+            }
+        }
+    });
+    EXPECT_GT(hits, 5000);
+}
+
+TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
+{
+    int crossed = 0;
+    int pixels_tried = 0;
+    for_each_case([&](const LitScene& lit) {
+        const auto pixels = lit.scored_pixels();
+        for (const Cull cull : culls) {
+            const auto answers = lit.exact_light(cull)->are_crossed(pixels);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const bool expected =
+                    is_crossed(lit.triangles, lit.view, lit.point(pixels[i]), cull);
+                ASSERT_EQ(answers[i], expected ? 1 : 0)
+                    << "pixel " << pixels[i] << ", cull " << scene::cull_name(cull);
+                crossed += expected ? 1 : 0;
+                ++pixels_tried;
+            }
+        }
+    });
+    EXPECT_GT(crossed, 500);
+    EXPECT_GT(pixels_tried - crossed, 500);
+}
+
+/// The exact depth of a tap.
+Rational tap_depth(const LitScene& lit, const ExactTap& tap)
+{
+    if (tap.triangle == no_triangle) {
+        return Rational{double{tap.constant}};
+    }
+    const scene::Ray ray = lit.texel_ray(tap.texel);
+    return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));
+}
+
+float expected_bias(const LitScene& lit, std::size_t pixel, const Rational& depth, bool clamps)
+{
+    Rational r = *matrix_depth(lit.view.frustum, lit.point(pixel));
+    if (clamps) {
+        r = r < 0 ? Rational{0} : r > 1 ? Rational{1} : r;
+    }
+    return smallest_bias(lit.view.frustum.reversed ? Rational{depth - r} : Rational{r - depth});
+}
+
+TEST(CriticalBiases, AreThoseOfRationalsForOneTap)
+{
+    for_each_case([&](const LitScene& lit) {
+        std::mt19937 random{7};
+        const auto light = lit.exact_light();
+        const auto texels = lit.all_texels();
+        const auto hits = light->first_hits(texels);
+        std::vector<NearestQuery> queries;
+        for (const std::size_t pixel : lit.scored_pixels()) {
+            const std::size_t texel = random() % texels.size();
+            queries.push_back({pixel, {texels[texel], hits[texel].triangle, 0.75F}});
+        }
+        for (const bool clamps : {false, true}) {
+            const auto biases = light->critical_biases(std::span{queries}, clamps);
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                EXPECT_EQ(biases[i], expected_bias(lit, queries[i].pixel,
+                                                   tap_depth(lit, queries[i].tap), clamps))
+                    << "pixel " << queries[i].pixel;
+            }
+        }
+    });
+}
+
+TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
+{
+    for_each_case([&](const LitScene& lit) {
+        std::mt19937 random{8};
+        std::uniform_real_distribution<float> fraction{0, 1};
+        const auto light = lit.exact_light();
+        const auto texels = lit.all_texels();
+        const auto hits = light->first_hits(texels);
+        std::vector<LinearQuery> queries;
+        for (const std::size_t pixel : lit.scored_pixels()) {
+            LinearQuery query{pixel, {}, {}};
+            const double u = fraction(random);
+            const double v = fraction(random);
+            query.weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+            for (ExactTap& tap : query.taps) {
+                const std::size_t texel = random() % texels.size();
+                tap = {texels[texel], hits[texel].triangle, 1};
+            }
+            queries.push_back(query);
+        }
+        const auto biases = light->critical_biases(std::span{queries}, false);
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            Rational depth = 0;
+            for (std::size_t k = 0; k < 4; ++k) {
+                depth += Rational{queries[i].weights[k]} * tap_depth(lit, queries[i].taps[k]);
+            }
+            EXPECT_EQ(biases[i], expected_bias(lit, queries[i].pixel, depth, false))
+                << "pixel " << queries[i].pixel;
+        }
+    });
+}
+
+} // namespace
+} // namespace gnomon::reference_rt::test

@@ -1,0 +1,191 @@
+#pragma once
+
+#include "exact_oracle.hpp"
+#include "reference_rt/texel_rays.hpp"
+#include "scene/exact_light.hpp"
+#include "scene/job.hpp"
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+/// What an exact light must answer, by trying every triangle in rationals.
+namespace gnomon::reference_rt::test {
+
+/// A point where a line passes through the surface.
+struct Passing {
+    Rational t;
+    std::uint32_t triangle = scene::no_triangle;
+};
+
+/// A triangle that a line meets exactly on one edge.
+struct EdgePassing {
+    Rational t;
+    std::uint32_t triangle;
+    scene::Vec3f from, to;
+    int side; ///< of the third corner from the line, across the edge
+};
+
+inline int sign(const Rational& x)
+{
+    return x.sign();
+}
+
+/// Edge k of a barycentric triple (w, u, v) that is zero runs between the two other corners.
+inline std::optional<std::size_t> single_zero(const std::array<Rational, 3>& weight)
+{
+    std::optional<std::size_t> zero;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (weight[i] == 0) {
+            if (zero) {
+                return std::nullopt;
+            }
+            zero = i;
+        }
+    }
+    return zero;
+}
+
+/// Where origin + t·step properly crosses casting triangles that `is_left`, or seams of two.
+/// @param is_left  for the sign of normal·step.
+inline std::vector<Passing> passings(const scene::TriangleScene& scene, const RationalVec& origin,
+                                     const RationalVec& step,
+                                     const std::function<bool(int)>& is_left)
+{
+    std::vector<Passing> found;
+    std::vector<EdgePassing> edges;
+    for (const auto& range : scene::casting_ranges(scene)) {
+        for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
+            const auto corner = scene.corners(t);
+            const auto hit = hit_of(origin, step, corner);
+            if (!hit || hit->is_outside()) {
+                continue;
+            }
+            const RationalVec a{scene::Vec3d{corner[0]}};
+            const RationalVec normal = cross(RationalVec{scene::Vec3d{corner[1]}} - a,
+                                             RationalVec{scene::Vec3d{corner[2]}} - a);
+            if (!is_left(sign(dot(normal, step)))) {
+                continue;
+            }
+            if (hit->is_inside()) {
+                found.push_back({hit->t, t});
+                continue;
+            }
+            const auto zero = single_zero({1 - hit->u - hit->v, hit->u, hit->v});
+            if (zero) {
+                const auto from = corner[(*zero + 1) % 3];
+                const auto to = corner[(*zero + 2) % 3];
+                const auto apex = corner[*zero];
+                const RationalVec start{scene::Vec3d{from}};
+                // The line's own reckoning of the side must not depend on the edge's sense.
+                const bool is_turned =
+                    std::tie(from.x, from.y, from.z) > std::tie(to.x, to.y, to.z);
+                const int side = sign(dot(cross(RationalVec{scene::Vec3d{to}} - start, step),
+                                          RationalVec{scene::Vec3d{apex}} - start)) *
+                                 (is_turned ? -1 : 1);
+                edges.push_back({hit->t, t, is_turned ? to : from, is_turned ? from : to, side});
+            }
+        }
+    }
+    for (const EdgePassing& a : edges) {
+        for (const EdgePassing& b : edges) {
+            if (a.from == b.from && a.to == b.to && a.side * b.side < 0) {
+                found.push_back({a.t, std::min(a.triangle, b.triangle)});
+            }
+        }
+    }
+    return found;
+}
+
+/// Whether the culling leaves what faces the light (1) or turns its back on it (−1).
+inline bool culling_leaves(scene::Cull cull, int facing)
+{
+    return facing != 0 && !(cull == scene::Cull::front && facing > 0) &&
+           !(cull == scene::Cull::back && facing < 0);
+}
+
+/// The exact matrix depth of a point; empty where it is not in front of the light.
+inline std::optional<Rational> matrix_depth(const scene::LightFrustum& frustum,
+                                            const RationalVec& point)
+{
+    const auto& m = frustum.light_clip_from_world;
+    const auto row = [&](int i) {
+        return Rational{double{m[0][i]}} * point.x + Rational{double{m[1][i]}} * point.y +
+               Rational{double{m[2][i]}} * point.z + Rational{double{m[3][i]}};
+    };
+    const Rational w = row(3);
+    if (w <= 0) {
+        return std::nullopt;
+    }
+    const Rational ratio = row(2) / w;
+    return frustum.reversed ? ratio : Rational{(ratio + 1) / 2};
+}
+
+inline bool is_between_near_and_far(const scene::LightFrustum& frustum, const RationalVec& point)
+{
+    const auto depth = matrix_depth(frustum, point);
+    return depth && *depth >= 0 && *depth <= 1;
+}
+
+/// The first hit along a texel's ray; `no_triangle` without one.
+inline Passing first_hit_of(const scene::TriangleScene& scene, const scene::View& view,
+                            const scene::Ray& ray, scene::Cull cull)
+{
+    const RationalVec origin{ray.origin};
+    const RationalVec step{ray.direction};
+    Passing first;
+    for (const Passing& passing :
+         passings(scene, origin, step, [&](int side) { return culling_leaves(cull, -side); })) {
+        if (!is_between_near_and_far(view.frustum, origin + passing.t * step)) {
+            continue;
+        }
+        if (first.triangle == scene::no_triangle || passing.t < first.t ||
+            (passing.t == first.t && passing.triangle < first.triangle)) {
+            first = passing;
+        }
+    }
+    return first;
+}
+
+/// Whether the light reaches P past what a map could hold.
+inline bool is_crossed(const scene::TriangleScene& scene, const scene::View& view,
+                       const RationalVec& point, scene::Cull cull)
+{
+    const bool is_sun = view.light.type == scene::LightType::directional;
+    const RationalVec step =
+        is_sun ? RationalVec{-view.light.direction} : RationalVec{view.light.position} - point;
+    for (const Passing& passing :
+         passings(scene, point, step, [&](int side) { return culling_leaves(cull, side); })) {
+        if (passing.t > 0 && (is_sun || passing.t < 1) &&
+            is_between_near_and_far(view.frustum, point + passing.t * step)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The smallest bias that is not below x, found by walking from a float nearby.
+inline float smallest_bias(const Rational& x)
+{
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const auto is_bias = [](float b) { return b == 0 || std::isnormal(b); };
+    auto bias = static_cast<float>(x.convert_to<double>());
+    bias = is_bias(bias) ? bias : 0.0F;
+    const auto stepped = [&](float from, float towards) {
+        float next = std::nextafter(from, towards);
+        if (!is_bias(next)) { // across the subnormal numbers
+            const float edge = std::copysign(std::numeric_limits<float>::min(), next);
+            next = from == 0 ? edge : 0.0F;
+        }
+        return next;
+    };
+    while (Rational{double{bias}} < x) {
+        bias = stepped(bias, infinity);
+    }
+    while (Rational{double{stepped(bias, -infinity)}} >= x) {
+        bias = stepped(bias, -infinity);
+    }
+    return bias;
+}
+
+} // namespace gnomon::reference_rt::test
