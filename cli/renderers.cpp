@@ -1,6 +1,7 @@
 #include "cli/renderers.hpp"
 
 #include "raster_gl/clip_positions.hpp"
+#include "reference_rt/exact_light.hpp"
 
 #include <stdexcept>
 
@@ -69,6 +70,15 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
         return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
     };
     renderers.read_map_depths = [&gl] { return gl.read_map_depths(); };
+    if (options.method == reference_rt::TruthMethod::exact) {
+        renderers.make_exact_light = [&reference, threads = options.threads](
+                                         const scene::Job& job, const scene::View& view,
+                                         const scene::ReceiverLayers& receivers) {
+            return reference_rt::make_exact_light(reference, view, receivers.triangle,
+                                                  job.shadow_map.resolution_texels,
+                                                  job.shadow_map.cull, threads);
+        };
+    }
     const bool is_float = options.method == reference_rt::TruthMethod::plain;
     renderers.truth_method = is_float ? "float" : "exact";
     renderers.subpixel_bits = facts.subpixel_bits;
