@@ -2,6 +2,7 @@
 
 #include "analysis/exact_lookup.hpp"
 #include "analysis/footprint.hpp"
+#include "analysis/own_sheets.hpp"
 #include "analysis/texel_hits.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ class CauseFinder {
 public:
     explicit CauseFinder(const CauseInputs& inputs)
         : inputs_{inputs},
-          rules_{inputs.lookup, inputs.resolution_texels, inputs.reversed},
+          rules_{inputs.rules()},
           footprint_{inputs.lookup, inputs.resolution_texels},
           causes_{inputs.truth.pixel_class.size()}
     {
@@ -30,10 +31,9 @@ public:
 
     scene::Image<PixelCause> find()
     {
-        const auto width = static_cast<std::size_t>(filter_width_texels(inputs_.lookup.filter));
-        const std::size_t at_once = taps_at_once / (width * width);
-        Lookups lit{{}, {}, width * width};
-        Lookups blocked{{}, {}, width * width};
+        const std::size_t at_once = taps_at_once / footprint_.tap_count();
+        Lookups lit{{}, {}, footprint_.tap_count()};
+        Lookups blocked{{}, {}, footprint_.tap_count()};
         for (std::size_t pixel = 0; pixel < causes_.pixel_count(); ++pixel) {
             collect(pixel, lit, blocked);
             if (lit.pixels.size() + blocked.pixels.size() >= at_once) {
@@ -92,7 +92,10 @@ private:
             const bool is_lit = !is_uncovered(pixel) || inputs_.lookup.outside == Outside::lit;
             causes_[pixel] = {is_lit ? Cause::resolution : Cause::coverage, false, critical[i]};
         }
-        find_own_sheets(lookups, hits);
+        const auto own = sees_own_sheets(inputs_, lookups, hits);
+        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
+            causes_[lookups.pixels[i]].sees = own[i];
+        }
     }
 
     /// True where an infinitely fine map has nothing to say of P.
@@ -100,66 +103,6 @@ private:
     {
         return !footprint_.is_inside(inputs_.unbiased.texels[pixel]) ||
                rules_.is_beyond_far(inputs_.unbiased.samples[pixel].receiver_depth);
-    }
-
-    /// The depth that the map stores at a tap: GL's.
-    [[nodiscard]] float stored_depth(std::size_t pixel, const Tap& tap) const
-    {
-        if (inputs_.lookup.filter == scene::Filter::nearest) {
-            return inputs_.unbiased.samples[pixel].map_depth;
-        }
-        // The map's rows are counted from the top, texels from the bottom.
-        return inputs_.map_depths(tap.texel.x, inputs_.resolution_texels - 1 - tap.texel.y);
-    }
-
-    [[nodiscard]] bool shadows(std::size_t pixel, const Tap& tap) const
-    {
-        if (!tap.is_inside && !interpolates()) {
-            return inputs_.lookup.outside == Outside::shadowed;
-        }
-        const float depth = tap.is_inside ? stored_depth(pixel, tap) : rules_.border_depth();
-        return !rules_.is_lit(inputs_.unbiased.samples[pixel].receiver_depth, depth);
-    }
-
-    [[nodiscard]] bool interpolates() const
-    {
-        return inputs_.lookup.filter == scene::Filter::linear ||
-               inputs_.lookup.filter == scene::Filter::hardware;
-    }
-
-    /// `sees`: at least half, by weight, of the taps that shadow see the receiver's own sheet.
-    void find_own_sheets(const Lookups& lookups, const TexelHits& hits)
-    {
-        std::vector<scene::SheetQuery> queries;
-        std::vector<std::size_t> lookup_of;
-        std::vector<double> weights;
-        std::vector<double> balance(lookups.pixels.size()); // own sheet's weight less the others'
-        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
-            for (const Tap& tap : lookups.taps_of(i)) {
-                if (!shadows(lookups.pixels[i], tap)) {
-                    continue;
-                }
-                balance[i] -= tap.weight;
-                const std::uint32_t triangle =
-                    tap.is_inside ? hits[tap.texel].triangle : scene::no_triangle;
-                if (triangle != scene::no_triangle) {
-                    queries.push_back({lookups.pixels[i], tap.texel, triangle});
-                    lookup_of.push_back(i);
-                    weights.push_back(tap.weight);
-                }
-            }
-        }
-        const auto own = inputs_.light.are_own_sheets(queries);
-        std::vector<bool> has_own(lookups.pixels.size());
-        for (std::size_t q = 0; q < queries.size(); ++q) {
-            if (own[q] != 0) {
-                balance[lookup_of[q]] += 2 * weights[q];
-                has_own[lookup_of[q]] = true;
-            }
-        }
-        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
-            causes_[lookups.pixels[i]].sees = has_own[i] && balance[i] >= 0;
-        }
     }
 
     void explain_blocked(const Lookups& lookups, const TexelHits& hits)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/cause.hpp"
+#include "analysis/lookup_rules.hpp"
 #include "scene/exact_light.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
@@ -45,6 +46,8 @@ struct CauseInputs {
     const scene::LookupLayers& unbiased;   ///< the lookup at the receiver itself, all biases zero
     const scene::Image<float>& map_depths; ///< as shaders see them; empty for `nearest`
     const scene::ExactLight& light;
+
+    [[nodiscard]] LookupRules rules() const { return {lookup, resolution_texels, reversed}; }
 };
 
 /// Finds the causes of every scored pixel that the map without bias gets wrong, for all biases.

@@ -1,6 +1,7 @@
 #include "analysis/diagnosis.hpp"
 
 #include "analysis/critical_bias.hpp"
+#include "analysis/own_sheets.hpp"
 #include "analysis/receiver_geometry.hpp"
 
 #include <vector>
@@ -27,6 +28,22 @@ std::vector<std::size_t> pixels_of(const CauseLayers& causes, Label label)
         }
     }
     return pixels;
+}
+
+/// The pixels whose shadow the bias detached from its blocker. Where the map without bias was right
+/// only because the receiver shadowed itself, nothing was attached: there the gap is the distance
+/// to a blocker that the map does not see.
+std::vector<std::size_t> detached(const CauseInputs& inputs, std::span<const std::size_t> pixels)
+{
+    const auto [lookups, hits] = trace_lookups(inputs, pixels);
+    const auto sees_own = sees_own_sheets(inputs, lookups, hits);
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (!sees_own[i]) {
+            result.push_back(pixels[i]);
+        }
+    }
+    return result;
 }
 
 scene::Image<std::uint8_t> acne_flags(const scene::TruthLayers& truth,
@@ -77,11 +94,12 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     const auto light = renderers.make_exact_light(job, view, layers.receivers);
 
     Diagnosis diagnosis;
-    diagnosis.pixels = find_causes({job.lookup, resolution, view.frustum.reversed, layers.truth,
-                                    unbiased, map_depths, *light});
+    const CauseInputs inputs{job.lookup, resolution, view.frustum.reversed, layers.truth, unbiased,
+                             map_depths, *light};
+    diagnosis.pixels = find_causes(inputs);
     diagnosis.causes = classify_errors(layers.truth, layers.lookup, diagnosis.pixels, view.bias);
-    diagnosis.peter_panning = measure_gaps(
-        *light, pixels_of(diagnosis.causes, Label::peter_panning), view.frustum, resolution);
+    const auto panning = detached(inputs, pixels_of(diagnosis.causes, Label::peter_panning));
+    diagnosis.peter_panning = measure_gaps(*light, panning, view.frustum, resolution);
     if (job.lookup.filter != scene::Filter::hardware) {
         const ReceiverGeometry geometry{layers.triangles, view, layers.receivers.triangle};
         diagnosis.biases = answer_biases(lookup_rule(job, view), layers, map_depths,

@@ -175,20 +175,6 @@ private:
 
 } // namespace
 
-bool LookupRules::is_beyond_far(float r) const
-{
-    if (lookup.outside == Outside::clamp) {
-        return reversed ? r <= 0 : r >= 1;
-    }
-    return reversed ? !(r >= 0) : !(r <= 1);
-}
-
-bool LookupRules::is_policy(float r, std::span<const Tap> taps) const
-{
-    return lookup.outside != Outside::clamp &&
-           (is_beyond_far(r) || std::ranges::none_of(taps, &Tap::is_inside));
-}
-
 std::vector<float> exact_critical_biases(const LookupRules& rules, const Lookups& lookups,
                                          const TexelHits& hits, const scene::ExactLight& light)
 {

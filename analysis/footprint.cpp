@@ -56,7 +56,7 @@ std::vector<Tap> Footprint::taps(const Vec2f& point) const
     const std::array<double, 4> bilinear{(1 - right) * (1 - above), right * (1 - above),
                                          (1 - right) * above, right * above};
     std::vector<Tap> taps;
-    taps.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_));
+    taps.reserve(tap_count());
     for (int y = 0; y < width_; ++y) {
         for (int x = 0; x < width_; ++x) {
             Tap tap{{first.x + x, first.y + y}, true, 1};

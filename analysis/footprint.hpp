@@ -32,6 +32,11 @@ public:
     /// all.
     [[nodiscard]] std::vector<Tap> taps(const scene::Vec2f& point) const;
 
+    [[nodiscard]] std::size_t tap_count() const
+    {
+        return static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
+    }
+
     /// The texels of the map around the taps: nearest, the 8 around one; linear and hardware, the
     /// 12 around 2×2; pcfK, the 4K + 4 around K×K.
     [[nodiscard]] std::vector<scene::Texel> ring(const scene::Vec2f& point) const;
