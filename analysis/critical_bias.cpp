@@ -23,7 +23,7 @@ using scene::Vec2f;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t pixels_per_task = 16384;
+constexpr std::size_t pixels_per_task = 4096; // so few that both loops over them hit the cache
 
 /// The lookup's comparison, both depth directions in one form: negating both sides of
 /// fl(r − y) <= d gives fl(y − r) >= −d, for rounding is symmetric.
@@ -45,18 +45,19 @@ struct Comparison {
     }
 };
 
+/// The float below x, or above it, for x other than 0; without branches, so that loops over pixels
+/// become vector instructions.
 float float_below(float x)
 {
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    if (x == 0.0F) {
-        return -std::numeric_limits<float>::denorm_min();
-    }
-    return std::bit_cast<float>(x > 0.0F ? bits - 1 : bits + 1);
+    return std::bit_cast<float>(bits + 2 * (bits >> 31) - 1);
 }
 
-float float_above(float x)
+float stepped_up(float x, bool steps)
 {
-    return -float_below(-x);
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    const std::uint32_t step = steps ? 1 : 0;
+    return std::bit_cast<float>((bits >> 31) != 0 ? bits - step : bits + step);
 }
 
 /// The smallest float32 y with fl(y + addend) >= target, unless the doubles here round.
@@ -64,25 +65,41 @@ float guess_summand(float addend, float target)
 {
     // What lies above the midpoint below the target rounds to it or beyond; the midpoint itself
     // rounds to whichever neighbour is even.
-    const double midpoint = 0.5 * (double{target} + double{float_below(target)});
-    constexpr double largest =
-        0x1p126; // stays away from the ends, where a guess would prove nothing
-    const double least = std::clamp(midpoint - double{addend}, -largest, largest);
+    constexpr float below_zero = -std::numeric_limits<float>::denorm_min();
+    const float below = target == 0.0F ? below_zero : float_below(target);
+    const double least = 0.5 * (double{target} + double{below}) - double{addend};
     const auto y = static_cast<float>(least);
     const bool is_odd = (std::bit_cast<std::uint32_t>(target) & 1) != 0;
-    const bool is_too_small = double{y} < least || (is_odd && double{y} == least);
-    return is_too_small ? float_above(y) : y;
+    return stepped_up(y, (double{y} < least) | (is_odd & (double{y} == least)));
 }
 
 /// The smallest bias that is not below x.
 float bias_from(float x)
 {
     constexpr float smallest_normal = std::numeric_limits<float>::min();
-    if (std::abs(x) < smallest_normal) {
-        return x > 0.0F ? smallest_normal : 0.0F;
-    }
-    return x;
+    const float beside_zero = x > 0.0F ? smallest_normal : 0.0F;
+    return std::abs(x) < smallest_normal ? beside_zero : x;
 }
+
+/// Nearly always the critical bias: `is_right` tells.
+struct Guess {
+    float bias;
+    bool is_right;
+
+    explicit Guess(const Comparison& comparison)
+    {
+        constexpr float smallest_normal = std::numeric_limits<float>::min();
+        const float sum = guess_summand(comparison.addend, comparison.threshold);
+        bias = bias_from(guess_summand(comparison.slope_term, sum));
+        // Below the smallest normal this tries a subnormal: then a right guess may be doubted.
+        const float below = bias == 0.0F ? -smallest_normal : float_below(bias);
+        is_right = (std::abs(bias) < largest) & comparison.is_lit(bias) & !comparison.is_lit(below);
+    }
+
+private:
+    /// Beyond, a guess may stand at the end of the floats and prove nothing.
+    static constexpr float largest = 0x1p126F;
+};
 
 float search_critical_bias(const Comparison& comparison)
 {
@@ -96,16 +113,6 @@ float search_critical_bias(const Comparison& comparison)
         (comparison.is_lit(bias_of_rank(middle)) ? lit : shadowed) = middle;
     }
     return bias_of_rank(lit);
-}
-
-float critical_bias(const Comparison& comparison)
-{
-    const float sum = guess_summand(comparison.addend, comparison.threshold);
-    const float guess = bias_from(guess_summand(comparison.slope_term, sum));
-    if (comparison.is_lit(guess) && !comparison.is_lit(previous_bias(guess))) [[likely]] {
-        return guess;
-    }
-    return search_critical_bias(comparison);
 }
 
 /// Gathers the taps of a pcfK lookup as raster_gl/shaders/lookup.frag does.
@@ -180,15 +187,13 @@ private:
     float outside_;
 };
 
+/// Calls `run(first, last)` for runs of pixels, several at the same time.
 template <typename Run>
-void for_each_pixel(std::size_t pixel_count, const Run& run)
+void for_each_run(std::size_t pixel_count, const Run& run)
 {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>{0, pixel_count, pixels_per_task},
-                      [&](const tbb::blocked_range<std::size_t>& pixels) {
-                          for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
-                              run(i);
-                          }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>{0, pixel_count, pixels_per_task},
+        [&](const tbb::blocked_range<std::size_t>& pixels) { run(pixels.begin(), pixels.end()); });
 }
 
 void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& texels,
@@ -212,7 +217,9 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& 
 
 float critical_bias(float r, float d, float slope_term, bool reversed)
 {
-    return critical_bias(Comparison{r, d, slope_term, reversed});
+    const Comparison comparison{r, d, slope_term, reversed};
+    const Guess guess{comparison};
+    return guess.is_right ? guess.bias : search_critical_bias(comparison);
 }
 
 LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
@@ -234,8 +241,10 @@ scene::LookupLayers deciding_samples(const scene::LookupLayers& lookup,
     }
     require_taps(lookup, texels, map_depths);
     const Taps taps{map_depths, rule};
-    for_each_pixel(lookup.samples.pixel_count(), [&](std::size_t i) {
-        result.samples[i].map_depth = taps.deciding_depth(lookup.samples[i], texels[i]);
+    for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            result.samples[i].map_depth = taps.deciding_depth(lookup.samples[i], texels[i]);
+        }
     });
     return result;
 }
@@ -243,13 +252,25 @@ scene::LookupLayers deciding_samples(const scene::LookupLayers& lookup,
 scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const LookupRule& rule)
 {
     scene::Image<float> result{lookup.samples.size()};
-    const float policy = rule.outside == Outside::shadowed ? infinity : -infinity;
-    for_each_pixel(lookup.samples.pixel_count(), [&](std::size_t i) {
+    const auto comparison = [&](std::size_t i) {
         const scene::LookupSample& sample = lookup.samples[i];
-        result[i] = std::isnan(sample.map_depth)
-                        ? policy
-                        : critical_bias({sample.receiver_depth, sample.map_depth,
-                                         rule.slope * sample.tan_theta, rule.reversed});
+        return Comparison{sample.receiver_depth, sample.map_depth, rule.slope * sample.tan_theta,
+                          rule.reversed};
+    };
+    const float policy = rule.outside == Outside::shadowed ? infinity : -infinity;
+    for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
+        // Two loops: the first without branches, the second for the few that it leaves as NaN.
+        for (std::size_t i = first; i != last; ++i) {
+            const Guess guess{comparison(i)};
+            result[i] = guess.is_right ? guess.bias : not_a_depth;
+        }
+        for (std::size_t i = first; i != last; ++i) {
+            if (std::isnan(result[i])) [[unlikely]] {
+                result[i] = std::isnan(lookup.samples[i].map_depth)
+                                ? policy
+                                : search_critical_bias(comparison(i));
+            }
+        }
     });
     return result;
 }
