@@ -23,21 +23,15 @@ using scene::Vec2f;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t pixels_per_task = 4096; // so few that both loops over them hit the cache
+constexpr std::size_t pixels_per_task = 16384;
 
 /// The lookup's comparison, both depth directions in one form: negating both sides of
 /// fl(r − y) <= d gives fl(y − r) >= −d, for rounding is symmetric.
 struct Comparison {
     float addend;
-    float threshold;
+    float threshold; ///< a threshold of 0 is −0, below which `float_below` works
     float slope_term;
 
-    Comparison(float r, float d, float s, bool reversed)
-        : addend{reversed ? r : -r},
-          threshold{reversed ? d : -d},
-          slope_term{s}
-    {
-    }
     [[nodiscard]] bool is_lit(float bias) const
     {
         const float whole = bias + slope_term;
@@ -45,19 +39,29 @@ struct Comparison {
     }
 };
 
-/// The float below x, or above it, for x other than 0; without branches, so that loops over pixels
-/// become vector instructions.
+Comparison make_comparison(float r, float d, float slope_term, bool reversed)
+{
+    return reversed ? Comparison{r, -(0.0F - d), slope_term} : Comparison{-r, -d, slope_term};
+}
+
+// What follows has no branches, so that the loop over pixels becomes vector instructions. It
+// guesses in doubles; whether the guess is right is then tried in float32.
+
+constexpr std::uint32_t smallest_normal_bits = 0x00800000;
+constexpr std::uint32_t sign_bit = 0x80000000;
+
+/// The float below x; NaN for +0.
 float float_below(float x)
 {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     return std::bit_cast<float>(bits + 2 * (bits >> 31) - 1);
 }
 
-float stepped_up(float x, bool steps)
+/// The float above x; NaN for −0.
+float float_above(float x)
 {
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    const std::uint32_t step = steps ? 1 : 0;
-    return std::bit_cast<float>((bits >> 31) != 0 ? bits - step : bits + step);
+    return std::bit_cast<float>(bits + 1 - 2 * (bits >> 31));
 }
 
 /// The smallest float32 y with fl(y + addend) >= target, unless the doubles here round.
@@ -65,41 +69,31 @@ float guess_summand(float addend, float target)
 {
     // What lies above the midpoint below the target rounds to it or beyond; the midpoint itself
     // rounds to whichever neighbour is even.
-    constexpr float below_zero = -std::numeric_limits<float>::denorm_min();
-    const float below = target == 0.0F ? below_zero : float_below(target);
-    const double least = 0.5 * (double{target} + double{below}) - double{addend};
-    const auto y = static_cast<float>(least);
-    const bool is_odd = (std::bit_cast<std::uint32_t>(target) & 1) != 0;
-    return stepped_up(y, (double{y} < least) | (is_odd & (double{y} == least)));
+    const double midpoint = 0.5 * (double{target} + double{float_below(target)});
+    const auto y = static_cast<float>(midpoint - double{addend});
+    return y + addend >= target ? y : float_above(y);
 }
 
-/// The smallest bias that is not below x.
-float bias_from(float x)
+/// The critical bias, in nearly every case; else NaN.
+float guess_critical_bias(const Comparison& comparison)
 {
-    constexpr float smallest_normal = std::numeric_limits<float>::min();
-    const float beside_zero = x > 0.0F ? smallest_normal : 0.0F;
-    return std::abs(x) < smallest_normal ? beside_zero : x;
+    const float sum = guess_summand(comparison.addend, comparison.threshold);
+    const float summand = guess_summand(comparison.slope_term, sum);
+    const auto bits = std::bit_cast<std::uint32_t>(summand);
+    // A subnormal becomes the next bias above it; the one below 0 is the negative smallest normal.
+    const std::uint32_t magnitude = bits & ~sign_bit;
+    const std::uint32_t beside_zero = bits - 1 < smallest_normal_bits ? smallest_normal_bits : 0;
+    const std::uint32_t guess_bits = magnitude < smallest_normal_bits ? beside_zero : bits;
+    const std::uint32_t below_bits = guess_bits + 2 * (guess_bits >> 31) - 1;
+    const auto guess = std::bit_cast<float>(guess_bits);
+    const auto below =
+        std::bit_cast<float>(guess_bits == 0 ? smallest_normal_bits | sign_bit : below_bits);
+    // Below the smallest normal this tries a subnormal, and then a right guess may be doubted.
+    const float if_lit = comparison.is_lit(guess) ? guess : not_a_depth;
+    const float if_known = comparison.is_lit(below) ? not_a_depth : if_lit;
+    // Beyond 2^126 a guess may stand at the end of the floats, and prove nothing.
+    return std::abs(guess) < 0x1p126F ? if_known : not_a_depth;
 }
-
-/// Nearly always the critical bias: `is_right` tells.
-struct Guess {
-    float bias;
-    bool is_right;
-
-    explicit Guess(const Comparison& comparison)
-    {
-        constexpr float smallest_normal = std::numeric_limits<float>::min();
-        const float sum = guess_summand(comparison.addend, comparison.threshold);
-        bias = bias_from(guess_summand(comparison.slope_term, sum));
-        // Below the smallest normal this tries a subnormal: then a right guess may be doubted.
-        const float below = bias == 0.0F ? -smallest_normal : float_below(bias);
-        is_right = (std::abs(bias) < largest) & comparison.is_lit(bias) & !comparison.is_lit(below);
-    }
-
-private:
-    /// Beyond, a guess may stand at the end of the floats and prove nothing.
-    static constexpr float largest = 0x1p126F;
-};
 
 float search_critical_bias(const Comparison& comparison)
 {
@@ -114,6 +108,50 @@ float search_critical_bias(const Comparison& comparison)
     }
     return bias_of_rank(lit);
 }
+
+/// Comparisons laid out for vector instructions.
+class ComparisonBlock {
+public:
+    static constexpr std::size_t size = 256;
+
+    void fill(const scene::LookupSample* samples, std::size_t count, const LookupRule& rule)
+    {
+        for (std::size_t i = 0; i < count; ++i) {
+            set(i, make_comparison(samples[i].receiver_depth, samples[i].map_depth,
+                                   rule.slope * samples[i].tan_theta, rule.reversed));
+        }
+    }
+    void guess()
+    {
+        for (std::size_t i = 0; i < size; ++i) {
+            guesses_[i] = guess_critical_bias(get(i));
+        }
+    }
+    [[nodiscard]] float critical(std::size_t i, float map_depth, float policy) const
+    {
+        if (!std::isnan(guesses_[i])) [[likely]] {
+            return guesses_[i];
+        }
+        return std::isnan(map_depth) ? policy : search_critical_bias(get(i));
+    }
+
+private:
+    void set(std::size_t i, const Comparison& comparison)
+    {
+        addends_[i] = comparison.addend;
+        thresholds_[i] = comparison.threshold;
+        slope_terms_[i] = comparison.slope_term;
+    }
+    [[nodiscard]] Comparison get(std::size_t i) const
+    {
+        return {addends_[i], thresholds_[i], slope_terms_[i]};
+    }
+
+    std::array<float, size> addends_{};
+    std::array<float, size> thresholds_{};
+    std::array<float, size> slope_terms_{};
+    std::array<float, size> guesses_{};
+};
 
 /// Gathers the taps of a pcfK lookup as raster_gl/shaders/lookup.frag does.
 class Taps {
@@ -217,9 +255,9 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& 
 
 float critical_bias(float r, float d, float slope_term, bool reversed)
 {
-    const Comparison comparison{r, d, slope_term, reversed};
-    const Guess guess{comparison};
-    return guess.is_right ? guess.bias : search_critical_bias(comparison);
+    const Comparison comparison = make_comparison(r, d, slope_term, reversed);
+    const float guess = guess_critical_bias(comparison);
+    return std::isnan(guess) ? search_critical_bias(comparison) : guess;
 }
 
 LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
@@ -252,23 +290,15 @@ scene::LookupLayers deciding_samples(const scene::LookupLayers& lookup,
 scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const LookupRule& rule)
 {
     scene::Image<float> result{lookup.samples.size()};
-    const auto comparison = [&](std::size_t i) {
-        const scene::LookupSample& sample = lookup.samples[i];
-        return Comparison{sample.receiver_depth, sample.map_depth, rule.slope * sample.tan_theta,
-                          rule.reversed};
-    };
     const float policy = rule.outside == Outside::shadowed ? infinity : -infinity;
     for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
-        // Two loops: the first without branches, the second for the few that it leaves as NaN.
-        for (std::size_t i = first; i != last; ++i) {
-            const Guess guess{comparison(i)};
-            result[i] = guess.is_right ? guess.bias : not_a_depth;
-        }
-        for (std::size_t i = first; i != last; ++i) {
-            if (std::isnan(result[i])) [[unlikely]] {
-                result[i] = std::isnan(lookup.samples[i].map_depth)
-                                ? policy
-                                : search_critical_bias(comparison(i));
+        ComparisonBlock block;
+        for (std::size_t start = first; start < last; start += ComparisonBlock::size) {
+            const std::size_t count = std::min(ComparisonBlock::size, last - start);
+            block.fill(lookup.samples.data() + start, count, rule);
+            block.guess();
+            for (std::size_t i = 0; i < count; ++i) {
+                result[start + i] = block.critical(i, lookup.samples[start + i].map_depth, policy);
             }
         }
     });
