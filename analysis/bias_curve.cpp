@@ -2,6 +2,7 @@
 
 #include "analysis/bias_order.hpp"
 #include "analysis/radix_sort.hpp"
+#include "analysis/ratio.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
@@ -72,14 +73,6 @@ ScoredCriticals gather_scored(const scene::Image<float>& criticals,
     scored.lit.resize(lit_count);
     scored.blocked.resize(blocked_count);
     return scored;
-}
-
-std::optional<double> ratio(std::uint64_t part, std::uint64_t whole)
-{
-    if (whole == 0) {
-        return std::nullopt;
-    }
-    return static_cast<double>(part) / static_cast<double>(whole);
 }
 
 /// Calls `visit(interval, errors)` for every interval of constant counts, in ascending order.

@@ -1,10 +1,9 @@
 #include "analysis/critical_bias.hpp"
 
 #include "analysis/bias_order.hpp"
+#include "analysis/pixel_runs.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -23,7 +22,6 @@ using scene::Vec2f;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t pixels_per_task = 16384;
 
 /// The lookup's comparison, both depth directions in one form: negating both sides of
 /// fl(r − y) <= d gives fl(y − r) >= −d, for rounding is symmetric.
@@ -224,15 +222,6 @@ private:
     float last_;
     float outside_;
 };
-
-/// Calls `run(first, last)` for runs of pixels, several at the same time.
-template <typename Run>
-void for_each_run(std::size_t pixel_count, const Run& run)
-{
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>{0, pixel_count, pixels_per_task},
-        [&](const tbb::blocked_range<std::size_t>& pixels) { run(pixels.begin(), pixels.end()); });
-}
 
 void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& texels,
                   const scene::Image<float>& map_depths)
