@@ -2,6 +2,7 @@
 
 #include "analysis/bias_order.hpp"
 #include "analysis/radix_sort.hpp"
+#include "analysis/ratio.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
@@ -28,12 +29,50 @@ void require_same_size(scene::ImageSize criticals, scene::ImageSize classes)
     }
 }
 
-std::optional<double> ratio(std::uint64_t part, std::uint64_t whole)
+struct ScoredCriticals {
+    std::vector<float> lit;
+    std::vector<float> blocked;
+};
+
+[[noreturn]] void reject_nan(const scene::Image<float>& criticals,
+                             const scene::Image<PixelClass>& classes)
 {
-    if (whole == 0) {
-        return std::nullopt;
+    std::size_t i = 0;
+    while (!scene::is_scored(classes[i]) || !std::isnan(criticals[i])) {
+        ++i;
     }
-    return static_cast<double>(part) / static_cast<double>(whole);
+    throw std::invalid_argument(
+        fmt::format("BiasCurve: criticals: that of scored pixel {} is NaN", i));
+}
+
+/// Without branches that depend on the image, for classes change from pixel to pixel: every value
+/// is written to both lists, and stays where the list then grows.
+ScoredCriticals gather_scored(const scene::Image<float>& criticals,
+                              const scene::Image<PixelClass>& classes)
+{
+    const auto count = [&](PixelClass pixel_class) {
+        return static_cast<std::size_t>(std::count(classes.begin(), classes.end(), pixel_class));
+    };
+    const std::size_t lit_count = count(PixelClass::lit);
+    const std::size_t blocked_count = count(PixelClass::blocked);
+    ScoredCriticals scored{std::vector<float>(lit_count + 1),
+                           std::vector<float>(blocked_count + 1)};
+    float* lit = scored.lit.data();
+    float* blocked = scored.blocked.data();
+    bool has_nan = false;
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        *lit = criticals[i];
+        *blocked = criticals[i];
+        lit += classes[i] == PixelClass::lit ? 1 : 0;
+        blocked += classes[i] == PixelClass::blocked ? 1 : 0;
+        has_nan |= scene::is_scored(classes[i]) & std::isnan(criticals[i]);
+    }
+    if (has_nan) {
+        reject_nan(criticals, classes);
+    }
+    scored.lit.resize(lit_count);
+    scored.blocked.resize(blocked_count);
+    return scored;
 }
 
 /// Calls `visit(interval, errors)` for every interval of constant counts, in ascending order.
@@ -138,20 +177,10 @@ float BiasInterval::middle() const
 BiasCurve::BiasCurve(const scene::Image<float>& criticals, const scene::Image<PixelClass>& classes)
 {
     require_same_size(criticals.size(), classes.size());
-    std::vector<std::uint32_t> lit;
-    std::vector<std::uint32_t> blocked;
-    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
-        if (!scene::is_scored(classes[i])) {
-            continue;
-        }
-        if (std::isnan(criticals[i])) {
-            throw std::invalid_argument(
-                fmt::format("BiasCurve: criticals: that of scored pixel {} is NaN", i));
-        }
-        (classes[i] == PixelClass::lit ? lit : blocked).push_back(sort_key(criticals[i]));
-    }
-    tbb::parallel_invoke([&] { lit_ = sorted_values(std::move(lit)); },
-                         [&] { blocked_ = sorted_values(std::move(blocked)); });
+    ScoredCriticals scored = gather_scored(criticals, classes);
+    lit_ = std::move(scored.lit);
+    blocked_ = std::move(scored.blocked);
+    tbb::parallel_invoke([&] { radix_sort(lit_); }, [&] { radix_sort(blocked_); });
 }
 
 ErrorCounts BiasCurve::at(float bias) const

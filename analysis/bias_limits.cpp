@@ -45,13 +45,14 @@ std::vector<float> acne_criticals(const scene::Image<float>& criticals,
                                   const scene::Image<PixelClass>& classes,
                                   const scene::Image<std::uint8_t>& acne_if_shadowed)
 {
-    std::vector<std::uint32_t> keys;
+    std::vector<float> acne;
     for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
         if (classes[i] == PixelClass::lit && acne_if_shadowed[i] != 0) {
-            keys.push_back(sort_key(criticals[i]));
+            acne.push_back(criticals[i]);
         }
     }
-    return sorted_values(std::move(keys));
+    radix_sort(acne);
+    return acne;
 }
 
 /// Smallest bias with at most `allowed` of the ascending critical biases above it.

@@ -1,10 +1,9 @@
 #include "analysis/critical_bias.hpp"
 
 #include "analysis/bias_order.hpp"
+#include "analysis/pixel_runs.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -23,21 +22,14 @@ using scene::Vec2f;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t pixels_per_task = 16384;
 
 /// The lookup's comparison, both depth directions in one form: negating both sides of
 /// fl(r − y) <= d gives fl(y − r) >= −d, for rounding is symmetric.
 struct Comparison {
     float addend;
-    float threshold;
+    float threshold; ///< a threshold of 0 is −0, below which `float_below` works
     float slope_term;
 
-    Comparison(float r, float d, float s, bool reversed)
-        : addend{reversed ? r : -r},
-          threshold{reversed ? d : -d},
-          slope_term{s}
-    {
-    }
     [[nodiscard]] bool is_lit(float bias) const
     {
         const float whole = bias + slope_term;
@@ -45,18 +37,29 @@ struct Comparison {
     }
 };
 
+Comparison make_comparison(float r, float d, float slope_term, bool reversed)
+{
+    return reversed ? Comparison{r, -(0.0F - d), slope_term} : Comparison{-r, -d, slope_term};
+}
+
+// What follows has no branches, so that the loop over pixels becomes vector instructions. It
+// guesses in doubles; whether the guess is right is then tried in float32.
+
+constexpr std::uint32_t smallest_normal_bits = 0x00800000;
+constexpr std::uint32_t sign_bit = 0x80000000;
+
+/// The float below x; NaN for +0.
 float float_below(float x)
 {
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    if (x == 0.0F) {
-        return -std::numeric_limits<float>::denorm_min();
-    }
-    return std::bit_cast<float>(x > 0.0F ? bits - 1 : bits + 1);
+    return std::bit_cast<float>(bits + 2 * (bits >> 31) - 1);
 }
 
+/// The float above x; NaN for −0.
 float float_above(float x)
 {
-    return -float_below(-x);
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    return std::bit_cast<float>(bits + 1 - 2 * (bits >> 31));
 }
 
 /// The smallest float32 y with fl(y + addend) >= target, unless the doubles here round.
@@ -65,23 +68,29 @@ float guess_summand(float addend, float target)
     // What lies above the midpoint below the target rounds to it or beyond; the midpoint itself
     // rounds to whichever neighbour is even.
     const double midpoint = 0.5 * (double{target} + double{float_below(target)});
-    constexpr double largest =
-        0x1p126; // stays away from the ends, where a guess would prove nothing
-    const double least = std::clamp(midpoint - double{addend}, -largest, largest);
-    const auto y = static_cast<float>(least);
-    const bool is_odd = (std::bit_cast<std::uint32_t>(target) & 1) != 0;
-    const bool is_too_small = double{y} < least || (is_odd && double{y} == least);
-    return is_too_small ? float_above(y) : y;
+    const auto y = static_cast<float>(midpoint - double{addend});
+    return y + addend >= target ? y : float_above(y);
 }
 
-/// The smallest bias that is not below x.
-float bias_from(float x)
+/// The critical bias, in nearly every case; else NaN.
+float guess_critical_bias(const Comparison& comparison)
 {
-    constexpr float smallest_normal = std::numeric_limits<float>::min();
-    if (std::abs(x) < smallest_normal) {
-        return x > 0.0F ? smallest_normal : 0.0F;
-    }
-    return x;
+    const float sum = guess_summand(comparison.addend, comparison.threshold);
+    const float summand = guess_summand(comparison.slope_term, sum);
+    const auto bits = std::bit_cast<std::uint32_t>(summand);
+    // A subnormal becomes the next bias above it; the one below 0 is the negative smallest normal.
+    const std::uint32_t magnitude = bits & ~sign_bit;
+    const std::uint32_t beside_zero = bits - 1 < smallest_normal_bits ? smallest_normal_bits : 0;
+    const std::uint32_t guess_bits = magnitude < smallest_normal_bits ? beside_zero : bits;
+    const std::uint32_t below_bits = guess_bits + 2 * (guess_bits >> 31) - 1;
+    const auto guess = std::bit_cast<float>(guess_bits);
+    const auto below =
+        std::bit_cast<float>(guess_bits == 0 ? smallest_normal_bits | sign_bit : below_bits);
+    // Below the smallest normal this tries a subnormal, and then a right guess may be doubted.
+    const float if_lit = comparison.is_lit(guess) ? guess : not_a_depth;
+    const float if_known = comparison.is_lit(below) ? not_a_depth : if_lit;
+    // Beyond 2^126 a guess may stand at the end of the floats, and prove nothing.
+    return std::abs(guess) < 0x1p126F ? if_known : not_a_depth;
 }
 
 float search_critical_bias(const Comparison& comparison)
@@ -98,15 +107,49 @@ float search_critical_bias(const Comparison& comparison)
     return bias_of_rank(lit);
 }
 
-float critical_bias(const Comparison& comparison)
-{
-    const float sum = guess_summand(comparison.addend, comparison.threshold);
-    const float guess = bias_from(guess_summand(comparison.slope_term, sum));
-    if (comparison.is_lit(guess) && !comparison.is_lit(previous_bias(guess))) [[likely]] {
-        return guess;
+/// Comparisons laid out for vector instructions.
+class ComparisonBlock {
+public:
+    static constexpr std::size_t size = 256;
+
+    void fill(const scene::LookupSample* samples, std::size_t count, const LookupRule& rule)
+    {
+        for (std::size_t i = 0; i < count; ++i) {
+            set(i, make_comparison(samples[i].receiver_depth, samples[i].map_depth,
+                                   rule.slope * samples[i].tan_theta, rule.reversed));
+        }
     }
-    return search_critical_bias(comparison);
-}
+    void guess()
+    {
+        for (std::size_t i = 0; i < size; ++i) {
+            guesses_[i] = guess_critical_bias(get(i));
+        }
+    }
+    [[nodiscard]] float critical(std::size_t i, float map_depth, float policy) const
+    {
+        if (!std::isnan(guesses_[i])) [[likely]] {
+            return guesses_[i];
+        }
+        return std::isnan(map_depth) ? policy : search_critical_bias(get(i));
+    }
+
+private:
+    void set(std::size_t i, const Comparison& comparison)
+    {
+        addends_[i] = comparison.addend;
+        thresholds_[i] = comparison.threshold;
+        slope_terms_[i] = comparison.slope_term;
+    }
+    [[nodiscard]] Comparison get(std::size_t i) const
+    {
+        return {addends_[i], thresholds_[i], slope_terms_[i]};
+    }
+
+    std::array<float, size> addends_{};
+    std::array<float, size> thresholds_{};
+    std::array<float, size> slope_terms_{};
+    std::array<float, size> guesses_{};
+};
 
 /// Gathers the taps of a pcfK lookup as raster_gl/shaders/lookup.frag does.
 class Taps {
@@ -180,17 +223,6 @@ private:
     float outside_;
 };
 
-template <typename Run>
-void for_each_pixel(std::size_t pixel_count, const Run& run)
-{
-    tbb::parallel_for(tbb::blocked_range<std::size_t>{0, pixel_count, pixels_per_task},
-                      [&](const tbb::blocked_range<std::size_t>& pixels) {
-                          for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
-                              run(i);
-                          }
-                      });
-}
-
 void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& texels,
                   const scene::Image<float>& map_depths)
 {
@@ -212,7 +244,9 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& 
 
 float critical_bias(float r, float d, float slope_term, bool reversed)
 {
-    return critical_bias(Comparison{r, d, slope_term, reversed});
+    const Comparison comparison = make_comparison(r, d, slope_term, reversed);
+    const float guess = guess_critical_bias(comparison);
+    return std::isnan(guess) ? search_critical_bias(comparison) : guess;
 }
 
 LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
@@ -234,8 +268,10 @@ scene::LookupLayers deciding_samples(const scene::LookupLayers& lookup,
     }
     require_taps(lookup, texels, map_depths);
     const Taps taps{map_depths, rule};
-    for_each_pixel(lookup.samples.pixel_count(), [&](std::size_t i) {
-        result.samples[i].map_depth = taps.deciding_depth(lookup.samples[i], texels[i]);
+    for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            result.samples[i].map_depth = taps.deciding_depth(lookup.samples[i], texels[i]);
+        }
     });
     return result;
 }
@@ -244,12 +280,16 @@ scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const Loo
 {
     scene::Image<float> result{lookup.samples.size()};
     const float policy = rule.outside == Outside::shadowed ? infinity : -infinity;
-    for_each_pixel(lookup.samples.pixel_count(), [&](std::size_t i) {
-        const scene::LookupSample& sample = lookup.samples[i];
-        result[i] = std::isnan(sample.map_depth)
-                        ? policy
-                        : critical_bias({sample.receiver_depth, sample.map_depth,
-                                         rule.slope * sample.tan_theta, rule.reversed});
+    for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
+        ComparisonBlock block;
+        for (std::size_t start = first; start < last; start += ComparisonBlock::size) {
+            const std::size_t count = std::min(ComparisonBlock::size, last - start);
+            block.fill(lookup.samples.data() + start, count, rule);
+            block.guess();
+            for (std::size_t i = 0; i < count; ++i) {
+                result[start + i] = block.critical(i, lookup.samples[start + i].map_depth, policy);
+            }
+        }
     });
     return result;
 }

@@ -1,5 +1,7 @@
 #include "analysis/metrics.hpp"
 
+#include "analysis/ratio.hpp"
+
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -89,14 +91,6 @@ Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& l
     return tbb::parallel_deterministic_reduce(
         tbb::blocked_range<std::size_t>{0, truth.pixel_class.pixel_count(), pixels_per_leaf},
         Tally{}, count, join);
-}
-
-std::optional<double> ratio(double part, std::uint64_t whole)
-{
-    if (whole == 0) {
-        return std::nullopt;
-    }
-    return part / static_cast<double>(whole);
 }
 
 } // namespace

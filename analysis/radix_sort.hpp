@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -61,13 +60,10 @@ void radix_sort(std::vector<Item>& items, const KeyOf& key_of)
     }
 }
 
-/// The values behind sort keys, ascending.
-[[nodiscard]] inline std::vector<float> sorted_values(std::vector<std::uint32_t> keys)
+/// Sorts float32 values, none of them NaN, in ascending order.
+inline void radix_sort(std::vector<float>& values)
 {
-    radix_sort(keys, [](std::uint32_t key) { return key; });
-    std::vector<float> values(keys.size());
-    std::transform(keys.begin(), keys.end(), values.begin(), value_of_key);
-    return values;
+    radix_sort(values, [](float value) { return sort_key(value); });
 }
 
 } // namespace gnomon::analysis

@@ -24,17 +24,19 @@ TEST(RadixSort, OrdersFloatsAsTheirValues)
     std::mt19937 random{1};
     for (const std::size_t count : {0U, 1U, 2U, 1000U, 100'000U}) {
         std::vector<float> values(count);
-        std::vector<std::uint32_t> keys(count);
         for (std::size_t i = 0; i < count; ++i) {
             values[i] = bias_of_rank(static_cast<std::int32_t>(random() % 0x7F000001) *
                                      (random() % 2 == 0 ? 1 : -1));
             values[i] = random() % 100 == 0 ? -infinity : values[i];
-            keys[i] = sort_key(values[i]);
         }
-        std::sort(values.begin(), values.end());
-        EXPECT_EQ(sorted_values(keys), values);
+        std::vector<float> expected = values;
+        std::sort(expected.begin(), expected.end());
+        radix_sort(values);
+        EXPECT_EQ(values, expected);
     }
     EXPECT_EQ(sort_key(-0.0F), sort_key(0.0F));
+    EXPECT_EQ(value_of_key(sort_key(-infinity)), -infinity);
+    EXPECT_EQ(value_of_key(sort_key(0.1F)), 0.1F);
 }
 
 TEST(RadixSort, KeepsTheOrderOfEqualKeys)

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// The spread of some values: each is one of them, the smallest that at least the named share of
+/// the values does not exceed (nearest rank).
+struct Quantiles {
+    std::uint64_t count = 0;
+    float min = 0;
+    float median = 0;
+    float p95 = 0;
+    float max = 0;
+
+    friend bool operator==(const Quantiles&, const Quantiles&) = default;
+};
+
+/// @param values  In any order; those that are not finite are left out.
+/// @return  Empty if no value is finite.
+[[nodiscard]] std::optional<Quantiles> find_quantiles(std::vector<float> values);
+
+} // namespace gnomon::analysis

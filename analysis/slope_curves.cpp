@@ -1,0 +1,68 @@
+#include "analysis/slope_curves.hpp"
+
+#include "analysis/bias_units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
+                           scene::Filter filter, double zeta_m)
+{
+    return scene::filter_width_texels(filter) * frustum.texel_width_m(zeta_m, resolution_texels) *
+           depth_per_metre(frustum, zeta_m);
+}
+
+std::vector<float> default_slopes(double per_footprint)
+{
+    constexpr std::array<double, 5> multiples{0.25, 0.5, 1.0, 2.0, 4.0};
+    std::vector<float> slopes{0.0F};
+    for (const double multiple : multiples) {
+        const auto slope = static_cast<float>(multiple * per_footprint);
+        if (!(slope > 0.0F) || !std::isnormal(slope)) {
+            throw std::invalid_argument(fmt::format(
+                "default_slopes: per_footprint: {} does not give normal, positive float32 slopes",
+                per_footprint));
+        }
+        slopes.push_back(slope);
+    }
+    return slopes;
+}
+
+std::vector<SlopeCurve> slope_curves(const SlopeInputs& inputs, std::span<const float> slopes)
+{
+    std::vector<SlopeCurve> curves;
+    curves.reserve(slopes.size());
+    for (const float slope : slopes) {
+        LookupRule rule = inputs.rule;
+        rule.slope = slope;
+        const scene::Image<float> criticals = critical_biases(inputs.samples, rule);
+        BiasCurve curve{criticals, inputs.classes};
+        const BestBiases best = find_best_biases(curve);
+        const BiasBounds bounds = find_bias_bounds(curve, criticals, inputs.classes,
+                                                   inputs.acne_if_shadowed, inputs.forgive);
+        curves.push_back({slope, std::move(curve), best, bounds});
+    }
+    return curves;
+}
+
+const SlopeCurve& best_slope(std::span<const SlopeCurve> curves)
+{
+    if (curves.empty()) {
+        throw std::invalid_argument("best_slope: curves: there is none");
+    }
+    return *std::min_element(
+        curves.begin(), curves.end(), [](const SlopeCurve& a, const SlopeCurve& b) {
+            const std::uint64_t a_errors = a.best.errors.total();
+            const std::uint64_t b_errors = b.best.errors.total();
+            return a_errors != b_errors ? a_errors < b_errors
+                                        : a.best.interval.width() > b.best.interval.width();
+        });
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,161 @@
+#include "analysis/bias_order.hpp"
+#include "analysis/critical_bias.hpp"
+#include "gl_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+/// Every bias is known at once: GL's own lookup, run again with another bias, gives the verdict
+/// that the critical biases of one lookup say, in every pixel.
+namespace gnomon::tests {
+namespace {
+
+bool is_full_run()
+{
+    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
+}
+
+/// Scenes that between them have both kinds of light, both depth directions, every policy, and
+/// receivers beyond the map.
+struct Setting {
+    const char* builtin;
+    std::vector<scene::Override> keys;
+    bool has_policy_pixels = false; ///< receivers whose verdict no bias changes
+};
+
+const std::vector<Setting>& settings()
+{
+    static const std::vector<Setting> all{
+        {"sphere-plane", {{"lookup.outside", "clamp"}}},
+        {"terrain", {{"shadow_map.reversed", "true"}, {"lookup.outside", "lit"}}},
+        {"yard",
+         {{"shadow_map.fit", "fixed"},
+          {"shadow_map.half_extent", "3"},
+          {"lookup.outside", "shadowed"}},
+         true},
+        {"columns",
+         {{"shadow_map.fit", "fixed"},
+          {"shadow_map.half_extent", "3"},
+          {"shadow_map.reversed", "true"},
+          {"lookup.outside", "lit"}},
+         true}};
+    return all;
+}
+
+std::vector<scene::Override> keys_of(const Setting& setting, const char* format, const char* filter,
+                                     const char* slope)
+{
+    std::vector<scene::Override> keys{{"image.width", is_full_run() ? "480" : "240"},
+                                      {"image.height", is_full_run() ? "270" : "135"},
+                                      {"shadow_map.resolution", "256"},
+                                      {"shadow_map.depth_format", format},
+                                      {"lookup.filter", filter},
+                                      {"bias.slope", slope}};
+    keys.insert(keys.end(), setting.keys.begin(), setting.keys.end());
+    return keys;
+}
+
+/// Half of them in a geometric sequence over the curve's positive range, half at, just below and
+/// just above critical biases; and 0.
+std::vector<float> biases_to_try(std::vector<float> criticals, std::size_t count)
+{
+    std::erase_if(criticals, [](float critical) { return !std::isfinite(critical); });
+    std::sort(criticals.begin(), criticals.end());
+    std::vector<float> biases{0.0F};
+    if (criticals.empty()) {
+        return biases;
+    }
+    const float largest = std::max(criticals.back(), 1e-3F);
+    for (std::size_t i = 0; i < count / 2; ++i) {
+        const double share = static_cast<double>(i + 1) / static_cast<double>(count / 2);
+        biases.push_back(static_cast<float>(double{largest} * std::pow(1e-7, 1.0 - share)));
+    }
+    std::mt19937 random{1};
+    for (std::size_t i = 0; i < count / 2; ++i) {
+        const float critical = criticals[random() % criticals.size()];
+        biases.push_back(i % 3 == 0   ? critical
+                         : i % 3 == 1 ? analysis::previous_bias(critical)
+                                      : analysis::next_bias(critical));
+    }
+    return biases;
+}
+
+struct Rerun {
+    std::size_t different = 0;
+    std::size_t lit = 0;
+    std::size_t shadowed = 0;
+};
+
+/// Looks the receivers up with this bias and holds GL's verdicts against the critical biases.
+void rerun(GlCase& c, const scene::Image<std::uint32_t>& triangles,
+           const scene::Image<float>& criticals, float bias, Rerun& sum)
+{
+    c.view.bias.constant = bias;
+    c.look_up();
+    const auto samples = c.lookup_pass.read_samples().samples;
+    for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
+        if (triangles[i] == scene::no_triangle) {
+            continue;
+        }
+        const bool is_lit = scene::is_lit(samples[i].verdict);
+        ++(is_lit ? sum.lit : sum.shadowed);
+        sum.different += is_lit != (criticals[i] <= bias) ? 1U : 0U;
+    }
+}
+
+/// @return  how many receivers have their verdict from the policy.
+std::size_t expect_identity(GlCase& c, const std::string& label)
+{
+    c.draw_all();
+    const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
+    const auto samples =
+        analysis::deciding_samples(c.lookup_pass.read_samples(), c.lookup_pass.read_texels(),
+                                   read_shader_depths(*shared_context(), *c.map), rule);
+    const auto criticals = analysis::critical_biases(samples, rule);
+    const auto triangles = read_triangles(*shared_context(), *c.receivers);
+    std::vector<float> seen;
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        if (triangles[i] != scene::no_triangle) {
+            seen.push_back(criticals[i]);
+        }
+    }
+    Rerun sum;
+    for (const float bias : biases_to_try(seen, is_full_run() ? 1000 : 12)) {
+        rerun(c, triangles, criticals, bias, sum);
+    }
+    EXPECT_EQ(sum.different, 0U) << label;
+    EXPECT_GT(std::min(sum.lit, sum.shadowed), 1000U) << label;
+    return static_cast<std::size_t>(std::count_if(
+        seen.begin(), seen.end(), [](float critical) { return std::isinf(critical); }));
+}
+
+class BiasIdentity : public testing::TestWithParam<std::tuple<std::size_t, const char*>> {};
+
+TEST_P(BiasIdentity, HoldsForGlsOwnRerunInEveryPixel)
+{
+    GNOMON_REQUIRE_GL();
+    const auto& [index, filter] = GetParam();
+    const Setting& setting = settings()[index];
+    GlCase c{setting.builtin, keys_of(setting, "d16", filter, "0")};
+    for (const char* format : {"d16", "d24", "d32f"}) {
+        for (const char* slope : {"0", "0.002"}) {
+            c.set(keys_of(setting, format, filter, slope));
+            expect_identity(
+                c, fmt::format("{} {} {} slope {}", setting.builtin, filter, format, slope));
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(ScenesAndFilters, BiasIdentity,
+                         testing::Combine(testing::Range<std::size_t>(0, 4),
+                                          testing::Values("nearest", "linear", "pcf3", "pcf5")));
+
+} // namespace
+} // namespace gnomon::tests

@@ -1,0 +1,189 @@
+#include "analysis/breakdown.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+namespace {
+
+using scene::PixelClass;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+const float none = std::nanf("");
+constexpr auto lit = PixelClass::lit;
+constexpr auto blocked = PixelClass::blocked;
+
+TEST(Quantiles, AreValuesOfNearestRank)
+{
+    EXPECT_EQ(find_quantiles({3, 1, 2}), (Quantiles{3, 1, 2, 3, 3}));
+    EXPECT_EQ(find_quantiles({4, 1, 2, 3}), (Quantiles{4, 1, 2, 4, 4}));
+    std::vector<float> hundred(100);
+    for (std::size_t i = 0; i < 100; ++i) {
+        hundred[i] = static_cast<float>(100 - i);
+    }
+    EXPECT_EQ(find_quantiles(hundred), (Quantiles{100, 1, 50, 95, 100}));
+}
+
+TEST(Quantiles, LeaveOutWhatIsNotFinite)
+{
+    EXPECT_EQ(find_quantiles({infinity, -infinity, none, -2}), (Quantiles{1, -2, -2, -2, -2}));
+    EXPECT_FALSE(find_quantiles({infinity, none}).has_value());
+    EXPECT_FALSE(find_quantiles({}).has_value());
+}
+
+struct Pixel {
+    PixelClass pixel_class = lit;
+    float verdict = 0;
+    float critical = 0;
+    float zeta_m = 1;
+    float tan_theta = 0;
+    float map_error_m = none;
+};
+
+struct Images {
+    scene::Image<PixelClass> classes;
+    scene::LookupLayers lookup;
+    scene::Image<float> criticals;
+    scene::Image<float> zeta_m;
+    scene::Image<float> map_error_m;
+
+    explicit Images(const std::vector<Pixel>& pixels)
+    {
+        const scene::ImageSize size{static_cast<int>(pixels.size()), 1};
+        classes = scene::Image<PixelClass>{size};
+        lookup.samples = scene::Image<scene::LookupSample>{size};
+        criticals = zeta_m = map_error_m = scene::Image<float>{size};
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const Pixel& p = pixels[i];
+            classes[i] = p.pixel_class;
+            lookup.samples[i] = {0.5F, 0.5F, p.tan_theta, p.verdict};
+            criticals[i] = p.critical;
+            zeta_m[i] = p.zeta_m;
+            map_error_m[i] = p.map_error_m;
+        }
+    }
+    [[nodiscard]] BreakdownInputs inputs() const
+    {
+        return {classes, lookup, criticals, zeta_m, map_error_m};
+    }
+};
+
+TEST(ErrorsByDistance, SplitTheObservedRangeEvenly)
+{
+    const Images images{{{lit, 0, 0.5F, 2.0F, 0, -0.25F},
+                         {lit, 1, 0.25F, 2.5F},
+                         {blocked, 1, 9.0F, 3.0F},
+                         {blocked, 0, 9.0F, 6.0F},
+                         {PixelClass::attached, 1, 9.0F, 100.0F}}};
+    const auto bins = errors_by_distance(images.inputs(), 4);
+    ASSERT_EQ(bins.size(), 4U);
+    EXPECT_EQ(bins[0].lower, 2.0);
+    EXPECT_EQ(bins[0].upper, 3.0);
+    EXPECT_EQ(bins[3].upper, 6.0);
+    EXPECT_EQ(bins[0].counts, (PartCounts{2, 0, 1, 0}));
+    EXPECT_EQ(bins[1].counts, (PartCounts{0, 1, 0, 1})); // an edge belongs to the bin above it
+    EXPECT_EQ(bins[2].counts, PartCounts{});
+    EXPECT_EQ(bins[3].counts, (PartCounts{0, 1, 0, 0})); // but the last edge to the last bin
+    EXPECT_EQ(bins[0].needed_bias, (Quantiles{2, 0.25F, 0.25F, 0.5F, 0.5F}));
+    EXPECT_EQ(bins[0].map_error_m, (Quantiles{1, -0.25F, -0.25F, -0.25F, -0.25F}));
+    EXPECT_FALSE(bins[1].needed_bias || bins[1].map_error_m);
+}
+
+TEST(ErrorsByDistance, NeedNoRange)
+{
+    EXPECT_TRUE(errors_by_distance(Images{{{PixelClass::background}}}.inputs()).empty());
+    const auto bins = errors_by_distance(Images{{{lit}, {lit, 1}}}.inputs());
+    ASSERT_EQ(bins.size(), 1U);
+    EXPECT_EQ(bins[0].counts, (PartCounts{2, 0, 1, 0}));
+    EXPECT_EQ(bins[0].counts.false_shadow_rate(), 0.5);
+    EXPECT_FALSE(bins[0].counts.false_lit_rate().has_value());
+    EXPECT_EQ(bins[0].counts.error_rate(), 0.5);
+}
+
+TEST(ErrorsByDistance, HoldEveryScoredPixelInTheBinOfItsValue)
+{
+    std::mt19937 random{1};
+    std::uniform_real_distribution<float> distance{0.1F, 7.3F};
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        std::vector<Pixel> pixels(1000);
+        for (Pixel& pixel : pixels) {
+            pixel.pixel_class = random() % 2 == 0 ? lit : blocked;
+            pixel.verdict = static_cast<float>(random() % 2);
+            pixel.zeta_m = distance(random);
+        }
+        const auto bins = errors_by_distance(Images{pixels}.inputs(), 7);
+        std::uint64_t total = 0;
+        for (const ErrorBin& bin : bins) {
+            const auto expected = std::count_if(pixels.begin(), pixels.end(), [&](const Pixel& p) {
+                const bool is_last = bin.upper == bins.back().upper;
+                const double zeta_m{p.zeta_m};
+                return zeta_m >= bin.lower && (zeta_m < bin.upper || is_last);
+            });
+            ASSERT_EQ(bin.counts.lit + bin.counts.blocked, static_cast<std::uint64_t>(expected));
+            total += bin.counts.lit + bin.counts.blocked;
+        }
+        ASSERT_EQ(total, pixels.size());
+    }
+}
+
+TEST(ErrorsByAngle, SplitTheQuarterTurnEvenly)
+{
+    const Images images{{{lit, 0, 0, 1, 0.0F}, {lit, 0, 0, 1, 0.9F}, {blocked, 1, 0, 1, 3.0e38F}}};
+    const auto bins = errors_by_angle(images.inputs());
+    ASSERT_EQ(bins.size(), 18U);
+    EXPECT_EQ(bins[0].counts, (PartCounts{1, 0, 1, 0}));
+    EXPECT_EQ(bins[8].counts, (PartCounts{1, 0, 1, 0})); // atan 0.9 = 41.99 degrees
+    EXPECT_EQ(bins[17].counts, (PartCounts{0, 1, 0, 1}));
+    EXPECT_DOUBLE_EQ(bins[8].lower, 40 * std::numbers::pi / 180);
+    EXPECT_DOUBLE_EQ(bins[17].upper, std::numbers::pi / 2);
+}
+
+TEST(ErrorsByObject, ListEveryObjectInOrder)
+{
+    scene::SceneBuilder builder;
+    const std::vector<scene::Vec3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}};
+    const std::vector<std::array<std::uint32_t, 3>> two{{0, 2, 1}, {1, 2, 3}};
+    for (const char* name : {"ground", "box", "unseen"}) {
+        builder.add(name, corners, two);
+    }
+    const scene::TriangleScene scene = builder.take();
+    const Images images{{{lit, 0}, {blocked, 1}, {lit, 1}, {PixelClass::background}}};
+    scene::Image<std::uint32_t> triangles{{4, 1}, scene::no_triangle};
+    triangles[0] = 1;
+    triangles[1] = 2;
+    triangles[2] = 3;
+    const auto errors = errors_by_object(images.classes, images.lookup, triangles, scene);
+    ASSERT_EQ(errors.size(), 3U);
+    EXPECT_EQ(errors[0].name, "ground");
+    EXPECT_EQ(errors[0].counts, (PartCounts{1, 0, 1, 0}));
+    EXPECT_EQ(errors[1].name, "box");
+    EXPECT_EQ(errors[1].counts, (PartCounts{1, 1, 0, 1}));
+    EXPECT_EQ(errors[2].counts, PartCounts{});
+}
+
+TEST(Breakdown, RejectsWhatItCannotBin)
+{
+    const Images images{{{lit}}};
+    EXPECT_THROW((void)errors_by_distance(images.inputs(), 0), std::invalid_argument);
+    EXPECT_THROW((void)errors_by_angle(images.inputs(), 0), std::invalid_argument);
+    const Images nowhere{{{lit, 0, 0, infinity}}};
+    EXPECT_THROW((void)errors_by_distance(nowhere.inputs()), std::invalid_argument);
+    EXPECT_THROW((void)errors_by_object(images.classes, images.lookup, {}, {}),
+                 std::invalid_argument);
+    const scene::Image<float> empty;
+    const BreakdownInputs uneven{images.classes, images.lookup, images.criticals, empty, empty};
+    EXPECT_THROW((void)errors_by_distance(uneven), std::invalid_argument);
+    const BreakdownInputs no_map_errors{images.classes, images.lookup, images.criticals,
+                                        images.zeta_m, empty};
+    EXPECT_FALSE(errors_by_distance(no_map_errors)[0].map_error_m.has_value());
+}
+
+} // namespace
+} // namespace gnomon::analysis
