@@ -48,6 +48,14 @@ struct CauseInputs {
     const scene::ExactLight& light;
 
     [[nodiscard]] LookupRules rules() const { return {lookup, resolution_texels, reversed}; }
+    /// The depth that GL stored in a texel that the pixel's lookup reads.
+    [[nodiscard]] float stored_depth(std::size_t pixel, const scene::Texel& texel) const
+    {
+        // The map's rows are counted from the top, texels from the bottom.
+        return lookup.filter == scene::Filter::nearest
+                   ? unbiased.samples[pixel].map_depth
+                   : map_depths(texel.x, resolution_texels - 1 - texel.y);
+    }
 };
 
 /// Finds the causes of every scored pixel that the map without bias gets wrong, for all biases.

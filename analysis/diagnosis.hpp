@@ -1,24 +1,18 @@
 #pragma once
 
-#include "analysis/bias_curve.hpp"
-#include "analysis/bias_limits.hpp"
+#include "analysis/bias_answers.hpp"
+#include "analysis/breakdown.hpp"
 #include "analysis/causes.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace gnomon::analysis {
-
-/// Every constant bias at once, with the job's slope and normal offset.
-struct BiasAnswers {
-    scene::Image<float> critical_bias; ///< of each pixel; 0 where there is no receiver
-    BiasCurve curve;
-    BestBiases best;
-    BiasBounds bounds;
-};
 
 /// Why pixels are wrong, at the job's bias and at every other.
 struct Diagnosis {
@@ -27,6 +21,9 @@ struct Diagnosis {
     Gaps peter_panning;              ///< at the job's
     /// Empty for `hardware`: its weights are the driver's own.
     std::optional<BiasAnswers> biases;
+    std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below
+    std::vector<ErrorBin> by_angle;
+    std::vector<ObjectErrors> by_object;
 };
 
 /// What a comparison found.

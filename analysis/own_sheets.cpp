@@ -21,20 +21,12 @@ public:
         if (!tap.is_inside && !interpolates) {
             return inputs_.lookup.outside == Outside::shadowed;
         }
-        const float depth = tap.is_inside ? stored_depth(pixel, tap) : rules_.border_depth();
+        const float depth =
+            tap.is_inside ? inputs_.stored_depth(pixel, tap.texel) : rules_.border_depth();
         return !rules_.is_lit(inputs_.unbiased.samples[pixel].receiver_depth, depth);
     }
 
 private:
-    [[nodiscard]] float stored_depth(std::size_t pixel, const Tap& tap) const
-    {
-        if (inputs_.lookup.filter == Filter::nearest) {
-            return inputs_.unbiased.samples[pixel].map_depth;
-        }
-        // The map's rows are counted from the top, texels from the bottom.
-        return inputs_.map_depths(tap.texel.x, inputs_.resolution_texels - 1 - tap.texel.y);
-    }
-
     const CauseInputs& inputs_;
     LookupRules rules_;
 };

@@ -1,5 +1,6 @@
 #include "analysis/tune.hpp"
 
+#include "analysis/slope_curves.hpp"
 #include "analysis/tune_search.hpp"
 #include "scene/error.hpp"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -77,32 +77,22 @@ std::vector<scene::ShadowMapSettings> maps(const Job& job, const TuneLimits& lim
     return tried;
 }
 
-/// The depth that a texel's width spans along the light, on a plane at 45° to it. A spot's changes
-/// with the distance: taken at the geometric mean of near and far.
-double depth_per_texel(const scene::LightFrustum& frustum, int resolution)
-{
-    const double zeta_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
-    const double width_m = frustum.texel_width_m(zeta_m, resolution);
-    const bool is_perspective = frustum.projection == scene::Projection::perspective;
-    return width_m / frustum.range_m() *
-           (is_perspective ? frustum.near_m * frustum.far_m / (zeta_m * zeta_m) : 1.0);
-}
-
 /// Normal offsets to try [texels]: the usual ones, and the job's own.
 std::set<double> normal_offsets(const Job& job)
 {
     return {0.0, 1.0, 2.0, job.bias.normal_texels};
 }
 
-/// Slopes to try: half a texel's depth is what a grid along the slope needs, √½ what one turned by
-/// 45° does; the others are for wider filters, and none for gentle slopes.
+/// Slopes to try: the usual ones for a texel's size, a spot's at the geometric mean of near and
+/// far; and the job's own.
 std::set<double> slopes(const Job& job, const View& view, int resolution)
 {
-    const double texel = depth_per_texel(view.frustum, resolution);
+    const double zeta_m = std::sqrt(std::abs(view.frustum.near_m * view.frustum.far_m));
+    const double depth = depth_per_footprint(view.frustum, resolution, job.lookup.filter, zeta_m);
     std::set<double> tried{job.bias.slope};
-    for (const double factor : {0.0, 0.5, std::numbers::sqrt2 / 2, 1.0, 2.0}) {
+    for (const float slope : default_slopes(depth)) {
         // Printed with few digits, and then exactly what is recommended.
-        tried.insert(std::stod(fmt::format("{:.4g}", factor * texel)));
+        tried.insert(std::stod(fmt::format("{:.4g}", slope)));
     }
     return tried;
 }

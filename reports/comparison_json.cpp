@@ -68,7 +68,7 @@ Json counts_by_name(const Names& names, const Counts& counts)
     return json;
 }
 
-Json lengths(const std::optional<analysis::LengthStatistics>& lengths)
+Json lengths(const std::optional<analysis::Quantiles>& lengths)
 {
     return lengths ? Json{{"median", lengths->median}, {"p95", lengths->p95}, {"max", lengths->max}}
                    : Json{{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};

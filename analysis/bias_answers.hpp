@@ -1,0 +1,48 @@
+#pragma once
+
+#include "analysis/bias_curve.hpp"
+#include "analysis/bias_limits.hpp"
+#include "analysis/bias_units.hpp"
+#include "analysis/causes.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// The best constant bias with another slope factor.
+struct SlopeAnswer {
+    float slope = 0; ///< depth units per unit of tan θ
+    BestBiases best;
+    BiasBounds bounds;
+};
+
+/// Every constant bias at once, with the job's slope and normal offset.
+struct BiasAnswers {
+    scene::Image<float> critical_bias; ///< of each pixel; 0 where there is no receiver
+    BiasCurve curve;
+    BestBiases best;
+    BiasBounds bounds;
+    BiasMap map;                     ///< what each pixel needs or allows
+    std::vector<SlopeAnswer> slopes; ///< the same for other slope factors
+    std::size_t best_slope = 0; ///< index into `slopes`: together with its best bias the best pair
+};
+
+/// What the bias answers are made from; all images of one size.
+struct BiasQuestion {
+    const scene::Job& job;
+    const scene::View& view;
+    const scene::TruthLayers& truth;
+    const scene::LookupLayers& lookup; ///< with the job's normal offset; other biases do not matter
+    const scene::Image<float>& map_depths;  ///< empty for nearest and linear
+    const scene::Image<PixelCause>& pixels; ///< from `find_causes`
+    const scene::Image<float>& zeta_m;      ///< light distance of the receivers [m]
+    const ForgiveGaps& forgive;
+};
+
+/// @throws std::invalid_argument  for `hardware`, and if the images differ in size.
+[[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question);
+
+} // namespace gnomon::analysis
