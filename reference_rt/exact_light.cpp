@@ -74,6 +74,7 @@ private:
     std::size_t pixel_ = static_cast<std::size_t>(-1);
     Facet facet_;
     CameraRay ray_;
+    ClipLine line_;
     Receiver receiver_;
     DepthTerm term_;
 };
