@@ -1,7 +1,9 @@
 #include "reference_rt/critical_bias.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace gnomon::reference_rt {
@@ -13,6 +15,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// What a texel's ray meets; it stays where it is, as the hit refers to its ray and facet.
 struct TapHit {
     CameraRay ray;
+    ClipLine line;
     Facet facet;
     Receiver hit;
 };
@@ -20,6 +23,25 @@ struct TapHit {
 Fraction number(double x)
 {
     return {Dyadic{x}, Dyadic{1}};
+}
+
+/// What a bias must make up for: r − d, or reversed d − r. `bounds` are those of the terms to use.
+template <typename Bounds>
+Bounded bounded_excess(const DepthTerm& receiver, std::span<const DepthTerm> taps,
+                       std::span<const double> weights, bool is_reversed, const Bounds& bounds)
+{
+    Bounded excess = std::invoke(bounds, receiver);
+    for (std::size_t i = 0; i < taps.size(); ++i) {
+        excess = excess - Bounded{weights[i], 0} * std::invoke(bounds, taps[i]);
+    }
+    return is_reversed ? Bounded{-excess.value, excess.error} : excess;
+}
+
+/// The bias where the whole interval asks for the same.
+std::optional<float> certain_bias(const Bounded& excess)
+{
+    const float bias = smallest_bias_from(excess.lower());
+    return bias == smallest_bias_from(excess.upper()) ? std::optional{bias} : std::nullopt;
 }
 
 /// The exact difference that a bias must make up for.
@@ -63,6 +85,11 @@ float smallest_bias_from(double x)
     return double{nearest} < x ? std::nextafter(nearest, infinity) : nearest;
 }
 
+Bounded DepthTerm::sharp() const
+{
+    return hit_ == nullptr ? bounded_ : depth_->at(*line_, sharp_parameter_of(*hit_));
+}
+
 Fraction DepthTerm::exact() const
 {
     return hit_ == nullptr ? number(bounded_.value) : depth_->exactly_at(*hit_);
@@ -88,7 +115,6 @@ float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::Exac
     std::array<TapHit, n> hits;
     std::array<DepthTerm, n> terms;
     SignCounts counts;
-    Bounded excess = receiver.bounded();
     for (std::size_t i = 0; i < n; ++i) {
         if (taps[i].triangle == scene::no_triangle) {
             terms[i] = DepthTerm{double{taps[i].constant}};
@@ -97,17 +123,20 @@ float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::Exac
             tap.ray = CameraRay{rays_.ray(taps[i].texel)};
             tap.facet = Facet{taps[i].triangle, corners_of(triangles_, taps[i].triangle)};
             tap.hit = Receiver{tap.facet, tap.ray, counts};
-            terms[i] = DepthTerm{depth_, depth_.along(tap.ray.ray), tap.hit};
+            tap.line = depth_.along(tap.ray.ray);
+            terms[i] = DepthTerm{depth_, tap.line, tap.hit};
         }
-        excess = excess - Bounded{weights[i], 0} * terms[i].bounded();
     }
-    if (depth_.is_reversed()) {
-        excess.value = -excess.value;
+    const bool is_reversed = depth_.is_reversed();
+    if (const auto bias = certain_bias(
+            bounded_excess(receiver, terms, weights, is_reversed, &DepthTerm::bounded))) {
+        return *bias;
     }
-    const float bias = smallest_bias_from(excess.lower());
-    return bias == smallest_bias_from(excess.upper())
-               ? bias
-               : smallest_bias_of(exact_excess(receiver, terms, weights, depth_.is_reversed()));
+    if (const auto bias = certain_bias(
+            bounded_excess(receiver, terms, weights, is_reversed, &DepthTerm::sharp))) {
+        return *bias;
+    }
+    return smallest_bias_of(exact_excess(receiver, terms, weights, is_reversed));
 }
 
 template float CriticalBias::find(const DepthTerm&, const std::array<scene::ExactTap, 1>&,

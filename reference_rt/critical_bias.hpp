@@ -23,11 +23,14 @@ public:
     DepthTerm(const LightDepth& depth, const ClipLine& line, const Receiver& hit)
         : bounded_{depth.at(line, parameter_of(hit))},
           depth_{&depth},
+          line_{&line},
           hit_{&hit}
     {
     }
 
-    [[nodiscard]] const Bounded& bounded() const { return bounded_; }
+    [[nodiscard]] Bounded bounded() const { return bounded_; }
+    /// Bounded more closely, at a cost.
+    [[nodiscard]] Bounded sharp() const;
     [[nodiscard]] Fraction exact() const;
     /// The same, limited to [0, 1].
     [[nodiscard]] DepthTerm clamped() const;
@@ -35,6 +38,7 @@ public:
 private:
     Bounded bounded_;
     const LightDepth* depth_ = nullptr;
+    const ClipLine* line_ = nullptr;
     const Receiver* hit_ = nullptr;
 };
 

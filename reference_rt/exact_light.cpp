@@ -3,6 +3,7 @@
 #include "reference_rt/critical_bias.hpp"
 #include "reference_rt/crossing.hpp"
 #include "reference_rt/light_depth.hpp"
+#include "reference_rt/own_sheet.hpp"
 #include "reference_rt/pixel_packets.hpp"
 #include "reference_rt/shadow_segments.hpp"
 #include "reference_rt/texel_first_hits.hpp"
@@ -12,6 +13,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <mutex>
+#include <optional>
 #include <stdexcept>
 
 namespace gnomon::reference_rt {
@@ -66,6 +69,7 @@ public:
         term_ = receiver_.delta_sign == 0 ? DepthTerm{}
                                           : DepthTerm{depth_, depth_.along(ray_.ray), receiver_};
     }
+    [[nodiscard]] const Receiver& receiver() const { return receiver_; }
     [[nodiscard]] const DepthTerm& term() const { return term_; }
 
 private:
@@ -74,6 +78,7 @@ private:
     std::size_t pixel_ = static_cast<std::size_t>(-1);
     Facet facet_;
     CameraRay ray_;
+    ClipLine line_;
     Receiver receiver_;
     DepthTerm term_;
 };
@@ -153,7 +158,21 @@ public:
 
     std::vector<std::uint8_t> are_own_sheets(std::span<const SheetQuery> queries) const override
     {
-        return std::vector<std::uint8_t>(queries.size(), 0);
+        for (const SheetQuery& query : queries) {
+            seen_.check({&query.pixel, 1}, "are_own_sheets");
+            check(query.texel);
+            check(query.triangle);
+        }
+        const OwnSheet sheet{reference_.triangles, fans(), rays_};
+        std::vector<std::uint8_t> answers(queries.size(), 0);
+        for_each_pixel_of(queries, [&](std::size_t i, const LitPoint& point) {
+            answers[i] =
+                point.receiver().delta_sign != 0 &&
+                        sheet.leads(point.receiver(), queries[i].texel, queries[i].triangle)
+                    ? 1
+                    : 0;
+        });
+        return answers;
     }
 
     std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels) const override
@@ -180,23 +199,38 @@ public:
     }
 
 private:
-    template <typename Query>
-    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
+    /// Calls `run(i, point of query i)` for every query, several at the same time.
+    template <typename Query, typename Run>
+    void for_each_pixel_of(std::span<const Query> queries, const Run& run) const
     {
-        check(queries);
-        const CriticalBias critical{reference_.triangles, rays_, depth_};
-        std::vector<float> biases(queries.size());
         with_threads(threads_, [&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>{0, queries.size(), 256},
                               [&](const tbb::blocked_range<std::size_t>& range) {
                                   LitPoint point{seen_, depth_};
                                   for (std::size_t i = range.begin(); i != range.end(); ++i) {
                                       point.move_to(queries[i].pixel);
-                                      biases[i] = critical.find(
-                                          clamps ? point.term().clamped() : point.term(),
-                                          taps_of(queries[i]), weights_of(queries[i]));
+                                      run(i, point);
                                   }
                               });
+        });
+    }
+
+    /// Made when first asked for.
+    [[nodiscard]] const CornerFans& fans() const
+    {
+        std::call_once(fans_made_, [&] { fans_.emplace(reference_.triangles); });
+        return *fans_;
+    }
+
+    template <typename Query>
+    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
+    {
+        check(queries);
+        const CriticalBias critical{reference_.triangles, rays_, depth_};
+        std::vector<float> biases(queries.size());
+        for_each_pixel_of(queries, [&](std::size_t i, const LitPoint& point) {
+            biases[i] = critical.find(clamps ? point.term().clamped() : point.term(),
+                                      taps_of(queries[i]), weights_of(queries[i]));
         });
         return biases;
     }
@@ -250,6 +284,8 @@ private:
     scene::Cull cull_;
     SegmentLight segments_;
     int threads_;
+    mutable std::once_flag fans_made_;
+    mutable std::optional<CornerFans> fans_;
 };
 
 } // namespace

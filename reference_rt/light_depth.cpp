@@ -1,6 +1,7 @@
 #include "reference_rt/light_depth.hpp"
 
 #include "reference_rt/terms.hpp"
+#include "reference_rt/wide.hpp"
 
 #include <cmath>
 
@@ -23,6 +24,15 @@ Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, 
 }
 
 } // namespace
+
+Bounded sharp_parameter_of(const Receiver& hit)
+{
+    if (!hit.is_tame()) {
+        return parameter_of(hit);
+    }
+    const auto plane = plane_hit(WideField{}, hit);
+    return plane.nu.rounded() / plane.delta.rounded();
+}
 
 LightDepth::LightDepth(const scene::LightFrustum& frustum) : frustum_{frustum}, rows_{frustum} {}
 
@@ -80,13 +90,14 @@ bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit) const
            (exact - Fraction{Dyadic{1}, Dyadic{1}}).sign() <= 0;
 }
 
-double LightDepth::depth(const ClipLine& line, const Receiver& hit) const
+LightDepth::Place LightDepth::place(const ClipLine& line, const Receiver& hit) const
 {
-    const Bounded depth = at(line, parameter_of(hit));
-    return depth.error <= 0x1p-48 ? depth.value : exactly_at(hit).value();
+    const Bounded t = sharp_parameter_of(hit);
+    const Bounded depth = at(line, t);
+    return {depth.error <= 0x1p-48 ? depth.value : exactly_at(hit).value(), zeta_m(hit, t)};
 }
 
-double LightDepth::zeta_m(const Receiver& hit) const
+double LightDepth::zeta_m(const Receiver& hit, const Bounded& t) const
 {
     const Ray& ray = hit.ray();
     const Vec3d& forward = frustum_.forward;
@@ -96,7 +107,7 @@ double LightDepth::zeta_m(const Receiver& hit) const
     const Bounded start = compensated_dot<6>(
         axis, {ray.origin.x, ray.origin.y, ray.origin.z, origin.x, origin.y, origin.z});
     const Bounded step = row_at(Vec4d{forward, 0}, ray.direction, 0);
-    const Bounded zeta = start + parameter_of(hit) * step;
+    const Bounded zeta = start + t * step;
     if (zeta.error <= 0x1p-45 * std::abs(zeta.value)) {
         return zeta.value;
     }

@@ -53,14 +53,17 @@ public:
     /// True when the point is in front of the light and its depth in [0, 1].
     [[nodiscard]] bool is_in_range(const ClipLine& line, const Receiver& hit) const;
 
-    /// The point's depth, within 2^-48 where it is in [0, 1].
-    [[nodiscard]] double depth(const ClipLine& line, const Receiver& hit) const;
-    /// ζ [m] of the point, to a relative 2^-44.
-    [[nodiscard]] double zeta_m(const Receiver& hit) const;
+    /// Depth, where it is in [0, 1] within 2^-48, and ζ to a relative 2^-44.
+    struct Place {
+        double depth = 0;
+        double zeta_m = 0;
+    };
+    [[nodiscard]] Place place(const ClipLine& line, const Receiver& hit) const;
 
 private:
     /// True where the facet's plane certainly has one depth: it faces a directional light.
     [[nodiscard]] bool is_level(const Facet& facet) const;
+    [[nodiscard]] double zeta_m(const Receiver& hit, const Bounded& t) const;
 
     const scene::LightFrustum& frustum_;
     ClipRows rows_;
@@ -71,5 +74,7 @@ private:
 {
     return {hit.t, hit.t_error};
 }
+/// The same to within a few roundings, wherever twice the precision is enough for that.
+[[nodiscard]] Bounded sharp_parameter_of(const Receiver& hit);
 
 } // namespace gnomon::reference_rt

@@ -14,16 +14,6 @@ using scene::Vec3d;
 
 namespace {
 
-Sign edge_sign(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const Light& light,
-               SignCounts& counts)
-{
-    return receiver.delta_sign *
-           sign_of(counts, receiver.is_tame(), [&]<typename Field>(Field field) {
-               const auto normal = cross(difference<Field>(v, u), towards<Field>(light, u));
-               return scaled_side(field, receiver, normal, u);
-           });
-}
-
 Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
 {
     const auto formula = [&]<typename Field>(Field field) {
@@ -163,10 +153,21 @@ ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s, const Light
                          SignCounts& counts)
 {
     const auto& [u, v, w] = s;
-    return {{edge_sign(receiver, u, v, light, counts), edge_sign(receiver, v, w, light, counts),
-             edge_sign(receiver, w, u, light, counts)},
+    return {{point_side(receiver, u, v, light, counts), point_side(receiver, v, w, light, counts),
+             point_side(receiver, w, u, light, counts)},
             point_sign(receiver, s, counts),
             light_side(s, light, counts)};
+}
+
+Sign point_side(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const Light& light,
+                SignCounts& counts)
+{
+    return receiver.delta_sign *
+           sign_of(counts, receiver.is_tame() && is_tame(light.direction),
+                   [&]<typename Field>(Field field) {
+                       const auto normal = cross(difference<Field>(v, u), towards<Field>(light, u));
+                       return scaled_side(field, receiver, normal, u);
+                   });
 }
 
 Contact find_contact(const Receiver& receiver, const Corners& s, const Light& light,
@@ -174,7 +175,7 @@ Contact find_contact(const Receiver& receiver, const Corners& s, const Light& li
 {
     ShadowSigns signs;
     for (std::size_t i = 0; i < 3; ++i) {
-        signs.edge[i] = edge_sign(receiver, s[i], s[(i + 1) % 3], light, counts);
+        signs.edge[i] = point_side(receiver, s[i], s[(i + 1) % 3], light, counts);
         if (i > 0 && signs.edge[i] * signs.edge[i - 1] < 0) {
             return Contact::none; // unless the segment runs in the plane: then all three are 0
         }

@@ -159,6 +159,10 @@ private:
 [[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,
                                    SignCounts& counts);
 
+/// Side of P from the plane through the light and the edge (u, v): ε(u, v) below.
+[[nodiscard]] Sign point_side(const Receiver& receiver, const scene::Vec3d& u,
+                              const scene::Vec3d& v, const scene::Light& light, SignCounts& counts);
+
 /// How S meets the open segment from P to the light: its five signs, as far as they are needed.
 ///
 /// With g(x) = L − x, or −ℓ for a directional light that travels along ℓ:

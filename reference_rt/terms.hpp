@@ -5,6 +5,8 @@
 #include "scene/light.hpp"
 #include "scene/vec.hpp"
 
+#include <utility>
+
 /// The terms of which the predicates' formulas are made, in either arithmetic.
 namespace gnomon::reference_rt {
 
@@ -18,13 +20,14 @@ inline auto plane_hit(FilterField, const Receiver& receiver)
 {
     return PlaneHit<Filtered<7>, Filtered<8>>{receiver.delta, receiver.nu};
 }
-inline auto plane_hit(ExactField, const Receiver& receiver)
+template <typename Field>
+auto plane_hit(Field, const Receiver& receiver)
 {
     const scene::Ray& ray = receiver.ray();
-    const auto normal = normal_of<ExactField>(receiver.corners());
-    return PlaneHit<Dyadic, Dyadic>{
-        dot(normal, vector<ExactField>(ray.direction)),
-        dot(normal, difference<ExactField>(receiver.corners()[0], ray.origin))};
+    const auto normal = normal_of<Field>(receiver.corners());
+    auto delta = dot(normal, vector<Field>(ray.direction));
+    auto nu = dot(normal, difference<Field>(receiver.corners()[0], ray.origin));
+    return PlaneHit<decltype(delta), decltype(nu)>{std::move(delta), std::move(nu)};
 }
 
 inline Vec3<Filtered<1>> negated(const Vec3<Filtered<0>>& v)

@@ -113,7 +113,8 @@ public:
         }
         const Facet facet = facet_of(kept.triangle);
         const Receiver hit{facet, rays_[lane], counts_};
-        return {kept.triangle, setting_.depth.depth(lines_[lane], hit), setting_.depth.zeta_m(hit)};
+        const auto [depth, zeta_m] = setting_.depth.place(lines_[lane], hit);
+        return {kept.triangle, depth, zeta_m};
     }
 
     LaneBits judge_packet(std::uint32_t /*triangle*/, LaneBits /*asking*/) override { return 0; }
