@@ -2,6 +2,8 @@
 
 #include "reference_rt/terms.hpp"
 
+#include <array>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -33,9 +35,12 @@ public:
             const std::uint32_t triangle = open_.back();
             open_.pop_back();
             const Corners corners = corners_of(setting_.triangles, triangle);
-            for (int edge = 0; edge < 3; ++edge) {
-                if (crosses(edge_of(corners, edge))) {
-                    visit_beyond(triangle, edge, corners);
+            const std::array<Sign, 3> sides{line_side(corners[0]), line_side(corners[1]),
+                                            line_side(corners[2])};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const EdgeOf edge = edge_of(corners, static_cast<int>(i));
+                if (crosses(edge, sides[i] * sides[(i + 1) % 3])) {
+                    visit_beyond(edge, setting_.fans.around(triangle, i));
                 }
             }
         }
@@ -50,15 +55,13 @@ private:
         }
     }
 
-    /// Visits the triangles on the other side of an edge.
-    void visit_beyond(std::uint32_t triangle, int edge, const Corners& corners)
+    /// Visits the triangles on the other side of an edge, out of those around one of its ends.
+    void visit_beyond(const EdgeOf& edge, std::span<const std::uint32_t> fan)
     {
-        const EdgeOf own = edge_of(corners, edge);
-        for (const std::uint32_t other :
-             setting_.fans.around(triangle, static_cast<std::size_t>(edge))) {
-            const Corners other_corners = corners_of(setting_.triangles, other);
-            for (int k = 0; k < 3; ++k) {
-                if (forms_seam(own, edge_of(other_corners, k), setting_.light, counts_)) {
+        for (const std::uint32_t other : fan) {
+            const Corners corners = corners_of(setting_.triangles, other);
+            for (int i = 0; i < 3; ++i) {
+                if (forms_seam(edge, edge_of(corners, i), setting_.light, counts_)) {
                     visit(other);
                 }
             }
@@ -66,10 +69,10 @@ private:
     }
 
     /// True when the segment pc leaves the triangle by this edge, or meets the edge along the line
-    /// or in an end. The triangle meets the segment.
-    [[nodiscard]] bool crosses(const EdgeOf& edge)
+    /// or in an end. Precondition: the triangle meets the segment.
+    /// @param ends  product of the sides of its ends from the line pc.
+    [[nodiscard]] bool crosses(const EdgeOf& edge, Sign ends)
     {
-        const Sign ends = line_side(edge.u) * line_side(edge.v);
         if (ends > 0) {
             return false;
         }
