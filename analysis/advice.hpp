@@ -1,22 +1,11 @@
 #pragma once
 
-#include "analysis/bias_curve.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/renderers.hpp"
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace gnomon::analysis {
-
-/// One change of the job's settings, and what a run with it measured.
-struct Advice {
-    std::vector<std::string>
-        keys; ///< what changes, as the job file writes it: "bias.constant = 0.002"
-    ErrorCounts errors;
-    std::optional<double> error_rate; ///< empty: no scored pixel
-};
 
 /// Runs GL again with the changes that suit the errors' causes, each by itself; where another
 /// constant bias suits the changed map better, also with that one.

@@ -38,6 +38,14 @@ struct SceneSummary {
 [[nodiscard]] SceneSummary summarise_scene(const scene::SceneSettings& settings,
                                            const scene::TriangleScene& triangles);
 
+/// One change of the job's settings, and what a run with it measured.
+struct Advice {
+    std::vector<std::string>
+        keys; ///< what changes, as the job file writes it: "bias.constant = 0.002"
+    ErrorCounts errors;
+    std::optional<double> error_rate; ///< empty: no scored pixel
+};
+
 /// One configuration's result: everything that reports show.
 struct Comparison {
     scene::Job job;
@@ -50,6 +58,7 @@ struct Comparison {
     scene::TruthLayers truth;
     Metrics metrics;
     std::optional<Diagnosis> diagnosis;                ///< empty: not asked for
+    std::vector<Advice> advice;                        ///< empty: not asked for
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
 
     std::string truth_method;

@@ -97,16 +97,6 @@ std::set<double> slopes(const Job& job, const View& view, int resolution)
     return tried;
 }
 
-/// Whether a is to be recommended rather than b, of as many bytes.
-bool is_better(const TunedSetting& a, const TunedSetting& b)
-{
-    if (a.meets_limits != b.meets_limits) {
-        return a.meets_limits;
-    }
-    return std::tuple{a.errors.total(), -a.interval.width()} <
-           std::tuple{b.errors.total(), -b.interval.width()};
-}
-
 class Tuner {
 public:
     Tuner(const Job& job, const scene::SceneFile& file, const Renderers& renderers,
@@ -193,6 +183,15 @@ std::uint64_t TunedSetting::map_bytes() const
 {
     const auto side = static_cast<std::uint64_t>(map.resolution_texels);
     return side * side * texel_bytes(map.depth_format);
+}
+
+bool is_better(const TunedSetting& a, const TunedSetting& b)
+{
+    if (a.meets_limits != b.meets_limits) {
+        return a.meets_limits;
+    }
+    return std::tuple{a.errors.total(), -a.interval.width()} <
+           std::tuple{b.errors.total(), -b.interval.width()};
 }
 
 Job tuned_job(const Job& job, const TunedSetting& setting)

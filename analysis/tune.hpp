@@ -36,6 +36,10 @@ struct TunedSetting {
     [[nodiscard]] std::uint64_t map_bytes() const;
 };
 
+/// Whether a is to be recommended rather than b, of as many bytes: it meets the limits, has fewer
+/// errors, or a wider interval of best biases.
+[[nodiscard]] bool is_better(const TunedSetting& a, const TunedSetting& b);
+
 struct TuneResult {
     std::vector<TunedSetting> considered; ///< in the order of `map_bytes`
     std::size_t recommended = 0; ///< index; the one with the lowest error rate if none meets

@@ -1,8 +1,8 @@
 #include "cli/compare_command.hpp"
 
+#include "analysis/advice.hpp"
+#include "cli/comparison_session.hpp"
 #include "cli/job_options.hpp"
-#include "cli/memory.hpp"
-#include "cli/renderers.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/aov_exr.hpp"
 #include "reports/comparison_json.hpp"
@@ -10,14 +10,11 @@
 #include "reports/output_file.hpp"
 #include "reports/picture.hpp"
 #include "scene/error.hpp"
-#include "scene/load_scene.hpp"
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <system_error>
 
@@ -31,23 +28,8 @@ struct CompareOptions {
     std::string picture_path;
     std::string truth = "exact";
     bool audit = false;
-    std::optional<int> device;
-    int threads = 0;
-};
-
-class Stopwatch {
-public:
-    /// Seconds since construction or the last call.
-    double lap_s()
-    {
-        const auto now = std::chrono::steady_clock::now();
-        const std::chrono::duration<double> lap = now - start_;
-        start_ = now;
-        return lap.count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    bool advise = false;
+    SessionOptions session;
 };
 
 bool are_same_file(const std::string& a, const std::string& b)
@@ -108,37 +90,39 @@ void require_no_mismatch(const analysis::Comparison& comparison)
     }
 }
 
-void compare(const CompareOptions& options)
+/// What the exact truth alone can answer.
+void require_exact_truth(const CompareOptions& options)
 {
-    require_distinct_paths(options);
     if (options.audit && options.truth != "exact") {
         throw scene::InputError{
             "--audit needs --truth exact: it counts where float methods differ"};
     }
+    if (options.advise && options.truth != "exact") {
+        throw scene::InputError{"--advise needs --truth exact: advice follows from the causes"};
+    }
+}
+
+void compare(const CompareOptions& options)
+{
+    require_distinct_paths(options);
+    require_exact_truth(options);
     require_writable(options);
     const scene::Job job = read_job(options.job).job;
-    require_memory(job);
-    Stopwatch watch;
-    const scene::SceneFile file = scene::load_scene(job.scene);
-    const double scene_s = watch.lap_s();
-    const raster_gl::Context context{options.device};
-    GlRenderer gl{context, file.scene};
-    watch.lap_s();
-    const bool is_exact = options.truth == "exact";
-    const reference_rt::TruthOptions truth{is_exact ? reference_rt::TruthMethod::exact
-                                                    : reference_rt::TruthMethod::plain,
-                                           options.threads};
-    const reference_rt::ReferenceScene reference{
-        file.scene, {options.threads, is_exact, !is_exact || options.audit}};
-    const double bvh_s = watch.lap_s();
-    analysis::Comparison comparison =
-        analysis::compare(job, file, make_renderers(gl, context.facts(), reference, truth));
-    comparison.seconds.scene += scene_s;
-    comparison.seconds.bvh = bvh_s;
+    SessionOptions session_options = options.session;
+    session_options.audits = options.audit;
+    session_options.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
+                                                      : reference_rt::TruthMethod::plain;
+    const ComparisonSession session{job, session_options};
+    analysis::Comparison comparison = analysis::compare(job, session.file(), session.renderers());
+    comparison.seconds.scene += session.scene_seconds();
+    comparison.seconds.bvh = session.bvh_seconds();
     if (options.audit) {
         comparison.float_audit = reference_rt::audit_float_methods(
-            reference, comparison.view, comparison.receivers.triangle, comparison.truth,
-            options.threads);
+            session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
+            options.session.threads);
+    }
+    if (options.advise) {
+        comparison.advice = analysis::advise(comparison, session.file(), session.renderers());
     }
     write_outputs(options, comparison);
     require_no_mismatch(comparison);
@@ -165,12 +149,10 @@ void add_compare_command(CLI::App& program)
         ->capture_default_str();
     command->add_flag("--audit", options->audit,
                       "Count the pixels that each usual float method for shadow rays gets wrong");
-    command->add_option(
-        "--device", options->device,
-        "EGL device, as `gnomon doctor` numbers them; default: the first that works");
-    command->add_option("--threads", options->threads, "Threads of the reference; 0: all cores")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
+    command->add_flag(
+        "--advise", options->advise,
+        "Run GL again with the changes that suit the errors, and print what they give");
+    add_session_options(*command, options->session);
     command->footer("Examples:\n"
                     "  gnomon compare --builtin sphere-plane\n"
                     "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"

@@ -5,6 +5,7 @@
 #include "cli/process.hpp"
 #include "cli/simple_commands.hpp"
 #include "cli/standard_output.hpp"
+#include "cli/tune_command.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -37,14 +38,17 @@ void describe(CLI::App& program)
     program.name("gnomon");
     program.require_subcommand(1);
     program.set_version_flag("--version", "gnomon " GNOMON_VERSION);
-    program.footer("Examples:\n"
-                   "  gnomon compare --builtin sphere-plane\n"
-                   "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
-                   "  gnomon init job.toml\n\n"
-                   "Exit status: 0 done; 1 `certify` refutes; 2 usage, or a job or scene that is\n"
-                   "bad, missing or unreadable; 4 GL, Embree or output failed; 130 interrupted.");
+    program.footer(
+        "Examples:\n"
+        "  gnomon compare --builtin sphere-plane\n"
+        "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
+        "  gnomon init job.toml\n\n"
+        "Exit status: 0 done; 1 `certify` refutes, or no setting meets `tune`'s limits;\n"
+        "2 usage, or a job or scene that is bad, missing or unreadable; 4 GL, Embree or output "
+        "failed; 130 interrupted.");
     gnomon::cli::add_compare_command(program);
     gnomon::cli::add_certify_command(program);
+    gnomon::cli::add_tune_command(program);
     gnomon::cli::add_scenes_command(program);
     gnomon::cli::add_init_command(program);
     gnomon::cli::add_doctor_command(program);

@@ -71,13 +71,13 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     };
     renderers.read_map_depths = [&gl] { return gl.read_map_depths(); };
     if (options.method == reference_rt::TruthMethod::exact) {
-        renderers.make_exact_light = [&reference, threads = options.threads](
-                                         const scene::Job& job, const scene::View& view,
-                                         const scene::ReceiverLayers& receivers) {
-            return reference_rt::make_exact_light(reference, view, receivers.triangle,
-                                                  job.shadow_map.resolution_texels,
-                                                  job.shadow_map.cull, threads);
-        };
+        renderers.make_exact_light =
+            [&reference, threads = options.threads](const scene::Job& job, const scene::View& view,
+                                                    const scene::ReceiverLayers& receivers) {
+                return reference_rt::make_exact_light(reference, view, receivers.triangle,
+                                                      job.shadow_map.resolution_texels,
+                                                      job.shadow_map.cull, threads);
+            };
     }
     const bool is_float = options.method == reference_rt::TruthMethod::plain;
     renderers.truth_method = is_float ? "float" : "exact";

@@ -11,6 +11,7 @@
 #include <bit>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon::reports {
 
@@ -57,6 +58,14 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
             channels.push_back({"critical_bias", float32, [&](std::size_t i) {
                                     return bits(is_scored(classes[i]) ? critical[i] : not_a_bias);
                                 }});
+            const analysis::BiasMap& map = biases->map;
+            for (const auto& [name, image] :
+                 {std::pair{"needed_bias_m", &map.metres},
+                  std::pair{"needed_bias_texels", &map.texels},
+                  std::pair{"needed_bias_steps", &map.steps}}) {
+                channels.push_back(
+                    {name, float32, [image](std::size_t i) { return bits((*image)[i]); }});
+            }
         }
         const analysis::CauseLayers& causes = comparison.diagnosis->causes;
         channels.push_back({"cause", uint32, [&](std::size_t i) {

@@ -1,25 +1,18 @@
 #include "reports/comparison_json.hpp"
 
+#include "reports/diagnosis_json.hpp"
 #include "reports/exact_inputs.hpp"
+#include "reports/json_values.hpp"
 #include "scene/job_file.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include <cmath>
 #include <optional>
 
 namespace gnomon::reports {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using scene::ClassReason;
 using scene::PixelClass;
-
-Json number_or_null(std::optional<double> value)
-{
-    return value ? Json(*value) : Json(nullptr);
-}
 
 std::string text(const Json& json, int indent)
 {
@@ -55,78 +48,6 @@ void add_metrics(Json& json, const analysis::Metrics& metrics)
     json["false_lit_rate"] = number_or_null(metrics.false_lit_rate);
     json["error_rate"] = number_or_null(metrics.error_rate);
     json["mean_abs_error"] = number_or_null(metrics.mean_abs_error);
-}
-
-/// Counts by name; the first name, "none", is left out.
-template <typename Names, typename Counts>
-Json counts_by_name(const Names& names, const Counts& counts)
-{
-    Json json = Json::object();
-    for (std::size_t i = 1; i < names.size(); ++i) {
-        json[std::string{names[i]}] = counts[i];
-    }
-    return json;
-}
-
-Json lengths(const std::optional<analysis::Quantiles>& lengths)
-{
-    return lengths ? Json{{"median", lengths->median}, {"p95", lengths->p95}, {"max", lengths->max}}
-                   : Json{{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
-}
-
-/// JSON has no infinities: a limit that does not exist is null.
-Json finite_or_null(float value)
-{
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-void add_limits(Json& json, const analysis::BiasLimits& limits)
-{
-    json["acne_free"] = finite_or_null(limits.acne_free);
-    json["panning_free"] = finite_or_null(limits.panning_free);
-    json["panning_free_beyond_zero"] = finite_or_null(limits.panning_free_beyond_zero);
-}
-
-Json bias_curve(const analysis::BiasAnswers& answers)
-{
-    const analysis::BestBiases& best = answers.best;
-    Json json{{"best_interval",
-               Json::array({finite_or_null(best.interval.lo), finite_or_null(best.interval.hi)})},
-              {"best_errors", best.errors.total()}};
-    add_limits(json, answers.bounds.strict);
-    json["allowances"] = Json::array();
-    for (const analysis::BiasLimits& limits : answers.bounds.allowances) {
-        Json entry{{"allowance", limits.allowance}};
-        add_limits(entry, limits);
-        json["allowances"].push_back(std::move(entry));
-    }
-    json["no_constant_bias_serves"] = answers.bounds.no_constant_bias_serves;
-    json["pareto_front"] = Json::array();
-    for (const analysis::CurvePoint& point : analysis::pareto_front(answers.curve, 33)) {
-        json["pareto_front"].push_back({{"bias", finite_or_null(point.bias)},
-                                        {"false_shadow", point.errors.false_shadow},
-                                        {"false_lit", point.errors.false_lit}});
-    }
-    return json;
-}
-
-/// Without a diagnosis everything is null, never a number.
-void add_diagnosis(Json& json, const std::optional<analysis::Diagnosis>& diagnosis)
-{
-    if (!diagnosis) {
-        json["causes"] = nullptr;
-        json["labels"] = nullptr;
-        json["peter_panning_gap_m"] = lengths(std::nullopt);
-        json["peter_panning_gap_texels"] = lengths(std::nullopt);
-        json["bias_curve"] = nullptr;
-        return;
-    }
-    const analysis::CauseCounts& counts = diagnosis->causes.counts;
-    json["causes"] = counts_by_name(analysis::cause_names, counts.by_cause);
-    json["labels"] = counts_by_name(analysis::label_names, counts.by_label);
-    json["peter_panning_gap_m"] = lengths(diagnosis->peter_panning.metres);
-    json["peter_panning_gap_texels"] = lengths(diagnosis->peter_panning.texels);
-    json["bias_curve"] = diagnosis->biases ? bias_curve(*diagnosis->biases) : Json(nullptr);
 }
 
 Json truth_signs(const scene::TruthSigns& signs)
@@ -202,7 +123,7 @@ std::string comparison_json(const analysis::Comparison& comparison)
 {
     Json json{{"schema", 1}};
     add_metrics(json, comparison.metrics);
-    add_diagnosis(json, comparison.diagnosis);
+    add_diagnosis(json, comparison);
     json["environment"] = environment(comparison.environment);
     json["seconds"] = seconds(comparison.seconds);
     json["scene"] = scene_object(comparison.scene);

@@ -1,11 +1,15 @@
 #include "reports/comparison_table.hpp"
 
 #include "reports/description.hpp"
+#include "reports/findings.hpp"
 #include "reports/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -167,6 +171,57 @@ std::string diagnosis(const analysis::Comparison& comparison)
                                              gap->median, gap->p95, gap->max,
                                              diagnosis.peter_panning.texels->max));
     }
+    return text + by_object(diagnosis.by_object);
+}
+
+/// "bias.constant = 0.002, shadow_map.resolution = 2048" and what was measured with it.
+std::string advice(const analysis::Comparison& comparison)
+{
+    if (comparison.advice.empty()) {
+        return "";
+    }
+    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    std::string text = "\n";
+    text += count_line("measured with", "errors", "rate", "");
+    text += count_line("the job as it is", grouped(now), percent(comparison.metrics.error_rate), "");
+    for (const analysis::Advice& change : comparison.advice) {
+        text += count_line("", grouped(change.errors.total()), percent(change.error_rate),
+                           fmt::format("{}", fmt::join(change.keys, ", ")));
+    }
+    return text;
+}
+
+std::string sentences(const analysis::Comparison& comparison)
+{
+    std::string text;
+    for (const std::string& sentence : findings(comparison)) {
+        text += sentence + "\n";
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+std::string by_object(const std::vector<analysis::ObjectErrors>& objects)
+{
+    constexpr std::size_t most_lines = 12;
+    std::vector<analysis::ObjectErrors> wrong;
+    std::ranges::copy_if(objects, std::back_inserter(wrong), [](const auto& object) {
+        return object.counts.false_shadow + object.counts.false_lit > 0;
+    });
+    if (objects.size() < 2 || wrong.empty()) {
+        return "";
+    }
+    std::ranges::stable_sort(wrong, std::greater{}, [](const analysis::ObjectErrors& object) {
+        return object.counts.false_shadow + object.counts.false_lit;
+    });
+    std::string text = "\n";
+    text += count_line("on object", "false shadow", "false lit", "");
+    for (std::size_t i = 0; i < std::min(wrong.size(), most_lines); ++i) {
+        text += count_line(wrong[i].name, grouped(wrong[i].counts.false_shadow),
+                           grouped(wrong[i].counts.false_lit), "");
+    }
+    if (wrong.size() > most_lines) {
+        text += setting_line("", fmt::format("and on {} more", wrong.size() - most_lines));
+    }
     return text;
 }
 
@@ -200,7 +255,8 @@ std::string comparison_table(const analysis::Comparison& comparison)
 {
     return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
                        classes(comparison.metrics.pixels), errors(comparison.metrics),
-                       diagnosis(comparison), float_audit(comparison), seconds(comparison.seconds));
+                       diagnosis(comparison), advice(comparison) + float_audit(comparison),
+                       seconds(comparison.seconds) + sentences(comparison));
 }
 
 } // namespace gnomon::reports

@@ -1,0 +1,169 @@
+#include "reports/diagnosis_json.hpp"
+
+#include "reports/findings.hpp"
+#include "reports/json_values.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace gnomon::reports {
+
+namespace {
+
+/// Counts by name; the first name, "none", is left out.
+template <typename Names, typename Counts>
+Json counts_by_name(const Names& names, const Counts& counts)
+{
+    Json json = Json::object();
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        json[std::string{names[i]}] = counts[i];
+    }
+    return json;
+}
+
+Json quantiles(const std::optional<analysis::Quantiles>& values)
+{
+    return values ? Json{{"count", values->count},
+                         {"min", values->min},
+                         {"median", values->median},
+                         {"p95", values->p95},
+                         {"max", values->max}}
+                  : Json(nullptr);
+}
+
+Json lengths(const std::optional<analysis::Quantiles>& lengths)
+{
+    return lengths ? Json{{"median", lengths->median}, {"p95", lengths->p95}, {"max", lengths->max}}
+                   : Json{{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
+}
+
+/// JSON has no infinities: a limit that does not exist is null.
+Json finite_or_null(float value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json interval(const analysis::BiasInterval& interval)
+{
+    return Json::array({finite_or_null(interval.lo), finite_or_null(interval.hi)});
+}
+
+void add_limits(Json& json, const analysis::BiasLimits& limits)
+{
+    json["acne_free"] = finite_or_null(limits.acne_free);
+    json["panning_free"] = finite_or_null(limits.panning_free);
+    json["panning_free_beyond_zero"] = finite_or_null(limits.panning_free_beyond_zero);
+}
+
+Json bias_curve(const analysis::BiasAnswers& answers)
+{
+    const analysis::BestBiases& best = answers.best;
+    Json json{{"best_interval", interval(best.interval)},
+              {"best_errors", best.errors.total()}};
+    add_limits(json, answers.bounds.strict);
+    json["allowances"] = Json::array();
+    for (const analysis::BiasLimits& limits : answers.bounds.allowances) {
+        Json entry{{"allowance", limits.allowance}};
+        add_limits(entry, limits);
+        json["allowances"].push_back(std::move(entry));
+    }
+    json["no_constant_bias_serves"] = answers.bounds.no_constant_bias_serves;
+    json["pareto_front"] = Json::array();
+    for (const analysis::CurvePoint& point : analysis::pareto_front(answers.curve, 33)) {
+        json["pareto_front"].push_back({{"bias", finite_or_null(point.bias)},
+                                        {"false_shadow", point.errors.false_shadow},
+                                        {"false_lit", point.errors.false_lit}});
+    }
+    return json;
+}
+
+Json slope_answers(const analysis::BiasAnswers& answers)
+{
+    Json json = Json::array();
+    for (std::size_t i = 0; i < answers.slopes.size(); ++i) {
+        const analysis::SlopeAnswer& answer = answers.slopes[i];
+        Json entry{{"slope", answer.slope},
+                   {"is_best", i == answers.best_slope},
+                   {"best_interval", interval(answer.best.interval)},
+                   {"best_errors", answer.best.errors.total()}};
+        add_limits(entry, answer.bounds.strict);
+        entry["no_constant_bias_serves"] = answer.bounds.no_constant_bias_serves;
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+Json part(const analysis::PartCounts& counts)
+{
+    return {{"lit", counts.lit},
+            {"blocked", counts.blocked},
+            {"false_shadow", counts.false_shadow},
+            {"false_lit", counts.false_lit},
+            {"false_shadow_rate", number_or_null(counts.false_shadow_rate())},
+            {"false_lit_rate", number_or_null(counts.false_lit_rate())}};
+}
+
+Json bins(const std::vector<analysis::ErrorBin>& bins)
+{
+    Json json = Json::array();
+    for (const analysis::ErrorBin& bin : bins) {
+        Json entry{{"lower", bin.lower}, {"upper", bin.upper}};
+        entry.update(part(bin.counts));
+        entry["needed_bias"] = quantiles(bin.needed_bias);
+        entry["map_error_m"] = quantiles(bin.map_error_m);
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+Json by_object(const std::vector<analysis::ObjectErrors>& objects)
+{
+    Json json = Json::array();
+    for (const analysis::ObjectErrors& object : objects) {
+        Json entry{{"object", object.name}};
+        entry.update(part(object.counts));
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+Json advice(const std::vector<analysis::Advice>& changes)
+{
+    Json json = Json::array();
+    for (const analysis::Advice& change : changes) {
+        json.push_back({{"keys", change.keys},
+                        {"false_shadow", change.errors.false_shadow},
+                        {"false_lit", change.errors.false_lit},
+                        {"error_rate", number_or_null(change.error_rate)}});
+    }
+    return json;
+}
+
+} // namespace
+
+void add_diagnosis(Json& json, const analysis::Comparison& comparison)
+{
+    const auto& diagnosis = comparison.diagnosis;
+    if (!diagnosis) {
+        json["causes"] = nullptr;
+        json["labels"] = nullptr;
+        json["peter_panning_gap_m"] = lengths(std::nullopt);
+        json["peter_panning_gap_texels"] = lengths(std::nullopt);
+        json["bias_curve"] = nullptr;
+        return;
+    }
+    const analysis::CauseCounts& counts = diagnosis->causes.counts;
+    json["causes"] = counts_by_name(analysis::cause_names, counts.by_cause);
+    json["labels"] = counts_by_name(analysis::label_names, counts.by_label);
+    json["peter_panning_gap_m"] = lengths(diagnosis->peter_panning.metres);
+    json["peter_panning_gap_texels"] = lengths(diagnosis->peter_panning.texels);
+    json["bias_curve"] = diagnosis->biases ? bias_curve(*diagnosis->biases) : Json(nullptr);
+    json["slope_curves"] = diagnosis->biases ? slope_answers(*diagnosis->biases) : Json(nullptr);
+    json["by_light_distance_m"] = bins(diagnosis->by_distance);
+    json["by_receiver_angle_rad"] = bins(diagnosis->by_angle);
+    json["by_object"] = by_object(diagnosis->by_object);
+    json["findings"] = findings(comparison);
+    json["advice"] = comparison.advice.empty() ? Json(nullptr) : advice(comparison.advice);
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace gnomon::reports {
+
+/// Adds what a comparison's diagnosis found: causes, labels, gaps, the bias curve and breakdowns.
+/// Without a diagnosis the fixed names are null, never a number.
+void add_diagnosis(nlohmann::ordered_json& json, const analysis::Comparison& comparison);
+
+} // namespace gnomon::reports
