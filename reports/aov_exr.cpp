@@ -59,10 +59,9 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
                                     return bits(is_scored(classes[i]) ? critical[i] : not_a_bias);
                                 }});
             const analysis::BiasMap& map = biases->map;
-            for (const auto& [name, image] :
-                 {std::pair{"needed_bias_m", &map.metres},
-                  std::pair{"needed_bias_texels", &map.texels},
-                  std::pair{"needed_bias_steps", &map.steps}}) {
+            for (const auto& [name, image] : {std::pair{"needed_bias_m", &map.metres},
+                                              std::pair{"needed_bias_texels", &map.texels},
+                                              std::pair{"needed_bias_steps", &map.steps}}) {
                 channels.push_back(
                     {name, float32, [image](std::size_t i) { return bits((*image)[i]); }});
             }

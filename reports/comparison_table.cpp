@@ -1,15 +1,12 @@
 #include "reports/comparison_table.hpp"
 
 #include "reports/description.hpp"
-#include "reports/findings.hpp"
+#include "reports/diagnosis_table.hpp"
+#include "reports/table_lines.hpp"
 #include "reports/text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <functional>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -20,29 +17,6 @@ namespace {
 
 using scene::ClassReason;
 using scene::PixelClass;
-
-constexpr std::size_t name_columns = 16;
-constexpr std::size_t count_columns = 13;
-constexpr std::size_t rate_columns = 11;
-
-/// A line without the blanks that padding left at its end.
-std::string trimmed(std::string line)
-{
-    line.erase(line.find_last_not_of(' ') + 1);
-    return line + "\n";
-}
-
-std::string setting_line(std::string_view name, std::string_view value)
-{
-    return trimmed(pad_right(name, name_columns) + std::string{value});
-}
-
-std::string count_line(std::string_view name, std::string_view count, std::string_view rate,
-                       std::string_view note)
-{
-    return trimmed(pad_right(name, name_columns) + pad_left(count, count_columns) +
-                   pad_left(rate, rate_columns) + "  " + std::string{note});
-}
 
 /// "5 of 1,234 signs needed integers"; empty for a method that decides none.
 std::string signs(const scene::TruthSigns& signs)
@@ -136,95 +110,6 @@ std::string errors(const analysis::Metrics& metrics)
            count_line("mean |error|", "", percent(metrics.mean_abs_error), "verdict against truth");
 }
 
-/// Wrong pixels by name; the first name, "none", is left out.
-template <typename Names, typename Counts>
-std::string named_counts(std::string_view head, const Names& names, const Counts& counts,
-                         std::uint64_t wrong)
-{
-    std::string text = count_line(head, "pixels", "of wrong", "");
-    for (std::size_t i = 1; i < names.size(); ++i) {
-        std::string name{names[i]};
-        std::ranges::replace(name, '_', '-');
-        std::optional<double> share;
-        if (wrong > 0) {
-            share = static_cast<double>(counts[i]) / static_cast<double>(wrong);
-        }
-        text += count_line(name, grouped(counts[i]), percent(share), "");
-    }
-    return text;
-}
-
-std::string diagnosis(const analysis::Comparison& comparison)
-{
-    if (!comparison.diagnosis) {
-        return "";
-    }
-    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
-    const std::uint64_t wrong = comparison.metrics.false_shadow + comparison.metrics.false_lit;
-    std::string text = "\n";
-    text += named_counts("cause", analysis::cause_names, diagnosis.causes.counts.by_cause, wrong);
-    text += "\n";
-    text += named_counts("called", analysis::label_names, diagnosis.causes.counts.by_label, wrong);
-    if (const auto& gap = diagnosis.peter_panning.metres) {
-        text += setting_line("", fmt::format("peter-panning gap: median {:.4g} m, 95 % {:.4g} m, "
-                                             "largest {:.4g} m ({:.3g} texels)",
-                                             gap->median, gap->p95, gap->max,
-                                             diagnosis.peter_panning.texels->max));
-    }
-    return text + by_object(diagnosis.by_object);
-}
-
-/// "bias.constant = 0.002, shadow_map.resolution = 2048" and what was measured with it.
-std::string advice(const analysis::Comparison& comparison)
-{
-    if (comparison.advice.empty()) {
-        return "";
-    }
-    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
-    std::string text = "\n";
-    text += count_line("measured with", "errors", "rate", "");
-    text += count_line("the job as it is", grouped(now), percent(comparison.metrics.error_rate), "");
-    for (const analysis::Advice& change : comparison.advice) {
-        text += count_line("", grouped(change.errors.total()), percent(change.error_rate),
-                           fmt::format("{}", fmt::join(change.keys, ", ")));
-    }
-    return text;
-}
-
-std::string sentences(const analysis::Comparison& comparison)
-{
-    std::string text;
-    for (const std::string& sentence : findings(comparison)) {
-        text += sentence + "\n";
-    }
-    return text.empty() ? text : "\n" + text;
-}
-
-std::string by_object(const std::vector<analysis::ObjectErrors>& objects)
-{
-    constexpr std::size_t most_lines = 12;
-    std::vector<analysis::ObjectErrors> wrong;
-    std::ranges::copy_if(objects, std::back_inserter(wrong), [](const auto& object) {
-        return object.counts.false_shadow + object.counts.false_lit > 0;
-    });
-    if (objects.size() < 2 || wrong.empty()) {
-        return "";
-    }
-    std::ranges::stable_sort(wrong, std::greater{}, [](const analysis::ObjectErrors& object) {
-        return object.counts.false_shadow + object.counts.false_lit;
-    });
-    std::string text = "\n";
-    text += count_line("on object", "false shadow", "false lit", "");
-    for (std::size_t i = 0; i < std::min(wrong.size(), most_lines); ++i) {
-        text += count_line(wrong[i].name, grouped(wrong[i].counts.false_shadow),
-                           grouped(wrong[i].counts.false_lit), "");
-    }
-    if (wrong.size() > most_lines) {
-        text += setting_line("", fmt::format("and on {} more", wrong.size() - most_lines));
-    }
-    return text;
-}
-
 std::string float_audit(const analysis::Comparison& comparison)
 {
     if (comparison.float_audit.empty()) {
@@ -255,8 +140,8 @@ std::string comparison_table(const analysis::Comparison& comparison)
 {
     return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
                        classes(comparison.metrics.pixels), errors(comparison.metrics),
-                       diagnosis(comparison), advice(comparison) + float_audit(comparison),
-                       seconds(comparison.seconds) + sentences(comparison));
+                       diagnosis_table(comparison), float_audit(comparison),
+                       seconds(comparison.seconds) + findings_text(comparison));
 }
 
 } // namespace gnomon::reports

@@ -58,8 +58,7 @@ void add_limits(Json& json, const analysis::BiasLimits& limits)
 Json bias_curve(const analysis::BiasAnswers& answers)
 {
     const analysis::BestBiases& best = answers.best;
-    Json json{{"best_interval", interval(best.interval)},
-              {"best_errors", best.errors.total()}};
+    Json json{{"best_interval", interval(best.interval)}, {"best_errors", best.errors.total()}};
     add_limits(json, answers.bounds.strict);
     json["allowances"] = Json::array();
     for (const analysis::BiasLimits& limits : answers.bounds.allowances) {

@@ -1,0 +1,118 @@
+#include "reports/diagnosis_table.hpp"
+
+#include "reports/findings.hpp"
+#include "reports/table_lines.hpp"
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+/// Wrong pixels by name; the first name, "none", is left out.
+template <typename Names, typename Counts>
+std::string named_counts(std::string_view head, const Names& names, const Counts& counts,
+                         std::uint64_t wrong)
+{
+    std::string text = count_line(head, "pixels", "of wrong", "");
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        std::string name{names[i]};
+        std::ranges::replace(name, '_', '-');
+        std::optional<double> share;
+        if (wrong > 0) {
+            share = static_cast<double>(counts[i]) / static_cast<double>(wrong);
+        }
+        text += count_line(name, grouped(counts[i]), percent(share), "");
+    }
+    return text;
+}
+
+std::string by_object(const std::vector<analysis::ObjectErrors>& objects)
+{
+    constexpr std::size_t most_lines = 12;
+    std::vector<analysis::ObjectErrors> wrong;
+    std::ranges::copy_if(objects, std::back_inserter(wrong), [](const auto& object) {
+        return object.counts.false_shadow + object.counts.false_lit > 0;
+    });
+    if (objects.size() < 2 || wrong.empty()) {
+        return "";
+    }
+    std::ranges::stable_sort(wrong, std::greater{}, [](const analysis::ObjectErrors& object) {
+        return object.counts.false_shadow + object.counts.false_lit;
+    });
+    std::string text = "\n";
+    text += count_line("on object", "false shadow", "false lit", "");
+    for (std::size_t i = 0; i < std::min(wrong.size(), most_lines); ++i) {
+        text += count_line(wrong[i].name, grouped(wrong[i].counts.false_shadow),
+                           grouped(wrong[i].counts.false_lit), "");
+    }
+    if (wrong.size() > most_lines) {
+        text += setting_line("", fmt::format("and on {} more", wrong.size() - most_lines));
+    }
+    return text;
+}
+
+std::string causes(const analysis::Comparison& comparison)
+{
+    if (!comparison.diagnosis) {
+        return "";
+    }
+    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
+    const std::uint64_t wrong = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    std::string text = "\n";
+    text += named_counts("cause", analysis::cause_names, diagnosis.causes.counts.by_cause, wrong);
+    text += "\n";
+    text += named_counts("called", analysis::label_names, diagnosis.causes.counts.by_label, wrong);
+    if (const auto& gap = diagnosis.peter_panning.metres) {
+        text += setting_line("", fmt::format("peter-panning gap: median {:.4g} m, 95 % {:.4g} m, "
+                                             "largest {:.4g} m ({:.3g} texels)",
+                                             gap->median, gap->p95, gap->max,
+                                             diagnosis.peter_panning.texels->max));
+    }
+    return text + by_object(diagnosis.by_object);
+}
+
+/// "bias.constant = 0.002, shadow_map.resolution = 2048" and what was measured with it.
+std::string advice(const analysis::Comparison& comparison)
+{
+    if (comparison.advice.empty()) {
+        return "";
+    }
+    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    std::string text = "\n";
+    text += count_line("measured with", "errors", "rate", "");
+    text +=
+        count_line("the job as it is", grouped(now), percent(comparison.metrics.error_rate), "");
+    for (const analysis::Advice& change : comparison.advice) {
+        text += count_line("", grouped(change.errors.total()), percent(change.error_rate),
+                           fmt::format("{}", fmt::join(change.keys, ", ")));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string diagnosis_table(const analysis::Comparison& comparison)
+{
+    return causes(comparison) + advice(comparison);
+}
+
+std::string findings_text(const analysis::Comparison& comparison)
+{
+    std::string text;
+    for (const std::string& sentence : findings(comparison)) {
+        text += sentence + "\n";
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+} // namespace gnomon::reports

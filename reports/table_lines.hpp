@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// Lines of the tables that `gnomon compare` prints.
+namespace gnomon::reports {
+
+/// "light           spot, cone 60 deg"
+[[nodiscard]] std::string setting_line(std::string_view name, std::string_view value);
+
+/// "lit                   43,270     4.70 %  scored"
+[[nodiscard]] std::string count_line(std::string_view name, std::string_view count,
+                                     std::string_view rate, std::string_view note);
+
+} // namespace gnomon::reports
