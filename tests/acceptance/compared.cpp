@@ -11,8 +11,19 @@ Compared::Compared(const scene::Job& job)
 
 analysis::Comparison Compared::operator()(const scene::Job& job) const
 {
-    return analysis::compare(job, file_,
-                             cli::make_renderers(*gl_, shared_context()->facts(), reference_, {}));
+    return analysis::compare(job, file_, renderers());
+}
+
+analysis::Comparison Compared::without_diagnosis(const scene::Job& job) const
+{
+    analysis::Renderers plain = renderers();
+    plain.make_exact_light = nullptr;
+    return analysis::compare(job, file_, plain);
+}
+
+analysis::Renderers Compared::renderers() const
+{
+    return cli::make_renderers(*gl_, shared_context()->facts(), reference_, {});
 }
 
 } // namespace gnomon::tests

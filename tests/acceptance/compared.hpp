@@ -20,6 +20,9 @@ public:
 
     /// Compares under a job that shows the same scene.
     [[nodiscard]] analysis::Comparison operator()(const scene::Job& job) const;
+    /// Without causes and curves: faster.
+    [[nodiscard]] analysis::Comparison without_diagnosis(const scene::Job& job) const;
+    [[nodiscard]] analysis::Renderers renderers() const;
     [[nodiscard]] const scene::SceneFile& file() const { return file_; }
 
 private:

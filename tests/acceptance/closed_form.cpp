@@ -1,0 +1,40 @@
+#include "closed_form.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace gnomon::tests {
+
+std::string text(const TiltedPlaneSetting& setting)
+{
+    return fmt::format("{} deg, {}², {}, roll {}", setting.angle_deg, setting.resolution,
+                       setting.format, setting.roll_deg);
+}
+
+scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias)
+{
+    return scene::builtin_job(
+               "tilted-plane",
+               {{"scene.tilted-plane.angle_deg", fmt::format("{}", setting.angle_deg)},
+                {"shadow_map.resolution", fmt::format("{}", setting.resolution)},
+                {"shadow_map.depth_format", setting.format},
+                {"shadow_map.roll_deg", fmt::format("{}", setting.roll_deg)},
+                {"bias.constant", fmt::format("{}", bias)}})
+        .job;
+}
+
+double closed_form_bias(const TiltedPlaneSetting& setting, const scene::LightFrustum& frustum)
+{
+    const double slope = std::tan(setting.angle_deg * std::numbers::pi / 180);
+    const double roll_rad = setting.roll_deg * std::numbers::pi / 180;
+    const double texel_m = frustum.texel_width_m(1, setting.resolution);
+    const double per_texel = slope * texel_m / frustum.range_m();
+    const auto format = scene::depth_format_from_name(setting.format).value();
+    const double rounding = format.is_float() ? 0x1p-25 : 0.5 / (std::ldexp(1.0, format.bits) - 1);
+    return 0.5 * per_texel * (std::abs(std::cos(roll_rad)) + std::abs(std::sin(roll_rad))) +
+           rounding + 4 * 0x1p-24;
+}
+
+} // namespace gnomon::tests

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "scene/job.hpp"
+#include "scene/job_file.hpp"
+
+#include <string>
+
+namespace gnomon::tests {
+
+/// A plane whose acne has a closed form: the receiver's depth varies by up to half a texel's slope
+/// around the texel centre where the map was sampled.
+struct TiltedPlaneSetting {
+    int angle_deg;
+    int resolution;
+    const char* format;
+    double roll_deg;
+};
+
+[[nodiscard]] std::string text(const TiltedPlaneSetting& setting);
+[[nodiscard]] scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias);
+
+/// ½(|∂d/∂u| + |∂d/∂v|) per texel, plus what the format may round up: half a code, or half an ulp
+/// of a float32 below 1; plus the roundings of r and d, a few times 2^-24.
+[[nodiscard]] double closed_form_bias(const TiltedPlaneSetting& setting,
+                                      const scene::LightFrustum& frustum);
+
+} // namespace gnomon::tests
