@@ -254,26 +254,25 @@ LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
     return {job.lookup.filter, job.lookup.outside, view.frustum.reversed, view.bias.slope};
 }
 
-scene::LookupLayers deciding_samples(const scene::LookupLayers& lookup,
-                                     const scene::Image<Vec2f>& texels,
+scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Image<Vec2f>& texels,
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
     if (rule.filter == scene::Filter::hardware) {
         throw std::invalid_argument("deciding_samples: rule: the filter hardware has the driver's "
                                     "weights and no deciding tap");
     }
-    scene::LookupLayers result = lookup;
     if (rule.filter == scene::Filter::nearest || rule.filter == scene::Filter::linear) {
-        return result;
+        return lookup;
     }
     require_taps(lookup, texels, map_depths);
     const Taps taps{map_depths, rule};
     for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
-            result.samples[i].map_depth = taps.deciding_depth(lookup.samples[i], texels[i]);
+            scene::LookupSample& sample = lookup.samples[i];
+            sample.map_depth = taps.deciding_depth(sample, texels[i]);
         }
     });
-    return result;
+    return lookup;
 }
 
 scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const LookupRule& rule)
