@@ -73,12 +73,13 @@ std::vector<float> biases_to_try(std::vector<float> criticals, std::size_t count
         return biases;
     }
     const float largest = std::max(criticals.back(), 1e-3F);
-    for (std::size_t i = 0; i < count / 2; ++i) {
-        const double share = static_cast<double>(i + 1) / static_cast<double>(count / 2);
+    const std::size_t half = count / 2;
+    for (std::size_t i = 0; i < half; ++i) {
+        const double share = static_cast<double>(i + 1) / static_cast<double>(half);
         biases.push_back(static_cast<float>(double{largest} * std::pow(1e-7, 1.0 - share)));
     }
     std::mt19937 random{1};
-    for (std::size_t i = 0; i < count / 2; ++i) {
+    for (std::size_t i = 0; i < half; ++i) {
         const float critical = criticals[random() % criticals.size()];
         biases.push_back(i % 3 == 0   ? critical
                          : i % 3 == 1 ? analysis::previous_bias(critical)

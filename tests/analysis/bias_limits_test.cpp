@@ -2,7 +2,6 @@
 
 #include "curve_case.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +11,6 @@ namespace gnomon::analysis {
 namespace {
 
 using scene::PixelClass;
-using testing::Each;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr auto lit = PixelClass::lit;
