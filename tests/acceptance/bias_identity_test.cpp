@@ -22,8 +22,8 @@ bool is_full_run()
     return std::getenv("GNOMON_FULL_TESTS") != nullptr;
 }
 
-/// Scenes that between them have both kinds of light, both depth directions, every policy, and
-/// receivers beyond the map.
+/// Scenes that between them have both kinds of light, both depth directions, every policy, a normal
+/// offset, and receivers beyond the map.
 struct Setting {
     const char* builtin;
     std::vector<scene::Override> keys;
@@ -32,20 +32,22 @@ struct Setting {
 
 const std::vector<Setting>& settings()
 {
-    static const std::vector<Setting> all{
-        {"sphere-plane", {{"lookup.outside", "clamp"}}},
-        {"terrain", {{"shadow_map.reversed", "true"}, {"lookup.outside", "lit"}}},
-        {"yard",
-         {{"shadow_map.fit", "fixed"},
-          {"shadow_map.half_extent", "3"},
-          {"lookup.outside", "shadowed"}},
-         true},
-        {"columns",
-         {{"shadow_map.fit", "fixed"},
-          {"shadow_map.half_extent", "3"},
-          {"shadow_map.reversed", "true"},
-          {"lookup.outside", "lit"}},
-         true}};
+    static const std::vector<Setting> all{{"sphere-plane", {{"lookup.outside", "clamp"}}},
+                                          {"terrain",
+                                           {{"shadow_map.reversed", "true"},
+                                            {"lookup.outside", "lit"},
+                                            {"bias.normal_texels", "1.5"}}},
+                                          {"two-distances",
+                                           {{"shadow_map.fit", "fixed"},
+                                            {"shadow_map.fov_deg", "30"},
+                                            {"lookup.outside", "shadowed"}},
+                                           true},
+                                          {"columns",
+                                           {{"shadow_map.fit", "fixed"},
+                                            {"shadow_map.half_extent", "3"},
+                                            {"shadow_map.reversed", "true"},
+                                            {"lookup.outside", "lit"}},
+                                           true}};
     return all;
 }
 
