@@ -65,7 +65,7 @@ ScoredCriticals gather_scored(const scene::Image<float>& criticals,
         *blocked = criticals[i];
         lit += classes[i] == PixelClass::lit ? 1 : 0;
         blocked += classes[i] == PixelClass::blocked ? 1 : 0;
-        has_nan |= scene::is_scored(classes[i]) & std::isnan(criticals[i]);
+        has_nan = has_nan || (std::isnan(criticals[i]) && scene::is_scored(classes[i]));
     }
     if (has_nan) {
         reject_nan(criticals, classes);

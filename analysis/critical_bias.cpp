@@ -171,22 +171,35 @@ public:
         if (!clamps_ && policy_decides_all(sample, centre)) {
             return not_a_depth;
         }
-        std::array<float, widest * widest> depths{};
-        std::size_t count = 0;
-        for (int y = -radius_; y <= radius_; ++y) {
-            for (int x = -radius_; x <= radius_; ++x) {
-                depths.at(count++) =
-                    depth_at({centre.x + static_cast<float>(x), centre.y + static_cast<float>(y)});
-            }
-        }
-        const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(count / 2);
-        std::nth_element(depths.begin(), middle,
-                         depths.begin() + static_cast<std::ptrdiff_t>(count));
+        std::array<float, widest * widest> depths; // filled as far as it is read
+        float* const last = gather(centre, depths.data());
+        float* const middle = depths.data() + (last - depths.data()) / 2;
+        std::nth_element(depths.data(), middle, last);
         return std::isinf(*middle) ? not_a_depth : *middle;
     }
 
 private:
     static constexpr std::size_t widest = 9;
+
+    /// Writes the depths of all taps to `out`, and returns their end.
+    float* gather(Vec2f centre, float* out) const
+    {
+        const auto reach = static_cast<float>(radius_);
+        const int width = 2 * radius_ + 1;
+        const bool is_within = is_inside(centre - reach) && is_inside(centre + reach);
+        for (int y = -radius_; y <= radius_; ++y) {
+            if (is_within) {
+                const int first = static_cast<int>(centre.x) - radius_;
+                const int row = static_cast<int>(last_ - centre.y) + y;
+                out = std::copy_n(&map_(first, row), width, out);
+                continue;
+            }
+            for (int x = -radius_; x <= radius_; ++x) {
+                *out++ = depth_at(centre + Vec2f{static_cast<float>(x), static_cast<float>(y)});
+            }
+        }
+        return out;
+    }
 
     /// Beyond far or behind a spot, where there are no taps. A spot's receivers behind it are
     /// beyond far by r, and where r rounds to the far plane, by a centre tap that is missing inside
@@ -254,26 +267,25 @@ LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
     return {job.lookup.filter, job.lookup.outside, view.frustum.reversed, view.bias.slope};
 }
 
-scene::LookupLayers deciding_samples(const scene::LookupLayers& lookup,
-                                     const scene::Image<Vec2f>& texels,
+scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Image<Vec2f>& texels,
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
     if (rule.filter == scene::Filter::hardware) {
         throw std::invalid_argument("deciding_samples: rule: the filter hardware has the driver's "
                                     "weights and no deciding tap");
     }
-    scene::LookupLayers result = lookup;
     if (rule.filter == scene::Filter::nearest || rule.filter == scene::Filter::linear) {
-        return result;
+        return lookup;
     }
     require_taps(lookup, texels, map_depths);
     const Taps taps{map_depths, rule};
     for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
-            result.samples[i].map_depth = taps.deciding_depth(lookup.samples[i], texels[i]);
+            scene::LookupSample& sample = lookup.samples[i];
+            sample.map_depth = taps.deciding_depth(sample, texels[i]);
         }
     });
-    return result;
+    return lookup;
 }
 
 scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const LookupRule& rule)

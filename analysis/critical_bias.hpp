@@ -33,8 +33,8 @@ struct LookupRule {
 /// The comparison that decides each pixel's verdict: a lookup's samples with `map_depth` replaced
 /// by the depth of the deciding tap, NaN where the policy for texels outside decides.
 ///
-/// nearest and linear make one comparison: their samples are returned as they are. pcfK makes K × K
-/// and is lit when at least ⌈K²/2⌉ are; the critical bias is monotone in the map depth, so the
+/// nearest and linear make one comparison: their samples are returned as they came. pcfK makes K ×
+/// K and is lit when at least ⌈K²/2⌉ are; the critical bias is monotone in the map depth, so the
 /// deciding tap is the one of median depth, where a tap outside the map counts as farther
 /// (`outside` lit) or nearer (shadowed) than every depth. Depends on no bias but a normal offset.
 /// @param texels      uv · resolution of each lookup, origin at the map's lower left.
@@ -43,7 +43,7 @@ struct LookupRule {
 /// @throws std::invalid_argument  for `hardware`, whose weights are the driver's own; if the images
 ///                                differ in size; if the map is not square.
 /// Source: raster_gl/shaders/lookup.frag; docs/bias_curve.md#critical-bias.
-[[nodiscard]] scene::LookupLayers deciding_samples(const scene::LookupLayers& lookup,
+[[nodiscard]] scene::LookupLayers deciding_samples(scene::LookupLayers lookup,
                                                    const scene::Image<scene::Vec2f>& texels,
                                                    const scene::Image<float>& map_depths,
                                                    const LookupRule& rule);

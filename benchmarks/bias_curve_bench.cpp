@@ -1,56 +1,54 @@
 #include "analysis/bias_curve.hpp"
+#include "analysis/comparison.hpp"
 #include "analysis/critical_bias.hpp"
+#include "cli/renderers.hpp"
+#include "raster_gl/context.hpp"
+#include "reference_rt/truth.hpp"
+#include "scene/job_file.hpp"
+#include "scene/load_scene.hpp"
+#include "seconds_of.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
-/// The bias curve of two million pixels, critical biases included, against one `std::sort` of as
-/// many critical biases, side by side in every iteration.
+/// The bias curve of all pixels, critical biases and best interval included, against one
+/// `std::sort` of as many critical biases, side by side in every iteration.
 namespace gnomon::benchmarks {
 namespace {
 
-constexpr scene::ImageSize full_hd{1920, 1080};
-
-double seconds_of(const auto& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Receivers on a slope over texels, every third in a shadow, one in eight not scored.
+/// What GL and the rays say of a built-in scene.
 struct Subject {
-    scene::LookupLayers lookup{scene::Image<scene::LookupSample>{full_hd}};
-    scene::Image<scene::PixelClass> classes{full_hd};
+    scene::LookupLayers lookup;
+    scene::Image<scene::PixelClass> classes;
     analysis::LookupRule rule;
 
-    explicit Subject(float slope)
+    Subject(const std::string& builtin, const char* slope)
     {
-        rule.slope = slope;
-        std::mt19937 random{1};
-        std::uniform_real_distribution<float> unit{0.0F, 1.0F};
-        for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-            const float r = 0.25F + 0.5F * unit(random);
-            const bool is_blocked = random() % 3 == 0;
-            const float gap = is_blocked ? 0.2F * unit(random) : 0.002F * (unit(random) - 0.5F);
-            lookup.samples[i] = {r, r - gap, 2.0F * unit(random), 0.0F};
-            classes[i] = is_blocked ? scene::PixelClass::blocked : scene::PixelClass::lit;
-            if (random() % 8 == 0) {
-                classes[i] = scene::PixelClass::background;
-            }
-        }
+        const scene::Job job = scene::builtin_job(builtin, {{"image.width", "1920"},
+                                                            {"image.height", "1080"},
+                                                            {"shadow_map.resolution", "2048"},
+                                                            {"lookup.filter", "nearest"},
+                                                            {"bias.slope", slope}})
+                                   .job;
+        const scene::SceneFile file = scene::load_scene(job.scene);
+        const raster_gl::Context context;
+        cli::GlRenderer gl{context, file.scene};
+        const reference_rt::ReferenceScene reference{file.scene};
+        analysis::Comparison comparison =
+            analysis::compare(job, file, cli::make_renderers(gl, context.facts(), reference, {}));
+        rule = analysis::lookup_rule(job, comparison.view);
+        lookup = std::move(comparison.lookup);
+        classes = std::move(comparison.truth.pixel_class);
     }
 };
 
-void curve_against_std_sort(benchmark::State& state, float slope)
+void curve_against_std_sort(benchmark::State& state, const std::string& builtin, const char* slope)
 {
-    const Subject subject{slope};
+    const Subject subject{builtin, slope};
     const auto criticals = analysis::critical_biases(subject.lookup, subject.rule);
     double curve_s = 0;
     double sort_s = 0;
@@ -61,7 +59,7 @@ void curve_against_std_sort(benchmark::State& state, float slope)
         const double once_s = seconds_of([&] {
             const auto found = analysis::critical_biases(subject.lookup, subject.rule);
             const analysis::BiasCurve curve{found, subject.classes};
-            const auto best = analysis::find_best_biases(curve);
+            auto best = analysis::find_best_biases(curve);
             benchmark::DoNotOptimize(best);
         });
         state.SetIterationTime(once_s);
@@ -72,17 +70,25 @@ void curve_against_std_sort(benchmark::State& state, float slope)
     state.counters["ratio"] = curve_s / sort_s;
 }
 
+void add(const std::string& builtin, const std::string& name, const char* slope)
+{
+    benchmark::RegisterBenchmark(("bias_curve/" + builtin + "/1080p/" + name).c_str(),
+                                 [builtin, slope](benchmark::State& state) {
+                                     curve_against_std_sort(state, builtin, slope);
+                                 })
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->MinTime(1.0);
+}
+
 } // namespace
 } // namespace gnomon::benchmarks
 
 int main(int argc, char** argv)
 {
-    for (const auto& [name, slope] : {std::pair{"constant", 0.0F}, std::pair{"slope", 0.0005F}}) {
-        benchmark::RegisterBenchmark((std::string{"bias_curve/1080p/"} + name).c_str(),
-                                     gnomon::benchmarks::curve_against_std_sort, slope)
-            ->Unit(benchmark::kMillisecond)
-            ->UseManualTime()
-            ->MinTime(1.0);
+    for (const char* builtin : {"sphere-field", "columns"}) {
+        gnomon::benchmarks::add(builtin, "constant", "0");
+        gnomon::benchmarks::add(builtin, "slope", "0.0005");
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

@@ -5,11 +5,10 @@
 #include "reference_rt/truth.hpp"
 #include "scene/job_file.hpp"
 #include "scene/load_scene.hpp"
+#include "seconds_of.hpp"
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,13 +16,6 @@
 /// shadow pass, one receiver pass, one lookup with its readback, one raw Embree pass.
 namespace gnomon::benchmarks {
 namespace {
-
-double seconds_of(const std::function<void()>& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// A scene in both renderers' hands, and what it took to get there.
 struct Subject {

@@ -22,8 +22,8 @@ bool is_full_run()
     return std::getenv("GNOMON_FULL_TESTS") != nullptr;
 }
 
-/// Scenes that between them have both kinds of light, both depth directions, every policy, and
-/// receivers beyond the map.
+/// Scenes that between them have both kinds of light, both depth directions, every policy, a normal
+/// offset, and receivers beyond the map.
 struct Setting {
     const char* builtin;
     std::vector<scene::Override> keys;
@@ -32,20 +32,22 @@ struct Setting {
 
 const std::vector<Setting>& settings()
 {
-    static const std::vector<Setting> all{
-        {"sphere-plane", {{"lookup.outside", "clamp"}}},
-        {"terrain", {{"shadow_map.reversed", "true"}, {"lookup.outside", "lit"}}},
-        {"yard",
-         {{"shadow_map.fit", "fixed"},
-          {"shadow_map.half_extent", "3"},
-          {"lookup.outside", "shadowed"}},
-         true},
-        {"columns",
-         {{"shadow_map.fit", "fixed"},
-          {"shadow_map.half_extent", "3"},
-          {"shadow_map.reversed", "true"},
-          {"lookup.outside", "lit"}},
-         true}};
+    static const std::vector<Setting> all{{"sphere-plane", {{"lookup.outside", "clamp"}}},
+                                          {"terrain",
+                                           {{"shadow_map.reversed", "true"},
+                                            {"lookup.outside", "lit"},
+                                            {"bias.normal_texels", "1.5"}}},
+                                          {"two-distances",
+                                           {{"shadow_map.fit", "fixed"},
+                                            {"shadow_map.fov_deg", "30"},
+                                            {"lookup.outside", "shadowed"}},
+                                           true},
+                                          {"columns",
+                                           {{"shadow_map.fit", "fixed"},
+                                            {"shadow_map.half_extent", "3"},
+                                            {"shadow_map.reversed", "true"},
+                                            {"lookup.outside", "lit"}},
+                                           true}};
     return all;
 }
 
@@ -73,12 +75,13 @@ std::vector<float> biases_to_try(std::vector<float> criticals, std::size_t count
         return biases;
     }
     const float largest = std::max(criticals.back(), 1e-3F);
-    for (std::size_t i = 0; i < count / 2; ++i) {
-        const double share = static_cast<double>(i + 1) / static_cast<double>(count / 2);
+    const std::size_t half = count / 2;
+    for (std::size_t i = 0; i < half; ++i) {
+        const double share = static_cast<double>(i + 1) / static_cast<double>(half);
         biases.push_back(static_cast<float>(double{largest} * std::pow(1e-7, 1.0 - share)));
     }
     std::mt19937 random{1};
-    for (std::size_t i = 0; i < count / 2; ++i) {
+    for (std::size_t i = 0; i < half; ++i) {
         const float critical = criticals[random() % criticals.size()];
         biases.push_back(i % 3 == 0   ? critical
                          : i % 3 == 1 ? analysis::previous_bias(critical)
@@ -99,7 +102,7 @@ void rerun(GlCase& c, const scene::Image<std::uint32_t>& triangles,
 {
     c.view.bias.constant = bias;
     c.look_up();
-    const auto samples = c.lookup_pass.read_samples().samples;
+    const auto samples = c.lookup_pass.read().samples;
     for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
         if (triangles[i] == scene::no_triangle) {
             continue;
@@ -115,9 +118,9 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
 {
     c.draw_all();
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
-    const auto samples =
-        analysis::deciding_samples(c.lookup_pass.read_samples(), c.lookup_pass.read_texels(),
-                                   read_shader_depths(*shared_context(), *c.map), rule);
+    const auto lookup = c.lookup_pass.read();
+    const auto samples = analysis::deciding_samples(
+        lookup, lookup.texels, read_shader_depths(*shared_context(), *c.map), rule);
     const auto criticals = analysis::critical_biases(samples, rule);
     const auto triangles = read_triangles(*shared_context(), *c.receivers);
     std::vector<float> seen;
