@@ -1,0 +1,104 @@
+#include "analysis/tune.hpp"
+#include "compared.hpp"
+#include "scene/builtin_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+/// What `tune` promises, GL keeps.
+namespace gnomon::tests {
+namespace {
+
+using analysis::TuneLimits;
+
+bool is_within(const std::optional<double>& rate, double limit)
+{
+    return !rate || *rate <= limit;
+}
+
+/// A grid of constant biases over [0, 1] around the recommended one, ten times finer than a factor
+/// of two.
+std::vector<float> grid_around(float bias)
+{
+    const double centre = bias > 0 ? double{bias} : 1e-4;
+    std::vector<float> biases{0.0F};
+    for (int i = -60; i <= 60; ++i) {
+        biases.push_back(static_cast<float>(std::min(1.0, centre * std::exp2(i / 10.0))));
+    }
+    return biases;
+}
+
+void expect_promise_kept(const scene::Job& job, const TuneLimits& limits, int grid_step)
+{
+    const Compared compared{job};
+    const auto result = analysis::tune(job, compared.file(), compared.renderers(), limits, {});
+    const analysis::TunedSetting& best = result.best();
+    const std::string label = job.scene.builtin;
+    EXPECT_EQ(result.measured.metrics.false_shadow, best.errors.false_shadow) << label;
+    EXPECT_EQ(result.measured.metrics.false_lit, best.errors.false_lit) << label;
+    if (result.meets_limits) {
+        EXPECT_TRUE(
+            is_within(result.measured.metrics.false_shadow_rate, limits.max_false_shadow_rate))
+            << label;
+        EXPECT_TRUE(is_within(result.measured.metrics.false_lit_rate, limits.max_false_lit_rate))
+            << label;
+    }
+    scene::Job other = analysis::tuned_job(job, best);
+    const auto biases = grid_around(best.constant);
+    for (std::size_t i = 0; i < biases.size(); i += static_cast<std::size_t>(grid_step)) {
+        other.bias.constant = double{biases[i]};
+        const auto metrics = compared.without_diagnosis(other).metrics;
+        const bool meets = is_within(metrics.false_shadow_rate, limits.max_false_shadow_rate) &&
+                           is_within(metrics.false_lit_rate, limits.max_false_lit_rate);
+        if (meets || !result.meets_limits) {
+            EXPECT_GE(metrics.false_shadow + metrics.false_lit, best.errors.total())
+                << label << ", bias " << biases[i];
+        }
+    }
+}
+
+scene::Job small_job(const std::string& builtin)
+{
+    return scene::builtin_job(builtin, {{"image.width", "320"}, {"image.height", "180"}}).job;
+}
+
+TEST(Tune, GlMeasuresWhatItPromisesAndNoBiasNearbyIsBetter)
+{
+    GNOMON_REQUIRE_GL();
+    expect_promise_kept(small_job("wall"), {0.01, 0.01, 1024}, 8);
+    expect_promise_kept(small_job("yard"), {0.01, 0.05, 512}, 8);
+    expect_promise_kept(small_job("sphere-plane"), {1e-6, 1e-6, 256}, 8);
+}
+
+TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
+{
+    GNOMON_REQUIRE_GL();
+    const scene::Job job = small_job("sphere-plane");
+    const Compared compared{job};
+    const auto result =
+        analysis::tune(job, compared.file(), compared.renderers(), {0.5, 0.5, 4096}, {});
+    ASSERT_TRUE(result.meets_limits);
+    EXPECT_EQ(result.best().map.resolution_texels, 256);
+    EXPECT_EQ(result.best().map_bytes(), 256U * 256 * 2);
+    for (const analysis::TunedSetting& setting : result.considered) {
+        EXPECT_EQ(setting.map_bytes(), result.best().map_bytes());
+        EXPECT_GE(setting.errors.total(), result.best().errors.total());
+    }
+}
+
+TEST(Tune, PromisesAreKeptOnEveryBuiltin)
+{
+    GNOMON_REQUIRE_GL();
+    if (std::getenv("GNOMON_FULL_TESTS") == nullptr) {
+        GTEST_SKIP() << "long: GNOMON_FULL_TESTS is not set";
+    }
+    for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
+        expect_promise_kept(small_job(builtin.name), {0.01, 0.02, 2048}, 1);
+    }
+}
+
+} // namespace
+} // namespace gnomon::tests
