@@ -28,6 +28,7 @@ struct LookupRule {
     bool reversed = false;
     float slope = 0; ///< depth units per unit of tan θ
 };
+/// The rule of a job and the view that it was resolved to.
 [[nodiscard]] LookupRule lookup_rule(const scene::Job& job, const scene::View& view);
 
 /// The comparison that decides each pixel's verdict: a lookup's samples with `map_depth` replaced
