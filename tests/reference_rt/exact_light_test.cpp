@@ -82,7 +82,7 @@ TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
 Rational tap_depth(const LitScene& lit, const ExactTap& tap)
 {
     if (tap.triangle == no_triangle) {
-        return Rational{double{tap.constant}};
+        return Rational{static_cast<double>(tap.constant)};
     }
     const scene::Ray ray = lit.texel_ray(tap.texel);
     return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));

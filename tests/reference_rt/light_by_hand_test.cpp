@@ -212,8 +212,8 @@ TEST(CriticalBiases, AreRoundedUp)
     const Noon noon{table_at(1)};
     // 0.75 − 0.1f has more than 24 bits.
     const float bias = noon.bias(noon.pixel_of(0), {{0, 0}, no_triangle, 0.1F});
-    EXPECT_GE(double{bias}, 0.75 - double{0.1F});
-    EXPECT_LT(double{std::nextafter(bias, 0.0F)}, 0.75 - double{0.1F});
+    EXPECT_GE(static_cast<double>(bias), 0.75 - static_cast<double>(0.1F));
+    EXPECT_LT(static_cast<double>(std::nextafter(bias, 0.0F)), 0.75 - static_cast<double>(0.1F));
 }
 
 TEST(CriticalBiases, ClampTheReceiverAlone)
@@ -241,9 +241,9 @@ TEST(SmallestBiasFrom, SkipsSubnormalNumbers)
     constexpr float smallest = std::numeric_limits<float>::min();
     EXPECT_EQ(smallest_bias_from(0), 0.0F);
     EXPECT_EQ(smallest_bias_from(1e-300), smallest);
-    EXPECT_EQ(smallest_bias_from(double{smallest}), smallest);
+    EXPECT_EQ(smallest_bias_from(static_cast<double>(smallest)), smallest);
     EXPECT_EQ(smallest_bias_from(-1e-300), 0.0F);
-    EXPECT_EQ(smallest_bias_from(-double{smallest}), -smallest);
+    EXPECT_EQ(smallest_bias_from(-static_cast<double>(smallest)), -smallest);
     EXPECT_EQ(smallest_bias_from(0.25), 0.25F);
     EXPECT_EQ(smallest_bias_from(0.1), 0.1F) << "0.1F is above 0.1";
     EXPECT_EQ(smallest_bias_from(0.7), std::nextafter(0.7F, 1.0F)) << "0.7F is below 0.7";
