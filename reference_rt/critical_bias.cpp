@@ -70,19 +70,19 @@ float smallest_bias_of(const Fraction& excess)
     const float bias = smallest_bias_from(x - reach);
     const float next = smallest_bias_from(x + reach);
     // Between two floats there are many doubles: `bias` is the only one within the error of x.
-    return bias == next || (excess - number(double{bias})).sign() <= 0 ? bias : next;
+    return bias == next || (excess - number(static_cast<double>(bias))).sign() <= 0 ? bias : next;
 }
 
 } // namespace
 
 float smallest_bias_from(double x)
 {
-    constexpr double smallest_normal = std::numeric_limits<float>::min();
+    constexpr double smallest_normal{std::numeric_limits<float>::min()};
     if (x > -smallest_normal && x <= smallest_normal) {
         return x > 0 ? std::numeric_limits<float>::min() : 0.0F;
     }
     const auto nearest = static_cast<float>(x);
-    return double{nearest} < x ? std::nextafter(nearest, infinity) : nearest;
+    return static_cast<double>(nearest) < x ? std::nextafter(nearest, infinity) : nearest;
 }
 
 Bounded DepthTerm::sharp() const
@@ -117,7 +117,7 @@ float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::Exac
     SignCounts counts;
     for (std::size_t i = 0; i < n; ++i) {
         if (taps[i].triangle == scene::no_triangle) {
-            terms[i] = DepthTerm{double{taps[i].constant}};
+            terms[i] = DepthTerm{static_cast<double>(taps[i].constant)};
         } else {
             TapHit& tap = hits[i];
             tap.ray = CameraRay{rays_.ray(taps[i].texel)};

@@ -34,12 +34,21 @@ Bounded sharp_parameter_of(const Receiver& hit)
     return plane.nu.rounded() / plane.delta.rounded();
 }
 
-LightDepth::LightDepth(const scene::LightFrustum& frustum) : frustum_{frustum}, rows_{frustum} {}
+LightDepth::LightDepth(const scene::LightFrustum& frustum)
+    : frustum_{frustum},
+      rows_{frustum},
+      is_parallel_{Vec3d{rows_.w} == Vec3d{0.0}}
+{
+}
 
 ClipLine LightDepth::along(const Ray& ray) const
 {
-    return {row_at(rows_.z, ray.origin, 1), row_at(rows_.z, ray.direction, 0),
-            row_at(rows_.w, ray.origin, 1), row_at(rows_.w, ray.direction, 0)};
+    const Bounded z_start = row_at(rows_.z, ray.origin, 1);
+    const Bounded z_step = row_at(rows_.z, ray.direction, 0);
+    if (is_parallel_) {
+        return {z_start, z_step, {rows_.w.w, 0}, {0, 0}};
+    }
+    return {z_start, z_step, row_at(rows_.w, ray.origin, 1), row_at(rows_.w, ray.direction, 0)};
 }
 
 Bounded LightDepth::at(const ClipLine& line, const Bounded& t) const
@@ -52,7 +61,7 @@ Bounded LightDepth::at(const ClipLine& line, const Bounded& t) const
 bool LightDepth::is_level(const Facet& facet) const
 {
     const auto slope = cross(vector<FilterField>(Vec3d{rows_.z}), facet.normal);
-    return Vec3d{rows_.w} == Vec3d{0.0} && slope.x.permanent == 0 && slope.y.permanent == 0 &&
+    return is_parallel_ && slope.x.permanent == 0 && slope.y.permanent == 0 &&
            slope.z.permanent == 0;
 }
 

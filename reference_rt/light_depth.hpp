@@ -67,6 +67,7 @@ private:
 
     const scene::LightFrustum& frustum_;
     ClipRows rows_;
+    bool is_parallel_; ///< w is the same everywhere
 };
 
 /// The parameter of a hit and its error.

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
+#include <cstdlib>
 
 namespace gnomon::reference_rt::test {
 namespace {
@@ -13,8 +13,9 @@ constexpr std::array culls{Cull::none, Cull::front, Cull::back};
 template <typename Check>
 void for_each_case(const Check& check)
 {
+    const unsigned seeds = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 40 : 2;
     for (const LightCase& light : light_cases()) {
-        for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+        for (unsigned seed = 1; seed <= seeds; ++seed) {
             const bool is_lattice = seed % 2 == 0;
             SCOPED_TRACE(testing::Message() << light.name << ", seed " << seed);
             check(LitScene{random_sheets(seed, is_lattice), light.light, light.frustum});
@@ -52,7 +53,7 @@ TEST(FirstHits, AreThoseOfBruteForceInRationals)
             }
         }
     });
-    EXPECT_GT(hits, 5000);
+    EXPECT_GT(hits, 3000);
 }
 
 TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
@@ -63,7 +64,7 @@ TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
         const auto pixels = lit.scored_pixels();
         for (const Cull cull : culls) {
             const auto answers = lit.exact_light(cull)->are_crossed(pixels);
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
+            for (std::size_t i = 0; i < pixels.size(); i += 3) {
                 const bool expected =
                     is_crossed(lit.triangles, lit.view, lit.point(pixels[i]), cull);
                 ASSERT_EQ(answers[i], expected ? 1 : 0)
@@ -73,15 +74,15 @@ TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
             }
         }
     });
-    EXPECT_GT(crossed, 500);
-    EXPECT_GT(pixels_tried - crossed, 500);
+    EXPECT_GT(crossed, 300);
+    EXPECT_GT(pixels_tried - crossed, 300);
 }
 
 /// The exact depth of a tap.
 Rational tap_depth(const LitScene& lit, const ExactTap& tap)
 {
     if (tap.triangle == no_triangle) {
-        return Rational{double{tap.constant}};
+        return Rational{static_cast<double>(tap.constant)};
     }
     const scene::Ray ray = lit.texel_ray(tap.texel);
     return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));
@@ -149,6 +150,70 @@ TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
                 << "pixel " << queries[i].pixel;
         }
     });
+}
+
+TEST(FindBlockers, MeasuresTheGapThatRationalsGive)
+{
+    int blocked = 0;
+    for_each_case([&](const LitScene& lit) {
+        const auto pixels = lit.scored_pixels();
+        const auto blockers = lit.exact_light()->find_blockers(pixels);
+        const auto nearest = nearest_blockers(lit.reference, lit.view, lit.receivers, pixels);
+        const bool is_sun = lit.view.light.type == scene::LightType::directional;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            ASSERT_EQ(blockers[i].triangle, nearest[i]);
+            if (nearest[i] == no_triangle) {
+                continue;
+            }
+            ++blocked;
+            const RationalVec point = lit.point(pixels[i]);
+            const RationalVec step = is_sun ? RationalVec{-lit.view.light.direction}
+                                            : RationalVec{lit.view.light.position} - point;
+            const RationalVec way =
+                hit_of(point, step, lit.triangles.corners(nearest[i]))->t * step;
+            // The gap is good to 2^-42 for the way and a few roundings: below 1e-12. Squares have
+            // twice the relative error.
+            const Rational gap{blockers[i].gap_m};
+            EXPECT_LE(abs(gap * gap - dot(way, way)), 2e-12 * dot(way, way))
+                << "pixel " << pixels[i];
+            // ζ is a sum of terms below 16 m with a few roundings, and the way's error: 16·2^-42.
+            const auto zeta = [&](const RationalVec& x) {
+                const auto& frustum = lit.view.frustum;
+                return dot(RationalVec{frustum.forward}, x - RationalVec{frustum.origin});
+            };
+            EXPECT_LE(abs(Rational{blockers[i].receiver_zeta_m} - zeta(point)), 4e-12);
+            EXPECT_LE(abs(Rational{blockers[i].zeta_m} - zeta(point + way)), 4e-12);
+        }
+    });
+    EXPECT_GT(blocked, 300);
+}
+
+TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
+{
+    const LightCase light = light_cases().back();
+    const LitScene lit{random_sheets(2, true), light.light, light.frustum, 37};
+    auto texels = lit.all_texels();
+    std::ranges::reverse(texels); // answers come in the order of the questions
+    const auto pixels = lit.scored_pixels();
+    const auto one = lit.exact_light(Cull::none, 1);
+    const auto three = lit.exact_light(Cull::none, 3);
+    const auto hits = one->first_hits(texels);
+    const auto same_hits = three->first_hits(texels);
+    std::vector<NearestQuery> biases;
+    std::vector<SheetQuery> sheets;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        ASSERT_EQ(hits[i].triangle, same_hits[i].triangle);
+        ASSERT_EQ(hits[i].depth, same_hits[i].depth);
+        ASSERT_EQ(hits[i].zeta_m, same_hits[i].zeta_m);
+        const std::size_t pixel = pixels[i % pixels.size()];
+        biases.push_back({pixel, {texels[i], hits[i].triangle, 1}});
+        sheets.push_back(
+            {pixel, texels[i], hits[i].triangle == no_triangle ? 0 : hits[i].triangle});
+    }
+    EXPECT_EQ(one->critical_biases(std::span{biases}, true),
+              three->critical_biases(std::span{biases}, true));
+    EXPECT_EQ(one->are_own_sheets(sheets), three->are_own_sheets(sheets));
+    EXPECT_EQ(one->are_crossed(pixels), three->are_crossed(pixels));
 }
 
 } // namespace

@@ -110,8 +110,10 @@ inline std::optional<Rational> matrix_depth(const scene::LightFrustum& frustum,
 {
     const auto& m = frustum.light_clip_from_world;
     const auto row = [&](int i) {
-        return Rational{double{m[0][i]}} * point.x + Rational{double{m[1][i]}} * point.y +
-               Rational{double{m[2][i]}} * point.z + Rational{double{m[3][i]}};
+        return Rational{static_cast<double>(m[0][i])} * point.x +
+               Rational{static_cast<double>(m[1][i])} * point.y +
+               Rational{static_cast<double>(m[2][i])} * point.z +
+               Rational{static_cast<double>(m[3][i])};
     };
     const Rational w = row(3);
     if (w <= 0) {
@@ -179,10 +181,10 @@ inline float smallest_bias(const Rational& x)
         }
         return next;
     };
-    while (Rational{double{bias}} < x) {
+    while (Rational{static_cast<double>(bias)} < x) {
         bias = stepped(bias, infinity);
     }
-    while (Rational{double{stepped(bias, -infinity)}} >= x) {
+    while (Rational{static_cast<double>(stepped(bias, -infinity))} >= x) {
         bias = stepped(bias, -infinity);
     }
     return bias;

@@ -20,14 +20,14 @@ struct Spot {
 /// that their centres are over odd multiples of 0.25 m. The camera looks straight down.
 struct Noon : LitScene {
     explicit Noon(SceneBuilder& builder)
-        : LitScene{builder.take(), light(), fixed_frustum(2, 1, 8), 8, {33, 33}}
+        : LitScene{builder.take(), light(), fixed_frustum(2, 1, 8), 8, {32, 32}}
     {
         scene::CameraSettings camera;
-        camera.eye = {0, 9, 0};
-        camera.target = {0, 0, 0};
+        camera.eye = {0.0625, 9, 0.0625};
+        camera.target = {0.0625, 0, 0.0625};
         camera.up = {0, 0, -1};
         camera.projection = scene::Projection::orthographic;
-        camera.orthographic_height_m = 4.125; // pixel centres at multiples of 1/8 m
+        camera.orthographic_height_m = 4; // pixel centres are exactly at multiples of 1/8 m
         view.camera = scene::make_camera(camera);
     }
     static scene::LightSettings light()
@@ -44,9 +44,9 @@ struct Noon : LitScene {
     /// Whether the sheet of `receiver` at a multiple of 0.125 m leads to `seen` at the texel.
     bool leads(Spot from, std::uint32_t receiver, Spot texel_centre, std::uint32_t seen)
     {
-        const auto column = static_cast<std::size_t>(16 + std::lround(8 * from.x));
-        const auto row = static_cast<std::size_t>(16 + std::lround(8 * from.z));
-        const std::size_t pixel = row * 33 + column;
+        const auto column = static_cast<std::size_t>(15 + std::lround(8 * from.x));
+        const auto row = static_cast<std::size_t>(15 + std::lround(8 * from.z));
+        const std::size_t pixel = row * 32 + column;
         receivers[pixel] = receiver;
         const std::vector<SheetQuery> queries{{pixel, texel_over(texel_centre), seen}};
         return exact_light()->are_own_sheets(queries)[0] == 1;
@@ -149,6 +149,24 @@ TEST(OwnSheet, LeadsThroughACorner)
                 Indices{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
     Noon noon{builder};
     EXPECT_TRUE(noon.leads({-0.25, -0.25}, 3, {0.25, 0.25}, 1));
+}
+
+TEST(OwnSheet, LeadsFromACorner)
+{
+    SceneBuilder builder;
+    builder.add("fan", std::vector<Vec3d>{{0, 0, 0}, {-2, 0, 0}, {0, 0, 2}, {2, 0, 0}, {0, 0, -2}},
+                Indices{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
+    Noon noon{builder};
+    EXPECT_TRUE(noon.leads({0, 0}, 3, {0.25, 0.25}, 1));
+}
+
+TEST(OwnSheet, LeadsAcrossAnEdgeThatTheWayRunsAlong)
+{
+    SceneBuilder builder;
+    add_ground(builder, 2, 1); // the diagonal x = z
+    Noon noon{builder};
+    EXPECT_TRUE(noon.leads({-1, -1}, 1, {0.25, 0.25}, 0));
+    EXPECT_TRUE(noon.leads({0.25, 0.25}, 1, {0.25, 0.25}, 0)) << "P is on the texel's ray";
 }
 
 TEST(OwnSheet, LeadsAroundACornerOnlyWhereThereIsSurface)
@@ -262,7 +280,7 @@ TEST(OwnSheet, RejectsWhatIsNotInTheScene)
     noon.receivers[0] = 0;
     const auto light = noon.exact_light();
     for (const SheetQuery& query : {SheetQuery{0, {0, 8}, 0}, SheetQuery{0, {-1, 0}, 0},
-                                    SheetQuery{0, {0, 0}, 2}, SheetQuery{33 * 33, {0, 0}, 0}}) {
+                                    SheetQuery{0, {0, 0}, 2}, SheetQuery{32 * 32, {0, 0}, 0}}) {
         EXPECT_THROW((void)light->are_own_sheets({&query, 1}), std::invalid_argument);
     }
 }

@@ -256,6 +256,7 @@ TEST(IsInCone, RejectsWhatIsBehindTheLight)
 {
     Light spot;
     spot.type = LightType::spot;
+    spot.position = {0, 0, 0};
     spot.direction = {0, 0, -1};
     spot.cos_half_cone = 0.1;
     EXPECT_TRUE(is_in_cone(at(0, 0, -1), spot));
