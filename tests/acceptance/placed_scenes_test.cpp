@@ -1,7 +1,7 @@
+#include "claims.hpp"
 #include "compared.hpp"
 #include "placed_scene.hpp"
 
-#include "reference_rt/certificate.hpp"
 #include "scene/builtin_scenes.hpp"
 
 #include <fmt/format.h>
@@ -46,21 +46,6 @@ scene::Job job_of(const std::string& name, const std::vector<scene::Override>& k
                            : scene::builtin_job(name, keys).job;
 }
 
-reference_rt::Certificate certify(const analysis::Comparison& result,
-                                  const std::optional<std::uint64_t>& sample)
-{
-    const auto& classes = result.truth.pixel_class;
-    reference_rt::TruthClaims claims{result.receivers.triangle, classes,
-                                     scene::Image<float>{classes.size(), -1.0F},
-                                     result.truth.witness};
-    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (scene::is_scored(classes[i])) {
-            claims.truth[i] = classes[i] == PixelClass::lit ? 1.0F : 0.0F;
-        }
-    }
-    return reference_rt::certify(*result.triangles, result.view, claims, {sample});
-}
-
 /// Nothing is left unexplained, and no more is left out than the definition of truth allows.
 void expect_explained(const Subject& subject, const analysis::ClassCounts& pixels)
 {
@@ -93,7 +78,9 @@ void expect_sound(const Subject& subject, const std::vector<scene::Override>& ke
     const Compared compared{placed.file};
     const auto result = compared(placed.job);
     expect_explained(subject, result.metrics.pixels);
-    const auto certificate = certify(result, sample);
+    const auto certificate = reference_rt::certify(
+        *result.triangles, result.view,
+        reference_rt::test::claims_of(result.receivers.triangle, result.truth), {sample});
     EXPECT_TRUE(certificate.is_certified()) << certificate.wrong << " wrong pixels";
     for (const auto& refutation : certificate.refutations) {
         ADD_FAILURE() << "pixel " << refutation.x << ", " << refutation.y << ": "
