@@ -83,6 +83,7 @@ RawEmbreePass::RawEmbreePass(const scene::TriangleScene& triangles, const scene:
     for (int y0 = 0; y0 < view.image.height_px; y0 += tile_px) {
         for (int x0 = 0; x0 < view.image.width_px; x0 += tile_px) {
             Packet packet;
+            std::ranges::fill(packet.rays.tfar, -infinity); // idle, whatever the mask says
             for (int lane = 0; lane < tile_px * tile_px; ++lane) {
                 const int x = x0 + lane % tile_px;
                 const int y = y0 + lane / tile_px;

@@ -44,9 +44,12 @@ void EmbreeErrors::check(const char* during) const
 
 namespace {
 
-embree::Device make_device(int threads, EmbreeErrors& errors)
+embree::Device make_device(const ReferenceOptions& options, EmbreeErrors& errors)
 {
-    const std::string config = threads > 0 ? fmt::format("threads={}", threads) : "";
+    std::string config = fmt::format("threads={}", options.threads);
+    if (!options.embree_isa.empty()) {
+        config += ",isa=" + options.embree_isa;
+    }
     embree::Device device{rtcNewDevice(config.c_str())};
     if (!device) {
         throw scene::EnvironmentError{
@@ -58,14 +61,17 @@ embree::Device make_device(int threads, EmbreeErrors& errors)
 }
 
 /// The triangles of each pair of roles, by mask.
-std::array<std::vector<std::uint32_t>, 4> triangles_by_mask(const TriangleScene& scene)
+std::array<std::vector<std::uint32_t>, 4> triangles_by_mask(const TriangleScene& scene,
+                                                            std::uint32_t hidden_triangle)
 {
     std::array<std::vector<std::uint32_t>, 4> members;
     for (const scene::Object& object : scene.objects) {
         const unsigned mask =
             (object.casts ? unsigned{casters} : 0U) | (object.receives ? unsigned{receivers} : 0U);
         for (std::uint32_t i = 0; i < object.triangle_count; ++i) {
-            members[mask].push_back(object.first_triangle + i);
+            if (object.first_triangle + i != hidden_triangle) {
+                members[mask].push_back(object.first_triangle + i);
+            }
         }
     }
     return members;
@@ -81,8 +87,9 @@ void bound_triangle(const RTCBoundsFunctionArguments* arguments) noexcept
     const Vec3d a = owner.frame.from_world(corners[0]);
     const Vec3d b = owner.frame.from_world(corners[1]);
     const Vec3d c = owner.frame.from_world(corners[2]);
-    const Vec3f lower{glm::min(a, glm::min(b, c)) - Vec3d{box_padding}};
-    const Vec3f upper{glm::max(a, glm::max(b, c)) + Vec3d{box_padding}};
+    const Vec3d padding{owner.faults.padding_share * box_padding};
+    const Vec3f lower{glm::min(a, glm::min(b, c)) - padding};
+    const Vec3f upper{glm::max(a, glm::max(b, c)) + padding};
     RTCBounds& box = *arguments->bounds_o;
     box.lower_x = lower.x;
     box.lower_y = lower.y;
@@ -165,15 +172,17 @@ void rethrow_failure(const CandidateJudge& judge)
 } // namespace
 
 ReferenceScene::Implementation::Implementation(const TriangleScene& scene_in,
-                                               const ReferenceOptions& options)
-    : triangles{scene_in},
+                                               const ReferenceOptions& options,
+                                               const Faults& faults_in)
+    : faults{faults_in},
+      triangles{scene_in},
       bounds{scene_in.bounds()},
       frame{bounds},
-      device{make_device(options.threads, errors)}
+      device{make_device(options, errors)}
 {
     // Embree reads 16 bytes at each 12-byte vertex: the last one needs readable bytes behind it.
     triangles.vertices.reserve(triangles.vertices.size() + 1);
-    auto members = triangles_by_mask(triangles);
+    auto members = triangles_by_mask(triangles, faults.hidden_triangle);
     for (unsigned mask = 1; mask < members.size(); ++mask) {
         if (!members[mask].empty()) {
             roles.push_back({this, mask, std::move(members[mask])});
@@ -238,6 +247,7 @@ void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Rol
 void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRay16& rays,
                                                      CandidateJudge& judge) const
 {
+    idle_other_lanes(rays, valid);
     embree::Query query{embree::Coherence::coherent, nullptr, &judge};
     embree::occluded16(valid.lane.data(), padded.get(), query, rays);
     rethrow_failure(judge);
@@ -260,6 +270,10 @@ void ReferenceScene::Implementation::find_candidates(RTCRayHit& ray, CandidateJu
 
 ReferenceScene::ReferenceScene(const TriangleScene& triangles, const ReferenceOptions& options)
     : implementation_{std::make_unique<Implementation>(triangles, options)}
+{
+}
+ReferenceScene::ReferenceScene(std::unique_ptr<Implementation> implementation)
+    : implementation_{std::move(implementation)}
 {
 }
 ReferenceScene::~ReferenceScene() = default;

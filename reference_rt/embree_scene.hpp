@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference_rt/embree.hpp"
+#include "reference_rt/faults.hpp"
 #include "reference_rt/packet.hpp"
 #include "reference_rt/truth.hpp"
 #include "reference_rt/unit_frame.hpp"
@@ -51,7 +52,8 @@ public:
 ///
 /// One geometry for each pair of roles that occurs, numbered alike in both hierarchies.
 struct ReferenceScene::Implementation {
-    Implementation(const scene::TriangleScene& scene, const ReferenceOptions& options);
+    Implementation(const scene::TriangleScene& scene, const ReferenceOptions& options,
+                   const Faults& faults_in = {});
 
     /// The scene's index of Embree's primitive.
     [[nodiscard]] std::uint32_t triangle(unsigned geometry, unsigned primitive) const
@@ -73,6 +75,7 @@ struct ReferenceScene::Implementation {
         std::vector<std::uint32_t> members; ///< [primitive]
     };
 
+    Faults faults;
     scene::TriangleScene triangles; ///< Embree reads its vertices in place
     scene::Box bounds;
     UnitFrame frame;

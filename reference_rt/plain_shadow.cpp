@@ -81,6 +81,7 @@ PacketMask trace_plain(const ReferenceScene::Implementation& reference, const sc
             set_lane(packet, i, plain_ray(receivers[i], light, offset, t_near));
         }
     }
+    idle_other_lanes(packet, valid);
     OwnTriangles own{reference, receivers};
     embree::Query query{embree::Coherence::coherent,
                         offset == PlainOffset::own_triangle ? &reject_own_triangle : nullptr, &own};

@@ -52,27 +52,41 @@ ReceiverRaster::WindowCorners ReceiverRaster::window_corners(std::uint32_t trian
     const Vec2d half{0.5 * image_.width_px, 0.5 * image_.height_px};
     const bool is_captured = !facts_.clip_positions.empty();
     WindowCorners corners;
+    Vec4d largest{0}; // of the terms of GL's float32 sums
     for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t vertex = triangles_.triangles[triangle][i];
-        const Vec3d point{triangles_.vertices[vertex]};
-        const Vec4d clip =
-            is_captured ? Vec4d{facts_.clip_positions[vertex]} : matrix * Vec4d{point, 1};
+        const Vec4d point{triangles_.vertices[vertex], 1};
+        const Vec4d clip = is_captured ? Vec4d{facts_.clip_positions[vertex]} : matrix * point;
         corners[i].clip = clip;
         // Window y points down: X = (x/w + 1)W/2, Y = (1 − y/w)H/2.
         corners[i].position = {half.x * clip.x + (half.x - centre.x) * clip.w,
                                -half.y * clip.y + (half.y - centre.y) * clip.w, clip.w};
-        corners[i].error = Vec3d{0};
-        if (!is_captured) {
-            Vec4d sum = glm::abs(matrix[3]); // of the absolute products in each row
-            for (int c = 0; c < 3; ++c) {
-                sum += glm::abs(matrix[c]) * std::abs(point[c]);
+        Vec4d sum = glm::abs(clip);
+        if (!is_captured) { // absolute products in each row
+            sum = Vec4d{0};
+            for (int c = 0; c < 4; ++c) {
+                sum += glm::abs(matrix[c] * point[c]);
             }
-            corners[i].error =
-                gamma4 * Vec3d{half.x * sum.x + std::abs(half.x - centre.x) * sum.w,
-                               half.y * sum.y + std::abs(half.y - centre.y) * sum.w, sum.w};
+        }
+        largest = glm::max(largest, sum);
+    }
+    // The transform rounds, unless its result is known; so does the clipper, which interpolates.
+    if (!is_captured || is_clipped(corners)) {
+        for (Corner& corner : corners) {
+            corner.error =
+                gamma4 * Vec3d{half.x * largest.x + std::abs(half.x - centre.x) * largest.w,
+                               half.y * largest.y + std::abs(half.y - centre.y) * largest.w,
+                               largest.w};
+            corner.depth_error = gamma4 * largest.z;
         }
     }
     return corners;
+}
+
+bool ReceiverRaster::is_clipped(const WindowCorners& corners)
+{
+    return std::ranges::any_of(corners,
+                               [](const Corner& corner) { return may_be_clipped(corner.clip); });
 }
 
 bool ReceiverRaster::is_near_line(const WindowCorners& corners) const
@@ -99,7 +113,7 @@ bool ReceiverRaster::is_near_boundary(const WindowCorners& corners) const
     double reach_px = std::numbers::sqrt2 * std::ldexp(1.0, -facts_.subpixel_bits);
     std::array<Vec2d, 3> corner;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto& [position, error, clip] = corners[i];
+        const auto& [position, error, clip, depth_error] = corners[i];
         corner[i] = Vec2d{position} / position.z;
         const Vec2d move = (Vec2d{error} + error.z * glm::abs(corner[i])) / position.z;
         // GL divides and scales in float32: four roundings.
@@ -120,13 +134,52 @@ bool ReceiverRaster::is_near_boundary(const WindowCorners& corners) const
     return false;
 }
 
+/// Where the centre of pixel (x, y) is in a clipped triangle: between the near plane z = w and the
+/// far one, z = 0; and clear of the window's border, where GL may clip as well.
+ReceiverRaster::Side ReceiverRaster::side_of_clip_planes(const WindowCorners& corners, int x,
+                                                         int y) const
+{
+    const double subpixel_px = std::ldexp(1.0, -facts_.subpixel_bits);
+    const Vec3d& p = corners[0].position;
+    const Vec3d& q = corners[1].position;
+    const Vec3d& r = corners[2].position;
+    // The centre, (0, 0, 1), is the sum of line[i].z/volume times corner i.
+    const std::array<Vec3d, 3> line{glm::cross(q, r), glm::cross(r, p), glm::cross(p, q)};
+    const double volume = glm::dot(p, line[0]);
+    // A corner that the clipper makes near the centre has w there, and an error of all corners'.
+    const double w = std::abs(volume / (line[0].z + line[1].z + line[2].z));
+    const double stray_px = std::max(corners[0].error.x, corners[0].error.y) / w;
+    const Vec2d centre = centre_of(x, y);
+    const Vec2d border_px = glm::min(centre, Vec2d{image_.width_px, image_.height_px} - centre);
+    if (!(std::min(border_px.x, border_px.y) > subpixel_px + stray_px)) {
+        return Side::unsure;
+    }
+    const auto side = [&](double near, double far) { // of near·w + far·z = 0, positive inside
+        Vec3d cut{0};
+        double error = 0;
+        bool is_cut = false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double height = near * corners[i].clip.w + far * corners[i].clip.z;
+            const double height_error = near * corners[i].error.z + corners[i].depth_error;
+            cut += height * line[i];
+            error += height_error * std::abs(line[i].z);
+            is_cut = is_cut || height <= height_error;
+        }
+        if (is_cut && std::abs(cut.z) <= subpixel_px * std::hypot(cut.x, cut.y) + error) {
+            return Side::unsure;
+        }
+        return !is_cut || cut.z * volume > 0 ? Side::inside : Side::outside;
+    };
+    return std::max(side(1, -1), side(0, 1)); // outside of one is outside
+}
+
 bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
                                          bool is_covered) const
 {
     const WindowCorners corners = window_corners(triangle, x, y);
-    const bool is_clipped = std::ranges::any_of(
-        corners, [](const Corner& corner) { return may_be_clipped(corner.clip); });
-    if (is_clipped ? is_near_line(corners) : is_near_boundary(corners)) {
+    const bool is_cut = is_clipped(corners);
+    const Side planes = is_cut ? side_of_clip_planes(corners, x, y) : Side::inside;
+    if (planes == Side::unsure || (is_cut ? is_near_line(corners) : is_near_boundary(corners))) {
         return true;
     }
     // The centre is the origin. With homogeneous corners it is inside where its sides of the edges'
@@ -138,7 +191,8 @@ bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
     const auto is_inside = [&](const Vec3d& from, const Vec3d& to) {
         return (from.x * to.y - from.y * to.x < 0) == is_turned;
     };
-    const bool is_snapped_over = is_inside(p, q) && is_inside(q, r) && is_inside(r, p);
+    const bool is_snapped_over =
+        planes == Side::inside && is_inside(p, q) && is_inside(q, r) && is_inside(r, p);
     return is_snapped_over != is_covered;
 }
 
@@ -166,7 +220,7 @@ ReceiverRaster::Depth ReceiverRaster::depth(std::uint32_t triangle, int x, int y
         glm::transpose(glm::dmat3{corners[0].position, corners[1].position, corners[2].position});
     const double volume = glm::dot(rows[0], glm::cross(rows[1], rows[2]));
     const double g = glm::dot(rows[0], glm::cross(rows[1], z)) / volume;
-    if (std::ranges::none_of(corners, [](const Corner& c) { return may_be_clipped(c.clip); })) {
+    if (!is_clipped(corners)) {
         scene::WindowTriangle window{};
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3d& p = corners[i].position;

@@ -23,7 +23,9 @@ public:
     /// From GL's own clip positions: corners that move by ±1 sub-pixel may put the centre on either
     /// side of an edge, or they certainly decide otherwise. For a triangle that GL clips: the
     /// centre lies within one sub-pixel of an edge's homogeneous line, or the lines decide
-    /// otherwise. Where GL's positions are not known, the float32 transform's error is allowed for.
+    /// otherwise; the line in which the near or far plane cuts it is an edge as well. What GL
+    /// rounds in float32 is allowed for: in its clipper, and in its transform where its positions
+    /// are not known.
     /// @param is_covered  whether the closed triangle covers the centre, exactly.
     [[nodiscard]] bool coverage_may_differ(std::uint32_t triangle, int x, int y,
                                            bool is_covered) const;
@@ -36,8 +38,9 @@ private:
     /// A corner in window space, homogeneous, seen from a pixel's centre.
     struct Corner {
         scene::Vec3d position; ///< ((X − centre.x)w, (Y − centre.y)w, w), X and Y in pixels
-        scene::Vec3d error;    ///< of the float32 transform, unless GL itself gave the position
+        scene::Vec3d error{};  ///< of GL's float32 transform, if unknown, and of its clipper
         scene::Vec4d clip;
+        double depth_error = 0; ///< of clip.z, likewise
     };
     using WindowCorners = std::array<Corner, 3>;
     /// Window depth at a pixel's centre, reversed: 1 at the near plane.
@@ -45,7 +48,11 @@ private:
         double value = 0;
         double error = 0; ///< of what GL stores
     };
+    [[nodiscard]] static bool is_clipped(const WindowCorners& corners);
     [[nodiscard]] WindowCorners window_corners(std::uint32_t triangle, int x, int y) const;
+    /// Whether a pixel's centre is inside of something that GL decides from positions.
+    enum class Side : std::uint8_t { inside, unsure, outside };
+    [[nodiscard]] Side side_of_clip_planes(const WindowCorners& corners, int x, int y) const;
     [[nodiscard]] Depth depth(std::uint32_t triangle, int x, int y) const;
     [[nodiscard]] double vertex_error(std::uint32_t triangle, const WindowCorners& corners) const;
     [[nodiscard]] bool is_near_line(const WindowCorners& corners) const;

@@ -51,7 +51,7 @@ public:
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
         const Corners corners = corners_of(reference_.triangles, triangle);
-        const TrianglePlanes planes =
+        TrianglePlanes planes =
             make_planes(reference_.frame, light_.pencil, corners, LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
@@ -60,6 +60,7 @@ public:
         }
         open &= ~lanes_on(triangle); // the segment meets the plane of T at P only
         LaneBits crossing = 0;
+        planes.towards *= reference_.faults.light_sign;
         if (planes.towards != 0) {
             const LaneBits sure = open & lines.inside;
             crossing = sure & certainly_on_side(points_, planes, -planes.towards);

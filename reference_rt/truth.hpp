@@ -37,6 +37,7 @@ struct ReferenceOptions {
     int threads = 0;                ///< with which they are built; 0: all cores
     bool serves_exact_truth = true; ///< TruthMethod::exact and `nearest_blockers`
     bool serves_plain_rays = false; ///< TruthMethod::plain and `audit_float_methods`
+    std::string embree_isa{};       ///< "sse4.2", "avx2", …; empty: the best that there is
 };
 
 /// The scene in Embree's hands; built once, then read by any number of threads.
@@ -52,6 +53,8 @@ public:
     [[nodiscard]] const scene::TriangleScene& triangles() const;
 
     struct Implementation;
+    /// Takes over what was made elsewhere: `make_faulty_scene` does, for tests.
+    explicit ReferenceScene(std::unique_ptr<Implementation> implementation);
     [[nodiscard]] const Implementation& implementation() const { return *implementation_; }
 
 private:

@@ -1,9 +1,11 @@
 #include "compared.hpp"
 
+#include <utility>
+
 namespace gnomon::tests {
 
-Compared::Compared(const scene::Job& job)
-    : file_{scene::load_scene(job.scene)},
+Compared::Compared(scene::SceneFile file)
+    : file_{std::move(file)},
       gl_{std::make_unique<cli::GlRenderer>(*shared_context(), file_.scene)},
       reference_{file_.scene}
 {

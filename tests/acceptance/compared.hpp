@@ -16,7 +16,8 @@ namespace gnomon::tests {
 /// A scene in both renderers' hands, compared under any number of settings.
 class Compared {
 public:
-    explicit Compared(const scene::Job& job);
+    explicit Compared(const scene::Job& job) : Compared{scene::load_scene(job.scene)} {}
+    explicit Compared(scene::SceneFile file);
 
     /// Compares under a job that shows the same scene.
     [[nodiscard]] analysis::Comparison operator()(const scene::Job& job) const;

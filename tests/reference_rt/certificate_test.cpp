@@ -1,5 +1,6 @@
 #include "reference_rt/certificate.hpp"
 
+#include "claims.hpp"
 #include "reference_rt/certificate_pixel.hpp"
 #include "scene_fixture.hpp"
 
@@ -39,16 +40,8 @@ struct Case {
         test::add_sphere(builder, {0.9, 0.6, 0.4}, 0.5, 6);
         scene = builder.take();
         view = test::make_view({0.5, 4, 6}, {0, 0.4, 0}, {48, 36}, light);
-        claims.receiver = test::brute_force_receivers(scene, view);
-        const TruthLayers truth = test::truth_of(scene, view);
-        claims.pixel_class = truth.pixel_class;
-        claims.witness = truth.witness;
-        claims.truth = Image<float>{view.image, -1.0F};
-        for (std::size_t i = 0; i < truth.pixel_class.pixel_count(); ++i) {
-            claims.truth[i] = truth.pixel_class[i] == PixelClass::lit       ? 1.0F
-                              : truth.pixel_class[i] == PixelClass::blocked ? 0.0F
-                                                                            : -1.0F;
-        }
+        claims =
+            test::claims_of(test::brute_force_receivers(scene, view), test::truth_of(scene, view));
     }
 
     [[nodiscard]] Certificate certify(const CertificateOptions& options = {}) const

@@ -186,5 +186,41 @@ TEST(Invariance, HoldsForAnyNumberOfThreads)
     }
 }
 
+TEST(Invariance, HoldsForAnyInstructionSet)
+{
+    for (const unsigned seed : seeds) {
+        const Subject subject = make_subject(seed);
+        for (const char* const isa : {"sse2", "sse4.2", "avx", "avx2"}) {
+            SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << isa);
+            const ReferenceScene reference{subject.scene, {.embree_isa = isa}};
+            const auto truth = compute_truth(reference, subject.view, subject.receivers, {});
+            EXPECT_TRUE(std::ranges::equal(truth.pixel_class, subject.truth.pixel_class));
+            EXPECT_TRUE(std::ranges::equal(truth.reason, subject.truth.reason));
+        }
+    }
+}
+
+/// FNV-1a of the bytes of all classes and reasons.
+std::uint64_t hash_of(const scene::TruthLayers& truth)
+{
+    std::uint64_t hash = 0xCBF29CE484222325;
+    const auto add = [&hash](auto value) {
+        hash = (hash ^ static_cast<std::uint8_t>(value)) * 0x100000001B3;
+    };
+    std::ranges::for_each(truth.pixel_class, add);
+    std::ranges::for_each(truth.reason, add);
+    return hash;
+}
+
+TEST(Invariance, HoldsForEveryBuild)
+{
+    // Debug, release and sanitized builds, and both compilers, find the same bytes: these.
+    const std::array<std::uint64_t, seeds.size()> expected{0x9FE467D090C89128, 0x86E521378638E8BF,
+                                                           0x4C8EA76FCE8640AB};
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+        EXPECT_EQ(hash_of(make_subject(seeds[i]).truth), expected[i]) << "seed " << seeds[i];
+    }
+}
+
 } // namespace
 } // namespace gnomon::reference_rt::test

@@ -102,5 +102,33 @@ TEST(Unmatched, IsASnapWithinASubPixelOfAnEdge)
     }
 }
 
+TEST(Unmatched, IsASnapWhereTheNearPlaneCutsATriangle)
+{
+    // Seen in parallel rays along −z from z = 4, a slope reaches through the near plane: 24 px a
+    // metre, and z grows by a metre along x. GL clips right of x where z = 4 − near.
+    SceneBuilder builder;
+    builder.add("slope", std::vector<Vec3d>{{-9, -9, -9}, {9, -9, 9}, {9, 9, 9}, {-9, 9, -9}},
+                std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
+    const TriangleScene scene = builder.take();
+    View view = make_view({4, 0, 4}, {4, 0, 0}, image, sun({0.1, 0.2, -1}),
+                          scene::Projection::orthographic);
+    view.camera.half_height = 1;
+    const double near_m = scene::receiver_near_m(scene.bounds());
+    // Half a sub-pixel on either side of a column's centre, and a quarter of a pixel.
+    for (const double offset_px : {-1.0 / 512, 1.0 / 512, -0.25, 0.25}) {
+        TriangleScene moved = scene;
+        const double cut_m = 4 + (40.5 + offset_px - 32) / 24;
+        for (scene::Vec3f& vertex : moved.vertices) {
+            vertex.z += static_cast<float>(4 - near_m - cut_m);
+        }
+        const bool is_covered = offset_px > 0;
+        const std::uint32_t seen = brute_force_receivers(moved, view)(40, 30);
+        ASSERT_EQ(seen != no_triangle, is_covered) << offset_px;
+        const auto pixel = class_when_seeing(moved, view, 40, 30, is_covered ? no_triangle : 1U);
+        expect_unmatched(pixel, std::abs(offset_px) < 1.0 / 256 ? ClassReason::snap
+                                                                : ClassReason::mismatch);
+    }
+}
+
 } // namespace
 } // namespace gnomon::reference_rt::test
