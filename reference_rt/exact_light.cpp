@@ -14,7 +14,6 @@
 #include <glm/geometric.hpp>
 
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 
 namespace gnomon::reference_rt {
@@ -218,7 +217,8 @@ private:
     /// Made when first asked for.
     [[nodiscard]] const CornerFans& fans() const
     {
-        std::call_once(fans_made_, [&] { fans_.emplace(reference_.triangles); });
+        std::call_once(fans_made_,
+                       [&] { fans_ = std::make_unique<CornerFans>(reference_.triangles); });
         return *fans_;
     }
 
@@ -285,7 +285,7 @@ private:
     SegmentLight segments_;
     int threads_;
     mutable std::once_flag fans_made_;
-    mutable std::optional<CornerFans> fans_;
+    mutable std::unique_ptr<const CornerFans> fans_;
 };
 
 } // namespace
