@@ -65,8 +65,8 @@ public:
         ray_ = seen_.ray_of(pixel);
         SignCounts counts;
         receiver_ = Receiver{facet_, ray_, counts};
-        term_ = receiver_.delta_sign == 0 ? DepthTerm{}
-                                          : DepthTerm{depth_, depth_.along(ray_.ray), receiver_};
+        line_ = depth_.along(ray_.ray);
+        term_ = receiver_.delta_sign == 0 ? DepthTerm{} : DepthTerm{depth_, line_, receiver_};
     }
     [[nodiscard]] const Receiver& receiver() const { return receiver_; }
     [[nodiscard]] const DepthTerm& term() const { return term_; }
