@@ -238,6 +238,7 @@ void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Rol
 void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRay16& rays,
                                                      CandidateJudge& judge) const
 {
+    close_idle_lanes(valid, rays);
     embree::Query query{embree::Coherence::coherent, nullptr, &judge};
     embree::occluded16(valid.lane.data(), padded.get(), query, rays);
     rethrow_failure(judge);
@@ -246,6 +247,7 @@ void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RT
 void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRayHit16& rays,
                                                      CandidateJudge& judge) const
 {
+    close_idle_lanes(valid, rays.ray);
     embree::Query query{embree::Coherence::coherent, nullptr, &judge};
     embree::intersect16(valid.lane.data(), padded.get(), query, rays);
     rethrow_failure(judge);
