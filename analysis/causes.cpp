@@ -6,7 +6,9 @@
 #include "analysis/texel_hits.hpp"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -54,47 +56,35 @@ private:
             scene::is_lit(sample.verdict) == (truth == PixelClass::lit)) {
             return;
         }
-        const std::vector<Tap> taps = footprint_.taps(inputs_.unbiased.texels[pixel]);
-        if (rules_.is_policy(sample.receiver_depth, taps)) {
+        Lookups& lookups = truth == PixelClass::lit ? lit : blocked;
+        const std::size_t before = lookups.taps.size();
+        footprint_.append_taps(inputs_.unbiased.texels[pixel], lookups.taps);
+        if (rules_.is_policy(sample.receiver_depth, std::span{lookups.taps}.subspan(before))) {
             causes_[pixel] = {Cause::coverage, false, std::numeric_limits<float>::infinity()};
+            lookups.taps.resize(before);
             return;
         }
-        Lookups& lookups = truth == PixelClass::lit ? lit : blocked;
         lookups.pixels.push_back(pixel);
-        lookups.taps.insert(lookups.taps.end(), taps.begin(), taps.end());
     }
 
     void explain(Lookups& lit, Lookups& blocked)
     {
-        std::vector<scene::Texel> texels;
-        for (const Lookups* lookups : {&lit, &blocked}) {
-            for (const Tap& tap : lookups->taps) {
-                if (tap.is_inside) {
-                    texels.push_back(tap.texel);
-                }
-            }
-        }
-        const TexelHits hits{inputs_.light, texels};
-        explain_lit(lit, hits);
-        explain_blocked(blocked, hits);
-        for (Lookups* lookups : {&lit, &blocked}) {
-            lookups->pixels.clear();
-            lookups->taps.clear();
-        }
+        explain_lit({std::exchange(lit, {{}, {}, lit.taps_each}), inputs_.light});
+        explain_blocked({std::exchange(blocked, {{}, {}, blocked.taps_each}), inputs_.light});
     }
 
-    void explain_lit(const Lookups& lookups, const TexelHits& hits)
+    void explain_lit(const TracedLookups& lookups)
     {
-        const auto critical = exact_critical_biases(rules_, lookups, hits, inputs_.light);
-        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
-            const std::size_t pixel = lookups.pixels[i];
+        const auto critical = exact_critical_biases(rules_, lookups, inputs_.light);
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            const std::size_t pixel = lookups.pixel(i);
             // V3: nothing crosses the segment, so only a policy can shadow.
             const bool is_lit = !is_uncovered(pixel) || inputs_.lookup.outside == Outside::lit;
             causes_[pixel] = {is_lit ? Cause::resolution : Cause::coverage, false, critical[i]};
         }
-        const auto own = sees_own_sheets(inputs_, lookups, hits);
-        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
-            causes_[lookups.pixels[i]].sees = own[i];
+        const auto own = sees_own_sheets(inputs_, lookups);
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            causes_[lookups.pixel(i)].sees = own[i];
         }
     }
 
@@ -105,15 +95,15 @@ private:
                rules_.is_beyond_far(inputs_.unbiased.samples[pixel].receiver_depth);
     }
 
-    void explain_blocked(const Lookups& lookups, const TexelHits& hits)
+    void explain_blocked(const TracedLookups& lookups)
     {
-        const auto critical = exact_critical_biases(rules_, lookups, hits, inputs_.light);
+        const auto critical = exact_critical_biases(rules_, lookups, inputs_.light);
         std::vector<std::size_t> lost; // exact depths do not help
-        for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
             if (critical[i] > 0) {
-                causes_[lookups.pixels[i]].unbiased = Cause::precision;
+                causes_[lookups.pixel(i)].unbiased = Cause::precision;
             } else {
-                lost.push_back(lookups.pixels[i]);
+                lost.push_back(lookups.pixel(i));
             }
         }
         const auto crossed = inputs_.light.are_crossed(lost);

@@ -37,8 +37,7 @@ std::vector<std::size_t> pixels_of(const CauseLayers& causes, Label label)
 /// to a blocker that the map does not see.
 std::vector<std::size_t> detached(const CauseInputs& inputs, std::span<const std::size_t> pixels)
 {
-    const auto [lookups, hits] = trace_lookups(inputs, pixels);
-    const auto sees_own = sees_own_sheets(inputs, lookups, hits);
+    const auto sees_own = sees_own_sheets(inputs, trace_lookups(inputs, pixels));
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         if (!sees_own[i]) {

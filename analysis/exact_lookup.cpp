@@ -1,5 +1,7 @@
 #include "analysis/exact_lookup.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,11 +22,10 @@ constexpr double depth_doubt = 0x1p-46;
 
 class ExactLookup {
 public:
-    ExactLookup(const LookupRules& rules, const Lookups& lookups, const TexelHits& hits,
+    ExactLookup(const LookupRules& rules, const TracedLookups& lookups,
                 const scene::ExactLight& light)
         : rules_{rules},
           lookups_{lookups},
-          hits_{hits},
           light_{light},
           clamps_{rules.lookup.outside == Outside::clamp}
     {
@@ -32,7 +33,12 @@ public:
 
     [[nodiscard]] std::vector<float> find() const
     {
+        if (lookups_.size() == 0) {
+            return {};
+        }
         switch (rules_.lookup.filter) {
+        case Filter::nearest:
+            return light_.critical_biases(all_taps(), clamps_);
         case Filter::linear:
             return interpolated();
         case Filter::hardware:
@@ -43,47 +49,57 @@ public:
     }
 
 private:
-    [[nodiscard]] ExactTap exact_tap(const Tap& tap) const
+    [[nodiscard]] NearestQuery query(std::size_t lookup, std::size_t tap) const
     {
-        if (!tap.is_inside) {
-            return {tap.texel, scene::no_triangle, rules_.border_depth()};
-        }
-        return {tap.texel, hits_[tap.texel].triangle, rules_.farthest_depth()};
+        return {lookups_.pixel(lookup), exact_tap(lookup, tap)};
+    }
+    [[nodiscard]] ExactTap exact_tap(std::size_t lookup, std::size_t tap) const
+    {
+        const scene::Texel& texel = lookups_.taps_of(lookup)[tap].texel;
+        const scene::TexelHit* hit = lookups_.hits_of(lookup)[tap];
+        return hit == nullptr ? ExactTap{texel, scene::no_triangle, rules_.border_depth()}
+                              : ExactTap{texel, hit->triangle, rules_.farthest_depth()};
     }
 
     /// Linear: the taps' depths are interpolated, then compared.
     [[nodiscard]] std::vector<float> interpolated() const
     {
-        std::vector<LinearQuery> queries(lookups_.pixels.size());
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            queries[i].pixel = lookups_.pixels[i];
+        std::vector<LinearQuery> queries(lookups_.size());
+        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+            queries[i].pixel = lookups_.pixel(i);
             const auto taps = lookups_.taps_of(i);
             for (std::size_t t = 0; t < taps.size(); ++t) {
-                queries[i].taps[t] = exact_tap(taps[t]);
+                queries[i].taps[t] = exact_tap(i, t);
                 queries[i].weights[t] = taps[t].weight;
             }
-        }
+        });
         return light_.critical_biases(queries, clamps_);
     }
 
     /// Hardware: each tap is compared; the verdict is lit when half of the weight is.
     [[nodiscard]] std::vector<float> weighted() const
     {
-        std::vector<NearestQuery> queries;
-        queries.reserve(lookups_.taps.size());
-        for (std::size_t i = 0; i < lookups_.pixels.size(); ++i) {
-            for (const Tap& tap : lookups_.taps_of(i)) {
-                queries.push_back({lookups_.pixels[i], exact_tap(tap)});
-            }
-        }
-        const std::vector<float> critical = light_.critical_biases(queries, clamps_);
-        std::vector<float> result(lookups_.pixels.size());
+        const std::vector<float> critical = light_.critical_biases(all_taps(), clamps_);
+        const std::size_t each = lookups_.taps_of(0).size();
+        std::vector<float> result(lookups_.size());
         for (std::size_t i = 0; i < result.size(); ++i) {
             result[i] =
-                half_weight(lookups_.taps_of(i), std::span{critical}.subspan(i * lookups_.taps_each,
-                                                                             lookups_.taps_each));
+                half_weight(lookups_.taps_of(i), std::span{critical}.subspan(i * each, each));
         }
         return result;
+    }
+
+    /// A query for each tap of each lookup.
+    [[nodiscard]] std::vector<NearestQuery> all_taps() const
+    {
+        std::vector<NearestQuery> queries(lookups_.tap_count());
+        tbb::parallel_for(std::size_t{0}, lookups_.size(), [&](std::size_t i) {
+            const std::size_t each = lookups_.taps_of(i).size();
+            for (std::size_t t = 0; t < each; ++t) {
+                queries[i * each + t] = query(i, t);
+            }
+        });
+        return queries;
     }
 
     /// The smallest of the taps' critical biases with which taps of half the weight are lit.
@@ -104,37 +120,28 @@ private:
         return infinity; // not reached: the weights' sum is 1
     }
 
-    /// Nearest and pcf: the ⌈K²/2⌉-th smallest of the taps' critical biases. It belongs to the tap
-    /// of that rank by depth, so that only taps as deep as that one have to be asked.
+    /// pcf: the ⌈K²/2⌉-th smallest of the taps' critical biases. It belongs to the tap of that rank
+    /// by depth, so that only taps as deep as that one have to be asked.
     [[nodiscard]] std::vector<float> median_of_taps() const
     {
-        std::vector<float> result(lookups_.pixels.size());
+        std::vector<float> result(lookups_.size());
         std::vector<NearestQuery> queries;
         std::vector<Rank> ranks;
-        std::vector<double> keys;
+        std::vector<double> keys(lookups_.size() > 0 ? lookups_.taps_of(0).size() : 0);
+        std::vector<double> sorted;
         for (std::size_t i = 0; i < result.size(); ++i) {
-            keys.clear();
-            for (const Tap& tap : lookups_.taps_of(i)) {
-                keys.push_back(key(tap));
+            for (std::size_t t = 0; t < keys.size(); ++t) {
+                keys[t] = key(lookups_.hits_of(i)[t]);
             }
             const std::size_t middle = (keys.size() + 1) / 2 - 1;
-            std::vector<double> sorted = keys;
+            sorted = keys;
             std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(middle));
             const double median = sorted[middle];
             if (std::isinf(median)) {
                 result[i] = static_cast<float>(median);
-                continue;
+            } else {
+                ranks.push_back(ask_around(i, keys, median, queries));
             }
-            Rank rank{i, middle, queries.size(), 0};
-            for (std::size_t t = 0; t < keys.size(); ++t) {
-                if (keys[t] < median - depth_doubt) {
-                    --rank.rank;
-                } else if (keys[t] <= median + depth_doubt) {
-                    queries.push_back({lookups_.pixels[i], exact_tap(lookups_.taps_of(i)[t])});
-                    ++rank.count;
-                }
-            }
-            ranks.push_back(rank);
         }
         std::vector<float> critical = light_.critical_biases(queries, clamps_);
         for (const Rank& rank : ranks) {
@@ -147,17 +154,6 @@ private:
         return result;
     }
 
-    /// Orders taps as their critical biases: those lit by the smallest bias first.
-    [[nodiscard]] double key(const Tap& tap) const
-    {
-        if (!tap.is_inside) {
-            return rules_.lookup.outside == Outside::shadowed ? double{infinity}
-                                                              : -double{infinity};
-        }
-        const double depth = hits_[tap.texel].depth;
-        return rules_.reversed ? depth : -depth;
-    }
-
     /// Which of the queries [first, first + count) answers for a lookup: the one of this rank.
     struct Rank {
         std::size_t lookup;
@@ -166,19 +162,55 @@ private:
         std::size_t count;
     };
 
+    /// Adds queries for the taps whose depth cannot be told from the median's.
+    [[nodiscard]] Rank ask_around(std::size_t lookup, const std::vector<double>& keys,
+                                  double median, std::vector<NearestQuery>& queries) const
+    {
+        Rank rank{lookup, (keys.size() + 1) / 2 - 1, queries.size(), 0};
+        for (std::size_t t = 0; t < keys.size(); ++t) {
+            if (keys[t] < median - depth_doubt) {
+                --rank.rank;
+            } else if (keys[t] <= median + depth_doubt) {
+                queries.push_back(query(lookup, t));
+                ++rank.count;
+            }
+        }
+        return rank;
+    }
+
+    /// Orders taps as their critical biases: those lit by the smallest bias first.
+    [[nodiscard]] double key(const scene::TexelHit* hit) const
+    {
+        if (hit == nullptr) {
+            return rules_.lookup.outside == Outside::shadowed ? double{infinity}
+                                                              : -double{infinity};
+        }
+        return rules_.reversed ? hit->depth : -hit->depth;
+    }
+
     const LookupRules& rules_;
-    const Lookups& lookups_;
-    const TexelHits& hits_;
+    const TracedLookups& lookups_;
     const scene::ExactLight& light_;
     bool clamps_;
 };
 
 } // namespace
 
-std::vector<float> exact_critical_biases(const LookupRules& rules, const Lookups& lookups,
-                                         const TexelHits& hits, const scene::ExactLight& light)
+TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light)
+    : lookups_{std::move(lookups)},
+      texels_{light, lookups_.taps},
+      hits_(lookups_.taps.size())
 {
-    return ExactLookup{rules, lookups, hits, light}.find();
+    tbb::parallel_for(std::size_t{0}, hits_.size(), [&](std::size_t i) {
+        const Tap& tap = lookups_.taps[i];
+        hits_[i] = tap.is_inside ? &texels_[tap.texel] : nullptr;
+    });
+}
+
+std::vector<float> exact_critical_biases(const LookupRules& rules, const TracedLookups& lookups,
+                                         const scene::ExactLight& light)
+{
+    return ExactLookup{rules, lookups, light}.find();
 }
 
 } // namespace gnomon::analysis

@@ -23,11 +23,31 @@ struct Lookups {
     }
 };
 
+/// Lookups, and what the light sees through the texel of each tap.
+class TracedLookups {
+public:
+    TracedLookups(Lookups lookups, const scene::ExactLight& light);
+
+    [[nodiscard]] std::size_t size() const { return lookups_.pixels.size(); }
+    [[nodiscard]] std::size_t pixel(std::size_t i) const { return lookups_.pixels[i]; }
+    [[nodiscard]] std::span<const Tap> taps_of(std::size_t i) const { return lookups_.taps_of(i); }
+    /// Of each tap of a lookup; null where there is no texel.
+    [[nodiscard]] std::span<const scene::TexelHit* const> hits_of(std::size_t i) const
+    {
+        return std::span{hits_}.subspan(i * lookups_.taps_each, lookups_.taps_each);
+    }
+    [[nodiscard]] std::size_t tap_count() const { return hits_.size(); }
+
+private:
+    Lookups lookups_;
+    TexelHits texels_;
+    std::vector<const scene::TexelHit*> hits_;
+};
+
 /// V2: for each receiver the smallest bias with which exact depths at the lookup's taps are lit
 /// (DESIGN §4); −∞ or +∞ where policy taps decide.
 [[nodiscard]] std::vector<float> exact_critical_biases(const LookupRules& rules,
-                                                       const Lookups& lookups,
-                                                       const TexelHits& hits,
+                                                       const TracedLookups& lookups,
                                                        const scene::ExactLight& light);
 
 } // namespace gnomon::analysis

@@ -50,13 +50,20 @@ Texel Footprint::first_tap(const Vec2f& point) const
 
 std::vector<Tap> Footprint::taps(const Vec2f& point) const
 {
+    std::vector<Tap> taps;
+    taps.reserve(tap_count());
+    append_taps(point, taps);
+    return taps;
+}
+
+void Footprint::append_taps(const Vec2f& point, std::vector<Tap>& taps) const
+{
     const Texel first = first_tap(point);
     const double right = upper_weight(point.x);
     const double above = upper_weight(point.y);
     const std::array<double, 4> bilinear{(1 - right) * (1 - above), right * (1 - above),
                                          (1 - right) * above, right * above};
-    std::vector<Tap> taps;
-    taps.reserve(tap_count());
+    std::size_t next = 0;
     for (int y = 0; y < width_; ++y) {
         for (int x = 0; x < width_; ++x) {
             Tap tap{{first.x + x, first.y + y}, true, 1};
@@ -66,12 +73,11 @@ std::vector<Tap> Footprint::taps(const Vec2f& point) const
             }
             tap.is_inside = is_on_map(tap.texel, resolution_);
             if (interpolates()) {
-                tap.weight = bilinear[taps.size()];
+                tap.weight = bilinear[next++];
             }
             taps.push_back(tap);
         }
     }
-    return taps;
 }
 
 std::vector<Texel> Footprint::ring(const Vec2f& point) const

@@ -31,6 +31,8 @@ public:
     /// nearest and pcf: 1 each. linear and hardware: from fract(uv·resolution − ½) in float32, 1 in
     /// all.
     [[nodiscard]] std::vector<Tap> taps(const scene::Vec2f& point) const;
+    /// Appends the same taps.
+    void append_taps(const scene::Vec2f& point, std::vector<Tap>& taps) const;
 
     [[nodiscard]] std::size_t tap_count() const
     {

@@ -2,6 +2,8 @@
 
 #include "analysis/footprint.hpp"
 
+#include <utility>
+
 namespace gnomon::analysis {
 
 namespace {
@@ -33,38 +35,37 @@ private:
 
 } // namespace
 
-std::vector<bool> sees_own_sheets(const CauseInputs& inputs, const Lookups& lookups,
-                                  const TexelHits& hits)
+std::vector<bool> sees_own_sheets(const CauseInputs& inputs, const TracedLookups& lookups)
 {
     const StoredTaps stored{inputs};
     std::vector<scene::SheetQuery> queries;
     std::vector<std::size_t> lookup_of;
     std::vector<double> weights;
-    std::vector<double> balance(lookups.pixels.size()); // own sheet's weight less the others'
-    for (std::size_t i = 0; i < lookups.pixels.size(); ++i) {
-        for (const Tap& tap : lookups.taps_of(i)) {
-            if (!stored.shadows(lookups.pixels[i], tap)) {
+    std::vector<double> balance(lookups.size()); // own sheet's weight less the others'
+    for (std::size_t i = 0; i < lookups.size(); ++i) {
+        for (std::size_t t = 0; t < lookups.taps_of(i).size(); ++t) {
+            const Tap& tap = lookups.taps_of(i)[t];
+            if (!stored.shadows(lookups.pixel(i), tap)) {
                 continue;
             }
             balance[i] -= tap.weight;
-            const std::uint32_t triangle =
-                tap.is_inside ? hits[tap.texel].triangle : scene::no_triangle;
-            if (triangle != scene::no_triangle) {
-                queries.push_back({lookups.pixels[i], tap.texel, triangle});
+            const scene::TexelHit* hit = lookups.hits_of(i)[t];
+            if (hit != nullptr && hit->triangle != scene::no_triangle) {
+                queries.push_back({lookups.pixel(i), tap.texel, hit->triangle});
                 lookup_of.push_back(i);
                 weights.push_back(tap.weight);
             }
         }
     }
     const auto own = inputs.light.are_own_sheets(queries);
-    std::vector<bool> has_own(lookups.pixels.size());
+    std::vector<bool> has_own(lookups.size());
     for (std::size_t q = 0; q < queries.size(); ++q) {
         if (own[q] != 0) {
             balance[lookup_of[q]] += 2 * weights[q];
             has_own[lookup_of[q]] = true;
         }
     }
-    std::vector<bool> sees(lookups.pixels.size());
+    std::vector<bool> sees(lookups.size());
     for (std::size_t i = 0; i < sees.size(); ++i) {
         sees[i] = has_own[i] && balance[i] >= 0;
     }
@@ -75,16 +76,10 @@ TracedLookups trace_lookups(const CauseInputs& inputs, std::span<const std::size
 {
     const Footprint footprint{inputs.lookup, inputs.resolution_texels};
     Lookups lookups{{pixels.begin(), pixels.end()}, {}, footprint.tap_count()};
-    std::vector<scene::Texel> texels;
     for (const std::size_t pixel : pixels) {
-        for (const Tap& tap : footprint.taps(inputs.unbiased.texels[pixel])) {
-            lookups.taps.push_back(tap);
-            if (tap.is_inside) {
-                texels.push_back(tap.texel);
-            }
-        }
+        footprint.append_taps(inputs.unbiased.texels[pixel], lookups.taps);
     }
-    return {std::move(lookups), TexelHits{inputs.light, texels}};
+    return {std::move(lookups), inputs.light};
 }
 
 } // namespace gnomon::analysis

@@ -2,23 +2,18 @@
 
 #include "analysis/causes.hpp"
 #include "analysis/exact_lookup.hpp"
-#include "analysis/texel_hits.hpp"
 
+#include <span>
 #include <vector>
 
 namespace gnomon::analysis {
 
 /// True for the lookups in which at least half, by weight, of the taps that shadow without bias see
 /// the receiver's own sheet (DESIGN §4); false where none shadows.
-/// @param hits  of all taps that are inside.
-[[nodiscard]] std::vector<bool> sees_own_sheets(const CauseInputs& inputs, const Lookups& lookups,
-                                                const TexelHits& hits);
+[[nodiscard]] std::vector<bool> sees_own_sheets(const CauseInputs& inputs,
+                                                const TracedLookups& lookups);
 
-/// The lookups of pixels, and what the light sees through their texels.
-struct TracedLookups {
-    Lookups lookups;
-    TexelHits hits;
-};
+/// The lookups of pixels, traced.
 [[nodiscard]] TracedLookups trace_lookups(const CauseInputs& inputs,
                                           std::span<const std::size_t> pixels);
 

@@ -1,7 +1,10 @@
 #include "analysis/texel_hits.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 namespace gnomon::analysis {
 
@@ -19,18 +22,39 @@ Texel texel_of(std::uint64_t key)
     return {static_cast<int>(key & 0xFFFFFFFFU), static_cast<int>(key >> 32U)};
 }
 
+/// Neighbouring pixels often share a texel.
+void append(std::uint64_t key, std::vector<std::uint64_t>& keys)
+{
+    if (keys.empty() || keys.back() != key) {
+        keys.push_back(key);
+    }
+}
+
 } // namespace
 
 TexelHits::TexelHits(const scene::ExactLight& light, std::span<const Texel> texels)
 {
     keys_.reserve(texels.size());
     for (const Texel& texel : texels) {
-        const std::uint64_t key = key_of(texel);
-        if (keys_.empty() || keys_.back() != key) { // neighbouring pixels often share a texel
-            keys_.push_back(key);
+        append(key_of(texel), keys_);
+    }
+    trace(light);
+}
+
+TexelHits::TexelHits(const scene::ExactLight& light, std::span<const Tap> taps)
+{
+    keys_.reserve(taps.size());
+    for (const Tap& tap : taps) {
+        if (tap.is_inside) {
+            append(key_of(tap.texel), keys_);
         }
     }
-    std::ranges::sort(keys_);
+    trace(light);
+}
+
+void TexelHits::trace(const scene::ExactLight& light)
+{
+    tbb::parallel_sort(keys_);
     keys_.erase(std::ranges::unique(keys_).begin(), keys_.end());
     std::vector<Texel> unique;
     unique.reserve(keys_.size());

@@ -28,6 +28,8 @@ public:
     {
     }
 
+    DepthTerm(const LightDepth&, const ClipLine&&, const Receiver&) = delete;
+
     [[nodiscard]] Bounded bounded() const { return bounded_; }
     /// Bounded more closely, at a cost.
     [[nodiscard]] Bounded sharp() const;

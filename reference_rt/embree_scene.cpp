@@ -244,6 +244,12 @@ void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Rol
     rtcSetGeometryIntersectFunction(geometry, &judge_distances);
 }
 
+const CornerFans& ReferenceScene::Implementation::corner_fans() const
+{
+    std::call_once(corner_fans_made_, [&] { corner_fans_.emplace(triangles); });
+    return *corner_fans_;
+}
+
 void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRay16& rays,
                                                      CandidateJudge& judge) const
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference_rt/corner_fans.hpp"
 #include "reference_rt/embree.hpp"
 #include "reference_rt/faults.hpp"
 #include "reference_rt/packet.hpp"
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +70,9 @@ struct ReferenceScene::Implementation {
     void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateJudge& judge) const;
     void find_candidates(RTCRayHit& ray, CandidateJudge& judge) const;
 
+    /// The triangles around each corner; made when first asked for.
+    [[nodiscard]] const CornerFans& corner_fans() const;
+
     /// The triangles of one pair of roles.
     struct Role {
         const Implementation* owner;
@@ -90,6 +95,9 @@ private:
                                       RTCGeometryType type);
     void fill_native(RTCGeometry geometry, const Role& role);
     void fill_padded(RTCGeometry geometry, const Role& role);
+
+    mutable std::once_flag corner_fans_made_;
+    mutable std::optional<CornerFans> corner_fans_;
 };
 
 } // namespace gnomon::reference_rt

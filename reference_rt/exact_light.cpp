@@ -13,8 +13,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include <mutex>
-#include <optional>
 #include <stdexcept>
 
 namespace gnomon::reference_rt {
@@ -66,8 +64,8 @@ public:
         ray_ = seen_.ray_of(pixel);
         SignCounts counts;
         receiver_ = Receiver{facet_, ray_, counts};
-        term_ = receiver_.delta_sign == 0 ? DepthTerm{}
-                                          : DepthTerm{depth_, depth_.along(ray_.ray), receiver_};
+        line_ = depth_.along(ray_.ray);
+        term_ = receiver_.delta_sign == 0 ? DepthTerm{} : DepthTerm{depth_, line_, receiver_};
     }
     [[nodiscard]] const Receiver& receiver() const { return receiver_; }
     [[nodiscard]] const DepthTerm& term() const { return term_; }
@@ -163,14 +161,18 @@ public:
             check(query.texel);
             check(query.triangle);
         }
-        const OwnSheet sheet{reference_.triangles, fans(), rays_};
+        const OwnSheet sheet{reference_.triangles, reference_.corner_fans(), rays_};
         std::vector<std::uint8_t> answers(queries.size(), 0);
-        for_each_pixel_of(queries, [&](std::size_t i, const LitPoint& point) {
-            answers[i] =
-                point.receiver().delta_sign != 0 &&
-                        sheet.leads(point.receiver(), queries[i].texel, queries[i].triangle)
-                    ? 1
-                    : 0;
+        for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
+            const auto& [pixel, texel, triangle] = queries[i];
+            if (triangle == seen_.receivers[pixel]) {
+                answers[i] = 1; // the walk begins where it ends
+                return;
+            }
+            point.move_to(pixel);
+            const bool is_own =
+                point.receiver().delta_sign != 0 && sheet.leads(point.receiver(), texel, triangle);
+            answers[i] = is_own ? 1 : 0;
         });
         return answers;
     }
@@ -199,27 +201,20 @@ public:
     }
 
 private:
-    /// Calls `run(i, point of query i)` for every query, several at the same time.
+    /// Calls `run(i, point)` for every query, several at the same time; neighbours share the point,
+    /// which is where the last query left it.
     template <typename Query, typename Run>
-    void for_each_pixel_of(std::span<const Query> queries, const Run& run) const
+    void for_each_run_of(std::span<const Query> queries, const Run& run) const
     {
         with_threads(threads_, [&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>{0, queries.size(), 256},
                               [&](const tbb::blocked_range<std::size_t>& range) {
                                   LitPoint point{seen_, depth_};
                                   for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                                      point.move_to(queries[i].pixel);
                                       run(i, point);
                                   }
                               });
         });
-    }
-
-    /// Made when first asked for.
-    [[nodiscard]] const CornerFans& fans() const
-    {
-        std::call_once(fans_made_, [&] { fans_.emplace(reference_.triangles); });
-        return *fans_;
     }
 
     template <typename Query>
@@ -228,7 +223,8 @@ private:
         check(queries);
         const CriticalBias critical{reference_.triangles, rays_, depth_};
         std::vector<float> biases(queries.size());
-        for_each_pixel_of(queries, [&](std::size_t i, const LitPoint& point) {
+        for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
+            point.move_to(queries[i].pixel);
             biases[i] = critical.find(clamps ? point.term().clamped() : point.term(),
                                       taps_of(queries[i]), weights_of(queries[i]));
         });
@@ -284,8 +280,6 @@ private:
     scene::Cull cull_;
     SegmentLight segments_;
     int threads_;
-    mutable std::once_flag fans_made_;
-    mutable std::optional<CornerFans> fans_;
 };
 
 } // namespace

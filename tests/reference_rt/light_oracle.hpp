@@ -7,6 +7,8 @@
 
 #include <functional>
 #include <limits>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 /// What an exact light must answer, by trying every triangle in rationals.
@@ -31,7 +33,7 @@ inline int sign(const Rational& x)
     return x.sign();
 }
 
-/// Edge k of a barycentric triple (w, u, v) that is zero runs between the two other corners.
+/// The only one of three barycentric coordinates that is 0; its corner is opposite the edge met.
 inline std::optional<std::size_t> single_zero(const std::array<Rational, 3>& weight)
 {
     std::optional<std::size_t> zero;
@@ -46,6 +48,23 @@ inline std::optional<std::size_t> single_zero(const std::array<Rational, 3>& wei
     return zero;
 }
 
+/// How a line meets the edge opposite a triangle's corner.
+inline EdgePassing edge_passing(const RationalVec& step, std::uint32_t triangle,
+                                const std::array<scene::Vec3f, 3>& corner, std::size_t opposite,
+                                const Rational& t)
+{
+    scene::Vec3f from = corner[(opposite + 1) % 3];
+    scene::Vec3f to = corner[(opposite + 2) % 3];
+    // Both triangles of an edge must reckon their sides from the same end.
+    if (std::tie(from.x, from.y, from.z) > std::tie(to.x, to.y, to.z)) {
+        std::swap(from, to);
+    }
+    const RationalVec start{scene::Vec3d{from}};
+    const Rational side = dot(cross(RationalVec{scene::Vec3d{to}} - start, step),
+                              RationalVec{scene::Vec3d{corner[opposite]}} - start);
+    return {t, triangle, from, to, sign(side)};
+}
+
 /// Where origin + t·step properly crosses casting triangles that `is_left`, or seams of two.
 /// @param is_left  for the sign of normal·step.
 inline std::vector<Passing> passings(const scene::TriangleScene& scene, const RationalVec& origin,
@@ -58,32 +77,16 @@ inline std::vector<Passing> passings(const scene::TriangleScene& scene, const Ra
         for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
             const auto corner = scene.corners(t);
             const auto hit = hit_of(origin, step, corner);
-            if (!hit || hit->is_outside()) {
-                continue;
-            }
             const RationalVec a{scene::Vec3d{corner[0]}};
             const RationalVec normal = cross(RationalVec{scene::Vec3d{corner[1]}} - a,
                                              RationalVec{scene::Vec3d{corner[2]}} - a);
-            if (!is_left(sign(dot(normal, step)))) {
+            if (!hit || hit->is_outside() || !is_left(sign(dot(normal, step)))) {
                 continue;
             }
             if (hit->is_inside()) {
                 found.push_back({hit->t, t});
-                continue;
-            }
-            const auto zero = single_zero({1 - hit->u - hit->v, hit->u, hit->v});
-            if (zero) {
-                const auto from = corner[(*zero + 1) % 3];
-                const auto to = corner[(*zero + 2) % 3];
-                const auto apex = corner[*zero];
-                const RationalVec start{scene::Vec3d{from}};
-                // The line's own reckoning of the side must not depend on the edge's sense.
-                const bool is_turned =
-                    std::tie(from.x, from.y, from.z) > std::tie(to.x, to.y, to.z);
-                const int side = sign(dot(cross(RationalVec{scene::Vec3d{to}} - start, step),
-                                          RationalVec{scene::Vec3d{apex}} - start)) *
-                                 (is_turned ? -1 : 1);
-                edges.push_back({hit->t, t, is_turned ? to : from, is_turned ? from : to, side});
+            } else if (const auto zero = single_zero({1 - hit->u - hit->v, hit->u, hit->v})) {
+                edges.push_back(edge_passing(step, t, corner, *zero, hit->t));
             }
         }
     }

@@ -192,6 +192,18 @@ TEST(OwnSheet, LeadsThroughANonManifoldEdgeToEveryContinuation)
         << "two pages on one side are a fold";
 }
 
+TEST(OwnSheet, DoesNotTurnBackAtANonManifoldEdgeUnderTheTexel)
+{
+    // Two pages to the left of the spine x = 0.25, one to the right; the texel's centre is on it.
+    SceneBuilder builder;
+    builder.add("book",
+                std::vector<Vec3d>{{0.25, 0, -2}, {0.25, 0, 2}, {-2, 1, 0}, {-2, 0, 0}, {2, 0, 0}},
+                Indices{{0, 2, 1}, {0, 3, 1}, {0, 1, 4}});
+    Noon noon{builder};
+    EXPECT_TRUE(noon.leads({-0.5, 0.125}, 1, {0.25, 0.25}, 2));
+    EXPECT_FALSE(noon.leads({-0.5, 0.125}, 1, {0.25, 0.25}, 0));
+}
+
 TEST(OwnSheet, JoinsPositionsWhateverTheirIndicesAndObjects)
 {
     SceneBuilder builder;

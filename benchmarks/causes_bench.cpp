@@ -1,0 +1,69 @@
+#include "analysis/causes.hpp"
+#include "analysis/comparison.hpp"
+#include "cli/renderers.hpp"
+#include "raster_gl/context.hpp"
+#include "reference_rt/truth.hpp"
+#include "scene/job_file.hpp"
+#include "scene/load_scene.hpp"
+#include "seconds_of.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <limits>
+
+/// The causes of all pixels for all biases against the exact truth of the same pixels, side by side
+/// in every iteration; hierarchies are built before.
+namespace gnomon::benchmarks {
+namespace {
+
+void causes_against_truth(benchmark::State& state)
+{
+    const scene::Job job = scene::builtin_job("sphere-field", {{"image.width", "1920"},
+                                                               {"image.height", "1080"},
+                                                               {"shadow_map.resolution", "2048"},
+                                                               {"lookup.filter", "nearest"}})
+                               .job;
+    const scene::SceneFile file = scene::load_scene(job.scene);
+    const raster_gl::Context context;
+    cli::GlRenderer gl{context, file.scene};
+    const reference_rt::ReferenceScene reference{file.scene};
+    const analysis::Renderers renderers =
+        cli::make_renderers(gl, context.facts(), reference, {reference_rt::TruthMethod::exact, 0});
+    scene::View view = scene::resolve_view(job, file.scene, file.defaults);
+    view.bias = {};
+    const scene::ReceiverLayers receivers = renderers.draw_receivers(view);
+    renderers.draw_shadow_map(job, view);
+    const scene::LookupLayers unbiased = renderers.look_up(job, view);
+    double truth_s = std::numeric_limits<double>::infinity();
+    double causes_s = truth_s;
+    for (auto _ : state) {
+        scene::TruthLayers truth;
+        truth_s =
+            std::min(truth_s, seconds_of([&] { truth = renderers.find_truth(view, receivers); }));
+        const scene::Image<float> no_depths;
+        const double now_s = seconds_of([&] {
+            const auto light = renderers.make_exact_light(job, view, receivers);
+            benchmark::DoNotOptimize(
+                analysis::find_causes({job.lookup, job.shadow_map.resolution_texels,
+                                       view.frustum.reversed, truth, unbiased, no_depths, *light})
+                    .data());
+        });
+        causes_s = std::min(causes_s, now_s);
+        state.SetIterationTime(now_s);
+    }
+    state.counters["ratio"] = causes_s / truth_s;
+    state.counters["truth_ms"] = 1000 * truth_s;
+    state.counters["causes_ms"] = 1000 * causes_s;
+}
+
+BENCHMARK(causes_against_truth)
+    ->Name("causes/sphere-field/1080p/2048")
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->MinTime(3.0);
+
+} // namespace
+} // namespace gnomon::benchmarks
+
+BENCHMARK_MAIN();
