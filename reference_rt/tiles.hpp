@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <cstddef>
+#include <memory>
 
 namespace gnomon::reference_rt {
 
@@ -62,8 +63,8 @@ public:
                 tile.valid.add(i);
                 tile.x[i] = x;
                 tile.y[i] = y;
-                tile.rays[i] =
-                    CameraRay{pixel_ray(view_.camera, sx[i % tile_side_px], sy[i / tile_side_px])};
+                std::construct_at(&tile.rays[i], pixel_ray(view_.camera, sx[i % tile_side_px],
+                                                           sy[i / tile_side_px]));
                 see(tile, i, receivers_(x, y), counts);
             }
         }
