@@ -87,8 +87,8 @@ private:
         const std::size_t last = tile.facet_count - 1;
         tile.facet_of[i] = last;
         const Facet& facet = tile.facets[last];
-        tile.receivers[i] = has_eye_ ? Receiver{facet, tile.rays[i], tile.nu[last], counts}
-                                     : Receiver{facet, tile.rays[i], counts};
+        const Filtered<8> nu = has_eye_ ? tile.nu[last] : nu_of(facet, tile.rays[i].ray.origin);
+        std::construct_at(&tile.receivers[i], facet, tile.rays[i], nu, counts); // no copy
     }
 
     const scene::TriangleScene& triangles_;
