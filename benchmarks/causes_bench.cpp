@@ -1,11 +1,8 @@
 #include "analysis/causes.hpp"
-#include "analysis/comparison.hpp"
 #include "cli/renderers.hpp"
-#include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job_file.hpp"
-#include "scene/load_scene.hpp"
-#include "seconds_of.hpp"
+#include "subject.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -24,13 +21,11 @@ void causes_against_truth(benchmark::State& state)
                                                                {"shadow_map.resolution", "2048"},
                                                                {"lookup.filter", "nearest"}})
                                .job;
-    const scene::SceneFile file = scene::load_scene(job.scene);
-    const raster_gl::Context context;
-    cli::GlRenderer gl{context, file.scene};
-    const reference_rt::ReferenceScene reference{file.scene};
+    const Subject subject{job};
     const analysis::Renderers renderers =
-        cli::make_renderers(gl, context.facts(), reference, {reference_rt::TruthMethod::exact, 0});
-    scene::View view = scene::resolve_view(job, file.scene, file.defaults);
+        cli::make_renderers(*subject.gl, subject.context.facts(), *subject.reference,
+                            {reference_rt::TruthMethod::exact, 0});
+    scene::View view = scene::resolve_view(job, subject.file.scene, subject.file.defaults);
     view.bias = {};
     const scene::ReceiverLayers receivers = renderers.draw_receivers(view);
     renderers.draw_shadow_map(job, view);

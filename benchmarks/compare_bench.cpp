@@ -1,49 +1,17 @@
 #include "analysis/comparison.hpp"
-#include "cli/renderers.hpp"
-#include "raster_gl/context.hpp"
 #include "raw_embree.hpp"
-#include "reference_rt/truth.hpp"
 #include "scene/job_file.hpp"
-#include "scene/load_scene.hpp"
-#include "seconds_of.hpp"
+#include "subject.hpp"
 
 #include <benchmark/benchmark.h>
 
-#include <memory>
 #include <string>
+#include <vector>
 
 /// The whole comparison against the sum of its raw parts, side by side in every iteration: one
 /// shadow pass, one receiver pass, one lookup with its readback, one raw Embree pass.
 namespace gnomon::benchmarks {
 namespace {
-
-/// A scene in both renderers' hands, and what it took to get there.
-struct Subject {
-    scene::Job job;
-    scene::SceneFile file;
-    raster_gl::Context context;
-    std::unique_ptr<cli::GlRenderer> gl;
-    std::unique_ptr<reference_rt::ReferenceScene> reference;
-    double scene_s = 0;
-    double upload_s = 0;
-    double bvh_s = 0;
-
-    Subject(const std::string& builtin, const std::vector<scene::Override>& keys)
-        : job{scene::builtin_job(builtin, keys).job}
-    {
-        scene_s = seconds_of([&] { file = scene::load_scene(job.scene); });
-        upload_s = seconds_of([&] { gl = std::make_unique<cli::GlRenderer>(context, file.scene); });
-        bvh_s = seconds_of([&] {
-            reference = std::make_unique<reference_rt::ReferenceScene>(
-                file.scene, reference_rt::ReferenceOptions{.serves_plain_rays = true});
-        });
-    }
-    [[nodiscard]] analysis::Comparison compare(reference_rt::TruthMethod method) const
-    {
-        return analysis::compare(
-            job, file, cli::make_renderers(*gl, context.facts(), *reference, {method, 0}));
-    }
-};
 
 /// Sums over iterations; counters show the means.
 struct Sums {
@@ -56,6 +24,13 @@ struct Sums {
     [[nodiscard]] double raw() const { return shadow_map + receivers + lookup + embree; }
 };
 
+analysis::Comparison compare(const Subject& subject, reference_rt::TruthMethod method)
+{
+    return analysis::compare(
+        subject.job, subject.file,
+        cli::make_renderers(*subject.gl, subject.context.facts(), *subject.reference, {method, 0}));
+}
+
 void measure_once(const Subject& subject, reference_rt::TruthMethod method, RawEmbreePass& raw,
                   const scene::View& view, Sums& sums)
 {
@@ -67,15 +42,15 @@ void measure_once(const Subject& subject, reference_rt::TruthMethod method, RawE
         seconds_of([&] { benchmark::DoNotOptimize(gl.look_up(subject.job, view).samples.data()); });
     sums.embree += seconds_of([&] { benchmark::DoNotOptimize(raw.run()); });
     sums.whole +=
-        seconds_of([&] { benchmark::DoNotOptimize(subject.compare(method).metrics.false_lit); });
+        seconds_of([&] { benchmark::DoNotOptimize(compare(subject, method).metrics.false_lit); });
 }
 
 void compare_against_raw_parts(benchmark::State& state, const std::string& builtin,
                                const std::vector<scene::Override>& keys,
                                reference_rt::TruthMethod method)
 {
-    const Subject subject{builtin, keys};
-    const analysis::Comparison first = subject.compare(method); // compiles, allocates
+    const Subject subject{scene::builtin_job(builtin, keys).job};
+    const analysis::Comparison first = compare(subject, method); // compiles, allocates
     const auto points =
         reference_rt::receiver_points(subject.file.scene, first.view, first.receivers.triangle);
     RawEmbreePass raw{subject.file.scene, first.view, first.truth, points};

@@ -16,10 +16,14 @@ namespace {
 #define GNOMON_WIDEST_VECTORS
 #endif
 
+/// Vectors cannot cross a call between functions compiled for different instruction sets, and a
+/// debug build inlines only what it must.
+#define GNOMON_INLINE [[gnu::always_inline]] inline
+
 /// −1 in the lanes of which something holds, else 0.
 using LaneMask = decltype(LaneFloats{} < LaneFloats{});
 
-LaneBits bits_of(const LaneMask& mask)
+GNOMON_INLINE LaneBits bits_of(const LaneMask& mask)
 {
     constexpr LaneMask bit{1 << 0, 1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
                            1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
@@ -37,18 +41,22 @@ struct Planes3 {
     Planes x, y, z;
 };
 
-Planes3 cross(const Planes3& a, const Planes3& b)
+GNOMON_INLINE Planes3 cross(const Planes3& a, const Planes3& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-Planes sum_of_sizes(const Planes3& v)
+GNOMON_INLINE Planes size(const Planes& x)
 {
-    const auto size = [](const Planes& x) { return x < 0 ? -x : x; };
+    return x < 0 ? -x : x;
+}
+
+GNOMON_INLINE Planes sum_of_sizes(const Planes3& v)
+{
     return size(v.x) + size(v.y) + size(v.z);
 }
 
-void store(const Planes& values, std::array<float, 4>& target)
+GNOMON_INLINE void store(const Planes& values, std::array<float, 4>& target)
 {
     for (std::size_t i = 0; i < 4; ++i) {
         target[i] = static_cast<float>(values[i]);
@@ -57,7 +65,7 @@ void store(const Planes& values, std::array<float, 4>& target)
 
 /// A component of the four planes' corners, and of the corners after them.
 template <int axis>
-Planes component(const Corners& c, std::size_t shift)
+GNOMON_INLINE Planes component(const Corners& c, std::size_t shift)
 {
     return Planes{c[shift][axis], c[(1 + shift) % 3][axis], c[(2 + shift) % 3][axis],
                   c[shift][axis]};

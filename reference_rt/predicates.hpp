@@ -28,8 +28,10 @@ struct CameraRay {
     bool is_tame = true; ///< may the filter be asked (arithmetic.hpp)
 
     CameraRay() = default;
+    /// Copies each number by itself: wider loads would wait for the stores that just made them.
     explicit CameraRay(const scene::Ray& ray_in)
-        : ray{ray_in},
+        : ray{{ray_in.origin.x, ray_in.origin.y, ray_in.origin.z},
+              {ray_in.direction.x, ray_in.direction.y, ray_in.direction.z}},
           is_tame{reference_rt::is_tame(ray.origin) && reference_rt::is_tame(ray.direction)}
     {
     }

@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <cstddef>
+#include <memory>
 
 namespace gnomon::reference_rt {
 
@@ -62,8 +63,8 @@ public:
                 tile.valid.add(i);
                 tile.x[i] = x;
                 tile.y[i] = y;
-                tile.rays[i] =
-                    CameraRay{pixel_ray(view_.camera, sx[i % tile_side_px], sy[i / tile_side_px])};
+                std::construct_at(&tile.rays[i], pixel_ray(view_.camera, sx[i % tile_side_px],
+                                                           sy[i / tile_side_px]));
                 see(tile, i, receivers_(x, y), counts);
             }
         }
@@ -86,8 +87,8 @@ private:
         const std::size_t last = tile.facet_count - 1;
         tile.facet_of[i] = last;
         const Facet& facet = tile.facets[last];
-        tile.receivers[i] = has_eye_ ? Receiver{facet, tile.rays[i], tile.nu[last], counts}
-                                     : Receiver{facet, tile.rays[i], counts};
+        const Filtered<8> nu = has_eye_ ? tile.nu[last] : nu_of(facet, tile.rays[i].ray.origin);
+        std::construct_at(&tile.receivers[i], facet, tile.rays[i], nu, counts); // no copy
     }
 
     const scene::TriangleScene& triangles_;

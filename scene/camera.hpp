@@ -59,10 +59,13 @@ struct Ray {
 {
     const bool has_eye = camera.projection == Projection::perspective;
     const Vec3d& start = has_eye ? camera.forward : camera.eye;
-    const Vec3d moved{(start.x + sx * camera.right.x) + sy * camera.up.x,
-                      (start.y + sx * camera.right.y) + sy * camera.up.y,
-                      (start.z + sx * camera.right.z) + sy * camera.up.z};
-    return has_eye ? Ray{camera.eye, moved} : Ray{moved, camera.forward};
+    const double x = (start.x + sx * camera.right.x) + sy * camera.up.x;
+    const double y = (start.y + sx * camera.right.y) + sy * camera.up.y;
+    const double z = (start.z + sx * camera.right.z) + sy * camera.up.z;
+    if (has_eye) {
+        return {camera.eye, {x, y, z}};
+    }
+    return {{x, y, z}, camera.forward};
 }
 [[nodiscard]] double pixel_sx(const Camera& camera, ImageSize image, int x);
 [[nodiscard]] double pixel_sy(const Camera& camera, ImageSize image, int y);

@@ -1,0 +1,124 @@
+#include "raw_embree.hpp"
+#include "scene/job_file.hpp"
+#include "subject.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The whole exact truth, shadow segments and the camera's first hits, against one raw occlusion
+/// pass over the same scored pixels, one after the other in every iteration.
+namespace gnomon::benchmarks {
+namespace {
+
+using reference_rt::ReferenceScene;
+
+const std::vector<scene::Override> full_hd{{"image.width", "1920"}, {"image.height", "1080"}};
+
+/// The fastest run: what disturbs a measurement only ever adds to it. Time on the processors, of
+/// all threads together, suffers less than the clock's when others use the machine too.
+struct Fastest {
+    double seconds = std::numeric_limits<double>::infinity();
+    double processor_seconds = std::numeric_limits<double>::infinity();
+
+    /// @return the clock's time [s].
+    double add(const std::function<void()>& work)
+    {
+        const std::clock_t start = std::clock();
+        const double run_s = seconds_of(work);
+        const auto ticks = static_cast<double>(std::clock() - start);
+        seconds = std::min(seconds, run_s);
+        processor_seconds = std::min(processor_seconds, ticks / CLOCKS_PER_SEC);
+        return run_s;
+    }
+};
+
+/// The time to build the hierarchy of the exact truth alone [s].
+double exact_bvh_s(const scene::TriangleScene& scene)
+{
+    return seconds_of([&] { benchmark::DoNotOptimize(ReferenceScene{scene}.triangles().objects); });
+}
+
+void truth_against_raw_pass(benchmark::State& state, const scene::Job& job)
+{
+    const Subject subject{job};
+    const scene::TriangleScene& scene = subject.file.scene;
+    const scene::View view = resolve_view(job, scene, subject.file.defaults);
+    const auto receivers = subject.gl->draw_receivers(view).triangle;
+    reference_rt::RasterFacts raster{subject.context.facts().subpixel_bits, {}};
+    const double clip_positions_s =
+        seconds_of([&] { raster.clip_positions = subject.gl->receiver_clip_positions(view); });
+    scene::TruthLayers truth = compute_truth(*subject.reference, view, receivers, raster);
+    std::optional<RawEmbreePass> raw;
+    const double raw_setup_s = seconds_of([&] {
+        raw.emplace(scene, view, truth, reference_rt::receiver_points(scene, view, receivers));
+    });
+    Fastest exact;
+    Fastest floor;
+    for (auto _ : state) {
+        floor.add([&] { benchmark::DoNotOptimize(raw->run()); });
+        state.SetIterationTime(
+            exact.add([&] { truth = compute_truth(*subject.reference, view, receivers, raster); }));
+    }
+    state.counters["ratio"] = exact.seconds / floor.seconds;
+    state.counters["processor_ratio"] = exact.processor_seconds / floor.processor_seconds;
+    state.counters["truth_ms"] = 1000 * exact.seconds;
+    state.counters["raw_ms"] = 1000 * floor.seconds;
+    state.counters["rays"] = static_cast<double>(raw->ray_count());
+    state.counters["exact_signs"] = static_cast<double>(truth.signs.exact);
+    state.counters["bvh_ms"] = 1000 * exact_bvh_s(scene);
+    state.counters["raw_setup_ms"] = 1000 * raw_setup_s;
+    state.counters["clip_positions_ms"] = 1000 * clip_positions_s;
+}
+
+void add(const std::string& name, const scene::Job& job)
+{
+    benchmark::RegisterBenchmark(
+        ("truth/" + name + "/1080p").c_str(),
+        [job](benchmark::State& state) { truth_against_raw_pass(state, job); })
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->MinTime(3.0);
+}
+
+/// The bunny on a ground, or a benchmark that says why it is not there.
+void add_bunny()
+{
+    const char* const folder = std::getenv("GNOMON_SHARED_SCENES");
+    const auto file = std::filesystem::path{folder == nullptr ? "" : folder} / "bunny.obj";
+    if (!std::filesystem::exists(file)) {
+        benchmark::RegisterBenchmark("truth/bunny/1080p", [](benchmark::State& state) {
+            state.SkipWithError("skipped: bunny.obj is not in the folder GNOMON_SHARED_SCENES");
+        });
+        return;
+    }
+    auto keys = full_hd;
+    keys.push_back({"scene.ground", "true"});
+    add("bunny", scene::read_job(file, keys).job);
+}
+
+} // namespace
+} // namespace gnomon::benchmarks
+
+int main(int argc, char** argv)
+{
+    using namespace gnomon;
+    for (const char* const builtin : {"sphere-field", "columns"}) {
+        benchmarks::add(builtin, scene::builtin_job(builtin, benchmarks::full_hd).job);
+    }
+    benchmarks::add_bunny();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+        return 2;
+    }
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
