@@ -66,6 +66,17 @@ std::vector<const TunedSetting*> best_of_each_map(const TuneResult& result)
     return best;
 }
 
+/// "auto", or "0.5 to 10".
+std::string range(const scene::FrustumSettings& frustum)
+{
+    const auto plane = [](const std::optional<double>& plane_m) {
+        return plane_m ? fmt::format("{:.4g}", *plane_m) : std::string{"auto"};
+    };
+    return frustum.near_m || frustum.far_m
+               ? fmt::format("{} to {}", plane(frustum.near_m), plane(frustum.far_m))
+               : "auto";
+}
+
 std::string mebibytes(std::uint64_t bytes)
 {
     return fmt::format("{:.3g} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));

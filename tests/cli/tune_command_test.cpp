@@ -1,0 +1,108 @@
+#include "child_process.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+Ending tune(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), "tune");
+    return gnomon(small(std::move(arguments)));
+}
+
+TEST(TuneCommand, PrintsAFragmentWithWhichCompareMeasuresWhatWasPromised)
+{
+    const Ending ending = tune({"--builtin", "sphere-plane", "--max-false-shadow", "5%",
+                                "--max-false-lit", "0.05", "--max-resolution", "512", "--json"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    const Json result = Json::parse(ending.out);
+    EXPECT_TRUE(result.at("meets_limits").get<bool>());
+    EXPECT_LE(result.at("measured").at("false_shadow_rate").get<double>(), 0.05);
+    EXPECT_LE(result.at("measured").at("false_lit_rate").get<double>(), 0.05);
+    EXPECT_NE(ending.err.find("gnomon tune: 256 d16"), std::string::npos) << ending.err;
+
+    const TemporaryFolder folder;
+    const auto job = folder.path() / "tuned.toml";
+    std::ofstream{job} << "[scene]\nbuiltin = \"sphere-plane\"\n"
+                       << result.at("toml").get<std::string>();
+    const Ending compared = gnomon(small({"compare", job.string(), "--json"}));
+    expect_done(compared);
+    const Json measured = Json::parse(compared.out);
+    for (const char* const name : {"false_shadow", "false_lit"}) {
+        EXPECT_EQ(measured.at(name), result.at("measured").at(name)) << name;
+        EXPECT_EQ(measured.at(name), result.at("recommended").at(name)) << name;
+    }
+}
+
+TEST(TuneCommand, EndsWithOneWhereNoSettingMeetsTheLimits)
+{
+    const Ending ending = tune({"--builtin", "columns", "--max-false-shadow", "0",
+                                "--max-false-lit", "0", "--max-resolution", "256"});
+    EXPECT_EQ(ending.exit_code, 1);
+    EXPECT_NE(ending.out.find("No setting up to 256x256 meets the limits"), std::string::npos)
+        << ending.out;
+    EXPECT_NE(ending.out.find("[bias]"), std::string::npos) << ending.out;
+}
+
+TEST(TuneCommand, RendersTheBiasesOfHardwareFilters)
+{
+    const Ending ending =
+        tune({"--builtin", "wall", "--set", "lookup.filter=hardware", "--max-false-shadow", "50%",
+              "--max-false-lit", "50%", "--max-resolution", "256", "--json"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    EXPECT_TRUE(Json::parse(ending.out).at("meets_limits").get<bool>());
+}
+
+TEST(TuneCommand, RefusesSharesAndSizesThatAreNone)
+{
+    expect_refused(tune({"--builtin", "wall", "--max-false-shadow", "much"}), 2,
+                   "--max-false-shadow much: must be a share");
+    expect_refused(tune({"--builtin", "wall", "--max-false-lit", "101%"}), 2, "--max-false-lit");
+    expect_refused(tune({"--builtin", "wall", "--max-resolution", "0"}), 2, "--max-resolution");
+    expect_refused(tune({"--builtin", "wall", "--max-resolution", "100"}), 2, "allow at least 256");
+}
+
+TEST(Advise, MeasuresChangesAndPromisesNothing)
+{
+    const std::vector<std::string> job{
+        "compare", "--builtin", "yard", "--set", "shadow_map.resolution=256", "--json"};
+    const Json plain = Json::parse(gnomon(small(job)).out);
+    EXPECT_TRUE(plain.at("advice").is_null());
+    std::vector<std::string> advising = job;
+    advising.emplace_back("--advise");
+    const Ending ending = gnomon(small(advising));
+    expect_done(ending);
+    const Json result = Json::parse(ending.out);
+    EXPECT_EQ(result.at("causes"), plain.at("causes"));
+    ASSERT_FALSE(result.at("advice").empty());
+    // Each is what a comparison with these keys measures.
+    for (const Json& advice : result.at("advice")) {
+        std::vector<std::string> changed{
+            "compare", "--builtin", "yard", "--set", "shadow_map.resolution=256", "--json"};
+        for (std::string key : advice.at("keys").get<std::vector<std::string>>()) {
+            key.replace(key.find(" = "), 3, "=");
+            changed.emplace_back("--set");
+            changed.push_back(key);
+        }
+        const Json measured = Json::parse(gnomon(small(changed)).out);
+        EXPECT_EQ(measured.at("false_shadow"), advice.at("false_shadow")) << advice;
+        EXPECT_EQ(measured.at("false_lit"), advice.at("false_lit")) << advice;
+    }
+}
+
+TEST(Advise, NeedsTheExactTruth)
+{
+    expect_refused(gnomon(small({"compare", "--builtin", "wall", "--advise", "--truth", "float"})),
+                   2, "--advise needs --truth exact");
+}
+
+} // namespace
+} // namespace gnomon::testing
