@@ -5,6 +5,9 @@
 #include "analysis/own_sheets.hpp"
 #include "analysis/texel_hits.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <span>
 #include <stdexcept>
@@ -18,8 +21,9 @@ using scene::PixelClass;
 
 namespace {
 
-/// Taps that are held at the same time: bounds the memory, whatever the image and filter.
-constexpr std::size_t taps_at_once = std::size_t{1} << 20U;
+/// Taps that a thread holds: bounds the memory, whatever the image and filter; neighbouring pixels
+/// share texels, so that it should not be too few.
+constexpr std::size_t taps_at_once = std::size_t{1} << 18U;
 
 class CauseFinder {
 public:
@@ -33,16 +37,19 @@ public:
 
     scene::Image<PixelCause> find()
     {
-        const std::size_t at_once = taps_at_once / footprint_.tap_count();
-        Lookups lit{{}, {}, footprint_.tap_count()};
-        Lookups blocked{{}, {}, footprint_.tap_count()};
-        for (std::size_t pixel = 0; pixel < causes_.pixel_count(); ++pixel) {
-            collect(pixel, lit, blocked);
-            if (lit.pixels.size() + blocked.pixels.size() >= at_once) {
-                explain(lit, blocked);
-            }
-        }
-        explain(lit, blocked);
+        const std::size_t at_once = std::max<std::size_t>(1, taps_at_once / footprint_.tap_count());
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>{0, causes_.pixel_count(), at_once},
+            [&](const tbb::blocked_range<std::size_t>& run) {
+                Lookups lit{{}, {}, footprint_.tap_count()};
+                Lookups blocked{{}, {}, footprint_.tap_count()};
+                for (std::size_t pixel = run.begin(); pixel != run.end(); ++pixel) {
+                    collect(pixel, lit, blocked);
+                }
+                explain_lit({std::move(lit), inputs_.light});
+                explain_blocked({std::move(blocked), inputs_.light});
+            },
+            tbb::simple_partitioner{});
         return std::move(causes_);
     }
 
@@ -65,12 +72,6 @@ private:
             return;
         }
         lookups.pixels.push_back(pixel);
-    }
-
-    void explain(Lookups& lit, Lookups& blocked)
-    {
-        explain_lit({std::exchange(lit, {{}, {}, lit.taps_each}), inputs_.light});
-        explain_blocked({std::exchange(blocked, {{}, {}, blocked.taps_each}), inputs_.light});
     }
 
     void explain_lit(const TracedLookups& lookups)

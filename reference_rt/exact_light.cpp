@@ -64,11 +64,19 @@ public:
         ray_ = seen_.ray_of(pixel);
         SignCounts counts;
         receiver_ = Receiver{facet_, ray_, counts};
-        line_ = depth_.along(ray_.ray);
-        term_ = receiver_.delta_sign == 0 ? DepthTerm{} : DepthTerm{depth_, line_, receiver_};
+        has_term_ = false;
     }
     [[nodiscard]] const Receiver& receiver() const { return receiver_; }
-    [[nodiscard]] const DepthTerm& term() const { return term_; }
+    /// Its depth, found when first asked for.
+    [[nodiscard]] const DepthTerm& term()
+    {
+        if (!has_term_) {
+            line_ = depth_.along(ray_.ray);
+            term_ = receiver_.delta_sign == 0 ? DepthTerm{} : DepthTerm{depth_, line_, receiver_};
+            has_term_ = true;
+        }
+        return term_;
+    }
 
 private:
     const SeenPixels& seen_;
@@ -78,6 +86,7 @@ private:
     CameraRay ray_;
     ClipLine line_;
     Receiver receiver_;
+    bool has_term_ = false;
     DepthTerm term_;
 };
 

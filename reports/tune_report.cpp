@@ -84,17 +84,17 @@ std::string mebibytes(std::uint64_t bytes)
 
 std::string table(const TuneResult& result)
 {
-    std::string text =
-        fmt::format("{:<14}{:>10}{:>12}{:>12}{:>9}{:>14}{:>12}{:>12}  {}\n", "map", "memory",
-                    "constant", "slope", "offset", "false shadow", "false lit", "errors", "limits");
+    std::string text = fmt::format("{:<14}{:<14}{:>10}{:>12}{:>12}{:>9}{:>14}{:>12}{:>12}  {}\n",
+                                   "map", "near, far", "memory", "constant", "slope", "offset",
+                                   "false shadow", "false lit", "errors", "limits");
     for (const TunedSetting* setting : best_of_each_map(result)) {
-        text += fmt::format("{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
+        text += fmt::format("{:<14}{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
                             fmt::format("{} {}", setting->map.resolution_texels,
                                         scene::depth_format_name(setting->map.depth_format)),
-                            mebibytes(setting->map_bytes()), setting->constant, setting->slope,
-                            setting->normal_texels, percent(setting->false_shadow_rate),
-                            percent(setting->false_lit_rate), grouped(setting->errors.total()),
-                            setting->meets_limits ? "met" : "-");
+                            range(setting->map.frustum), mebibytes(setting->map_bytes()),
+                            setting->constant, setting->slope, setting->normal_texels,
+                            percent(setting->false_shadow_rate), percent(setting->false_lit_rate),
+                            grouped(setting->errors.total()), setting->meets_limits ? "met" : "-");
     }
     return text;
 }
