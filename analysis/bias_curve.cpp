@@ -212,12 +212,17 @@ std::optional<double> BiasCurve::false_lit_rate(const ErrorCounts& errors) const
 
 BestBiases find_best_biases(const BiasCurve& curve, const BiasInterval& within)
 {
-    std::optional<BestBiases> best;
-    std::optional<BestBiases> run; // neighbouring intervals with as many errors
+    if (!(within.lo <= within.hi)) {
+        throw std::invalid_argument(fmt::format(
+            "find_best_biases: within: lo = {} is above hi = {}", within.lo, within.hi));
+    }
+    // Both begin with more errors than any bias has.
+    BestBiases best{within, {curve.scored() + 1, 0}};
+    BestBiases run = best; // neighbouring intervals with as many errors
     const auto finish_run = [&] {
-        const bool is_better = !best || run->errors.total() < best->errors.total() ||
-                               (run->errors.total() == best->errors.total() &&
-                                run->interval.width() > best->interval.width());
+        const bool is_better = run.errors.total() < best.errors.total() ||
+                               (run.errors.total() == best.errors.total() &&
+                                run.interval.width() > best.interval.width());
         if (is_better) {
             best = run;
         }
@@ -227,17 +232,15 @@ BestBiases find_best_biases(const BiasCurve& curve, const BiasInterval& within)
         if (interval.lo > interval.hi) {
             return;
         }
-        if (run && errors.total() == run->errors.total()) {
-            run->interval.hi = interval.hi;
-            return;
-        }
-        if (run) {
+        if (errors.total() == run.errors.total()) {
+            run.interval.hi = interval.hi;
+        } else {
             finish_run();
+            run = {interval, errors};
         }
-        run = BestBiases{interval, errors};
     });
     finish_run();
-    return *best;
+    return best;
 }
 
 std::optional<BiasInterval> biases_with_at_most(const BiasCurve& curve, const ErrorCounts& most)

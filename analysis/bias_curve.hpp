@@ -81,8 +81,9 @@ inline constexpr BiasInterval every_bias{-std::numeric_limits<float>::infinity()
 ///
 /// `lo` is a critical bias, or −∞; `hi` is the last bias before the critical bias from which on
 /// there are more errors, or +∞. Of several intervals it is the widest, of those the lowest.
-/// @param within  where the biases are looked for; lo <= hi. An end of it may be an end of the
-///                interval found.
+/// @param within  where the biases are looked for; an end of it may be an end of the interval
+/// found.
+/// @throws std::invalid_argument  if its ends are in the wrong order.
 [[nodiscard]] BestBiases find_best_biases(const BiasCurve& curve,
                                           const BiasInterval& within = every_bias);
 

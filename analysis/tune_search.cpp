@@ -9,8 +9,6 @@ namespace gnomon::analysis {
 
 namespace {
 
-using scene::PixelClass;
-
 /// The largest count whose rate does not exceed the limit.
 std::uint64_t allowed(double max_rate, std::uint64_t denominator)
 {

@@ -33,8 +33,9 @@ ComparisonSession::ComparisonSession(const scene::Job& job, const SessionOptions
 {
     const bool is_exact = options.method == reference_rt::TruthMethod::exact;
     reference_ = timed(bvh_s_, [&] {
-        return reference_rt::ReferenceScene{
-            file_.scene, {options.threads, is_exact, !is_exact || options.audits}};
+        return std::make_unique<reference_rt::ReferenceScene>(
+            file_.scene,
+            reference_rt::ReferenceOptions{options.threads, is_exact, !is_exact || options.audits});
     });
     renderers_ =
         make_renderers(gl_, context_.facts(), *reference_, {options.method, options.threads});

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <memory>
 #include <optional>
 
 namespace gnomon::cli {
@@ -41,7 +42,7 @@ private:
     scene::SceneFile file_;
     raster_gl::Context context_;
     GlRenderer gl_;
-    std::optional<reference_rt::ReferenceScene> reference_;
+    std::unique_ptr<reference_rt::ReferenceScene> reference_;
     analysis::Renderers renderers_;
 };
 

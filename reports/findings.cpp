@@ -88,9 +88,8 @@ std::string share(std::uint64_t part, std::uint64_t whole)
     return percent < 1 ? "under 1 %" : fmt::format("{:.0f} %", percent);
 }
 
-std::string what_is_wrong(const analysis::Comparison& comparison)
+std::string what_is_wrong(const analysis::Metrics& metrics, const analysis::CauseCounts& counts)
 {
-    const analysis::Metrics& metrics = comparison.metrics;
     const std::uint64_t wrong = metrics.false_shadow + metrics.false_lit;
     if (metrics.pixels.scored() == 0) {
         return "No pixel is scored: nothing that the camera sees faces the light.";
@@ -98,7 +97,6 @@ std::string what_is_wrong(const analysis::Comparison& comparison)
     if (wrong == 0) {
         return fmt::format("All {} scored pixels are right.", grouped(metrics.pixels.scored()));
     }
-    const analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
     const auto label = most<Label>(counts.by_label);
     const auto cause = most<Cause>(counts.by_cause);
     return fmt::format("{} of the scored pixels are wrong: {} of the errors are {}, and {} are due "
@@ -173,7 +171,7 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
         return {};
     }
     const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
-    std::vector<std::string> sentences{what_is_wrong(comparison)};
+    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, diagnosis.causes.counts)};
     if (comparison.metrics.false_shadow + comparison.metrics.false_lit == 0) {
         return sentences;
     }

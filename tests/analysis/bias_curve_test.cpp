@@ -179,6 +179,30 @@ TEST(BiasInterval, HasAMiddle)
     EXPECT_EQ((BiasInterval{0.0F, std::numeric_limits<float>::min()}.middle()), 0.0F);
 }
 
+TEST(BestBiases, AreSoughtWithinAnInterval)
+{
+    const BiasCurve curve = CurveImages{{{lit, 1}, {blocked, 2}, {lit, 3}, {blocked, 5}}}.curve();
+    // Errors: 2 below 1, 1 from 1, 2 from 2, 1 from 3, 2 from 5.
+    const auto low = find_best_biases(curve, {0.5F, 2.5F});
+    EXPECT_EQ(low.interval, (BiasInterval{1, previous_bias(2)}));
+    EXPECT_EQ(low.errors.total(), 1U);
+    const auto cut = find_best_biases(curve, {3.5F, 4});
+    EXPECT_EQ(cut.interval, (BiasInterval{3.5F, 4}));
+    const auto point = find_best_biases(curve, {2, 2});
+    EXPECT_EQ(point.interval, (BiasInterval{2, 2}));
+    EXPECT_EQ(point.errors.total(), 2U);
+    EXPECT_THROW((void)find_best_biases(curve, {2, 1}), std::invalid_argument);
+}
+
+TEST(BiasesWithAtMost, LieBetweenTheCriticalBiasesThatTheCountsAllow)
+{
+    const BiasCurve curve = CurveImages{{{lit, 1}, {blocked, 2}, {lit, 3}, {blocked, 5}}}.curve();
+    EXPECT_EQ(biases_with_at_most(curve, {1, 0}), (BiasInterval{1, previous_bias(2)}));
+    EXPECT_EQ(biases_with_at_most(curve, {0, 1}), (BiasInterval{3, previous_bias(5)}));
+    EXPECT_EQ(biases_with_at_most(curve, {0, 0}), std::nullopt);
+    EXPECT_EQ(biases_with_at_most(curve, {2, 2}), every_bias);
+}
+
 TEST(ParetoFront, KeepsWhatNothingImproves)
 {
     const auto front = pareto_front(

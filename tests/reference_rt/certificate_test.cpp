@@ -22,7 +22,6 @@ using scene::ImageSize;
 using scene::no_triangle;
 using scene::PixelClass;
 using scene::SceneBuilder;
-using scene::TruthLayers;
 using scene::View;
 using testing::HasSubstr;
 
