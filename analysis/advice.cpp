@@ -27,6 +27,25 @@ bool has(const CauseCounts& counts, Cause cause)
     return counts.of(cause) > 0;
 }
 
+/// Maps that miss less.
+void add_wider_maps(const Job& job, std::vector<Variant>& tried)
+{
+    if (job.shadow_map.cull != scene::Cull::none) {
+        tried.push_back({job, {"shadow_map.cull = \"none\""}});
+        tried.back().job.shadow_map.cull = scene::Cull::none;
+    }
+    const scene::FrustumSettings& frustum = job.shadow_map.frustum;
+    if (frustum.fit != scene::Fit::scene || frustum.near_m || frustum.far_m) {
+        tried.push_back({job,
+                         {"shadow_map.fit = \"scene\"", "shadow_map.near = \"auto\"",
+                          "shadow_map.far = \"auto\""}});
+        scene::FrustumSettings& wider = tried.back().job.shadow_map.frustum;
+        wider.fit = scene::Fit::scene;
+        wider.near_m.reset();
+        wider.far_m.reset();
+    }
+}
+
 /// The map of the job with what the causes of its errors call for.
 std::vector<Variant> variants(const Comparison& comparison)
 {
@@ -37,6 +56,14 @@ std::vector<Variant> variants(const Comparison& comparison)
         has(counts, Cause::precision)) {
         tried.push_back({job, {}}); // another bias may do
     }
+    if (has(counts, Cause::bias) && job.bias.slope != 0) {
+        tried.push_back({job, {"bias.slope = 0"}});
+        tried.back().job.bias.slope = 0;
+    }
+    if (has(counts, Cause::bias) && job.bias.normal_texels != 0) {
+        tried.push_back({job, {"bias.normal_texels = 0"}});
+        tried.back().job.bias.normal_texels = 0;
+    }
     const int resolution = 2 * job.shadow_map.resolution_texels;
     if (has(counts, Cause::resolution) && resolution <= largest_resolution_texels) {
         tried.push_back({job, {fmt::format("shadow_map.resolution = {}", resolution)}});
@@ -46,19 +73,9 @@ std::vector<Variant> variants(const Comparison& comparison)
         tried.push_back({job, {"shadow_map.depth_format = \"d32f\""}});
         tried.back().job.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
     }
-    if (!has(counts, Cause::coverage)) {
-        return tried;
+    if (has(counts, Cause::coverage)) {
+        add_wider_maps(job, tried);
     }
-    if (job.shadow_map.cull != scene::Cull::none) {
-        tried.push_back({job, {"shadow_map.cull = \"none\""}});
-        tried.back().job.shadow_map.cull = scene::Cull::none;
-    }
-    scene::FrustumSettings& frustum = tried.emplace_back(Variant{job, {}}).job.shadow_map.frustum;
-    frustum.fit = scene::Fit::scene;
-    frustum.near_m.reset();
-    frustum.far_m.reset();
-    tried.back().keys = {"shadow_map.fit = \"scene\"", "shadow_map.near = \"auto\"",
-                         "shadow_map.far = \"auto\""};
     return tried;
 }
 

@@ -71,6 +71,13 @@ private:
 struct BestBiases {
     BiasInterval interval; ///< of several the widest, of those the lowest
     ErrorCounts errors;    ///< at its lower end
+
+    /// The bias to take of them, looked for in [0, 1]: the middle; the lower end where nothing sets
+    /// an upper one.
+    [[nodiscard]] float recommended() const
+    {
+        return interval.hi >= 1.0F ? interval.lo : interval.middle();
+    }
 };
 
 /// All biases.

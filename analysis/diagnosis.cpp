@@ -142,7 +142,8 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
         diagnosis.biases = answer_biases({job, view, layers.truth, layers.lookup, map_depths,
                                           diagnosis.pixels, zeta_m, forgive});
     }
-    break_down(layers, zeta_m, map_depth_errors_m(inputs, view.frustum), diagnosis);
+    break_down(layers, zeta_m,
+               map_depth_errors_m(inputs, view.frustum, job.shadow_map.depth_format), diagnosis);
     return diagnosis;
 }
 

@@ -1,5 +1,6 @@
 #include "analysis/map_errors.hpp"
 
+#include "analysis/bias_units.hpp"
 #include "analysis/texel_hits.hpp"
 
 #include <cmath>
@@ -28,7 +29,8 @@ double zeta_of_depth_m(const scene::LightFrustum& frustum, double depth)
 }
 
 scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
-                                       const scene::LightFrustum& frustum)
+                                       const scene::LightFrustum& frustum,
+                                       scene::DepthFormat format)
 {
     const auto& classes = inputs.truth.pixel_class;
     const Footprint footprint{inputs.lookup, inputs.resolution_texels};
@@ -46,7 +48,10 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
     for (std::size_t p = 0; p < pixels.size(); ++p) {
         const scene::TexelHit& hit = hits[texels[p]];
         const float stored = inputs.stored_depth(pixels[p], texels[p]);
-        if (hit.triangle != scene::no_triangle && stored != farthest && !std::isnan(stored)) {
+        // The farthest depth stands for nothing, unless what is seen rounds to it.
+        const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
+                                                         depth_step(format, farthest);
+        if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
             errors_m[pixels[p]] =
                 static_cast<float>(zeta_of_depth_m(frustum, double{stored}) - hit.zeta_m);
         }

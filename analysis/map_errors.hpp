@@ -2,6 +2,7 @@
 
 #include "analysis/causes.hpp"
 #include "scene/image.hpp"
+#include "scene/job.hpp"
 #include "scene/light_frustum.hpp"
 
 namespace gnomon::analysis {
@@ -13,7 +14,8 @@ namespace gnomon::analysis {
 /// @throws std::invalid_argument  as `find_causes` does.
 /// Source: DESIGN §6.
 [[nodiscard]] scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
-                                                     const scene::LightFrustum& frustum);
+                                                     const scene::LightFrustum& frustum,
+                                                     scene::DepthFormat format);
 
 /// The light distance that a depth stands for [m]: ζ = near + d·(far − near) for a directional
 /// light, 1/ζ = 1/near − (1/near − 1/far)·d for a spot; reversed depths count from far.

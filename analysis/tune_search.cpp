@@ -92,9 +92,7 @@ void BiasSearch::search_curve(const TuneLimits& limits, TunedSetting& setting) c
     }
     const BestBiases best = find_best_biases(curve, within);
     setting.interval = best.interval;
-    // Where no blocked pixel sets an upper end, the least bias is best.
-    const bool is_open = best.interval.hi >= usable_biases.hi;
-    setting.constant = is_open ? best.interval.lo : best.interval.middle();
+    setting.constant = best.recommended();
     setting.errors = curve.at(setting.constant);
     setting.false_shadow_rate = curve.false_shadow_rate(setting.errors);
     setting.false_lit_rate = curve.false_lit_rate(setting.errors);

@@ -148,6 +148,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
         json["labels"] = nullptr;
         json["peter_panning_gap_m"] = lengths(std::nullopt);
         json["peter_panning_gap_texels"] = lengths(std::nullopt);
+        json["peter_panning_gap_pixels"] = nullptr;
         json["bias_curve"] = nullptr;
         return;
     }
@@ -156,6 +157,8 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
     json["labels"] = counts_by_name(analysis::label_names, counts.by_label);
     json["peter_panning_gap_m"] = lengths(diagnosis->peter_panning.metres);
     json["peter_panning_gap_texels"] = lengths(diagnosis->peter_panning.texels);
+    const auto& gaps = diagnosis->peter_panning.metres;
+    json["peter_panning_gap_pixels"] = gaps ? gaps->count : 0;
     json["bias_curve"] = diagnosis->biases ? bias_curve(*diagnosis->biases) : Json(nullptr);
     json["slope_curves"] = diagnosis->biases ? slope_answers(*diagnosis->biases) : Json(nullptr);
     json["by_light_distance_m"] = bins(diagnosis->by_distance);

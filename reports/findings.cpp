@@ -52,12 +52,11 @@ std::string_view words(Cause cause)
     return "";
 }
 
-/// What usually reduces the errors of a cause.
+/// What of the map usually reduces the errors of a cause; empty for the bias, which is not the
+/// map's.
 std::string_view remedy(Cause cause)
 {
     switch (cause) {
-    case Cause::bias:
-        return "Change the bias first.";
     case Cause::precision:
         return "A format with more bits, or near and far closer together, are the remedy.";
     case Cause::resolution:
@@ -65,6 +64,7 @@ std::string_view remedy(Cause cause)
                "remedy.";
     case Cause::coverage:
         return "Look at near, far, the frustum and culling: the light's camera misses casters.";
+    case Cause::bias:
     case Cause::none:
         break;
     }
@@ -111,25 +111,35 @@ std::string times(double ratio)
     return fmt::format("{:.2g} times", ratio);
 }
 
+/// Why no constant bias serves, where none does.
+std::string why_none_serves(const analysis::BiasLimits& limits)
+{
+    if (!std::isfinite(limits.acne_free)) {
+        return "No constant bias frees this map of acne.";
+    }
+    if (limits.panning_free < 0) {
+        return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
+                           "least {:.3g}, and even 0 leaves more false light, at edges and leaks.",
+                           limits.acne_free);
+    }
+    return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
+                       "least {:.3g}, and false light allows at most {:.3g}.",
+                       limits.acne_free, limits.panning_free);
+}
+
 /// How the job's bias stands to what acne needs and panning allows.
 std::string against_limits(float bias, const analysis::BiasBounds& bounds)
 {
     const analysis::BiasLimits& limits = bounds.allowances[one_in_a_thousand];
     const float needed = limits.acne_free;
-    const float allowed = limits.panning_free;
-    if (bounds.no_constant_bias_serves) {
-        if (!std::isfinite(allowed) || allowed < 0) {
-            return "No constant bias serves this map: with none at all, more than 0.1 % of the "
-                   "scored pixels are lit that should not be.";
-        }
-        return fmt::format("No constant bias serves this scene: for at most 0.1 % of wrong pixels, "
-                           "acne needs at least {:.3g} and peter-panning allows at most {:.3g}.",
-                           needed, allowed);
-    }
+    const float allowed = limits.panning_free_beyond_zero;
     if (std::isfinite(allowed) && allowed > 0 && bias > allowed) {
         return fmt::format("The constant bias {:.3g} is {} what peter-panning allows here "
                            "({:.3g}, for at most 0.1 % of wrong pixels).",
                            bias, times(double{bias} / double{allowed}), allowed);
+    }
+    if (bounds.no_constant_bias_serves) {
+        return why_none_serves(limits);
     }
     if (std::isfinite(needed) && needed > 0 && bias < needed) {
         return fmt::format("Against acne the constant bias should be at least {:.3g} (for at most "
@@ -139,21 +149,31 @@ std::string against_limits(float bias, const analysis::BiasBounds& bounds)
     return "";
 }
 
+/// The biases that are worth recommending.
+constexpr analysis::BiasInterval usable_biases{0.0F, 1.0F};
+
 /// What the best constant bias would do: the curve knows it exactly.
 std::string best_bias(const analysis::Comparison& comparison, const analysis::BiasAnswers& answers)
 {
     const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
-    const std::uint64_t best = answers.best.errors.total();
-    if (now == 0) {
-        return "";
-    }
-    if (best == now) {
+    const analysis::BestBiases best = find_best_biases(answers.curve, usable_biases);
+    if (best.errors.total() >= now) {
         return "No other constant bias has fewer errors.";
     }
-    const float bias = answers.best.interval.middle();
-    return fmt::format("With slope and offset as they are, bias.constant = {:.4g} has the fewest "
+    return fmt::format("With slope and offset as they are, bias.constant = {} has the fewest "
                        "errors: {} in place of {}.",
-                       bias, grouped(answers.curve.at(bias).total()), grouped(now));
+                       best.recommended(), grouped(best.errors.total()), grouped(now));
+}
+
+/// Slope and normal offset are biases too, which no constant one makes up for.
+std::string other_biases(const scene::Bias& bias)
+{
+    if (bias.slope == 0 && bias.normal_texels == 0) {
+        return "";
+    }
+    return fmt::format("It is slope {:.3g} and normal offset {:.3g} texels as well: --advise tries "
+                       "without.",
+                       bias.slope, bias.normal_texels);
 }
 
 void append(std::vector<std::string>& sentences, std::string sentence)
@@ -165,27 +185,34 @@ void append(std::vector<std::string>& sentences, std::string sentence)
 
 } // namespace
 
-std::vector<std::string> findings(const analysis::Comparison& comparison)
+std::vector<std::string> errors_in_words(const analysis::Comparison& comparison)
 {
     if (!comparison.diagnosis) {
         return {};
     }
-    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
-    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, diagnosis.causes.counts)};
-    if (comparison.metrics.false_shadow + comparison.metrics.false_lit == 0) {
+    const analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
+    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, counts)};
+    if (comparison.metrics.false_shadow + comparison.metrics.false_lit > 0) {
+        const auto cause = most<Cause>(counts.by_cause);
+        append(sentences, cause == Cause::bias ? other_biases(comparison.view.bias)
+                                               : std::string{remedy(cause)});
+    }
+    return sentences;
+}
+
+std::vector<std::string> findings(const analysis::Comparison& comparison)
+{
+    std::vector<std::string> sentences = errors_in_words(comparison);
+    if (!comparison.diagnosis ||
+        comparison.metrics.false_shadow + comparison.metrics.false_lit == 0) {
         return sentences;
     }
-    const auto cause = most<Cause>(diagnosis.causes.counts.by_cause);
-    if (diagnosis.biases) {
-        append(sentences, against_limits(comparison.view.bias.constant, diagnosis.biases->bounds));
-    }
-    if (cause != Cause::bias) {
-        append(sentences, std::string{remedy(cause)});
-    }
-    if (diagnosis.biases) {
-        append(sentences, best_bias(comparison, *diagnosis.biases));
-    } else if (cause == Cause::bias) {
-        append(sentences, std::string{remedy(cause)});
+    if (const auto& biases = comparison.diagnosis->biases) {
+        append(sentences, against_limits(comparison.view.bias.constant, biases->bounds));
+        append(sentences, best_bias(comparison, *biases));
+    } else {
+        append(sentences, "The driver's own filter has no bias curve: --advise and `gnomon tune` "
+                          "run GL again.");
     }
     return sentences;
 }

@@ -146,7 +146,7 @@ std::string tune_text(const TuneResult& result, const TuneLimits& limits)
     text += fmt::format("\nMeasured with it: {} false shadow ({}), {} false lit ({}).\n",
                         grouped(measured.false_shadow), percent(measured.false_shadow_rate),
                         grouped(measured.false_lit), percent(measured.false_lit_rate));
-    for (const std::string& sentence : findings(result.measured)) {
+    for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }
     return text;
@@ -169,7 +169,7 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
                 {"false_shadow_rate", number_or_null(measured.false_shadow_rate)},
                 {"false_lit_rate", number_or_null(measured.false_lit_rate)},
                 {"error_rate", number_or_null(measured.error_rate)}}},
-              {"why", findings(result.measured)}};
+              {"why", errors_in_words(result.measured)}};
     json["considered"] = Json::array();
     for (const TunedSetting& setting : result.considered) {
         json["considered"].push_back(setting_json(setting));

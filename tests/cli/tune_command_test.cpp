@@ -1,5 +1,6 @@
 #include "child_process.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -87,10 +88,10 @@ TEST(Advise, MeasuresChangesAndPromisesNothing)
     for (const Json& advice : result.at("advice")) {
         std::vector<std::string> changed{
             "compare", "--builtin", "yard", "--set", "shadow_map.resolution=256", "--json"};
-        for (std::string key : advice.at("keys").get<std::vector<std::string>>()) {
-            key.replace(key.find(" = "), 3, "=");
+        for (const std::string& key : advice.at("keys").get<std::vector<std::string>>()) {
+            const std::size_t equals = key.find(" = ");
             changed.emplace_back("--set");
-            changed.push_back(key);
+            changed.push_back(fmt::format("{}={}", key.substr(0, equals), key.substr(equals + 3)));
         }
         const Json measured = Json::parse(gnomon(small(changed)).out);
         EXPECT_EQ(measured.at("false_shadow"), advice.at("false_shadow")) << advice;
