@@ -1,0 +1,105 @@
+#include "analysis/gaps.hpp"
+#include "analysis/map_errors.hpp"
+
+#include "fake_light.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace gnomon::analysis {
+namespace {
+
+using scene::PixelClass;
+
+scene::LightFrustum frustum_of(scene::Projection projection, bool reversed)
+{
+    scene::LightFrustum frustum;
+    frustum.projection = projection;
+    frustum.near_m = 2;
+    frustum.far_m = 10;
+    frustum.reversed = reversed;
+    return frustum;
+}
+
+TEST(ZetaOfDepth, RunsFromNearToFar)
+{
+    for (const auto projection :
+         {scene::Projection::orthographic, scene::Projection::perspective}) {
+        EXPECT_EQ(zeta_of_depth_m(frustum_of(projection, false), 0), 2);
+        EXPECT_DOUBLE_EQ(zeta_of_depth_m(frustum_of(projection, false), 1), 10);
+        EXPECT_DOUBLE_EQ(zeta_of_depth_m(frustum_of(projection, true), 0), 10);
+        EXPECT_EQ(zeta_of_depth_m(frustum_of(projection, true), 1), 2);
+    }
+    EXPECT_EQ(zeta_of_depth_m(frustum_of(scene::Projection::orthographic, false), 0.25), 4);
+    // 1/ζ = 1/2 − (1/2 − 1/10)/2 = 3/10
+    EXPECT_DOUBLE_EQ(zeta_of_depth_m(frustum_of(scene::Projection::perspective, false), 0.5),
+                     10.0 / 3);
+}
+
+/// Four pixels looked up in one row of an 8×8 map: hit, missed by GL, rounded to far, not scored.
+struct Row {
+    scene::TruthLayers truth;
+    scene::LookupLayers lookup;
+    scene::Image<float> no_depths;
+    FakeLight light;
+
+    Row()
+    {
+        truth.pixel_class = scene::Image<PixelClass>{{4, 1}, PixelClass::lit};
+        truth.pixel_class[3] = PixelClass::attached;
+        lookup.samples = scene::Image<scene::LookupSample>{{4, 1}, {0.5F, 0.5F, 0, 1}};
+        lookup.texels = scene::Image<scene::Vec2f>{{4, 1}};
+        for (int i = 0; i < 4; ++i) {
+            lookup.texels(i, 0) = {static_cast<float>(i) + 0.25F, 3.5F};
+            light.hits[{i, 3}] = {7, 0.5, 6.0};
+        }
+        lookup.samples[0].map_depth = 0.5625F;
+        lookup.samples[1].map_depth = 1;
+        lookup.samples[2].map_depth = 1;
+        light.hits[{2, 3}] = {7, 0.999, 9.992};
+    }
+
+    [[nodiscard]] scene::Image<float> errors_m() const
+    {
+        const CauseInputs inputs{{scene::Filter::nearest, scene::Outside::lit},
+                                 8,
+                                 false,
+                                 truth,
+                                 lookup,
+                                 no_depths,
+                                 light};
+        return map_depth_errors_m(inputs, frustum_of(scene::Projection::orthographic, false),
+                                  {scene::DepthFormat::Kind::unorm, 8});
+    }
+};
+
+TEST(MapDepthErrors, AreStoredLessExactWhereBothSeeSomething)
+{
+    const auto errors_m = Row{}.errors_m();
+    EXPECT_FLOAT_EQ(errors_m[0], 0.5F); // ζ 6.5 stored, 6 seen
+    EXPECT_TRUE(std::isnan(errors_m[1])) << "GL saw nothing there";
+    // 0.999 rounds to 1 in eight bits: 10 stored, 9.992 seen.
+    EXPECT_NEAR(double{errors_m[2]}, 0.008, 1e-6); // of float32 near 10
+    EXPECT_TRUE(std::isnan(errors_m[3])) << "not scored";
+}
+
+TEST(Gaps, AreMeasuredInMetresAndInTexelsAtTheReceiver)
+{
+    FakeLight light;
+    light.blockers[0] = {3, 0.5, 2, 4}; // gap 0.5 m, P at ζ = 4
+    light.blockers[1] = {3, 1.5, 2, 4};
+    scene::LightFrustum frustum = frustum_of(scene::Projection::perspective, false);
+    const std::vector<std::size_t> pixels{0, 1};
+    const Gaps gaps = measure_gaps(light, pixels, frustum, 8);
+    // A texel is 2·4/8 = 1 m wide there.
+    EXPECT_EQ(gaps.metres->count, 2U);
+    EXPECT_EQ(gaps.metres->median, 0.5F);
+    EXPECT_EQ(gaps.metres->max, 1.5F);
+    EXPECT_EQ(gaps.texels->max, 1.5F);
+    EXPECT_FALSE(measure_gaps(light, {}, frustum, 8).metres);
+}
+
+} // namespace
+} // namespace gnomon::analysis

@@ -1,0 +1,121 @@
+#include "reports/findings.hpp"
+
+#include "reports/tune_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gnomon::reports {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// 100 lit and 100 blocked pixels; a lit pixel needs a bias of 0.25, the blocked allow 0.5.
+analysis::Comparison comparison_of(std::uint64_t false_shadow, std::uint64_t false_lit)
+{
+    analysis::Comparison comparison;
+    analysis::Metrics& metrics = comparison.metrics;
+    metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::lit)] = 100;
+    metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::blocked)] = 100;
+    metrics.false_shadow = false_shadow;
+    metrics.false_lit = false_lit;
+    metrics.error_rate = static_cast<double>(false_shadow + false_lit) / 200;
+
+    scene::Image<float> critical{{200, 1}, -0.5F};
+    scene::Image<scene::PixelClass> classes{{200, 1}, scene::PixelClass::lit};
+    for (int i = 100; i < 200; ++i) {
+        classes(i, 0) = scene::PixelClass::blocked;
+        critical(i, 0) = 0.5F;
+    }
+    critical[0] = 0.25F;
+    analysis::BiasCurve curve{critical, classes};
+    const analysis::BestBiases best = find_best_biases(curve);
+    const analysis::BiasBounds bounds =
+        find_bias_bounds(curve, critical, classes, scene::Image<std::uint8_t>{{200, 1}, 1}, {});
+    comparison.diagnosis = analysis::Diagnosis{
+        .pixels = {},
+        .causes = {},
+        .peter_panning = {},
+        .biases = analysis::BiasAnswers{critical, std::move(curve), best, bounds, {}, {}, 0},
+        .by_distance = {},
+        .by_angle = {},
+        .by_object = {}};
+    return comparison;
+}
+
+void set_causes(analysis::Comparison& comparison, analysis::Cause cause, analysis::Label label)
+{
+    analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
+    const std::uint64_t wrong = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    counts.by_cause[static_cast<std::size_t>(cause)] = wrong;
+    counts.by_label[static_cast<std::size_t>(label)] = wrong;
+}
+
+TEST(Findings, AreSilentWithoutADiagnosis)
+{
+    EXPECT_THAT(findings(analysis::Comparison{}), IsEmpty());
+}
+
+TEST(Findings, SayThatAllIsRight)
+{
+    EXPECT_THAT(findings(comparison_of(0, 0)), ElementsAre("All 200 scored pixels are right."));
+}
+
+TEST(Findings, NameWhatAcneNeedsAndWhatTheBestBiasGives)
+{
+    analysis::Comparison comparison = comparison_of(1, 0);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+    const auto sentences = findings(comparison);
+    ASSERT_EQ(sentences.size(), 4U);
+    EXPECT_THAT(sentences[0], HasSubstr("100 % of the errors are acne, and 100 % are due to the "
+                                        "map's resolution"));
+    EXPECT_THAT(sentences[2], HasSubstr("at least 0.25"));
+    EXPECT_THAT(sentences[3], HasSubstr("bias.constant = 0.375 has the fewest errors: 0 in place "
+                                        "of 1"));
+}
+
+TEST(Findings, SetTheBiasAgainstWhatPanningAllows)
+{
+    analysis::Comparison comparison = comparison_of(0, 100);
+    set_causes(comparison, analysis::Cause::bias, analysis::Label::peter_panning);
+    comparison.view.bias.constant = 0.75F;
+    comparison.view.bias.slope = 0.125F;
+    const auto sentences = findings(comparison);
+    ASSERT_EQ(sentences.size(), 4U);
+    EXPECT_THAT(sentences[1], HasSubstr("slope 0.125"));
+    EXPECT_THAT(sentences[2], HasSubstr("is 1.5 times what peter-panning allows here (0.5"));
+}
+
+TEST(ErrorsInWords, RecommendNoOtherBias)
+{
+    analysis::Comparison comparison = comparison_of(1, 0);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+    for (const std::string& sentence : errors_in_words(comparison)) {
+        EXPECT_THAT(sentence, Not(HasSubstr("bias.constant")));
+    }
+}
+
+TEST(TuneToml, ReadsBackToTheSameBits)
+{
+    analysis::TunedSetting setting;
+    setting.map.resolution_texels = 2048;
+    setting.map.depth_format = {scene::DepthFormat::Kind::d16, 16};
+    setting.map.frustum.near_m = 0.5;
+    setting.constant = 0.0009866967F;
+    setting.slope = 8.264e-05;
+    EXPECT_EQ(tune_toml(setting), "[shadow_map]\n"
+                                  "resolution = 2048\n"
+                                  "depth_format = \"d16\"\n"
+                                  "near = 0.5\n"
+                                  "far = \"auto\"\n"
+                                  "[bias]\n"
+                                  "constant = 0.0009866967\n"
+                                  "slope = 8.264e-05\n"
+                                  "normal_texels = 0\n");
+}
+
+} // namespace
+} // namespace gnomon::reports
