@@ -47,10 +47,8 @@ void add_wider_maps(const Job& job, std::vector<Variant>& tried)
 }
 
 /// The map of the job with what the causes of its errors call for.
-std::vector<Variant> variants(const Comparison& comparison)
+std::vector<Variant> variants(const Job& job, const CauseCounts& counts)
 {
-    const Job& job = comparison.job;
-    const CauseCounts& counts = comparison.diagnosis->causes.counts;
     std::vector<Variant> tried;
     if (has(counts, Cause::bias) || has(counts, Cause::resolution) ||
         has(counts, Cause::precision)) {
@@ -88,9 +86,9 @@ public:
     {
     }
 
-    std::vector<Advice> run()
+    std::vector<Advice> run(const CauseCounts& counts)
     {
-        for (const Variant& variant : variants(comparison_)) {
+        for (const Variant& variant : variants(comparison_.job, counts)) {
             try_variant(variant);
         }
         return std::move(advice_);
@@ -135,7 +133,7 @@ std::vector<Advice> advise(const Comparison& comparison, const scene::SceneFile&
     if (!comparison.diagnosis) {
         throw std::invalid_argument("advise: comparison: it has no diagnosis");
     }
-    return Adviser{comparison, file, renderers}.run();
+    return Adviser{comparison, file, renderers}.run(comparison.diagnosis->causes.counts);
 }
 
 } // namespace gnomon::analysis

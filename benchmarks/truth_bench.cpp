@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,9 +57,10 @@ void truth_against_raw_pass(benchmark::State& state, const scene::Job& job)
     const double clip_positions_s =
         seconds_of([&] { raster.clip_positions = subject.gl->receiver_clip_positions(view); });
     scene::TruthLayers truth = compute_truth(*subject.reference, view, receivers, raster);
-    std::optional<RawEmbreePass> raw;
+    std::unique_ptr<RawEmbreePass> raw;
     const double raw_setup_s = seconds_of([&] {
-        raw.emplace(scene, view, truth, reference_rt::receiver_points(scene, view, receivers));
+        raw = std::make_unique<RawEmbreePass>(
+            scene, view, truth, reference_rt::receiver_points(scene, view, receivers));
     });
     Fastest exact;
     Fastest floor;
@@ -110,9 +111,9 @@ void add_bunny()
 
 int main(int argc, char** argv)
 {
-    using namespace gnomon;
+    namespace benchmarks = gnomon::benchmarks;
     for (const char* const builtin : {"sphere-field", "columns"}) {
-        benchmarks::add(builtin, scene::builtin_job(builtin, benchmarks::full_hd).job);
+        benchmarks::add(builtin, gnomon::scene::builtin_job(builtin, benchmarks::full_hd).job);
     }
     benchmarks::add_bunny();
     benchmark::Initialize(&argc, argv);

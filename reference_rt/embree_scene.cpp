@@ -246,7 +246,8 @@ void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Rol
 
 const CornerFans& ReferenceScene::Implementation::corner_fans() const
 {
-    std::call_once(corner_fans_made_, [&] { corner_fans_.emplace(triangles); });
+    std::call_once(corner_fans_made_,
+                   [&] { corner_fans_ = std::make_unique<const CornerFans>(triangles); });
     return *corner_fans_;
 }
 

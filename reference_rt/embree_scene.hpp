@@ -10,8 +10,8 @@
 #include <array>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,7 +97,7 @@ private:
     void fill_padded(RTCGeometry geometry, const Role& role);
 
     mutable std::once_flag corner_fans_made_;
-    mutable std::optional<CornerFans> corner_fans_;
+    mutable std::unique_ptr<const CornerFans> corner_fans_;
 };
 
 } // namespace gnomon::reference_rt

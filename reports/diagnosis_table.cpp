@@ -72,11 +72,11 @@ std::string causes(const analysis::Comparison& comparison)
     text += named_counts("cause", analysis::cause_names, diagnosis.causes.counts.by_cause, wrong);
     text += "\n";
     text += named_counts("called", analysis::label_names, diagnosis.causes.counts.by_label, wrong);
-    if (const auto& gap = diagnosis.peter_panning.metres) {
+    const auto& [gap, gap_texels] = diagnosis.peter_panning;
+    if (gap && gap_texels) {
         text += setting_line("", fmt::format("peter-panning gap: median {:.4g} m, 95 % {:.4g} m, "
                                              "largest {:.4g} m ({:.3g} texels)",
-                                             gap->median, gap->p95, gap->max,
-                                             diagnosis.peter_panning.texels->max));
+                                             gap->median, gap->p95, gap->max, gap_texels->max));
     }
     return text + by_object(diagnosis.by_object);
 }
