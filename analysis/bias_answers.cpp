@@ -34,10 +34,8 @@ void answer_slopes(const SlopeInputs& inputs, const BiasQuestion& question, Bias
     for (const float slope : slopes(question)) {
         const float one[]{slope};
         const SlopeCurve curve = std::move(slope_curves(inputs, one).front());
-        const bool is_better =
-            answers.slopes.empty() ||
-            curve.best.errors.total() < answers.slopes[answers.best_slope].best.errors.total();
-        if (is_better) {
+        if (answers.slopes.empty() ||
+            is_better(curve.best, answers.slopes[answers.best_slope].best)) {
             answers.best_slope = answers.slopes.size();
         }
         answers.slopes.push_back({slope, curve.best, curve.bounds});

@@ -210,6 +210,12 @@ std::optional<double> BiasCurve::false_lit_rate(const ErrorCounts& errors) const
     return ratio(errors.false_lit, blocked_.size());
 }
 
+bool is_better(const BestBiases& a, const BestBiases& b)
+{
+    return a.errors.total() < b.errors.total() ||
+           (a.errors.total() == b.errors.total() && a.interval.width() > b.interval.width());
+}
+
 BestBiases find_best_biases(const BiasCurve& curve, const BiasInterval& within)
 {
     if (!(within.lo <= within.hi)) {
@@ -220,10 +226,7 @@ BestBiases find_best_biases(const BiasCurve& curve, const BiasInterval& within)
     BestBiases best{within, {curve.scored() + 1, 0}};
     BestBiases run = best; // neighbouring intervals with as many errors
     const auto finish_run = [&] {
-        const bool is_better = run.errors.total() < best.errors.total() ||
-                               (run.errors.total() == best.errors.total() &&
-                                run.interval.width() > best.interval.width());
-        if (is_better) {
+        if (is_better(run, best)) {
             best = run;
         }
     };

@@ -80,6 +80,9 @@ struct BestBiases {
     }
 };
 
+/// Whether a is to be preferred to b: fewer errors, or as many over a wider interval.
+[[nodiscard]] bool is_better(const BestBiases& a, const BestBiases& b);
+
 /// All biases.
 inline constexpr BiasInterval every_bias{-std::numeric_limits<float>::infinity(),
                                          std::numeric_limits<float>::infinity()};

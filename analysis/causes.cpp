@@ -143,7 +143,7 @@ private:
     }
 
     const CauseInputs& inputs_;
-    LookupRules rules_;
+    TapRules rules_;
     Footprint footprint_;
     scene::Image<PixelCause> causes_;
 };

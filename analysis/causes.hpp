@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/cause.hpp"
-#include "analysis/lookup_rules.hpp"
+#include "analysis/tap_rules.hpp"
 #include "scene/exact_light.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
@@ -47,7 +47,7 @@ struct CauseInputs {
     const scene::Image<float>& map_depths; ///< as shaders see them; empty for `nearest`
     const scene::ExactLight& light;
 
-    [[nodiscard]] LookupRules rules() const { return {lookup, resolution_texels, reversed}; }
+    [[nodiscard]] TapRules rules() const { return {lookup, resolution_texels, reversed}; }
     /// The depth that GL stored in a texel that the pixel's lookup reads.
     [[nodiscard]] float stored_depth(std::size_t pixel, const scene::Texel& texel) const
     {

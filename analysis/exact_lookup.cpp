@@ -22,8 +22,7 @@ constexpr double depth_doubt = 0x1p-46;
 
 class ExactLookup {
 public:
-    ExactLookup(const LookupRules& rules, const TracedLookups& lookups,
-                const scene::ExactLight& light)
+    ExactLookup(const TapRules& rules, const TracedLookups& lookups, const scene::ExactLight& light)
         : rules_{rules},
           lookups_{lookups},
           light_{light},
@@ -188,7 +187,7 @@ private:
         return rules_.reversed ? hit->depth : -hit->depth;
     }
 
-    const LookupRules& rules_;
+    const TapRules& rules_;
     const TracedLookups& lookups_;
     const scene::ExactLight& light_;
     bool clamps_;
@@ -207,7 +206,7 @@ TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light)
     });
 }
 
-std::vector<float> exact_critical_biases(const LookupRules& rules, const TracedLookups& lookups,
+std::vector<float> exact_critical_biases(const TapRules& rules, const TracedLookups& lookups,
                                          const scene::ExactLight& light)
 {
     return ExactLookup{rules, lookups, light}.find();

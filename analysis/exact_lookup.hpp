@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/footprint.hpp"
-#include "analysis/lookup_rules.hpp"
+#include "analysis/tap_rules.hpp"
 #include "analysis/texel_hits.hpp"
 #include "scene/exact_light.hpp"
 
@@ -27,6 +27,8 @@ struct Lookups {
 class TracedLookups {
 public:
     TracedLookups(Lookups lookups, const scene::ExactLight& light);
+    TracedLookups(const TracedLookups&) = delete; // `hits_` points into `texels_`
+    TracedLookups& operator=(const TracedLookups&) = delete;
 
     [[nodiscard]] std::size_t size() const { return lookups_.pixels.size(); }
     [[nodiscard]] std::size_t pixel(std::size_t i) const { return lookups_.pixels[i]; }
@@ -46,7 +48,7 @@ private:
 
 /// V2: for each receiver the smallest bias with which exact depths at the lookup's taps are lit
 /// (DESIGN §4); −∞ or +∞ where policy taps decide.
-[[nodiscard]] std::vector<float> exact_critical_biases(const LookupRules& rules,
+[[nodiscard]] std::vector<float> exact_critical_biases(const TapRules& rules,
                                                        const TracedLookups& lookups,
                                                        const scene::ExactLight& light);
 

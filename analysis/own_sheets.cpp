@@ -30,7 +30,7 @@ public:
 
 private:
     const CauseInputs& inputs_;
-    LookupRules rules_;
+    TapRules rules_;
 };
 
 } // namespace

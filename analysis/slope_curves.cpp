@@ -56,13 +56,8 @@ const SlopeCurve& best_slope(std::span<const SlopeCurve> curves)
     if (curves.empty()) {
         throw std::invalid_argument("best_slope: curves: there is none");
     }
-    return *std::min_element(
-        curves.begin(), curves.end(), [](const SlopeCurve& a, const SlopeCurve& b) {
-            const std::uint64_t a_errors = a.best.errors.total();
-            const std::uint64_t b_errors = b.best.errors.total();
-            return a_errors != b_errors ? a_errors < b_errors
-                                        : a.best.interval.width() > b.best.interval.width();
-        });
+    return *std::ranges::min_element(
+        curves, [](const SlopeCurve& a, const SlopeCurve& b) { return is_better(a.best, b.best); });
 }
 
 } // namespace gnomon::analysis

@@ -8,7 +8,7 @@
 namespace gnomon::analysis {
 
 /// A map's settings, as far as they decide what a lookup does with its taps.
-struct LookupRules {
+struct TapRules {
     scene::LookupSettings lookup;
     int resolution_texels = 0;
     bool reversed = false;

@@ -1,4 +1,4 @@
-#include "analysis/lookup_rules.hpp"
+#include "analysis/tap_rules.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace gnomon::analysis {
 
 using scene::Outside;
 
-bool LookupRules::is_beyond_far(float r) const
+bool TapRules::is_beyond_far(float r) const
 {
     if (lookup.outside == Outside::clamp) {
         return reversed ? r <= 0 : r >= 1;
@@ -14,7 +14,7 @@ bool LookupRules::is_beyond_far(float r) const
     return reversed ? !(r >= 0) : !(r <= 1);
 }
 
-bool LookupRules::is_policy(float r, std::span<const Tap> taps) const
+bool TapRules::is_policy(float r, std::span<const Tap> taps) const
 {
     return lookup.outside != Outside::clamp &&
            (is_beyond_far(r) || std::ranges::none_of(taps, &Tap::is_inside));
