@@ -1,0 +1,71 @@
+#pragma once
+
+#include "analysis/bias_curve.hpp"
+#include "analysis/bias_limits.hpp"
+#include "analysis/breakdown.hpp"
+#include "analysis/cause.hpp"
+#include "analysis/gaps.hpp"
+#include "analysis/metrics.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// A configuration of a sweep: one row of its results, known before anything is computed.
+struct Configuration {
+    std::uint64_t ordinal = 0; ///< its place in the sweep, from 0: the order of the rows
+    /// Hash of scene content, parameters, schema and program version, as 16 hexadecimal digits: the
+    /// same wherever and whenever it is computed.
+    std::string id;
+    /// Like `id`, of everything but the constant bias: the name of its bias curve.
+    std::string curve;
+    std::string case_name;  ///< of the job file's [[case]]; empty without cases
+    std::string scene_hash; ///< `scene::content_hash`; empty where the scene could not be read
+    std::uint32_t shard = 1; ///< which part of a divided sweep computes it, from 1
+    /// The job with every key written out, as `scene::resolved_keys` gives it.
+    std::vector<std::pair<std::string, std::string>> parameters;
+};
+
+/// What was measured of one configuration.
+struct ConfigurationResult {
+    Metrics metrics;
+    std::optional<CauseCounts> causes; ///< empty: not asked for (float truth)
+    Gaps peter_panning;
+};
+
+/// Errors by light distance with one constant bias.
+struct DistanceProfile {
+    enum class At : std::uint8_t { job_bias, best_bias };
+    At at = At::job_bias;
+    float bias = 0; ///< depth units
+    std::vector<ErrorBin> bins;
+};
+
+/// What the configurations that differ in nothing but the constant bias have in common.
+struct CurveResult {
+    std::string id; ///< `Configuration::curve`
+    double near_m = 0; ///< of the map, as fitted
+    double far_m = 0;
+    std::uint64_t map_bytes = 0;
+    /// Empty for `hardware`, which has no curve.
+    std::optional<BestBiases> best;
+    std::optional<BiasBounds> bounds;
+    std::vector<CurvePoint> points; ///< `sample_curve`
+    std::vector<DistanceProfile> by_distance;
+};
+
+/// A finished curve, with those of its configurations that the sweep asks for.
+struct FinishedCurve {
+    struct Row {
+        std::uint64_t ordinal = 0;
+        ConfigurationResult result;
+    };
+    CurveResult curve;
+    std::vector<Row> rows;
+};
+
+} // namespace gnomon::analysis
