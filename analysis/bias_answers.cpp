@@ -10,15 +10,6 @@ namespace gnomon::analysis {
 
 namespace {
 
-scene::Image<std::uint8_t> acne_flags(const BiasQuestion& question)
-{
-    scene::Image<std::uint8_t> flags{question.truth.pixel_class.size()};
-    for (std::size_t i = 0; i < flags.pixel_count(); ++i) {
-        flags[i] = is_acne_if_shadowed(question.pixels[i], question.truth.pixel_class[i]) ? 1 : 0;
-    }
-    return flags;
-}
-
 /// The slope factors to answer for: the usual ones for the size of the map's texels, a spot's at
 /// the geometric mean of near and far.
 std::vector<float> slopes(const BiasQuestion& question)
@@ -44,13 +35,22 @@ void answer_slopes(const SlopeInputs& inputs, const BiasQuestion& question, Bias
 
 } // namespace
 
+scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& classes,
+                                      const scene::Image<PixelCause>& pixels)
+{
+    scene::Image<std::uint8_t> flags{classes.size()};
+    for (std::size_t i = 0; i < flags.pixel_count(); ++i) {
+        flags[i] = is_acne_if_shadowed(pixels[i], classes[i]) ? 1 : 0;
+    }
+    return flags;
+}
+
 BiasAnswers answer_biases(const BiasQuestion& question)
 {
     const LookupRule rule = lookup_rule(question.job, question.view);
     const auto& classes = question.truth.pixel_class;
-    const auto samples =
-        deciding_samples(question.lookup, question.lookup.texels, question.map_depths, rule);
-    const auto acne = acne_flags(question);
+    const scene::LookupLayers& samples = question.deciding;
+    const auto acne = acne_flags(classes, question.pixels);
     auto critical = critical_biases(samples, rule);
     BiasCurve curve{critical, classes};
     const BestBiases best = find_best_biases(curve);

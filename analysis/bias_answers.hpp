@@ -35,14 +35,17 @@ struct BiasQuestion {
     const scene::Job& job;
     const scene::View& view;
     const scene::TruthLayers& truth;
-    const scene::LookupLayers& lookup; ///< with the job's normal offset; other biases do not matter
-    const scene::Image<float>& map_depths;  ///< empty for nearest and linear
+    const scene::LookupLayers& deciding;    ///< from `deciding_samples`
     const scene::Image<PixelCause>& pixels; ///< from `find_causes`
     const scene::Image<float>& zeta_m;      ///< light distance of the receivers [m]
     const ForgiveGaps& forgive;
 };
 
-/// @throws std::invalid_argument  for `hardware`, and if the images differ in size.
+/// 1 where a lit pixel is acne if it is shadowed.
+[[nodiscard]] scene::Image<std::uint8_t>
+acne_flags(const scene::Image<scene::PixelClass>& classes, const scene::Image<PixelCause>& pixels);
+
+/// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question);
 
 } // namespace gnomon::analysis

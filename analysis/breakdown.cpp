@@ -17,9 +17,8 @@ namespace {
 
 using scene::PixelClass;
 
-void count_pixel(PartCounts& counts, PixelClass pixel_class, float verdict)
+void count_pixel(PartCounts& counts, PixelClass pixel_class, bool is_lit)
 {
-    const bool is_lit = scene::is_lit(verdict);
     if (pixel_class == PixelClass::lit) {
         ++counts.lit;
         counts.false_shadow += is_lit ? 0 : 1;
@@ -57,7 +56,7 @@ public:
     {
         Part& part = parts_[index(value)];
         const PixelClass pixel_class = inputs.classes[pixel];
-        count_pixel(part.counts, pixel_class, inputs.lookup.samples[pixel].verdict);
+        count_pixel(part.counts, pixel_class, inputs.is_lit(pixel));
         if (pixel_class == PixelClass::lit) {
             part.needed.push_back(inputs.criticals[pixel]);
         }
@@ -196,7 +195,8 @@ std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& class
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
             ObjectErrors& of_object = errors[scene.object_of(triangles[i])];
-            count_pixel(of_object.counts, classes[i], lookup.samples[i].verdict);
+            count_pixel(of_object.counts, classes[i],
+                        scene::is_lit(lookup.samples[i].verdict));
         }
     }
     return errors;

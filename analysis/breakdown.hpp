@@ -33,6 +33,14 @@ struct BreakdownInputs {
     const scene::Image<float>& criticals; ///< critical bias, depth units
     const scene::Image<float>& zeta_m;    ///< light distance of the receiver [m]; finite if scored
     const scene::Image<float>& map_error_m; ///< stored minus exact ζ [m]; NaN: none; may be empty
+    /// If set, verdicts are those of this constant bias, by the critical biases, and not the
+    /// lookup's.
+    std::optional<float> bias = {};
+
+    [[nodiscard]] bool is_lit(std::size_t pixel) const
+    {
+        return bias ? criticals[pixel] <= *bias : scene::is_lit(lookup.samples[pixel].verdict);
+    }
 };
 
 /// The pixels whose value lies in [lower, upper), the last bin's in [lower, upper].

@@ -64,6 +64,23 @@ SceneSummary summarise_scene(const scene::SceneSettings& settings,
     return summary;
 }
 
+void measure_comparison(Comparison& comparison, const Renderers& renderers)
+{
+    const scene::View& view = comparison.view;
+    require_size("receivers", comparison.receivers.triangle, view.image);
+    require_size("lookup", comparison.lookup.samples, view.image);
+    require_size("truth", comparison.truth.pixel_class, view.image);
+    require_size("witness", comparison.truth.witness, view.image);
+    comparison.metrics = measure(comparison.truth, comparison.lookup,
+                                 equal_taps(comparison.job.lookup.filter));
+    if (renderers.make_exact_light) {
+        comparison.diagnosis = diagnose(comparison.job, view,
+                                        {*comparison.triangles, comparison.receivers,
+                                         comparison.truth, comparison.lookup},
+                                        renderers);
+    }
+}
+
 Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
 {
     require_renderers(renderers);
@@ -81,22 +98,12 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     const scene::View& view = result.view;
 
     result.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });
-    require_size("receivers", result.receivers.triangle, view.image);
     timed(seconds.shadow_map, [&] { renderers.draw_shadow_map(job, view); });
     result.lookup = timed(seconds.lookup, [&] { return renderers.look_up(job, view); });
-    require_size("lookup", result.lookup.samples, view.image);
     result.truth =
         timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
-    require_size("truth", result.truth.pixel_class, view.image);
-    require_size("witness", result.truth.witness, view.image);
 
-    result.metrics = timed(seconds.analysis, [&] { return measure(result.truth, result.lookup); });
-    if (renderers.make_exact_light) {
-        result.diagnosis = timed(seconds.analysis, [&] {
-            return diagnose(job, view, {file.scene, result.receivers, result.truth, result.lookup},
-                            renderers);
-        });
-    }
+    timed(seconds.analysis, [&] { measure_comparison(result, renderers); });
     return result;
 }
 

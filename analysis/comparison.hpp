@@ -67,6 +67,11 @@ struct Comparison {
     StageSeconds seconds;
 };
 
+/// Fills in metrics and, where the renderers can answer for it, the diagnosis of a comparison whose
+/// other members are known.
+/// @throws std::invalid_argument  if its layers are not of the image's size.
+void measure_comparison(Comparison& comparison, const Renderers& renderers);
+
 /// Resolves the job's view, runs both renderers over it and measures the difference.
 ///
 /// `seconds.bvh` stays 0, and `seconds.scene` covers only what happens in here: whoever read the

@@ -1,6 +1,7 @@
 #include "analysis/critical_bias.hpp"
 
 #include "analysis/bias_order.hpp"
+#include "analysis/pcf_taps.hpp"
 #include "analysis/pixel_runs.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 
 namespace gnomon::analysis {
@@ -151,90 +153,18 @@ private:
     std::array<float, size> guesses_{};
 };
 
-/// Gathers the taps of a pcfK lookup as raster_gl/shaders/lookup.frag does.
-class Taps {
-public:
-    Taps(const scene::Image<float>& map_depths, const LookupRule& rule)
-        : map_{map_depths},
-          clamps_{rule.outside == Outside::clamp},
-          reversed_{rule.reversed},
-          radius_{scene::filter_width_texels(rule.filter) / 2},
-          last_{static_cast<float>(map_depths.size().width_px - 1)},
-          // Farther than every depth, or nearer: a tap outside keeps its verdict whatever the bias.
-          outside_{(rule.outside == Outside::lit) != rule.reversed ? infinity : -infinity}
-    {
+/// The median of the taps' depths; NaN where the policy decides.
+float deciding_depth(const PcfTaps& taps, const scene::LookupSample& sample, Vec2f texel)
+{
+    std::array<float, PcfTaps::most_taps> depths; // filled as far as it is read
+    const std::span<float> read = taps.gather(sample, texel, depths);
+    if (read.empty()) {
+        return not_a_depth;
     }
-
-    [[nodiscard]] float deciding_depth(const scene::LookupSample& sample, Vec2f texel) const
-    {
-        const Vec2f centre{std::floor(texel.x), std::floor(texel.y)};
-        if (!clamps_ && policy_decides_all(sample, centre)) {
-            return not_a_depth;
-        }
-        std::array<float, widest * widest> depths; // filled as far as it is read
-        float* const last = gather(centre, depths.data());
-        float* const middle = depths.data() + (last - depths.data()) / 2;
-        std::nth_element(depths.data(), middle, last);
-        return std::isinf(*middle) ? not_a_depth : *middle;
-    }
-
-private:
-    static constexpr std::size_t widest = 9;
-
-    /// Writes the depths of all taps to `out`, and returns their end.
-    float* gather(Vec2f centre, float* out) const
-    {
-        const auto reach = static_cast<float>(radius_);
-        const int width = 2 * radius_ + 1;
-        const bool is_within = is_inside(centre - reach) && is_inside(centre + reach);
-        for (int y = -radius_; y <= radius_; ++y) {
-            if (is_within) {
-                const int first = static_cast<int>(centre.x) - radius_;
-                const int row = static_cast<int>(last_ - centre.y) + y;
-                out = std::copy_n(&map_(first, row), width, out);
-                continue;
-            }
-            for (int x = -radius_; x <= radius_; ++x) {
-                *out++ = depth_at(centre + Vec2f{static_cast<float>(x), static_cast<float>(y)});
-            }
-        }
-        return out;
-    }
-
-    /// Beyond far or behind a spot, where there are no taps. A spot's receivers behind it are
-    /// beyond far by r, and where r rounds to the far plane, by a centre tap that is missing inside
-    /// the map.
-    [[nodiscard]] bool policy_decides_all(const scene::LookupSample& sample, Vec2f centre) const
-    {
-        const float r = sample.receiver_depth;
-        const bool beyond_far = reversed_ ? !(r >= 0.0F) : !(r <= 1.0F);
-        return beyond_far || (std::isnan(sample.map_depth) && is_inside(centre));
-    }
-
-    [[nodiscard]] bool is_inside(Vec2f texel) const
-    {
-        return texel.x >= 0.0F && texel.y >= 0.0F && texel.x <= last_ && texel.y <= last_;
-    }
-
-    [[nodiscard]] float depth_at(Vec2f texel) const
-    {
-        if (clamps_) {
-            // In this order a NaN, of a receiver in the light's plane, becomes 0.
-            texel.x = std::min(std::max(0.0F, texel.x), last_);
-            texel.y = std::min(std::max(0.0F, texel.y), last_);
-        } else if (!is_inside(texel)) {
-            return outside_;
-        }
-        return map_(static_cast<int>(texel.x), static_cast<int>(last_ - texel.y));
-    }
-
-    const scene::Image<float>& map_;
-    bool clamps_;
-    bool reversed_;
-    int radius_;
-    float last_;
-    float outside_;
-};
+    float* const middle = read.data() + read.size() / 2;
+    std::nth_element(read.data(), middle, read.data() + read.size());
+    return std::isinf(*middle) ? not_a_depth : *middle;
+}
 
 void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& texels,
                   const scene::Image<float>& map_depths)
@@ -278,11 +208,30 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
         return lookup;
     }
     require_taps(lookup, texels, map_depths);
-    const Taps taps{map_depths, rule};
+    const PcfTaps taps{map_depths, rule};
     for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             scene::LookupSample& sample = lookup.samples[i];
-            sample.map_depth = taps.deciding_depth(sample, texels[i]);
+            sample.map_depth = deciding_depth(taps, sample, texels[i]);
+        }
+    });
+    return lookup;
+}
+
+bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
+{
+    return job.lookup.filter != scene::Filter::hardware && view.bias.normal_texels == 0;
+}
+
+scene::LookupLayers without_bias(scene::LookupLayers lookup, const scene::LookupLayers& deciding,
+                                 const LookupRule& rule)
+{
+    LookupRule unbiased = rule;
+    unbiased.slope = 0;
+    const scene::Image<float> criticals = critical_biases(deciding, unbiased);
+    for_each_run(criticals.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            lookup.samples[i].verdict = criticals[i] <= 0.0F ? 1.0F : 0.0F;
         }
     });
     return lookup;

@@ -1,18 +1,28 @@
 #include "analysis/gaps.hpp"
 
-#include <vector>
-
 namespace gnomon::analysis {
 
-Gaps measure_gaps(const scene::ExactLight& light, std::span<const std::size_t> pixels,
-                  const scene::LightFrustum& frustum, int resolution_texels)
+std::vector<PixelGap> gaps_of_pixels(const BlockerGaps& gaps, std::span<const std::size_t> pixels,
+                                     const ReceiverGeometry& geometry,
+                                     const scene::LightFrustum& frustum, int resolution_texels)
+{
+    std::vector<PixelGap> result;
+    result.reserve(pixels.size());
+    for (const std::size_t pixel : pixels) {
+        const double texel_m = frustum.texel_width_m(geometry.zeta_m(pixel), resolution_texels);
+        result.push_back({static_cast<float>(gaps.gap_m(pixel)),
+                          static_cast<float>(gaps.gap_m(pixel) / texel_m)});
+    }
+    return result;
+}
+
+Gaps measure_gaps(std::span<const PixelGap> gaps)
 {
     std::vector<float> metres;
     std::vector<float> texels;
-    for (const scene::BlockerHit& hit : light.find_blockers(pixels)) {
-        const double texel_m = frustum.texel_width_m(hit.receiver_zeta_m, resolution_texels);
-        metres.push_back(static_cast<float>(hit.gap_m));
-        texels.push_back(static_cast<float>(hit.gap_m / texel_m));
+    for (const PixelGap& gap : gaps) {
+        metres.push_back(gap.metres);
+        texels.push_back(gap.texels);
     }
     return {find_quantiles(std::move(metres)), find_quantiles(std::move(texels))};
 }

@@ -1,23 +1,36 @@
 #pragma once
 
+#include "analysis/blocker_gaps.hpp"
 #include "analysis/quantiles.hpp"
-#include "scene/exact_light.hpp"
+#include "analysis/receiver_geometry.hpp"
 #include "scene/light_frustum.hpp"
 
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace gnomon::analysis {
 
-/// Peter-panning as a length: from P to its blocker; empty if nothing pans.
-struct Gaps {
-    std::optional<Quantiles> metres;
-    std::optional<Quantiles> texels; ///< in texels' world widths at P
+/// Peter-panning of one pixel as a length.
+struct PixelGap {
+    float metres = 0; ///< from P to its blocker
+    float texels = 0; ///< in texels' world widths at P
 };
 
-/// @param pixels  blocked in truth, and false lit by the bias.
-[[nodiscard]] Gaps measure_gaps(const scene::ExactLight& light, std::span<const std::size_t> pixels,
-                                const scene::LightFrustum& frustum, int resolution_texels);
+/// Peter-panning as a length; empty if nothing pans.
+struct Gaps {
+    std::optional<Quantiles> metres;
+    std::optional<Quantiles> texels;
+};
+
+/// @param pixels  blocked in truth; their gaps must be known.
+[[nodiscard]] std::vector<PixelGap>
+gaps_of_pixels(const BlockerGaps& gaps, std::span<const std::size_t> pixels,
+               const ReceiverGeometry& geometry, const scene::LightFrustum& frustum,
+               int resolution_texels);
+
+/// @param gaps  of the pixels that are false lit by the bias.
+[[nodiscard]] Gaps measure_gaps(std::span<const PixelGap> gaps);
 
 } // namespace gnomon::analysis

@@ -27,11 +27,13 @@ struct Tally {
     /// By class, and by whether the verdict is lit: one histogram answers classes and errors.
     std::array<std::array<std::uint64_t, 2>, scene::pixel_class_count> by_verdict{};
     std::array<std::uint64_t, 7> by_reason{};
+    std::uint64_t wrong_taps = 0;
     double absolute_error = 0;
     std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
 
     /// Without branches that depend on the image, for classes change from pixel to pixel.
-    void add(std::size_t pixel, PixelClass pixel_class, scene::ClassReason reason, float verdict)
+    void add(std::size_t pixel, PixelClass pixel_class, scene::ClassReason reason, float verdict,
+             double taps)
     {
         ++by_verdict[static_cast<std::size_t>(pixel_class)][scene::is_lit(verdict) ? 1 : 0];
         ++by_reason[static_cast<std::size_t>(reason)];
@@ -41,7 +43,9 @@ struct Tally {
         }
         const float truth = pixel_class == PixelClass::lit ? 1.0F : 0.0F;
         const double error = std::abs(static_cast<double>(verdict) - static_cast<double>(truth));
-        absolute_error += scene::is_scored(pixel_class) ? error : 0.0;
+        const double scored_error = scene::is_scored(pixel_class) & is_verdict ? error : 0.0;
+        absolute_error += scored_error;
+        wrong_taps += static_cast<std::uint64_t>(scored_error * taps + 0.5);
     }
 
     void add(const Tally& other)
@@ -54,6 +58,7 @@ struct Tally {
             by_reason[i] += other.by_reason[i];
         }
         absolute_error += other.absolute_error;
+        wrong_taps += other.wrong_taps;
         first_bad_pixel = std::min(first_bad_pixel, other.first_bad_pixel);
     }
 
@@ -76,11 +81,12 @@ void require_same_size(const scene::TruthLayers& truth, const scene::LookupLayer
     }
 }
 
-Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& lookup)
+Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& lookup, int taps)
 {
     const auto count = [&](const tbb::blocked_range<std::size_t>& pixels, Tally tally) {
         for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
-            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict);
+            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict,
+                      taps);
         }
         return tally;
     };
@@ -105,31 +111,59 @@ std::uint64_t ClassCounts::surface() const
     return total - of(PixelClass::background);
 }
 
-Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup)
+ClassCounts count_classes(const scene::TruthLayers& truth)
+{
+    ClassCounts counts;
+    counts.total = truth.pixel_class.pixel_count();
+    for (std::size_t i = 0; i < truth.pixel_class.pixel_count(); ++i) {
+        ++counts.by_class[static_cast<std::size_t>(truth.pixel_class[i])];
+        ++counts.by_reason[static_cast<std::size_t>(truth.reason[i])];
+    }
+    return counts;
+}
+
+int equal_taps(scene::Filter filter)
+{
+    if (filter == scene::Filter::hardware) {
+        return 0;
+    }
+    const int width = filter == scene::Filter::linear ? 1 : scene::filter_width_texels(filter);
+    return width * width;
+}
+
+Metrics make_metrics(const ClassCounts& pixels, const VerdictErrors& errors)
+{
+    Metrics metrics;
+    metrics.pixels = pixels;
+    metrics.false_shadow = errors.false_shadow;
+    metrics.false_lit = errors.false_lit;
+    const std::uint64_t scored = pixels.scored();
+    metrics.false_shadow_rate = ratio(errors.false_shadow, pixels.of(PixelClass::lit));
+    metrics.false_lit_rate = ratio(errors.false_lit, pixels.of(PixelClass::blocked));
+    metrics.error_rate = ratio(errors.false_shadow + errors.false_lit, scored);
+    metrics.mean_abs_error = ratio(errors.absolute, scored);
+    return metrics;
+}
+
+Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup, int taps)
 {
     require_same_size(truth, lookup);
-    const Tally tally = tally_layers(truth, lookup);
+    const Tally tally = tally_layers(truth, lookup, taps);
     if (tally.first_bad_pixel != no_pixel) {
         throw std::domain_error(
             fmt::format("measure: lookup: the verdict of scored pixel {} is {}, not in [0, 1]",
                         tally.first_bad_pixel, lookup.samples[tally.first_bad_pixel].verdict));
     }
-    Metrics metrics;
-    metrics.pixels.total = truth.pixel_class.pixel_count();
+    ClassCounts pixels;
+    pixels.total = truth.pixel_class.pixel_count();
     for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
-        metrics.pixels.by_class[i] = tally.by_verdict[i][0] + tally.by_verdict[i][1];
+        pixels.by_class[i] = tally.by_verdict[i][0] + tally.by_verdict[i][1];
     }
-    metrics.pixels.by_reason = tally.by_reason;
-    metrics.false_shadow = tally.count(PixelClass::lit, false);
-    metrics.false_lit = tally.count(PixelClass::blocked, true);
-    const std::uint64_t scored = metrics.pixels.scored();
-    const auto false_shadow = static_cast<double>(metrics.false_shadow);
-    const auto false_lit = static_cast<double>(metrics.false_lit);
-    metrics.false_shadow_rate = ratio(false_shadow, metrics.pixels.of(PixelClass::lit));
-    metrics.false_lit_rate = ratio(false_lit, metrics.pixels.of(PixelClass::blocked));
-    metrics.error_rate = ratio(false_shadow + false_lit, scored);
-    metrics.mean_abs_error = ratio(tally.absolute_error, scored);
-    return metrics;
+    pixels.by_reason = tally.by_reason;
+    const double absolute =
+        taps > 0 ? static_cast<double>(tally.wrong_taps) / taps : tally.absolute_error;
+    return make_metrics(pixels, {tally.count(PixelClass::lit, false),
+                                 tally.count(PixelClass::blocked, true), absolute});
 }
 
 } // namespace gnomon::analysis

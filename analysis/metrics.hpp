@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/job.hpp"
 #include "scene/layers.hpp"
 
 #include <array>
@@ -39,7 +40,25 @@ struct Metrics {
     std::optional<double> mean_abs_error;    ///< mean |verdict − truth| over the scored pixels
 };
 
+[[nodiscard]] ClassCounts count_classes(const scene::TruthLayers& truth);
+
+/// Comparisons of equal weight that make a verdict: 1, or K² for pcfK; 0 for `hardware`, whose
+/// weights are the driver's own.
+[[nodiscard]] int equal_taps(scene::Filter filter);
+
+/// @param taps  `equal_taps` of the lookup: the verdicts are multiples of 1/taps and their errors
+///              are added as integers; 0: as doubles.
 /// @throws std::invalid_argument  if the layers differ in size.
-[[nodiscard]] Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup);
+[[nodiscard]] Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup,
+                              int taps);
+
+/// The wrong pixels of one verdict image.
+struct VerdictErrors {
+    std::uint64_t false_shadow = 0;
+    std::uint64_t false_lit = 0;
+    double absolute = 0; ///< Σ |verdict − truth| over the scored pixels
+};
+/// The metrics of an image with these classes and errors.
+[[nodiscard]] Metrics make_metrics(const ClassCounts& pixels, const VerdictErrors& errors);
 
 } // namespace gnomon::analysis

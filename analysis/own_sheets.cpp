@@ -82,4 +82,17 @@ TracedLookups trace_lookups(const CauseInputs& inputs, std::span<const std::size
     return {std::move(lookups), inputs.light};
 }
 
+std::vector<std::size_t> detached_pixels(const CauseInputs& inputs,
+                                         std::span<const std::size_t> pixels)
+{
+    const auto sees_own = sees_own_sheets(inputs, trace_lookups(inputs, pixels));
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        if (!sees_own[i]) {
+            result.push_back(pixels[i]);
+        }
+    }
+    return result;
+}
+
 } // namespace gnomon::analysis

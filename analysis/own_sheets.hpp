@@ -17,4 +17,9 @@ namespace gnomon::analysis {
 [[nodiscard]] TracedLookups trace_lookups(const CauseInputs& inputs,
                                           std::span<const std::size_t> pixels);
 
+/// Of these blocked pixels those that the map without bias shadows by another surface than the
+/// receiver's own: only their shadows can be detached, where the others had nothing attached.
+[[nodiscard]] std::vector<std::size_t> detached_pixels(const CauseInputs& inputs,
+                                                       std::span<const std::size_t> pixels);
+
 } // namespace gnomon::analysis

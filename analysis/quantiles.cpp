@@ -14,9 +14,8 @@ std::optional<Quantiles> find_quantiles(std::vector<float> values)
     }
     radix_sort(values);
     const std::size_t count = values.size();
-    // Rank ⌈p·count⌉, counted from 1, in integers: a product of doubles may round up across it.
     const auto at_percent = [&](std::size_t percent) {
-        return values[(count * percent + 99) / 100 - 1];
+        return values[quantile_rank(count, percent) - 1];
     };
     return Quantiles{count, values.front(), at_percent(50), at_percent(95), values.back()};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -17,6 +18,13 @@ struct Quantiles {
 
     friend bool operator==(const Quantiles&, const Quantiles&) = default;
 };
+
+/// The rank of a percentile among `count` values, counted from 1: ⌈percent/100 · count⌉.
+[[nodiscard]] constexpr std::size_t quantile_rank(std::size_t count, std::size_t percent)
+{
+    // In integers: a product of doubles may round up across it.
+    return (count * percent + 99) / 100;
+}
 
 /// @param values  In any order; those that are not finite are left out.
 /// @return  Empty if no value is finite.

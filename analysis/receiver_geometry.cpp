@@ -1,6 +1,10 @@
 #include "analysis/receiver_geometry.hpp"
 
+#include "analysis/pixel_runs.hpp"
+
 #include <glm/geometric.hpp>
+
+#include <limits>
 
 namespace gnomon::analysis {
 
@@ -30,6 +34,20 @@ double ReceiverGeometry::footprint_m(std::size_t pixel) const
     return view_.camera.projection == scene::Projection::perspective
                ? at_unit_distance * hit(pixel).t
                : at_unit_distance;
+}
+
+scene::Image<float> light_distances_m(const scene::Image<scene::PixelClass>& classes,
+                                      const ReceiverGeometry& geometry)
+{
+    scene::Image<float> zeta_m{classes.size(), std::numeric_limits<float>::quiet_NaN()};
+    for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            if (scene::is_scored(classes[i])) {
+                zeta_m[i] = static_cast<float>(geometry.zeta_m(i));
+            }
+        }
+    });
+    return zeta_m;
 }
 
 } // namespace gnomon::analysis

@@ -2,6 +2,7 @@
 
 #include "scene/image.hpp"
 #include "scene/job.hpp"
+#include "scene/pixel_class.hpp"
 #include "scene/triangles.hpp"
 
 #include <cstddef>
@@ -42,5 +43,9 @@ private:
     const scene::View& view_;
     const scene::Image<std::uint32_t>& receivers_;
 };
+
+/// Light distance of the scored receivers [m]; NaN elsewhere.
+[[nodiscard]] scene::Image<float>
+light_distances_m(const scene::Image<scene::PixelClass>& classes, const ReceiverGeometry& geometry);
 
 } // namespace gnomon::analysis

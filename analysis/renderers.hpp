@@ -4,6 +4,7 @@
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,9 +23,13 @@ struct Environment {
 /// Embree and a sweep can call just the stages whose inputs changed.
 ///
 /// Each returns when its work is done: an asynchronous renderer waits, so that stages can be timed.
-/// `look_up` answers for the receivers and the shadow map drawn last, which the renderer keeps.
+/// `look_up` answers for the receivers selected and the shadow map drawn last, which the renderer
+/// keeps.
 struct Renderers {
     std::function<scene::ReceiverLayers(const scene::View&)> draw_receivers;
+    /// Which of several receivers, kept side by side, `draw_receivers` draws and `look_up` reads;
+    /// the first until this is called. Empty: there is but one.
+    std::function<void(std::size_t slot)> select_receivers;
     std::function<void(const scene::Job&, const scene::View&)> draw_shadow_map;
     std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;

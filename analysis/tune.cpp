@@ -72,7 +72,7 @@ std::vector<scene::ShadowMapSettings> maps(const Job& job, const TuneLimits& lim
         }
     }
     std::ranges::stable_sort(tried, {}, [](const scene::ShadowMapSettings& map) {
-        return TunedSetting{.map = map}.map_bytes();
+        return map_bytes(map);
     });
     return tried;
 }
@@ -123,7 +123,7 @@ public:
         for (const scene::ShadowMapSettings& map : tried) {
             const bool is_larger =
                 !result.considered.empty() &&
-                TunedSetting{.map = map}.map_bytes() > result.considered.back().map_bytes();
+                map_bytes(map) > map_bytes(result.considered.back().map);
             if (is_larger && result.meets_limits) {
                 break;
             }
@@ -179,7 +179,7 @@ private:
 
 } // namespace
 
-std::uint64_t TunedSetting::map_bytes() const
+std::uint64_t map_bytes(const scene::ShadowMapSettings& map)
 {
     const auto side = static_cast<std::uint64_t>(map.resolution_texels);
     return side * side * texel_bytes(map.depth_format);

@@ -18,6 +18,9 @@ struct TuneLimits {
     int max_resolution_texels = 4096;
 };
 
+/// Memory that a map takes [bytes]; u-formats as if GL had them.
+[[nodiscard]] std::uint64_t map_bytes(const scene::ShadowMapSettings& map);
+
 /// One setting that was considered, with the best constant bias for it.
 struct TunedSetting {
     scene::ShadowMapSettings map;
@@ -31,9 +34,6 @@ struct TunedSetting {
     std::optional<double> false_lit_rate;    ///< empty: no scored blocked pixel
     std::optional<double> error_rate;        ///< empty: no scored pixel
     bool meets_limits = false;
-
-    /// Memory of the map [bytes].
-    [[nodiscard]] std::uint64_t map_bytes() const;
 };
 
 /// Whether a is to be recommended rather than b, of as many bytes: it meets the limits, has fewer
@@ -41,7 +41,7 @@ struct TunedSetting {
 [[nodiscard]] bool is_better(const TunedSetting& a, const TunedSetting& b);
 
 struct TuneResult {
-    std::vector<TunedSetting> considered; ///< in the order of `map_bytes`
+    std::vector<TunedSetting> considered; ///< in the order of their maps' bytes
     std::size_t recommended = 0; ///< index; the one with the lowest error rate if none meets
     bool meets_limits = false;
     Comparison measured; ///< GL's own run with the recommended setting

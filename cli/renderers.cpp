@@ -11,16 +11,25 @@ GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleS
     : context_{context},
       box_{triangles.bounds()},
       scene_{context, triangles},
-      receiver_pass_{context},
       shadow_map_pass_{context},
       lookup_pass_{context}
 {
+    select_receivers(0);
+}
+
+void GlRenderer::select_receivers(std::size_t slot)
+{
+    while (receivers_.size() <= slot) {
+        receivers_.push_back({std::make_unique<raster_gl::ReceiverPass>(context_), nullptr});
+    }
+    slot_ = slot;
 }
 
 scene::ReceiverLayers GlRenderer::draw_receivers(const scene::View& view)
 {
-    receivers_ = &receiver_pass_.render(scene_, view, box_);
-    return {raster_gl::read_triangles(context_, *receivers_)};
+    Receivers& receivers = receivers_[slot_];
+    receivers.buffer = &receivers.pass->render(scene_, view, box_);
+    return {raster_gl::read_triangles(context_, *receivers.buffer)};
 }
 
 std::vector<scene::Vec4f> GlRenderer::receiver_clip_positions(const scene::View& view) const
@@ -37,10 +46,11 @@ void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
 
 scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View& view)
 {
-    if (receivers_ == nullptr || shadow_map_ == nullptr) {
+    const raster_gl::ReceiverBuffer* receivers = receivers_[slot_].buffer;
+    if (receivers == nullptr || shadow_map_ == nullptr) {
         throw std::invalid_argument("GlRenderer::look_up: draw receivers and shadow map first");
     }
-    lookup_pass_.render(scene_, *receivers_, *shadow_map_, job.lookup, view);
+    lookup_pass_.render(scene_, *receivers, *shadow_map_, job.lookup, view);
     return lookup_pass_.read();
 }
 
@@ -58,6 +68,7 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
 {
     analysis::Renderers renderers;
     renderers.draw_receivers = [&gl](const scene::View& view) { return gl.draw_receivers(view); };
+    renderers.select_receivers = [&gl](std::size_t slot) { gl.select_receivers(slot); };
     renderers.draw_shadow_map = [&gl](const scene::Job& job, const scene::View& view) {
         gl.draw_shadow_map(job, view);
     };

@@ -8,6 +8,8 @@
 #include "raster_gl/shadow_map.hpp"
 #include "reference_rt/truth.hpp"
 
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace gnomon::cli {
@@ -18,23 +20,30 @@ public:
     /// Both arguments must outlive the renderer.
     GlRenderer(const raster_gl::Context& context, const scene::TriangleScene& triangles);
 
+    /// Which of several receivers, kept side by side, the other calls mean; 0 at first.
+    void select_receivers(std::size_t slot);
     [[nodiscard]] scene::ReceiverLayers draw_receivers(const scene::View& view);
     /// The clip positions that GL gave the vertices when it drew the receivers.
     [[nodiscard]] std::vector<scene::Vec4f> receiver_clip_positions(const scene::View& view) const;
     void draw_shadow_map(const scene::Job& job, const scene::View& view);
-    /// Looks the last receivers up in the last shadow map.
+    /// Looks the selected receivers up in the last shadow map.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
 
 private:
+    struct Receivers {
+        std::unique_ptr<raster_gl::ReceiverPass> pass;
+        const raster_gl::ReceiverBuffer* buffer = nullptr; ///< nullptr until drawn
+    };
+
     const raster_gl::Context& context_;
     scene::Box box_;
     raster_gl::GpuScene scene_;
-    raster_gl::ReceiverPass receiver_pass_;
+    std::vector<Receivers> receivers_; ///< by slot
+    std::size_t slot_ = 0;
     raster_gl::ShadowMapPass shadow_map_pass_;
     raster_gl::LookupPass lookup_pass_;
-    const raster_gl::ReceiverBuffer* receivers_ = nullptr;
     const raster_gl::ShadowMap* shadow_map_ = nullptr;
 };
 

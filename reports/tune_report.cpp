@@ -36,7 +36,7 @@ Json setting_json(const TunedSetting& setting)
             {"bias.constant", setting.constant},
             {"bias.slope", setting.slope},
             {"bias.normal_texels", setting.normal_texels},
-            {"map_bytes", setting.map_bytes()},
+            {"map_bytes", analysis::map_bytes(setting.map)},
             {"false_shadow", setting.errors.false_shadow},
             {"false_lit", setting.errors.false_lit},
             {"false_shadow_rate", number_or_null(setting.false_shadow_rate)},
@@ -91,7 +91,7 @@ std::string table(const TuneResult& result)
         text += fmt::format("{:<14}{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
                             fmt::format("{} {}", setting->map.resolution_texels,
                                         scene::depth_format_name(setting->map.depth_format)),
-                            range(setting->map.frustum), mebibytes(setting->map_bytes()),
+                            range(setting->map.frustum), mebibytes(analysis::map_bytes(setting->map)),
                             setting->constant, setting->slope, setting->normal_texels,
                             percent(setting->false_shadow_rate), percent(setting->false_lit_rate),
                             grouped(setting->errors.total()), setting->meets_limits ? "met" : "-");

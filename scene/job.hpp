@@ -90,6 +90,9 @@ struct Bias {
     float normal_texels = 0;
 };
 
+/// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
+[[nodiscard]] Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum);
+
 /// A job made concrete against its scene: every exact input, ready for both renderers.
 struct View {
     Camera camera;

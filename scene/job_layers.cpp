@@ -84,18 +84,6 @@ std::vector<std::string> table_names()
     return {names.begin(), names.end()};
 }
 
-/// The nearest key; one in another table, but of the same last part, before all others.
-std::string nearest_key(std::string_view name, std::vector<std::string> candidates)
-{
-    for (const KeySpec& spec : key_specs()) {
-        if (key_leaf(spec.key.name) == key_leaf(name)) {
-            return spec.key.name;
-        }
-        candidates.push_back(spec.key.name);
-    }
-    return nearest_word(name, candidates);
-}
-
 [[noreturn]] void throw_unknown(const std::string& name, const TomlNode& node,
                                 const KeyPlace& place, const std::vector<std::string>& siblings)
 {
@@ -156,16 +144,15 @@ std::string KeyPlace::text() const
     return fmt::format("{}:{}: ", file, line);
 }
 
-std::string nearest_key(std::string_view name)
+std::string nearest_key(std::string_view name, std::vector<std::string> candidates)
 {
-    std::vector<std::string> names;
     for (const KeySpec& spec : key_specs()) {
         if (key_leaf(spec.key.name) == key_leaf(name)) {
             return spec.key.name;
         }
-        names.push_back(spec.key.name);
+        candidates.push_back(spec.key.name);
     }
-    return nearest_word(name, names);
+    return nearest_word(name, candidates);
 }
 
 Setting make_setting(const KeySpec& spec, const TomlNode& node, std::string label)
@@ -208,7 +195,7 @@ Layer layer_from_overrides(const std::vector<Override>& overrides)
         const KeySpec* spec = find_key(given.key);
         if (spec == nullptr) {
             throw InputError(fmt::format("{}: unknown key; the nearest is {}", label,
-                                         nearest_key(given.key, {})));
+                                         nearest_key(given.key)));
         }
         std::erase_if(layer, [&](const Setting& earlier) { return earlier.spec == spec; });
         layer.push_back(make_setting(*spec, override_value(given.value, label), label));

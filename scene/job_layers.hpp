@@ -33,6 +33,11 @@ struct KeyPlace {
     [[nodiscard]] std::string text() const;
 };
 
+/// The key nearest to an unknown one: one of the same last part before all others.
+/// @param candidates  What may also stand where the name was found.
+[[nodiscard]] std::string nearest_key(std::string_view name,
+                                      std::vector<std::string> candidates = {});
+
 /// @throws InputError  "label: must be …", if the key does not accept the node.
 [[nodiscard]] Setting make_setting(const KeySpec& spec, const TomlNode& node, std::string label);
 

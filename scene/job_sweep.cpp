@@ -142,9 +142,8 @@ std::vector<TomlNode> expand(const KeySpec& spec, const TomlTable& table, const 
     return values;
 }
 
-SweepAxis read_axis(const KeySpec& spec, const TomlNode& node, const KeyPlace& place)
+SweepAxis read_axis(const KeySpec& spec, const TomlNode& node, const std::string& label)
 {
-    const std::string label = fmt::format("{}[sweep] {}", place.text(), spec.key.name);
     const auto* list = std::get_if<TomlArray>(&node.value);
     const auto* table = std::get_if<TomlTable>(&node.value);
     if ((list == nullptr && table == nullptr) || (list != nullptr && list->empty())) {
@@ -184,7 +183,68 @@ bool read_option(Sweep& sweep, const TomlMember& member, const std::string& file
     return true;
 }
 
-void check_lengths(const Sweep& sweep, const std::string& file)
+/// The text's parts between commas that no bracket, brace or quote encloses.
+std::vector<std::string> split_at_commas(std::string_view text)
+{
+    std::vector<std::string> parts(1);
+    int depth = 0;
+    char quote = 0;
+    for (const char c : text) {
+        if (quote != 0) {
+            quote = c == quote ? '\0' : quote;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else if (c == '[' || c == '{') {
+            ++depth;
+        } else if (c == ']' || c == '}') {
+            --depth;
+        } else if (c == ',' && depth == 0) {
+            parts.emplace_back();
+            continue;
+        }
+        parts.back() += c;
+    }
+    return parts;
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    const std::size_t first = text.find_first_not_of(" \t");
+    return first == std::string_view::npos
+               ? std::string_view{}
+               : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// A range, a list, or values between commas; a bare word is a string.
+TomlNode axis_values(std::string_view text, const std::string& label)
+{
+    std::string_view inner = trimmed(text);
+    if (auto node = parse_toml_value(inner);
+        node && (std::holds_alternative<TomlArray>(node->value) ||
+                 std::holds_alternative<TomlTable>(node->value))) {
+        return std::move(*node);
+    }
+    if (inner.size() >= 2 && inner.front() == '[' && inner.back() == ']') {
+        inner = inner.substr(1, inner.size() - 2);
+    }
+    TomlArray values;
+    for (const std::string& part : split_at_commas(inner)) {
+        const std::string_view word = trimmed(part);
+        auto node = parse_toml_value(word);
+        if (!node && (word.empty() || word.find_first_of("[]{}\"'=") != std::string_view::npos)) {
+            throw InputError(fmt::format(
+                "{}: write a list, [512, 1024], or a range, {{from = 1e-6, to = 0.1, count = 50, "
+                "scale = \"log\"}}",
+                label));
+        }
+        values.push_back(node ? std::move(*node) : TomlNode{std::string{word}});
+    }
+    return {std::move(values)};
+}
+
+} // namespace
+
+void check_axis_lengths(const Sweep& sweep, const std::string& file)
 {
     std::size_t value_count = 0;
     for (const SweepAxis& axis : sweep.axes) {
@@ -203,7 +263,22 @@ void check_lengths(const Sweep& sweep, const std::string& file)
     }
 }
 
-} // namespace
+SweepAxis read_axis_argument(const std::string& argument)
+{
+    const std::size_t equals = argument.find('=');
+    const std::string label = fmt::format("--axis {}", one_line(argument));
+    if (equals == std::string::npos || equals == 0) {
+        throw InputError(fmt::format(
+            "{}: write KEY=VALUES, e.g. --axis shadow_map.resolution=512,1024,2048", label));
+    }
+    const std::string key = argument.substr(0, equals);
+    const KeySpec* spec = find_key(key);
+    if (spec == nullptr) {
+        throw InputError(fmt::format("{}: unknown key {}; the nearest is {}", label,
+                                     toml_excerpt({key}), nearest_key(key)));
+    }
+    return read_axis(*spec, axis_values(argument.substr(equals + 1), label), label);
+}
 
 Sweep read_sweep(const TomlMember& member, const std::string& file)
 {
@@ -228,8 +303,9 @@ Sweep read_sweep(const TomlMember& member, const std::string& file)
                 throw InputError(fmt::format("{}[sweep] {}: the axis is given twice; keep one",
                                              place.text(), spec.key.name));
             }
-            sweep.axes.push_back(read_axis(spec, node, place));
-            check_lengths(sweep, file);
+            sweep.axes.push_back(read_axis(
+                spec, node, fmt::format("{}[sweep] {}", place.text(), spec.key.name)));
+            check_axis_lengths(sweep, file);
         });
     return sweep;
 }

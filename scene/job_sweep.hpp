@@ -12,4 +12,13 @@ namespace gnomon::scene {
 /// @throws InputError  "file:line: [sweep] key = value: …".
 [[nodiscard]] Sweep read_sweep(const TomlMember& member, const std::string& file);
 
+/// Reads "KEY=VALUES" of `--axis`: a TOML list or range, or values between commas, where a bare
+/// word is a string.
+/// @throws InputError  "--axis KEY=VALUES: …".
+[[nodiscard]] SweepAxis read_axis_argument(const std::string& argument);
+
+/// Axes of `mode = "zip"` must be equally long, and no sweep holds too many values.
+/// @throws InputError  naming the axis.
+void check_axis_lengths(const Sweep& sweep, const std::string& file);
+
 } // namespace gnomon::scene

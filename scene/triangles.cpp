@@ -1,6 +1,7 @@
 #include "scene/triangles.hpp"
 
 #include "scene/error.hpp"
+#include "scene/fnv1a.hpp"
 #include "scene/job_file.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -109,21 +110,6 @@ void clear_role(TriangleScene& scene, bool Object::*role, std::span<const std::s
         }
     }
 }
-
-class Fnv1a {
-public:
-    void add(const void* bytes, std::size_t size)
-    {
-        const auto* byte = static_cast<const unsigned char*>(bytes);
-        for (std::size_t i = 0; i < size; ++i) {
-            hash_ = (hash_ ^ byte[i]) * 0x100000001b3ULL;
-        }
-    }
-    [[nodiscard]] std::uint64_t value() const { return hash_; }
-
-private:
-    std::uint64_t hash_ = 0xcbf29ce484222325ULL;
-};
 
 } // namespace
 
@@ -262,7 +248,7 @@ std::string content_hash(const TriangleScene& scene)
     for (const Object& object : scene.objects) {
         const std::array<std::uint32_t, 4> facts{object.first_triangle, object.triangle_count,
                                                  object.casts ? 1U : 0U, object.receives ? 1U : 0U};
-        hash.add(object.name.c_str(), object.name.size() + 1);
+        hash.add(object.name);
         hash.add(facts.data(), sizeof facts);
     }
     return fmt::format("{:016x}", hash.value());

@@ -65,6 +65,12 @@ LightSettings default_light()
 
 } // namespace
 
+Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum)
+{
+    return {constant_bias(settings, frustum), rounded_bias(settings.slope, "bias.slope"),
+            rounded_bias(settings.normal_texels, "bias.normal_texels")};
+}
+
 View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefaults& defaults)
 {
     View view;
@@ -76,8 +82,7 @@ View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefault
     view.light = make_light(light);
     view.frustum =
         fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera, job.image);
-    view.bias = {constant_bias(job.bias, view.frustum), rounded_bias(job.bias.slope, "bias.slope"),
-                 rounded_bias(job.bias.normal_texels, "bias.normal_texels")};
+    view.bias = resolve_bias(job.bias, view.frustum);
     return view;
 }
 

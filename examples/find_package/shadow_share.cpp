@@ -38,7 +38,7 @@ void print_shadow_share(const char* name)
     const scene::TruthLayers truth = find_truth(triangles, scene::resolve_view(job, triangles, {}));
 
     const scene::LookupLayers no_lookup{scene::Image<scene::LookupSample>{job.image}};
-    const analysis::ClassCounts counts = analysis::measure(truth, no_lookup).pixels;
+    const analysis::ClassCounts counts = analysis::measure(truth, no_lookup, 1).pixels;
     std::printf("%s: %" PRIu64 " of %" PRIu64 " pixels in the light's reach are in shadow\n", name,
                 counts.of(scene::PixelClass::blocked), counts.scored());
 }

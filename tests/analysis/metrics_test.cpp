@@ -45,7 +45,7 @@ Layers layers_of(const std::vector<Pixel>& pixels)
 Metrics measure(const std::vector<Pixel>& pixels)
 {
     const Layers layers = layers_of(pixels);
-    return analysis::measure(layers.truth, layers.lookup);
+    return analysis::measure(layers.truth, layers.lookup, 0);
 }
 
 TEST(Measure, CountsEveryClassAndReason)
@@ -150,7 +150,7 @@ TEST(Measure, GivesTheSameBitsWithAnyNumberOfThreads)
     const Layers layers = layers_of(pixels);
     const auto with_threads = [&](std::size_t threads) {
         const tbb::global_control limit{tbb::global_control::max_allowed_parallelism, threads};
-        return *analysis::measure(layers.truth, layers.lookup).mean_abs_error;
+        return *analysis::measure(layers.truth, layers.lookup, 0).mean_abs_error;
     };
     const double one = with_threads(1);
     EXPECT_EQ(one, with_threads(2));
@@ -187,7 +187,7 @@ TEST(Measure, RejectsLayersOfDifferentSize)
 {
     Layers layers = layers_of({{PixelClass::lit}, {PixelClass::lit}});
     layers.lookup.samples = scene::Image<scene::LookupSample>{scene::ImageSize{1, 2}};
-    EXPECT_THROW((void)analysis::measure(layers.truth, layers.lookup), std::invalid_argument);
+    EXPECT_THROW((void)analysis::measure(layers.truth, layers.lookup, 0), std::invalid_argument);
 }
 
 } // namespace

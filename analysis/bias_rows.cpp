@@ -1,0 +1,371 @@
+#include "analysis/bias_rows.hpp"
+
+#include "analysis/metrics.hpp"
+#include "analysis/pcf_taps.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::PixelClass;
+
+namespace {
+
+constexpr std::size_t pixels_per_task = std::size_t{1} << 16U;
+
+void require_ascending(std::span<const float> biases)
+{
+    if (std::adjacent_find(biases.begin(), biases.end(), std::greater_equal<>{}) != biases.end()) {
+        throw std::invalid_argument("count_rows: biases: must ascend");
+    }
+}
+
+/// How the counts of wrong pixels, by cause and label, change from one bias to the next. Sums of
+/// integers: the same in whatever order.
+class Changes {
+public:
+    explicit Changes(std::size_t biases) : changes_(biases + 1) {}
+
+    /// Counts a pixel of this truth that is wrong at the biases [first, last).
+    void add(std::size_t first, std::size_t last, PixelClass truth, Cause cause, Label label)
+    {
+        if (first < last) {
+            const std::size_t cell = cell_of(truth, cause, label);
+            ++changes_[first][cell];
+            --changes_[last][cell];
+        }
+    }
+
+    void add(const Changes& other)
+    {
+        for (std::size_t i = 0; i < changes_.size(); ++i) {
+            for (std::size_t j = 0; j < changes_[i].size(); ++j) {
+                changes_[i][j] += other.changes_[i][j];
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<BiasRow> rows() const
+    {
+        std::vector<BiasRow> rows(changes_.size() - 1);
+        std::array<std::int64_t, cells> counts{};
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            for (std::size_t j = 0; j < cells; ++j) {
+                counts[j] += changes_[i][j];
+                add_cell(rows[i], j, static_cast<std::uint64_t>(counts[j]));
+            }
+        }
+        return rows;
+    }
+
+private:
+    static constexpr std::size_t labels = label_names.size();
+    static constexpr std::size_t cells = 2 * cause_names.size() * labels;
+
+    static std::size_t cell_of(PixelClass truth, Cause cause, Label label)
+    {
+        const std::size_t side = truth == PixelClass::blocked ? 1 : 0;
+        return (side * cause_names.size() + static_cast<std::size_t>(cause)) * labels +
+               static_cast<std::size_t>(label);
+    }
+    static void add_cell(BiasRow& row, std::size_t cell, std::uint64_t count)
+    {
+        row.causes.by_cause[cell / labels % cause_names.size()] += count;
+        row.causes.by_label[cell % labels] += count;
+        (cell < cells / 2 ? row.errors.false_shadow : row.errors.false_lit) += count;
+    }
+
+    std::vector<std::array<std::int64_t, cells>> changes_;
+};
+
+/// Counts pixels at every bias at once: each changes its verdict at its critical bias, and its
+/// cause at the bias with which exact depths repair it.
+class RowCounter {
+public:
+    RowCounter(const BiasRowInputs& inputs, std::span<const float> biases)
+        : inputs_{inputs},
+          biases_{biases}
+    {
+    }
+
+    void count(std::size_t pixel, Changes& changes) const
+    {
+        const PixelClass truth = inputs_.classes[pixel];
+        const PixelCause& why = inputs_.causes[pixel];
+        if (truth == PixelClass::lit) {
+            count_lit(pixel, why, changes);
+        } else if (truth == PixelClass::blocked) {
+            const std::size_t first = first_lit(inputs_.critical_bias[pixel]);
+            const Cause cause = cause_of(why, truth, 0);
+            changes.add(first, biases_.size(), truth, cause, label_of(why, truth, cause));
+        }
+    }
+
+private:
+    void count_lit(std::size_t pixel, const PixelCause& why, Changes& changes) const
+    {
+        const std::size_t last = first_lit(inputs_.critical_bias[pixel]);
+        if (last == 0) {
+            return;
+        }
+        const float slope_term = inputs_.rule.slope * inputs_.deciding.samples[pixel].tan_theta;
+        const auto cause_at = [&](float bias) {
+            return cause_of(why, PixelClass::lit, bias + slope_term);
+        };
+        // The only change from one bias to a larger one is that exact depths come to suffice.
+        const Cause smallest = cause_at(biases_.front());
+        std::size_t middle = 0;
+        if (smallest != Cause::bias && smallest != Cause::precision) {
+            const auto wrong = biases_.first(last);
+            middle = static_cast<std::size_t>(
+                std::partition_point(wrong.begin(), wrong.end(),
+                                     [&](float bias) { return cause_at(bias) == smallest; }) -
+                wrong.begin());
+            changes.add(0, middle, PixelClass::lit, smallest,
+                        label_of(why, PixelClass::lit, smallest));
+        }
+        const Cause later = smallest == Cause::bias ? Cause::bias : Cause::precision;
+        changes.add(middle, last, PixelClass::lit, later, label_of(why, PixelClass::lit, later));
+    }
+
+    /// Index of the first bias with which the pixel is lit.
+    [[nodiscard]] std::size_t first_lit(float critical) const
+    {
+        return static_cast<std::size_t>(
+            std::lower_bound(biases_.begin(), biases_.end(), critical) - biases_.begin());
+    }
+
+    const BiasRowInputs& inputs_;
+    std::span<const float> biases_;
+};
+
+/// Order statistics of a growing set of values that are all known in advance: a Fenwick tree over
+/// their ranks. Source: P. M. Fenwick, "A new data structure for cumulative frequency tables",
+/// Software: Practice and Experience 24 (1994).
+class GrowingQuantiles {
+public:
+    explicit GrowingQuantiles(const std::vector<float>& values)
+        : order_(values.size()),
+          rank_(values.size()),
+          values_(values.size()),
+          tree_(values.size() + 1)
+    {
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            rank_[order_[i]] = i;
+            values_[i] = values[order_[i]];
+        }
+    }
+
+    void insert(std::size_t index)
+    {
+        for (std::size_t i = rank_[index] + 1; i < tree_.size(); i += i & (~i + 1)) {
+            ++tree_[i];
+        }
+        ++count_;
+    }
+
+    [[nodiscard]] std::optional<Quantiles> quantiles() const
+    {
+        if (count_ == 0) {
+            return std::nullopt;
+        }
+        return Quantiles{count_, nth(1), nth(quantile_rank(count_, 50)),
+                         nth(quantile_rank(count_, 95)), nth(count_)};
+    }
+
+private:
+    /// The n-th smallest value in the set, n counted from 1.
+    [[nodiscard]] float nth(std::size_t n) const
+    {
+        std::size_t position = 0;
+        for (std::size_t step = std::bit_floor(tree_.size()); step > 0; step /= 2) {
+            if (position + step < tree_.size() && tree_[position + step] < n) {
+                position += step;
+                n -= tree_[position];
+            }
+        }
+        return values_[position];
+    }
+
+    std::vector<std::size_t> order_;
+    std::vector<std::size_t> rank_;
+    std::vector<float> values_; ///< ascending
+    std::vector<std::size_t> tree_;
+    std::size_t count_ = 0;
+};
+
+/// Wrong taps at each bias, as differences from one bias to the next.
+class TapChanges {
+public:
+    explicit TapChanges(std::size_t biases) : changes_(biases + 1) {}
+
+    /// Counts `taps` as wrong at the biases [first, last).
+    void add(std::size_t first, std::size_t last, std::int64_t taps)
+    {
+        changes_[first] += taps;
+        changes_[last] -= taps;
+    }
+    void add(const TapChanges& other)
+    {
+        std::transform(changes_.begin(), changes_.end(), other.changes_.begin(), changes_.begin(),
+                       std::plus<>{});
+    }
+    [[nodiscard]] std::vector<std::uint64_t> sums() const
+    {
+        std::vector<std::uint64_t> sums(changes_.size() - 1);
+        std::partial_sum(changes_.begin(), changes_.end() - 1, sums.begin());
+        return sums;
+    }
+
+private:
+    std::vector<std::int64_t> changes_;
+};
+
+/// Counts a pcfK lookup's taps that disagree with the truth.
+class TapCounter {
+public:
+    TapCounter(const scene::Image<PixelClass>& classes, const scene::LookupLayers& lookup,
+               PcfTaps taps, const LookupRule& rule, std::span<const float> biases)
+        : classes_{classes},
+          lookup_{lookup},
+          taps_{std::move(taps)},
+          rule_{rule},
+          biases_{biases}
+    {
+    }
+
+    void count(std::size_t pixel, TapChanges& changes) const
+    {
+        const PixelClass truth = classes_[pixel];
+        if (!scene::is_scored(truth)) {
+            return;
+        }
+        const scene::LookupSample& sample = lookup_.samples[pixel];
+        std::array<float, PcfTaps::most_taps> depths; // filled as far as it is read
+        const auto read = taps_.gather(sample, lookup_.texels[pixel], depths);
+        const bool is_lit_truth = truth == PixelClass::lit;
+        if (read.empty()) {
+            const bool is_wrong = is_lit_truth == (rule_.outside == scene::Outside::shadowed);
+            changes.add(0, biases_.size(), is_wrong ? equal_taps(rule_.filter) : 0);
+            return;
+        }
+        const float slope_term = rule_.slope * sample.tan_theta;
+        for (const float depth : read) {
+            const std::size_t first = first_lit(sample.receiver_depth, depth, slope_term);
+            changes.add(is_lit_truth ? 0 : first, is_lit_truth ? first : biases_.size(), 1);
+        }
+    }
+
+private:
+    /// Index of the first bias with which the tap is lit.
+    [[nodiscard]] std::size_t first_lit(float r, float d, float slope_term) const
+    {
+        const auto first =
+            std::partition_point(biases_.begin(), biases_.end(),
+                                 [&](float bias) { return !is_lit(r, d, bias + slope_term); });
+        return static_cast<std::size_t>(first - biases_.begin());
+    }
+    /// The lookup's comparison; an infinite depth stands for the policy's verdict.
+    [[nodiscard]] bool is_lit(float r, float d, float bias) const
+    {
+        return rule_.reversed ? r + bias >= d : r - bias <= d;
+    }
+
+    const scene::Image<PixelClass>& classes_;
+    const scene::LookupLayers& lookup_;
+    PcfTaps taps_;
+    const LookupRule& rule_;
+    std::span<const float> biases_;
+};
+
+/// Adds up what `count` says of each pixel.
+template <typename Sum, typename Count>
+Sum sum_over_pixels(std::size_t pixels, const Sum& zero, const Count& count)
+{
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>{0, pixels, pixels_per_task}, zero,
+        [&](const tbb::blocked_range<std::size_t>& part, Sum sum) {
+            for (std::size_t i = part.begin(); i != part.end(); ++i) {
+                count(i, sum);
+            }
+            return sum;
+        },
+        [](Sum a, const Sum& b) {
+            a.add(b);
+            return a;
+        });
+}
+
+} // namespace
+
+std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, std::span<const float> biases)
+{
+    require_ascending(biases);
+    const scene::ImageSize size = inputs.classes.size();
+    if (inputs.deciding.samples.size() != size || inputs.critical_bias.size() != size ||
+        inputs.causes.size() != size) {
+        throw std::invalid_argument("count_rows: inputs: the images differ in size");
+    }
+    if (biases.empty()) {
+        return {};
+    }
+    const RowCounter counter{inputs, biases};
+    const Changes changes = sum_over_pixels(
+        inputs.classes.pixel_count(), Changes{biases.size()},
+        [&](std::size_t pixel, Changes& sum) { counter.count(pixel, sum); });
+    return changes.rows();
+}
+
+std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& classes,
+                                            const scene::LookupLayers& lookup,
+                                            const scene::Image<float>& map_depths,
+                                            const LookupRule& rule, std::span<const float> biases)
+{
+    require_ascending(biases);
+    const TapCounter counter{classes, lookup, {map_depths, rule}, rule, biases};
+    const TapChanges changes =
+        sum_over_pixels(classes.pixel_count(), TapChanges{biases.size()},
+                        [&](std::size_t pixel, TapChanges& sum) { counter.count(pixel, sum); });
+    return changes.sums();
+}
+
+std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps, std::span<const float> biases)
+{
+    require_ascending(biases);
+    std::sort(gaps.begin(), gaps.end(), [](const PanningGap& a, const PanningGap& b) {
+        return a.critical_bias < b.critical_bias;
+    });
+    std::vector<float> metres;
+    std::vector<float> texels;
+    for (const PanningGap& gap : gaps) {
+        metres.push_back(gap.gap.metres);
+        texels.push_back(gap.gap.texels);
+    }
+    GrowingQuantiles in_metres{metres};
+    GrowingQuantiles in_texels{texels};
+    std::vector<Gaps> rows;
+    std::size_t next = 0;
+    for (const float bias : biases) {
+        for (; next < gaps.size() && gaps[next].critical_bias <= bias; ++next) {
+            in_metres.insert(next);
+            in_texels.insert(next);
+        }
+        rows.push_back({in_metres.quantiles(), in_texels.quantiles()});
+    }
+    return rows;
+}
+
+} // namespace gnomon::analysis

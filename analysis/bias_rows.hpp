@@ -1,0 +1,58 @@
+#pragma once
+
+#include "analysis/bias_curve.hpp"
+#include "analysis/cause.hpp"
+#include "analysis/causes.hpp"
+#include "analysis/critical_bias.hpp"
+#include "analysis/gaps.hpp"
+#include "scene/image.hpp"
+#include "scene/layers.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Wrong pixels by cause and label with one constant bias.
+struct BiasRow {
+    ErrorCounts errors;
+    CauseCounts causes;
+};
+
+/// What rows are counted from; images of one size.
+struct BiasRowInputs {
+    const scene::Image<scene::PixelClass>& classes;
+    const scene::LookupLayers& deciding;      ///< from `deciding_samples`
+    const scene::Image<float>& critical_bias; ///< with the rule's slope
+    const scene::Image<PixelCause>& causes;
+    LookupRule rule;
+};
+
+/// The counts at each bias, from one pass over the pixels: those that GL's own run with that bias
+/// would give.
+/// @param biases  Ascending, 0 or normal.
+/// @throws std::invalid_argument  if the images differ in size or the biases do not ascend.
+[[nodiscard]] std::vector<BiasRow> count_rows(const BiasRowInputs& inputs,
+                                              std::span<const float> biases);
+
+/// Σ |verdict − truth| over the scored pixels at each bias, in units of one of a pcfK lookup's K²
+/// taps.
+/// @param map_depths  As shaders see them, top left first.
+[[nodiscard]] std::vector<std::uint64_t>
+count_wrong_taps(const scene::Image<scene::PixelClass>& classes, const scene::LookupLayers& lookup,
+                 const scene::Image<float>& map_depths, const LookupRule& rule,
+                 std::span<const float> biases);
+
+/// A pixel whose shadow the bias detaches, once it is at least `critical_bias`.
+struct PanningGap {
+    float critical_bias = 0;
+    PixelGap gap;
+};
+
+/// The peter-panning lengths at each bias.
+/// @param biases  Ascending.
+[[nodiscard]] std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps,
+                                             std::span<const float> biases);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,165 @@
+#include "analysis/sweep/catalogue.hpp"
+
+#include "scene/error.hpp"
+#include "scene/fnv1a.hpp"
+#include "scene/job_file.hpp"
+#include "scene/job_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+/// The name of what these parameters give in this scene.
+std::string id_of(std::string_view version, std::string_view scene_hash,
+                  const Parameters& parameters, bool with_constant_bias)
+{
+    scene::Fnv1a hash;
+    hash.add(version);
+    hash.add(scene_hash);
+    for (const auto& [key, value] : parameters) {
+        // The file's place says nothing that its content's hash does not.
+        if (key != "scene.file" && (with_constant_bias || !scene::is_constant_bias(key))) {
+            hash.add(key);
+            hash.add(value);
+        }
+    }
+    return fmt::format("{:016x}", hash.value());
+}
+
+/// The name of the job's bias curve; `hardware` has none, and each of its biases is by itself.
+std::string curve_of(std::string_view version, std::string_view scene_hash, const scene::Job& job,
+                     const Parameters& parameters)
+{
+    const bool has_curve = job.lookup.filter != scene::Filter::hardware;
+    return id_of(version, scene_hash, parameters, !has_curve);
+}
+
+/// Writes the job's constant bias over that of other parameters of the same structure.
+void replace_constant_bias(Parameters& parameters, const scene::Job& job)
+{
+    for (auto& [key, value] : parameters) {
+        if (scene::is_constant_bias(key)) {
+            if (const auto held = scene::find_key(key)->get(job)) {
+                value = scene::to_toml(*held);
+            }
+        }
+    }
+}
+
+} // namespace
+
+SweepCatalogue::SweepCatalogue(const scene::SweepSpace& space, bool keeps_every_bias,
+                               std::string version)
+    : space_{space},
+      keeps_every_bias_{keeps_every_bias},
+      version_{std::move(version)}
+{
+    std::map<std::uint64_t, std::vector<std::uint64_t>> structures;
+    std::vector<std::uint64_t> order; // of their first configurations
+    for (std::uint64_t ordinal = 0; ordinal < space.size(); ++ordinal) {
+        const std::uint64_t structure = space.structure(space.at(ordinal));
+        auto& members = structures[structure];
+        if (members.empty()) {
+            order.push_back(structure);
+        }
+        members.push_back(ordinal);
+    }
+    for (const std::uint64_t structure : order) {
+        add_structure(std::move(structures[structure]));
+    }
+}
+
+void SweepCatalogue::add_structure(std::vector<std::uint64_t> ordinals)
+{
+    scene::Job job;
+    try {
+        job = space_.job(space_.at(ordinals.front()));
+    } catch (const scene::InputError& error) {
+        refusals_.push_back({std::move(ordinals), error.what()});
+        return;
+    }
+    if (!keeps_every_bias_ && job.lookup.filter != scene::Filter::hardware) {
+        add_request(job, std::move(ordinals));
+        return;
+    }
+    for (const std::uint64_t ordinal : ordinals) {
+        space_.set_constant_bias(job, space_.at(ordinal));
+        add_request(job, {ordinal});
+    }
+}
+
+void SweepCatalogue::add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals)
+{
+    const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
+    requests_.push_back({keeps_every_bias_ ? stage_keys_with_bias(job) : stage_keys(job),
+                         std::move(ordinals), job.image.pixel_count(), side * side});
+}
+
+scene::Job SweepCatalogue::job(std::size_t request) const
+{
+    return space_.job(space_.at(requests_[request].ordinals.front()));
+}
+
+SweepTask SweepCatalogue::task(std::size_t request, std::string_view scene_hash) const
+{
+    const auto& ordinals = requests_[request].ordinals;
+    scene::Job job = this->job(request);
+    SweepTask task;
+    task.id = curve_of(version_, scene_hash, job, scene::resolved_keys(job));
+    task.job = job;
+    const scene::BiasSettings own = space_.own_constant_bias(space_.at(ordinals.front()));
+    task.job.bias.constant = own.constant;
+    task.job.bias.constant_m = own.constant_m;
+    for (const std::uint64_t ordinal : ordinals) {
+        space_.set_constant_bias(job, space_.at(ordinal));
+        task.rows.push_back({ordinal, job.bias});
+    }
+    return task;
+}
+
+void SweepCatalogue::describe(std::size_t request, std::string_view scene_hash,
+                              const Visit& visit) const
+{
+    const auto& ordinals = requests_[request].ordinals;
+    scene::Job job = this->job(request);
+    Configuration configuration;
+    configuration.parameters = scene::resolved_keys(job);
+    configuration.scene_hash = scene_hash;
+    configuration.curve = curve_of(version_, scene_hash, job, configuration.parameters);
+    configuration.case_name = space_.case_name(space_.at(ordinals.front()));
+    for (const std::uint64_t ordinal : ordinals) {
+        space_.set_constant_bias(job, space_.at(ordinal));
+        replace_constant_bias(configuration.parameters, job);
+        configuration.ordinal = ordinal;
+        configuration.id = id_of(version_, scene_hash, configuration.parameters, true);
+        visit(configuration);
+    }
+}
+
+void SweepCatalogue::describe(const Refusal& refusal, const Visit& visit) const
+{
+    for (const std::uint64_t ordinal : refusal.ordinals) {
+        const scene::SweepPoint point = space_.at(ordinal);
+        Configuration configuration;
+        configuration.ordinal = ordinal;
+        configuration.case_name = space_.case_name(point);
+        for (std::size_t axis = 0; axis < space_.axes().size(); ++axis) {
+            const scene::SweepAxis& values = space_.axes()[axis];
+            configuration.parameters.emplace_back(values.key, values.values[point.values[axis]]);
+        }
+        configuration.id =
+            id_of(version_, configuration.case_name, configuration.parameters, true);
+        configuration.curve =
+            id_of(version_, configuration.case_name, configuration.parameters, false);
+        visit(configuration);
+    }
+}
+
+} // namespace gnomon::analysis

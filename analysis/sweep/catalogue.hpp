@@ -1,0 +1,58 @@
+#pragma once
+
+#include "analysis/sweep/plan.hpp"
+#include "analysis/sweep/results.hpp"
+#include "analysis/sweep/runner.hpp"
+#include "scene/job.hpp"
+#include "scene/sweep_space.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Configurations that no stage is run for, and why.
+struct Refusal {
+    std::vector<std::uint64_t> ordinals; ///< ascending
+    std::string message;
+};
+
+/// All configurations of a sweep, sorted into bias curves: the jobs behind the numbers.
+class SweepCatalogue {
+public:
+    /// @param space             must outlive the catalogue.
+    /// @param keeps_every_bias  each configuration is a request of its own, to keep its pixels.
+    /// @param version           of the program: part of every id.
+    SweepCatalogue(const scene::SweepSpace& space, bool keeps_every_bias, std::string version);
+
+    /// One for each bias curve, in the order of their first configurations.
+    [[nodiscard]] const std::vector<CurveRequest>& requests() const { return requests_; }
+    /// Configurations whose keys do not go together.
+    [[nodiscard]] const std::vector<Refusal>& refusals() const { return refusals_; }
+
+    /// A job of the request.
+    [[nodiscard]] scene::Job job(std::size_t request) const;
+    /// @param scene_hash  `scene::content_hash` of the request's scene.
+    [[nodiscard]] SweepTask task(std::size_t request, std::string_view scene_hash) const;
+
+    using Visit = std::function<void(const Configuration&)>;
+    /// Says who the request's configurations are.
+    void describe(std::size_t request, std::string_view scene_hash, const Visit& visit) const;
+    /// Says who the refused ones are: by their number, case and axes alone.
+    void describe(const Refusal& refusal, const Visit& visit) const;
+
+private:
+    void add_structure(std::vector<std::uint64_t> ordinals);
+    void add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals);
+
+    const scene::SweepSpace& space_;
+    bool keeps_every_bias_;
+    std::string version_;
+    std::vector<CurveRequest> requests_;
+    std::vector<Refusal> refusals_;
+};
+
+} // namespace gnomon::analysis

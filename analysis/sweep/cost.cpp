@@ -1,0 +1,98 @@
+#include "analysis/sweep/cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using Kind = SweepStep::Kind;
+
+// Bytes a pixel: receivers 40 and lookup 24 on the GPU; triangle, class, reason, witness and gap 18
+// for each camera; two lookups under way, each 24, with causes, distances and errors 60.
+constexpr std::uint64_t camera_bytes = 40 + 18;
+constexpr std::uint64_t lookup_bytes = 24 + 2 * 24 + 60;
+constexpr std::uint64_t texel_bytes = 12; ///< u-formats, or a GL format and its depths read back
+
+/// Pixels of all cameras that are kept side by side.
+constexpr std::uint64_t kept_pixels = 4U << 20U;
+constexpr std::uint64_t most_slots = 8;
+
+std::uint64_t most_pixels(std::span<const CurveRequest> requests)
+{
+    std::uint64_t most = 1;
+    for (const CurveRequest& request : requests) {
+        most = std::max(most, request.pixels);
+    }
+    return most;
+}
+
+} // namespace
+
+double estimate_seconds(const SweepStep& step, const CurveRequest& request)
+{
+    const auto pixels = static_cast<double>(request.pixels);
+    const auto texels = static_cast<double>(request.texels);
+    switch (step.kind) {
+    case Kind::read_scene:
+        return 0.5;
+    case Kind::draw_receivers:
+        return 0.01 + pixels * 30e-9;
+    case Kind::find_truth:
+        return pixels * 250e-9;
+    case Kind::draw_shadow_map:
+        return 0.005 + texels * 3e-9;
+    case Kind::look_up:
+        return pixels * 40e-9;
+    case Kind::answer:
+        return pixels * 400e-9 + static_cast<double>(request.ordinals.size()) * 30e-6;
+    }
+    return 0;
+}
+
+double estimate_seconds(const SweepPlan& plan, std::span<const CurveRequest> requests)
+{
+    double seconds = 0;
+    for (const SweepStep& step : plan.steps) {
+        seconds += estimate_seconds(step, requests[step.curve]);
+    }
+    return seconds;
+}
+
+std::uint64_t estimate_bytes(const SweepPlan& plan, std::span<const CurveRequest> requests)
+{
+    std::uint64_t most_texels = 0;
+    for (const CurveRequest& request : requests) {
+        most_texels = std::max(most_texels, request.texels);
+    }
+    return most_pixels(requests) * (plan.slots * camera_bytes + lookup_bytes) +
+           most_texels * texel_bytes;
+}
+
+std::size_t camera_slots(std::span<const CurveRequest> requests)
+{
+    return std::clamp<std::uint64_t>(kept_pixels / most_pixels(requests), 1, most_slots);
+}
+
+std::vector<std::uint32_t> divide(const SweepPlan& plan, std::span<const CurveRequest> requests,
+                                  std::uint32_t shards)
+{
+    const double whole = estimate_seconds(plan, requests);
+    std::vector<std::uint32_t> shard_of(requests.size(), 1);
+    double before = 0;
+    double pending = 0; // of the steps that lead to the next answer
+    for (const SweepStep& step : plan.steps) {
+        pending += estimate_seconds(step, requests[step.curve]);
+        if (step.kind == Kind::answer) {
+            const double middle = before + pending / 2;
+            const double part = std::floor(middle / whole * shards);
+            shard_of[step.curve] = 1 + std::min(shards - 1, static_cast<std::uint32_t>(part));
+            before += pending;
+            pending = 0;
+        }
+    }
+    return shard_of;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,214 @@
+#include "analysis/sweep/lookup_answers.hpp"
+
+#include "analysis/bias_answers.hpp"
+#include "analysis/map_errors.hpp"
+#include "analysis/own_sheets.hpp"
+#include "analysis/tune.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::PixelClass;
+
+namespace {
+
+constexpr std::uint8_t not_asked = 2;
+
+/// A curve, and what its description is made from.
+struct DescribedCurve {
+    const scene::Job& job;
+    const scene::View& view;
+    const BiasCurve& curve;
+    const BestBiases& best;
+    const BiasBounds& bounds;
+    const BreakdownInputs& inputs;
+    float job_bias;
+};
+
+CurveResult describe_map(std::string id, const scene::Job& job, const scene::View& view)
+{
+    CurveResult result;
+    result.id = std::move(id);
+    result.near_m = view.frustum.near_m;
+    result.far_m = view.frustum.far_m;
+    result.map_bytes = map_bytes(job.shadow_map);
+    return result;
+}
+
+CurveResult describe(std::string id, const DescribedCurve& described)
+{
+    using At = DistanceProfile::At;
+    CurveResult result = describe_map(std::move(id), described.job, described.view);
+    result.best = described.best;
+    result.bounds = described.bounds;
+    result.points = sample_curve(described.curve);
+    BreakdownInputs inputs = described.inputs;
+    for (const auto& [at, bias] : {std::pair{At::job_bias, described.job_bias},
+                                   std::pair{At::best_bias, described.best.recommended()}}) {
+        inputs.bias = bias;
+        result.by_distance.push_back({at, bias, errors_by_distance(inputs)});
+    }
+    return result;
+}
+
+std::vector<float> ascending_biases(const CurveQuestion& question)
+{
+    std::vector<float> biases;
+    for (const CurveQuestion::Row& row : question.rows) {
+        biases.push_back(row.bias);
+    }
+    std::sort(biases.begin(), biases.end());
+    biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
+    return biases;
+}
+
+} // namespace
+
+LookupAnswers::LookupAnswers(const scene::TriangleScene& triangles,
+                             std::shared_ptr<SweepSubject> subject, SweepLookup lookup,
+                             const Renderers& renderers)
+    : subject_{std::move(subject)},
+      lookup_{std::move(lookup)},
+      geometry_{triangles, lookup_.view, subject_->receivers.triangle},
+      light_{renderers.make_exact_light(lookup_.job, lookup_.view, subject_->receivers)},
+      rule_{lookup_rule(lookup_.job, lookup_.view)},
+      deciding_{deciding_samples(lookup_.layers, lookup_.layers.texels, lookup_.map_depths, rule_)},
+      causes_{find_causes(cause_inputs())},
+      zeta_m_{light_distances_m(subject_->truth.pixel_class, geometry_)},
+      map_error_m_{map_depth_errors_m(cause_inputs(), lookup_.view.frustum,
+                                      lookup_.job.shadow_map.depth_format)},
+      detaches_{lookup_.view.image, not_asked}
+{
+}
+
+CauseInputs LookupAnswers::cause_inputs() const
+{
+    const bool is_moved = !lookup_.unmoved.samples.empty();
+    return {lookup_.job.lookup,
+            lookup_.job.shadow_map.resolution_texels,
+            lookup_.view.frustum.reversed,
+            subject_->truth,
+            is_moved ? lookup_.unmoved : lookup_.layers,
+            lookup_.map_depths,
+            *light_};
+}
+
+std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& critical,
+                                                    float largest_bias)
+{
+    const auto& classes = subject_->truth.pixel_class;
+    std::vector<std::size_t> panning;
+    std::vector<std::size_t> unknown;
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (classes[i] != PixelClass::blocked || causes_[i].unbiased != Cause::none ||
+            critical[i] > largest_bias) {
+            continue;
+        }
+        panning.push_back(i);
+        if (detaches_[i] == not_asked) {
+            detaches_[i] = 0;
+            unknown.push_back(i);
+        }
+    }
+    for (const std::size_t pixel : detached_pixels(cause_inputs(), unknown)) {
+        detaches_[pixel] = 1;
+    }
+    std::erase_if(panning, [&](std::size_t pixel) { return detaches_[pixel] == 0; });
+    subject_->gaps.find(*light_, panning);
+    const auto lengths =
+        gaps_of_pixels(subject_->gaps, panning, geometry_, lookup_.view.frustum,
+                       lookup_.job.shadow_map.resolution_texels);
+    std::vector<PanningGap> gaps;
+    gaps.reserve(panning.size());
+    for (std::size_t i = 0; i < panning.size(); ++i) {
+        gaps.push_back({critical[panning[i]], lengths[i]});
+    }
+    return gaps;
+}
+
+void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<float>& critical,
+                             const LookupRule& rule, FinishedCurve& finished)
+{
+    const std::vector<float> biases = ascending_biases(question);
+    if (biases.empty()) {
+        return;
+    }
+    const auto& classes = subject_->truth.pixel_class;
+    const int taps = equal_taps(rule.filter);
+    const auto counts = count_rows({classes, deciding_, critical, causes_, rule}, biases);
+    const auto wrong_taps =
+        taps > 1 ? count_wrong_taps(classes, lookup_.layers, lookup_.map_depths, rule, biases)
+                 : std::vector<std::uint64_t>{};
+    const auto gaps = find_gaps_at(panning_gaps(critical, biases.back()), biases);
+    for (const CurveQuestion::Row& row : question.rows) {
+        const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
+        const auto i = static_cast<std::size_t>(found - biases.begin());
+        const ErrorCounts& errors = counts[i].errors;
+        const std::uint64_t wrong = taps > 1 ? wrong_taps[i] : errors.total();
+        finished.rows.push_back(
+            {row.ordinal,
+             {make_metrics(subject_->classes, {errors.false_shadow, errors.false_lit,
+                                               static_cast<double>(wrong) / taps}),
+              counts[i].causes, gaps[i]}});
+    }
+}
+
+FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
+{
+    const auto& classes = subject_->truth.pixel_class;
+    LookupRule rule = rule_;
+    rule.slope = question.slope;
+    const scene::Image<float> critical = critical_biases(deciding_, rule);
+    const BiasCurve curve{critical, classes};
+    const BestBiases best = find_best_biases(curve);
+    const BiasBounds bounds =
+        find_bias_bounds(curve, critical, classes, acne_flags(classes, causes_),
+                         forgive_footprints(subject_->gaps, *light_, geometry_));
+    FinishedCurve finished;
+    finished.curve = describe(question.id, {lookup_.job,
+                                            lookup_.view,
+                                            curve,
+                                            best,
+                                            bounds,
+                                            {classes, deciding_, critical, zeta_m_, map_error_m_},
+                                            question.job_bias});
+    add_rows(question, critical, rule, finished);
+    return finished;
+}
+
+FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
+                              std::uint64_t ordinal, float job_bias)
+{
+    if (!comparison.diagnosis) {
+        throw std::invalid_argument("finish_compared: comparison: it has no diagnosis");
+    }
+    const Diagnosis& diagnosis = *comparison.diagnosis;
+    FinishedCurve finished;
+    finished.rows.push_back(
+        {ordinal,
+         {comparison.metrics, diagnosis.causes.counts, diagnosis.peter_panning}});
+    if (!diagnosis.biases) {
+        finished.curve = describe_map(std::move(curve), comparison.job, comparison.view);
+        finished.curve.by_distance.push_back({DistanceProfile::At::job_bias,
+                                              comparison.view.bias.constant,
+                                              diagnosis.by_distance});
+        return finished;
+    }
+    const BiasAnswers& answers = *diagnosis.biases;
+    finished.curve =
+        describe(std::move(curve), {comparison.job,
+                                    comparison.view,
+                                    answers.curve,
+                                    answers.best,
+                                    answers.bounds,
+                                    {comparison.truth.pixel_class, comparison.lookup,
+                                     answers.critical_bias, diagnosis.zeta_m,
+                                     diagnosis.map_error_m},
+                                    job_bias});
+    return finished;
+}
+
+} // namespace gnomon::analysis

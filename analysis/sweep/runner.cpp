@@ -1,0 +1,355 @@
+#include "analysis/sweep/runner.hpp"
+
+#include "analysis/critical_bias.hpp"
+#include "analysis/metrics.hpp"
+#include "analysis/sweep/background.hpp"
+#include "analysis/sweep/lookup_answers.hpp"
+#include "scene/error.hpp"
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using Kind = SweepStep::Kind;
+
+/// What a stage made, or why it could not.
+template <typename Value>
+struct Made {
+    std::shared_ptr<Value> value;
+    std::string error; ///< empty: `value` is there
+};
+
+/// Why work that needs a result cannot be done; thrown with the words of whatever failed first.
+struct StageFailed : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+template <typename Value>
+std::shared_ptr<Value> need(const Made<Value>& made)
+{
+    if (!made.value) {
+        throw StageFailed{made.error.empty() ? "an earlier stage did not run" : made.error};
+    }
+    return made.value;
+}
+
+/// Runs a stage; what concerns the configuration alone becomes its result.
+template <typename Value, typename Stage>
+Made<Value> make(const Stage& stage)
+{
+    try {
+        return {stage(), {}};
+    } catch (const StageFailed& error) {
+        return {nullptr, error.what()};
+    } catch (const scene::InputError& error) {
+        return {nullptr, error.what()};
+    } catch (const scene::EnvironmentError& error) {
+        return {nullptr, error.what()};
+    }
+}
+
+/// A scene in both renderers' hands, and what results say of it.
+struct ReadScene {
+    OpenScene open;
+    SceneSummary summary;
+};
+
+/// The answers of one lookup, made by the background when they are first needed.
+class LookupWork {
+public:
+    LookupWork(const ReadScene& scene, std::shared_ptr<SweepSubject> subject, SweepLookup lookup)
+        : scene_{scene},
+          subject_{std::move(subject)},
+          lookup_{std::move(lookup)}
+    {
+    }
+
+    [[nodiscard]] const scene::LightFrustum& frustum() const { return frustum_; }
+
+    [[nodiscard]] FinishedCurve answer(const CurveQuestion& question)
+    {
+        if (!answers_) {
+            answers_ = std::make_unique<LookupAnswers>(scene_.open.file->scene, subject_,
+                                                       std::move(lookup_), *scene_.open.renderers);
+        }
+        return answers_->answer(question);
+    }
+
+private:
+    const ReadScene& scene_;
+    std::shared_ptr<SweepSubject> subject_;
+    SweepLookup lookup_;
+    scene::LightFrustum frustum_ = lookup_.view.frustum;
+    std::unique_ptr<LookupAnswers> answers_;
+};
+
+/// Tells of finished and failed configurations, one at a time.
+class Teller {
+public:
+    explicit Teller(const SweepHooks& hooks) : hooks_{hooks} {}
+
+    void finished(const FinishedCurve& curve)
+    {
+        const std::lock_guard lock{mutex_};
+        hooks_.record(curve);
+    }
+    void failed(const std::vector<std::uint64_t>& ordinals, const std::string& message)
+    {
+        const std::lock_guard lock{mutex_};
+        hooks_.record_failure(ordinals, message);
+    }
+    /// Records what `work` makes of the task's rows, or why it could not.
+    template <typename Work>
+    void tell(const SweepTask& task, const Work& work)
+    {
+        const Made<FinishedCurve> made = make<FinishedCurve>(
+            [&] { return std::make_shared<FinishedCurve>(work()); });
+        if (made.value) {
+            return finished(*made.value);
+        }
+        std::vector<std::uint64_t> ordinals;
+        for (const SweepTask::Row& row : task.rows) {
+            ordinals.push_back(row.ordinal);
+        }
+        failed(ordinals, made.error);
+    }
+
+private:
+    const SweepHooks& hooks_;
+    std::mutex mutex_;
+};
+
+/// What the task asks of its curve; rows whose bias is none are told of and left out.
+CurveQuestion question_of(const SweepTask& task, const scene::LightFrustum& frustum,
+                          Teller& teller)
+{
+    const scene::Bias own = scene::resolve_bias(task.job.bias, frustum);
+    CurveQuestion question{task.id, own.slope, own.constant, {}};
+    for (const SweepTask::Row& row : task.rows) {
+        try {
+            question.rows.push_back({row.ordinal, scene::resolve_bias(row.bias, frustum).constant});
+        } catch (const scene::InputError& error) {
+            teller.failed({row.ordinal}, error.what());
+        }
+    }
+    return question;
+}
+
+class Runner {
+public:
+    Runner(const SweepPlan& plan, const SweepHooks& hooks)
+        : plan_{plan},
+          hooks_{hooks},
+          receivers_(plan.slots),
+          subjects_(plan.slots)
+    {
+    }
+
+    PlanCounts run()
+    {
+        for (const SweepStep& step : plan_.steps) {
+            if (hooks_.should_stop()) {
+                break;
+            }
+            do_step(step);
+        }
+        background_.finish();
+        return counts_;
+    }
+
+private:
+    void do_step(const SweepStep& step)
+    {
+        if (!task_ || task_curve_ != step.curve) {
+            task_ = hooks_.task(step.curve);
+            task_curve_ = step.curve;
+        }
+        switch (step.kind) {
+        case Kind::read_scene:
+            return read_scene();
+        case Kind::draw_receivers:
+            return draw_receivers(step.slot);
+        case Kind::find_truth:
+            return find_truth(step.slot);
+        case Kind::draw_shadow_map:
+            return draw_shadow_map();
+        case Kind::look_up:
+            return look_up(step.slot);
+        case Kind::answer:
+            return answer(step.slot);
+        }
+    }
+
+    [[nodiscard]] scene::View view_of(const scene::Job& job) const
+    {
+        const scene::SceneFile& file = *need(scene_)->open.file;
+        return scene::resolve_view(job, file.scene, file.defaults);
+    }
+    [[nodiscard]] const Renderers& renderers() const { return *need(scene_)->open.renderers; }
+    void select(std::size_t slot) const
+    {
+        if (renderers().select_receivers) {
+            renderers().select_receivers(slot);
+        }
+    }
+
+    void read_scene()
+    {
+        background_.finish(); // what it works on refers to the scene before
+        lookup_ = {};
+        map_ = {};
+        receivers_.assign(plan_.slots, {});
+        subjects_.assign(plan_.slots, {});
+        ++counts_.scenes;
+        scene_ = make<ReadScene>([&] {
+            const OpenScene open = hooks_.open_scene(task_->job);
+            return std::make_shared<ReadScene>(
+                ReadScene{open, summarise_scene(task_->job.scene, open.file->scene)});
+        });
+    }
+
+    void draw_receivers(std::size_t slot)
+    {
+        ++counts_.receiver_passes;
+        receivers_[slot] = make<scene::ReceiverLayers>([&] {
+            const scene::View view = view_of(task_->job);
+            select(slot);
+            return std::make_shared<scene::ReceiverLayers>(renderers().draw_receivers(view));
+        });
+    }
+
+    void find_truth(std::size_t slot)
+    {
+        ++counts_.truths;
+        subjects_[slot] = make<SweepSubject>([&] {
+            const auto receivers = need(receivers_[slot]);
+            const scene::View view = view_of(task_->job);
+            auto subject = std::make_shared<SweepSubject>(view.image);
+            subject->receivers = *receivers;
+            subject->truth = renderers().find_truth(view, subject->receivers);
+            subject->classes = count_classes(subject->truth);
+            return subject;
+        });
+    }
+
+    void draw_shadow_map()
+    {
+        ++counts_.shadow_maps;
+        map_ = make<bool>([&] {
+            renderers().draw_shadow_map(task_->job, view_of(task_->job));
+            return std::make_shared<bool>(true);
+        });
+    }
+
+    void look_up(std::size_t slot)
+    {
+        ++counts_.lookup_passes;
+        if (is_compared()) {
+            return; // each bias by itself, when it is answered
+        }
+        lookup_ = make<LookupWork>([&] {
+            static_cast<void>(need(map_));
+            static_cast<void>(need(receivers_[slot]));
+            auto subject = need(subjects_[slot]);
+            select(slot);
+            return std::make_shared<LookupWork>(*need(scene_), std::move(subject),
+                                                look_up_unbiased());
+        });
+    }
+
+    SweepLookup look_up_unbiased()
+    {
+        SweepLookup lookup;
+        lookup.job = task_->job;
+        lookup.view = view_of(task_->job);
+        scene::View view = lookup.view;
+        view.bias = {.constant = 0, .slope = 0, .normal_texels = view.bias.normal_texels};
+        lookup.layers = renderers().look_up(lookup.job, view);
+        if (!can_derive_unbiased(lookup.job, view)) {
+            view.bias = {};
+            lookup.unmoved = renderers().look_up(lookup.job, view);
+        }
+        if (lookup.job.lookup.filter != scene::Filter::nearest) {
+            lookup.map_depths = renderers().read_map_depths();
+        }
+        return lookup;
+    }
+
+    /// Whether every bias is looked up and compared by itself.
+    [[nodiscard]] bool is_compared() const
+    {
+        return hooks_.keep_pixels || task_->job.lookup.filter == scene::Filter::hardware;
+    }
+
+    void answer(std::size_t slot)
+    {
+        ++counts_.curves;
+        if (is_compared()) {
+            select(slot);
+            teller_.tell(*task_, [&] { return compare_row(slot, task_->rows.at(0)); });
+            return;
+        }
+        background_.add([this, task = std::move(*task_), lookup = lookup_] {
+            teller_.tell(task, [&] {
+                const auto work = need(lookup);
+                return work->answer(question_of(task, work->frustum(), teller_));
+            });
+        });
+        task_.reset();
+    }
+
+    FinishedCurve compare_row(std::size_t slot, const SweepTask::Row& row)
+    {
+        static_cast<void>(need(map_));
+        static_cast<void>(need(receivers_[slot]));
+        const auto subject = need(subjects_[slot]);
+        const auto scene = need(scene_);
+        Comparison comparison;
+        comparison.job = task_->job;
+        comparison.job.bias = row.bias;
+        comparison.view = view_of(comparison.job);
+        comparison.scene = scene->summary;
+        comparison.triangles = &scene->open.file->scene;
+        comparison.truth_method = renderers().truth_method;
+        comparison.subpixel_bits = renderers().subpixel_bits;
+        comparison.environment = renderers().environment;
+        comparison.receivers = subject->receivers;
+        comparison.truth = subject->truth;
+        comparison.lookup = renderers().look_up(comparison.job, comparison.view);
+        measure_comparison(comparison, renderers());
+        if (hooks_.keep_pixels) {
+            hooks_.keep_pixels(row.ordinal, comparison);
+        }
+        const scene::Bias own = scene::resolve_bias(task_->job.bias, comparison.view.frustum);
+        return finish_compared(comparison, task_->id, row.ordinal, own.constant);
+    }
+
+    const SweepPlan& plan_;
+    const SweepHooks& hooks_;
+    Teller teller_{hooks_};
+    PlanCounts counts_;
+    std::optional<SweepTask> task_; ///< of the step
+    std::size_t task_curve_ = 0;
+    Made<ReadScene> scene_;
+    std::vector<Made<scene::ReceiverLayers>> receivers_; ///< by slot
+    std::vector<Made<SweepSubject>> subjects_;           ///< by slot
+    Made<bool> map_;
+    Made<LookupWork> lookup_;
+    Background background_{1}; ///< last: it works on the others
+};
+
+} // namespace
+
+PlanCounts run_sweep(const SweepPlan& plan, const SweepHooks& hooks)
+{
+    return Runner{plan, hooks}.run();
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "analysis/renderers.hpp"
+#include "analysis/sweep/plan.hpp"
+#include "analysis/sweep/results.hpp"
+#include "scene/job.hpp"
+#include "scene/scene_file.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// A scene in both renderers' hands.
+struct OpenScene {
+    const scene::SceneFile* file = nullptr;
+    const Renderers* renderers = nullptr;
+};
+
+/// A curve's job, and the constant biases asked of it.
+struct SweepTask {
+    struct Row {
+        std::uint64_t ordinal = 0;
+        scene::BiasSettings bias;
+    };
+    std::string id;
+    scene::Job job; ///< without a bias axis: its constant bias is the job's own
+    std::vector<Row> rows;
+};
+
+/// What a sweep is given and whom it tells. Callables are called from one thread at a time each.
+struct SweepHooks {
+    /// Reads the job's scene; the one before it may go.
+    std::function<OpenScene(const scene::Job&)> open_scene;
+    /// The task of a request.
+    std::function<SweepTask(std::size_t curve)> task;
+    std::function<void(const FinishedCurve&)> record;
+    /// Configurations that cannot be computed, and why.
+    std::function<void(std::span<const std::uint64_t> ordinals, const std::string& message)>
+        record_failure;
+    /// Asked before each step: true ends the sweep once what has begun is recorded.
+    std::function<bool()> should_stop;
+    /// Empty, or told of each configuration's full comparison: GL looks up every bias by itself.
+    std::function<void(std::uint64_t ordinal, const Comparison&)> keep_pixels;
+};
+
+/// Runs the steps of a plan. GL works on the calling thread; truth-dependent answers are found by
+/// another at the same time. The results do not depend on how many threads there are.
+///
+/// A step that fails with an `InputError` or an `EnvironmentError` fails the configurations that
+/// need it, and no others; what `record` and `keep_pixels` throw ends the sweep.
+/// @return  How often each stage ran.
+PlanCounts run_sweep(const SweepPlan& plan, const SweepHooks& hooks);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,107 @@
+#include "analysis/sweep/stage_keys.hpp"
+
+#include "scene/job_file.hpp"
+
+#include <map>
+#include <string_view>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::Stage;
+
+bool has(scene::Stages stages, Stage stage)
+{
+    return (stages & static_cast<scene::Stages>(stage)) != 0;
+}
+
+/// The stages of each key, by name.
+const std::map<std::string, scene::Stages, std::less<>>& stages_by_key()
+{
+    static const auto stages = [] {
+        std::map<std::string, scene::Stages, std::less<>> all;
+        for (const scene::JobKey& key : scene::job_keys()) {
+            all.emplace(key.name, key.stages);
+        }
+        return all;
+    }();
+    return stages;
+}
+
+/// The job's keys, sorted by the first stage that each decides.
+struct Parts {
+    std::string scene;
+    std::string light;
+    std::string camera; ///< and image
+    std::string frustum;
+    std::string map;
+    std::string lookup;
+    std::string slope;
+    std::string constant;
+
+    std::string& of(std::string_view key, scene::Stages stages)
+    {
+        if (has(stages, Stage::scene)) {
+            return scene;
+        }
+        if (has(stages, Stage::truth)) {
+            return key.starts_with("light.") ? light : camera;
+        }
+        if (has(stages, Stage::receivers)) {
+            return frustum;
+        }
+        if (has(stages, Stage::shadow_map)) {
+            return map;
+        }
+        if (has(stages, Stage::lookup)) {
+            return lookup;
+        }
+        return key == "bias.slope" ? slope : constant;
+    }
+};
+
+Parts sort_keys(const scene::Job& job)
+{
+    Parts parts;
+    for (const auto& [key, value] : scene::resolved_keys(job)) {
+        std::string& part = parts.of(key, stages_by_key().at(key));
+        part += key;
+        part += '=';
+        part += value;
+        part += '\n';
+    }
+    return parts;
+}
+
+StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
+{
+    const Parts parts = sort_keys(job);
+    const bool follows_camera = job.shadow_map.frustum.fit == scene::Fit::camera;
+    const std::string bias = parts.slope + parts.constant;
+    StageKeys keys;
+    keys.scene = parts.scene;
+    keys.light = keys.scene + parts.light;
+    keys.truth = keys.light + parts.camera;
+    keys.frustum = (follows_camera ? keys.truth : keys.light) + parts.frustum;
+    keys.receivers = keys.truth + parts.frustum;
+    keys.map = keys.frustum + parts.map;
+    keys.lookup = keys.receivers + parts.map + parts.lookup;
+    keys.lookup += looks_up_every_bias ? bias : std::string{};
+    keys.curve = keys.lookup + parts.slope;
+    return keys;
+}
+
+} // namespace
+
+StageKeys stage_keys(const scene::Job& job)
+{
+    return keys_of(job, job.lookup.filter == scene::Filter::hardware);
+}
+
+StageKeys stage_keys_with_bias(const scene::Job& job)
+{
+    return keys_of(job, true);
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "scene/job.hpp"
+
+#include <string>
+
+namespace gnomon::analysis {
+
+/// What each stage of a job depends on, as text: two jobs share a stage's result iff its texts are
+/// equal. Made of the job's keys alone, so that a sweep can be planned before a scene is read.
+struct StageKeys {
+    std::string scene;
+    std::string light;     ///< scene and light
+    std::string truth;     ///< scene, light, camera and image
+    std::string frustum;   ///< the light's matrix: with fit = "camera" also camera and image
+    std::string receivers; ///< camera, image and the light's matrix
+    std::string map;
+    std::string lookup;
+    std::string curve; ///< everything but the constant bias; for `hardware` that too
+};
+
+[[nodiscard]] StageKeys stage_keys(const scene::Job& job);
+
+/// The stage keys of a job of which GL looks up every bias by itself, to keep its pixels.
+[[nodiscard]] StageKeys stage_keys_with_bias(const scene::Job& job);
+
+} // namespace gnomon::analysis
