@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +49,9 @@ struct PlanOutcome {
     std::uint64_t retired = 0; ///< results in the database that the plan does not ask for
 };
 
+/// Makes the configurations of a plan, one a call; empty after the last.
+using NextConfiguration = std::function<std::optional<analysis::Configuration>()>;
+
 /// How many environments the results of one run may come from.
 enum class Environments : std::uint8_t { one, several };
 
@@ -87,6 +92,9 @@ public:
     ///                                is none.
     PlanOutcome plan(const RunDescription& description,
                      std::span<const analysis::Configuration> configurations,
+                     Environments environments = Environments::one);
+    /// The same for a plan that does not fit into memory.
+    PlanOutcome plan(const RunDescription& description, const NextConfiguration& next,
                      Environments environments = Environments::one);
 
     /// What was planned; its environment is that of the last plan.
