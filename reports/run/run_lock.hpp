@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+namespace gnomon::reports {
+
+/// Keeps every other process from writing into a RUN folder, as long as it lives.
+///
+/// RUN/lock is locked with flock(2) and says who holds it. The lock goes with its process, however
+/// that ends, so that nothing left behind ever blocks; the file stays.
+class RunLock {
+public:
+    /// Makes the folder where there is none, and takes its lock.
+    /// @throws scene::InputError  if another process holds it, saying which and since when.
+    /// @throws scene::EnvironmentError  if the folder cannot be made or written.
+    explicit RunLock(const std::filesystem::path& folder);
+    RunLock(const RunLock&) = delete;
+    RunLock& operator=(const RunLock&) = delete;
+    ~RunLock();
+
+private:
+    int descriptor_ = -1;
+};
+
+} // namespace gnomon::reports

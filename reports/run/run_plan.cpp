@@ -1,0 +1,276 @@
+#include "reports/run/run_plan.hpp"
+
+#include "reports/json_values.hpp"
+#include "reports/run/run_columns.hpp"
+#include "scene/error.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::Configuration;
+using analysis::Environment;
+using sqlite::Database;
+using sqlite::sql_name;
+using sqlite::Statement;
+using sqlite::Transaction;
+using sqlite::Value;
+
+constexpr std::array<std::pair<std::string_view, std::string Environment::*>, 4>
+    environment_columns{{{"gl_renderer", &Environment::gl_renderer},
+                         {"gl_version", &Environment::gl_version},
+                         {"embree", &Environment::embree},
+                         {"gnomon", &Environment::gnomon}}};
+
+/// Writes configurations into the plan.
+class Planner {
+public:
+    explicit Planner(const Database& database)
+        : database_{&database},
+          find_{database, "SELECT number FROM configurations WHERE id = ?"},
+          insert_{database, insertion()},
+          find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
+          insert_curve_{database, "INSERT INTO curves (id) VALUES (?) RETURNING number"},
+          plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?)"}
+    {
+        const auto& columns = job_columns();
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            parameters_.emplace(columns[i].name, first_key + static_cast<int>(i));
+        }
+    }
+
+    void add(const Configuration& configuration)
+    {
+        const auto known = find_.bind(1, std::string_view{configuration.id}).first();
+        const std::int64_t number = known ? *known : insert(configuration);
+        plan_.bind(1, static_cast<std::int64_t>(configuration.ordinal))
+            .bind(2, number)
+            .bind(3, std::string_view{configuration.case_name})
+            .bind(4, std::int64_t{configuration.shard})
+            .run();
+        if (database_->changes() != 1) {
+            throw std::invalid_argument(fmt::format(
+                "RunStore::plan: two configurations of ordinal {}", configuration.ordinal));
+        }
+    }
+
+private:
+    static constexpr int first_key = 4; ///< parameter of `insert_`
+
+    static std::string insertion()
+    {
+        std::string names;
+        std::string values;
+        for (const JobColumn& column : job_columns()) {
+            names += ", " + sql_name(column.name);
+            values += ", ?";
+        }
+        return fmt::format("INSERT INTO configurations (id, curve, scene_hash{}, status)"
+                           " VALUES (?, ?, ?{}, 'planned') RETURNING number",
+                           names, values);
+    }
+
+    std::int64_t insert(const Configuration& configuration)
+    {
+        insert_.clear()
+            .bind(1, std::string_view{configuration.id})
+            .bind(2, curve_number(configuration.curve))
+            .bind(3, std::string_view{configuration.scene_hash});
+        for (const auto& [key, toml] : configuration.parameters) {
+            const auto parameter = parameters_.find(key);
+            if (parameter == parameters_.end()) {
+                throw std::invalid_argument(fmt::format("RunStore::plan: no job key {}", key));
+            }
+            insert_.bind(parameter->second, job_cell(toml));
+        }
+        return finished(insert_);
+    }
+
+    std::int64_t curve_number(const std::string& id)
+    {
+        const auto [entry, is_new] = curves_.try_emplace(id);
+        if (is_new) {
+            const auto known = find_curve_.bind(1, std::string_view{id}).first();
+            entry->second = known ? *known : finished(insert_curve_.bind(1, std::string_view{id}));
+        }
+        return entry->second;
+    }
+
+    /// The number that an insertion returns.
+    static std::int64_t finished(Statement& insertion) { return insertion.first().value(); }
+
+    const Database* database_;
+    Statement find_;
+    Statement insert_;
+    Statement find_curve_;
+    Statement insert_curve_;
+    Statement plan_;
+    std::unordered_map<std::string_view, int> parameters_; ///< of `insert_`, by key
+    std::unordered_map<std::string, std::int64_t> curves_; ///< numbers by id
+};
+
+void require_valid(const Shard& shard)
+{
+    if (shard.index < 1 || shard.index > shard.count) {
+        throw std::invalid_argument(
+            fmt::format("RunStore::plan: shard {} of {}", shard.index, shard.count));
+    }
+}
+
+Environment environment_of(Statement& row)
+{
+    Environment environment;
+    int column = 0;
+    for (const auto& [name, member] : environment_columns) {
+        environment.*member = row.text(column++);
+    }
+    return environment;
+}
+
+/// The environment's number; it is recorded if it was not.
+std::int64_t recorded(const Database& database, const Environment& environment)
+{
+    Statement insert{database, "INSERT OR IGNORE INTO environments"
+                               " (gl_renderer, gl_version, embree, gnomon) VALUES (?, ?, ?, ?)"};
+    Statement find{database, "SELECT number FROM environments WHERE gl_renderer = ?"
+                             " AND gl_version = ? AND embree = ? AND gnomon = ?"};
+    int parameter = 1;
+    for (const auto& [name, member] : environment_columns) {
+        insert.bind(parameter, std::string_view{environment.*member});
+        find.bind(parameter++, std::string_view{environment.*member});
+    }
+    insert.run();
+    return find.first().value();
+}
+
+/// @throws scene::InputError  naming what differs, if a result is of another environment.
+void require_one_environment(const Database& database, const Environment& here)
+{
+    Statement others{database,
+                     "SELECT gl_renderer, gl_version, embree, gnomon FROM environments e WHERE"
+                     " number <> ? AND EXISTS"
+                     " (SELECT 1 FROM configurations WHERE environment = e.number)"};
+    if (!others.bind(1, recorded(database, here)).step()) {
+        return;
+    }
+    const Environment there = environment_of(others);
+    for (const auto& [name, member] : environment_columns) {
+        if (here.*member != there.*member) {
+            throw scene::InputError(scene::one_line(fmt::format(
+                "{}: its results come from another environment, {} was \"{}\" and is \"{}\": name "
+                "another folder, or pass --allow-mixed",
+                database.path().string(), name, there.*member, here.*member)));
+        }
+    }
+}
+
+void write_value(const Database& database, std::string_view key, const Value& value)
+{
+    Statement{database, "INSERT OR REPLACE INTO run VALUES (?, ?)"}
+        .bind(1, key)
+        .bind(2, value)
+        .run();
+}
+
+std::int64_t read_integer(const Database& database, std::string_view key)
+{
+    Statement find{database, "SELECT value FROM run WHERE key = ?"};
+    return find.bind(1, key).first().value_or(0);
+}
+
+std::string read_text(const Database& database, std::string_view key)
+{
+    Statement find{database, "SELECT value FROM run WHERE key = ?"};
+    return find.bind(1, key).step() ? find.text(0) : std::string{};
+}
+
+PlanOutcome outcome(const Database& database)
+{
+    PlanOutcome result;
+    Statement counts{database, "SELECT c.status, count(*) FROM part p CROSS JOIN configurations c"
+                               " ON c.number = p.configuration GROUP BY c.status"};
+    while (counts.step()) {
+        const std::string status = counts.text(0);
+        std::uint64_t& count = status == "done"     ? result.done
+                               : status == "failed" ? result.failed
+                                                    : result.planned;
+        count = static_cast<std::uint64_t>(counts.integer(1));
+    }
+    result.retired = static_cast<std::uint64_t>(
+        database.integer("SELECT count(*) FROM configurations WHERE status = 'done'"
+                         " AND number NOT IN (SELECT configuration FROM plan)"));
+    return result;
+}
+
+} // namespace
+
+void write_description(const Database& database, const RunDescription& description)
+{
+    const auto text = [](const auto& json) {
+        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    write_value(database, "environment", recorded(database, description.environment));
+    write_value(database, "shard_index", std::int64_t{description.shard.index});
+    write_value(database, "shard_count", std::int64_t{description.shard.count});
+    write_value(database, "size", static_cast<std::int64_t>(description.size));
+    write_value(database, "axes", text(Json(description.axes)));
+    write_value(database, "job", description.job);
+    write_value(database, "command", description.command);
+}
+
+PlanOutcome write_plan(const Database& database, const RunDescription& description,
+                       const NextConfiguration& next, Environments environments)
+{
+    require_valid(description.shard);
+    Transaction transaction{database};
+    if (environments == Environments::one) {
+        require_one_environment(database, description.environment);
+    }
+    write_description(database, description);
+    database.run("DELETE FROM plan");
+    Planner planner{database};
+    while (const auto configuration = next()) {
+        planner.add(*configuration);
+    }
+    database.run("DELETE FROM configurations WHERE status = 'planned'"
+                 " AND number NOT IN (SELECT configuration FROM plan)");
+    const PlanOutcome result = outcome(database);
+    transaction.commit();
+    return result;
+}
+
+RunDescription read_description(const Database& database)
+{
+    RunDescription description;
+    Statement find{database, "SELECT gl_renderer, gl_version, embree, gnomon FROM environments"
+                             " WHERE number = ?"};
+    if (find.bind(1, environment_number(database)).step()) {
+        description.environment = environment_of(find);
+    }
+    description.shard = {static_cast<std::uint32_t>(read_integer(database, "shard_index")),
+                         static_cast<std::uint32_t>(read_integer(database, "shard_count"))};
+    description.size = static_cast<std::uint64_t>(read_integer(database, "size"));
+    const Json axes = Json::parse(read_text(database, "axes"), nullptr, false);
+    if (axes.is_array()) {
+        description.axes = axes.get<std::vector<std::string>>();
+    }
+    description.job = read_text(database, "job");
+    description.command = read_text(database, "command");
+    return description;
+}
+
+std::int64_t environment_number(const Database& database)
+{
+    return read_integer(database, "environment");
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "reports/run/run_store.hpp"
+#include "reports/run/sqlite.hpp"
+
+#include <cstdint>
+
+namespace gnomon::reports {
+
+/// `RunStore::plan`, in one transaction.
+PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& description,
+                       const NextConfiguration& next, Environments environments);
+
+/// `RunStore::description`; everything is empty where nothing was planned yet.
+[[nodiscard]] RunDescription read_description(const sqlite::Database& database);
+
+/// Records what the run is, as part of a transaction.
+void write_description(const sqlite::Database& database, const RunDescription& description);
+
+/// The number under which the environment of the last plan is recorded; 0 without a plan.
+[[nodiscard]] std::int64_t environment_number(const sqlite::Database& database);
+
+} // namespace gnomon::reports

@@ -1,0 +1,188 @@
+#include "reports/run/run_recorder.hpp"
+
+#include "reports/run/run_columns.hpp"
+#include "scene/job_toml.hpp"
+#include "scene/pixel_class.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::CurveResult;
+using analysis::DistanceProfile;
+using analysis::FinishedCurve;
+using scene::PixelClass;
+using sqlite::Database;
+using sqlite::sql_name;
+using sqlite::Statement;
+using sqlite::Transaction;
+using sqlite::Value;
+
+template <typename Columns>
+std::string assignments(const Columns& columns)
+{
+    std::string text;
+    for (const auto& column : columns) {
+        text += fmt::format(", {} = ?", sql_name(column.name));
+    }
+    return text;
+}
+
+std::string curve_update()
+{
+    return fmt::format("UPDATE curves SET environment = ?, lit = ?, blocked = ?{}{}"
+                       " WHERE number = ?",
+                       assignments(map_columns()), assignments(bias_curve_columns()));
+}
+
+std::string configuration_update()
+{
+    return fmt::format("UPDATE configurations SET status = 'done', message = NULL,"
+                       " environment = ?{} WHERE curve = ?"
+                       " AND number = (SELECT configuration FROM plan WHERE ordinal = ?)",
+                       assignments(result_columns()));
+}
+
+std::string bin_insertion()
+{
+    std::string values;
+    for (std::size_t i = 0; i < bin_columns().size(); ++i) {
+        values += ", ?";
+    }
+    return fmt::format("INSERT INTO curve_bins VALUES (?, ?, ?, ?, ?{})", values);
+}
+
+/// Binds a source's columns from parameter `first` on; returns the next parameter.
+template <typename Source>
+int bind_columns(Statement& statement, int first, const std::vector<RunColumn<Source>>& columns,
+                 const Source& source)
+{
+    for (const RunColumn<Source>& column : columns) {
+        statement.bind(first++, column.value(source));
+    }
+    return first;
+}
+
+std::string_view name_of(DistanceProfile::At at)
+{
+    return at == DistanceProfile::At::job_bias ? "job_bias" : "best_bias";
+}
+
+[[noreturn]] void refuse(std::string_view function, std::uint64_t ordinal)
+{
+    throw std::invalid_argument(
+        fmt::format("{}: ordinal {} is not planned, or of another curve", function, ordinal));
+}
+
+} // namespace
+
+RunRecorder::RunRecorder(const Database& database)
+    : database_{&database},
+      find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
+      update_curve_{database, curve_update()},
+      delete_points_{database, "DELETE FROM curve_points WHERE curve = ?"},
+      insert_point_{database, "INSERT INTO curve_points VALUES (?, ?, ?, ?, ?)"},
+      delete_bins_{database, "DELETE FROM curve_bins WHERE curve = ?"},
+      insert_bin_{database, bin_insertion()},
+      update_configuration_{database, configuration_update()},
+      find_configuration_{database, "SELECT configuration FROM plan WHERE ordinal = ?"},
+      fail_configuration_{database, "UPDATE configurations SET status = 'failed', message = ?"
+                                    " WHERE number = ? AND status <> 'done'"}
+{
+}
+
+void RunRecorder::record(const FinishedCurve& curve, std::int64_t environment)
+{
+    const auto number = find_curve_.bind(1, std::string_view{curve.curve.id}).first();
+    if (!number || curve.rows.empty()) {
+        throw std::invalid_argument(fmt::format(
+            "RunStore::record: curve {} is not planned, or without rows", curve.curve.id));
+    }
+    Transaction transaction{*database_};
+    write_curve(curve, *number, environment);
+    write_points(curve.curve, *number);
+    write_bins(curve.curve, *number);
+    for (const FinishedCurve::Row& row : curve.rows) {
+        write_row(row, *number, environment);
+    }
+    transaction.commit();
+}
+
+void RunRecorder::write_curve(const FinishedCurve& curve, std::int64_t number,
+                              std::int64_t environment)
+{
+    // Its configurations differ in the bias alone, and so have the same truth.
+    const analysis::ClassCounts& pixels = curve.rows.front().result.metrics.pixels;
+    update_curve_.bind(1, environment)
+        .bind(2, static_cast<std::int64_t>(pixels.of(PixelClass::lit)))
+        .bind(3, static_cast<std::int64_t>(pixels.of(PixelClass::blocked)));
+    const int next = bind_columns(update_curve_, 4, map_columns(), curve.curve);
+    const int last = bind_columns(update_curve_, next, bias_curve_columns(), curve.curve);
+    update_curve_.bind(last, number).run();
+}
+
+void RunRecorder::write_points(const CurveResult& curve, std::int64_t number)
+{
+    delete_points_.bind(1, number).run();
+    std::int64_t point = 0;
+    for (const analysis::CurvePoint& at : curve.points) {
+        insert_point_.bind(1, number)
+            .bind(2, point++)
+            .bind(3, double{at.bias})
+            .bind(4, static_cast<std::int64_t>(at.errors.false_shadow))
+            .bind(5, static_cast<std::int64_t>(at.errors.false_lit))
+            .run();
+    }
+}
+
+void RunRecorder::write_bins(const CurveResult& curve, std::int64_t number)
+{
+    delete_bins_.bind(1, number).run();
+    std::int64_t profile_number = 0;
+    for (const DistanceProfile& profile : curve.by_distance) {
+        insert_bin_.bind(1, number).bind(2, profile_number++);
+        insert_bin_.bind(4, name_of(profile.at)).bind(5, double{profile.bias});
+        std::int64_t bin_number = 0;
+        for (const analysis::ErrorBin& bin : profile.bins) {
+            insert_bin_.bind(3, bin_number++);
+            bind_columns(insert_bin_, 6, bin_columns(), bin);
+            insert_bin_.run();
+        }
+    }
+}
+
+void RunRecorder::write_row(const FinishedCurve::Row& row, std::int64_t curve,
+                            std::int64_t environment)
+{
+    update_configuration_.bind(1, environment);
+    const int next = bind_columns(update_configuration_, 2, result_columns(), row.result);
+    update_configuration_.bind(next, curve)
+        .bind(next + 1, static_cast<std::int64_t>(row.ordinal))
+        .run();
+    if (database_->changes() != 1) {
+        refuse("RunStore::record", row.ordinal);
+    }
+}
+
+void RunRecorder::record_failure(std::span<const std::uint64_t> ordinals,
+                                 const std::string& message)
+{
+    const std::string line = scene::one_line(message);
+    Transaction transaction{*database_};
+    for (const std::uint64_t ordinal : ordinals) {
+        const auto number = find_configuration_.bind(1, static_cast<std::int64_t>(ordinal)).first();
+        if (!number) {
+            refuse("RunStore::record_failure", ordinal);
+        }
+        fail_configuration_.bind(1, std::string_view{line}).bind(2, *number).run();
+    }
+    transaction.commit();
+}
+
+} // namespace gnomon::reports

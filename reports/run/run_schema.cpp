@@ -1,0 +1,175 @@
+#include "reports/run/run_schema.hpp"
+
+#include "reports/run/run_columns.hpp"
+#include "scene/error.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+using sqlite::Database;
+using sqlite::sql_name;
+using sqlite::Statement;
+
+constexpr int application_id = 0x474E4D4E; ///< "GNMN"
+
+template <typename Columns>
+std::string definitions(const Columns& columns)
+{
+    std::string text;
+    for (const auto& column : columns) {
+        text += fmt::format(", {} {}", sql_name(column.name), column.type);
+    }
+    return text;
+}
+
+template <typename Columns>
+std::string selections(std::string_view table, const Columns& columns)
+{
+    std::string text;
+    for (const auto& column : columns) {
+        text += fmt::format(", {}.{}", table, sql_name(column.name));
+    }
+    return text;
+}
+
+std::vector<std::string> tables()
+{
+    return {"CREATE TABLE run (key TEXT PRIMARY KEY, value) WITHOUT ROWID",
+            "CREATE TABLE environments (number INTEGER PRIMARY KEY, gl_renderer TEXT NOT NULL,"
+            " gl_version TEXT NOT NULL, embree TEXT NOT NULL, gnomon TEXT NOT NULL,"
+            " UNIQUE (gl_renderer, gl_version, embree, gnomon))",
+            fmt::format("CREATE TABLE curves (number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE,"
+                        " environment INTEGER REFERENCES environments, lit INTEGER,"
+                        " blocked INTEGER{}{})",
+                        definitions(map_columns()), definitions(bias_curve_columns())),
+            fmt::format("CREATE TABLE configurations (number INTEGER PRIMARY KEY,"
+                        " id TEXT NOT NULL UNIQUE, curve INTEGER NOT NULL REFERENCES curves,"
+                        " scene_hash TEXT NOT NULL, environment INTEGER REFERENCES environments,"
+                        " status TEXT NOT NULL, message TEXT{}{})",
+                        definitions(job_columns()), definitions(result_columns())),
+            "CREATE TABLE plan (ordinal INTEGER PRIMARY KEY,"
+            " configuration INTEGER NOT NULL REFERENCES configurations,"
+            " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL)",
+            "CREATE TABLE curve_points (curve INTEGER NOT NULL REFERENCES curves, point INTEGER,"
+            " bias REAL, false_shadow INTEGER, false_lit INTEGER, PRIMARY KEY (curve, point))"
+            " WITHOUT ROWID",
+            fmt::format("CREATE TABLE curve_bins (curve INTEGER NOT NULL REFERENCES curves,"
+                        " profile INTEGER, bin INTEGER, \"at\" TEXT NOT NULL, bias REAL{},"
+                        " PRIMARY KEY (curve, profile, bin)) WITHOUT ROWID",
+                        definitions(bin_columns()))};
+}
+
+/// The rows of `plan` that this run computes: all of them unless the sweep is divided.
+std::string part_view()
+{
+    return "CREATE VIEW part AS SELECT * FROM plan"
+           " WHERE (SELECT value FROM run WHERE key = 'shard_count') = 1"
+           " OR shard = (SELECT value FROM run WHERE key = 'shard_index')";
+}
+
+std::string results_view()
+{
+    return fmt::format(
+        "CREATE VIEW results AS SELECT {} AS \"schema\", p.ordinal AS ordinal, c.id AS id,"
+        " (SELECT id FROM curves WHERE number = c.curve) AS curve, p.\"case\" AS \"case\","
+        " c.status AS status, c.message AS message, c.scene_hash AS scene_hash{}{}{}{}"
+        " FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
+        " LEFT JOIN curves v ON v.number = c.curve AND c.status = 'done'",
+        run_schema, selections("c", job_columns()), selections("v", map_columns()),
+        selections("c", result_columns()), selections("v", bias_curve_columns()));
+}
+
+/// The three rates of counts, as columns; NULL where there is nothing to divide by.
+std::string rates(std::string_view counts, std::string_view pixels)
+{
+    return fmt::format("CAST({0}.false_shadow AS REAL) / nullif({1}.lit, 0) AS false_shadow_rate,"
+                       " CAST({0}.false_lit AS REAL) / nullif({1}.blocked, 0) AS false_lit_rate,"
+                       " CAST({0}.false_shadow + {0}.false_lit AS REAL)"
+                       " / nullif({1}.lit + {1}.blocked, 0) AS error_rate",
+                       counts, pixels);
+}
+
+std::string error_vs_z_view()
+{
+    std::string counts;
+    std::string quantiles;
+    for (const auto& column : bin_columns()) {
+        const bool is_quantile = column.name.find('.') != std::string::npos;
+        (is_quantile ? quantiles : counts) += fmt::format(", b.{}", sql_name(column.name));
+    }
+    return fmt::format("CREATE VIEW error_vs_z AS SELECT v.id AS curve, b.\"at\" AS \"at\","
+                       " b.bias AS bias{}, {}{}"
+                       " FROM curve_bins b JOIN curves v ON v.number = b.curve",
+                       counts, rates("b", "b"), quantiles);
+}
+
+std::string bias_curves_view()
+{
+    return fmt::format("CREATE VIEW bias_curves AS SELECT v.id AS curve, b.bias AS bias,"
+                       " b.false_shadow AS false_shadow, b.false_lit AS false_lit, {}"
+                       " FROM curve_points b JOIN curves v ON v.number = b.curve",
+                       rates("b", "v"));
+}
+
+std::vector<std::string> schema_statements()
+{
+    std::vector<std::string> statements = tables();
+    for (auto* const view : {part_view, results_view, error_vs_z_view, bias_curves_view}) {
+        statements.push_back(view());
+    }
+    return statements;
+}
+
+[[noreturn]] void refuse(const Database& database, std::string_view what)
+{
+    throw scene::InputError(fmt::format("{}: {}: name another folder",
+                                        scene::one_line(database.path().string()), what));
+}
+
+/// As SQLite keeps it, the text of what makes a table or a view.
+bool was_made_by(const Database& database, const std::string& statement)
+{
+    Statement search{database, "SELECT 1 FROM sqlite_schema WHERE sql = ?"};
+    return search.bind(1, std::string_view{statement}).first().has_value();
+}
+
+} // namespace
+
+std::filesystem::path results_path(const std::filesystem::path& folder)
+{
+    return folder / "results.sqlite";
+}
+
+void create_run_schema(const Database& database)
+{
+    for (const std::string& statement : schema_statements()) {
+        database.run(statement);
+    }
+    database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application_id,
+                             run_schema));
+}
+
+void require_run_schema(const Database& database)
+{
+    if (database.integer("PRAGMA application_id") != application_id) {
+        refuse(database, "is a database, but not of a sweep's results");
+    }
+    const auto version = database.integer("PRAGMA user_version");
+    if (version != run_schema) {
+        refuse(database, fmt::format("its schema is {}, this Gnomon's is {}", version, run_schema));
+    }
+    // A key or a result that came or went makes other columns.
+    for (const std::string& statement : schema_statements()) {
+        if (!was_made_by(database, statement)) {
+            refuse(database, "a Gnomon with other keys or results wrote it");
+        }
+    }
+}
+
+} // namespace gnomon::reports

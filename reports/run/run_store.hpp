@@ -1,0 +1,127 @@
+#pragma once
+
+#include "analysis/renderers.hpp"
+#include "analysis/sweep/results.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::reports {
+
+/// Which part of a divided sweep a run computes; 1 of 1 is all of it.
+struct Shard {
+    std::uint32_t index = 1; ///< from 1
+    std::uint32_t count = 1;
+
+    friend bool operator==(const Shard&, const Shard&) = default;
+};
+
+/// What a run is: recorded beside its results.
+struct RunDescription {
+    analysis::Environment environment;
+    Shard shard;
+    std::uint64_t size = 0;        ///< configurations of the sweep, of all its parts
+    std::vector<std::string> axes; ///< the keys that the sweep varies: they name a configuration
+    std::string job;               ///< the job file's text, or what stands for it
+    /// The command that computes it, quoted for a shell, without --out and --shard:
+    /// "gnomon sweep job.toml --axis bias.slope=[0,1]".
+    std::string command;
+};
+
+/// How a configuration stands.
+enum class RunState : std::uint8_t {
+    planned = 0, ///< nothing is known of it yet
+    done = 1,
+    failed = 2,
+};
+
+/// What `RunStore::plan` found.
+struct PlanOutcome {
+    std::uint64_t done = 0;    ///< of this part's configurations: they are not to be computed again
+    std::uint64_t failed = 0;  ///< of this part's
+    std::uint64_t planned = 0; ///< of this part's
+    std::uint64_t retired = 0; ///< results in the database that the plan does not ask for
+};
+
+/// Makes the configurations of a plan, one a call; empty after the last.
+using NextConfiguration = std::function<std::optional<analysis::Configuration>()>;
+
+/// How many environments the results of one run may come from.
+enum class Environments : std::uint8_t { one, several };
+
+/// The results of a sweep on the disk: RUN/results.sqlite (docs/runs.md).
+///
+/// What `record` and `record_failure` return from is on the disk: it survives the end of the
+/// process and of the power. One process writes a run at a time (`RunLock`), any number read it
+/// meanwhile. A store is used by one thread at a time.
+///
+/// Ordinals are those of the plan. Two ordinals may have the same id, where two values of an axis
+/// amount to the same job: they share one result, and each has its row in the CSV.
+///
+/// Every function throws
+///   scene::EnvironmentError  if the disk is full, the folder cannot be written, or reading or
+///                            writing fails: what was recorded before stays;
+///   scene::InputError        if the database turns out to be damaged.
+class RunStore {
+public:
+    enum class Access : std::uint8_t { read, write };
+
+    /// Opens the run; with `write`, makes its database where there is none.
+    /// @throws scene::InputError  if there is nothing to read, or the file is no database of
+    ///                            results, or one of another schema.
+    RunStore(const std::filesystem::path& folder, Access access);
+    RunStore(RunStore&&) noexcept;
+    RunStore& operator=(RunStore&&) noexcept;
+    ~RunStore();
+
+    /// Records what the run is to compute, in place of an earlier plan. Configurations with a known
+    /// id keep their state and results.
+    ///
+    /// @param configurations  Of the whole sweep, or of this part alone; ordinals occur once. Those
+    ///                        whose `shard` is not the description's are other parts': recorded,
+    ///                        so that `merge` knows the whole, and left out of all else here.
+    /// @throws scene::InputError  if it holds results of another environment and several are not
+    ///                            allowed.
+    /// @throws std::invalid_argument  if an ordinal occurs twice, a key is no job key, or the shard
+    ///                                is none.
+    PlanOutcome plan(const RunDescription& description,
+                     std::span<const analysis::Configuration> configurations,
+                     Environments environments = Environments::one);
+    /// The same for a plan that does not fit into memory.
+    PlanOutcome plan(const RunDescription& description, const NextConfiguration& next,
+                     Environments environments = Environments::one);
+
+    /// What was planned; its environment is that of the last plan.
+    [[nodiscard]] RunDescription description() const;
+
+    /// Ordinals of this part's configurations in that state, ascending.
+    [[nodiscard]] std::vector<std::uint64_t> ordinals(RunState state) const;
+
+    /// Makes failed configurations planned again; returns how many of this part's ordinals that is.
+    std::uint64_t reset_failed();
+
+    /// Records a curve and its configurations, which are done then: all of it or nothing.
+    /// @throws std::invalid_argument  if an ordinal is not planned, or is of another curve.
+    void record(const analysis::FinishedCurve& curve);
+
+    /// Records why configurations failed. Those that are done stay done.
+    /// @throws std::invalid_argument  if an ordinal is not planned.
+    void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message);
+
+    /// Writes RUN/results.csv, RUN/error_vs_z.csv and RUN/bias_curves.csv (docs/csv_schema.md),
+    /// each atomically: the rows of this part, in the order of their ordinals. The same results
+    /// give the same bytes.
+    void write_csv() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+} // namespace gnomon::reports
