@@ -1,22 +1,11 @@
 #include "cli/comparison_session.hpp"
 
 #include "cli/memory.hpp"
-
-#include <chrono>
+#include "cli/stopwatch.hpp"
 
 namespace gnomon::cli {
 
 namespace {
-
-/// Runs `work` and adds its wall time to `seconds`.
-template <typename Work>
-auto timed(double& seconds, const Work& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    auto result = work();
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return result;
-}
 
 scene::SceneFile load_checked(const scene::Job& job)
 {
@@ -29,16 +18,8 @@ scene::SceneFile load_checked(const scene::Job& job)
 ComparisonSession::ComparisonSession(const scene::Job& job, const SessionOptions& options)
     : file_{timed(scene_s_, [&] { return load_checked(job); })},
       context_{options.device},
-      gl_{context_, file_.scene}
+      hands_{context_, file_.scene, options}
 {
-    const bool is_exact = options.method == reference_rt::TruthMethod::exact;
-    reference_ = timed(bvh_s_, [&] {
-        return std::make_unique<reference_rt::ReferenceScene>(
-            file_.scene,
-            reference_rt::ReferenceOptions{options.threads, is_exact, !is_exact || options.audits});
-    });
-    renderers_ =
-        make_renderers(gl_, context_.facts(), *reference_, {options.method, options.threads});
 }
 
 void add_session_options(CLI::App& command, SessionOptions& options)

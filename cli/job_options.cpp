@@ -21,6 +21,19 @@ std::vector<scene::Override> overrides(const std::vector<std::string>& settings)
     return result;
 }
 
+void require_one_job(const JobOptions& options)
+{
+    if (options.job_path.empty() == options.builtin.empty()) {
+        throw scene::InputError(
+            options.job_path.empty()
+                ? "no job: give a job file, a scene file, or --builtin NAME (`gnomon scenes`)"
+                : "JOB and --builtin exclude each other: give one of them");
+    }
+    if (!options.builtin.empty() && !options.case_name.empty()) {
+        throw scene::InputError("--case needs a job file: a built-in scene has no cases");
+    }
+}
+
 } // namespace
 
 void add_job_options(CLI::App& command, JobOptions& options)
@@ -39,20 +52,19 @@ void add_job_options(CLI::App& command, JobOptions& options)
 
 scene::JobFile read_job(const JobOptions& options)
 {
-    if (options.job_path.empty() == options.builtin.empty()) {
-        throw scene::InputError(
-            options.job_path.empty()
-                ? "no job: give a job file, a scene file, or --builtin NAME (`gnomon scenes`)"
-                : "JOB and --builtin exclude each other: give one of them");
-    }
+    require_one_job(options);
     const auto settings = overrides(options.settings);
-    if (!options.builtin.empty()) {
-        if (!options.case_name.empty()) {
-            throw scene::InputError("--case needs a job file: a built-in scene has no cases");
-        }
-        return scene::builtin_job(options.builtin, settings);
-    }
-    return scene::read_job(options.job_path, settings, options.case_name);
+    return options.builtin.empty()
+               ? scene::read_job(options.job_path, settings, options.case_name)
+               : scene::builtin_job(options.builtin, settings);
+}
+
+scene::JobSource read_job_source(const JobOptions& options)
+{
+    require_one_job(options);
+    const auto settings = overrides(options.settings);
+    return options.builtin.empty() ? scene::read_job_source(options.job_path, settings)
+                                   : scene::builtin_job_source(options.builtin, settings);
 }
 
 } // namespace gnomon::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/job_file.hpp"
+#include "scene/job_source.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -22,5 +23,8 @@ void add_job_options(CLI::App& command, JobOptions& options);
 /// @throws scene::InputError  if neither or both of JOB and --builtin are given, if a --set is not
 ///                            KEY=VALUE, or as `scene::read_job` does.
 [[nodiscard]] scene::JobFile read_job(const JobOptions& options);
+/// What the options name, its parts not yet laid over each other; --case is not looked at.
+/// @throws scene::InputError  as `read_job`.
+[[nodiscard]] scene::JobSource read_job_source(const JobOptions& options);
 
 } // namespace gnomon::cli

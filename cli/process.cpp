@@ -14,14 +14,27 @@ namespace {
 
 volatile pid_t owner = 0; ///< the process whose files these are; a fork has the handler too
 
+/// Set by the first signal while work can stop by itself.
+volatile std::sig_atomic_t may_stop = 0;
+volatile std::sig_atomic_t must_stop = 0;
+
+void write_message(std::string_view message)
+{
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+}
+
 extern "C" void end_process(int signal)
 {
     if (::getpid() != owner) {
         ::_exit(128 + signal);
     }
+    if (may_stop != 0 && must_stop == 0) {
+        must_stop = 1;
+        write_message("\ngnomon: interrupted; finishing what has begun (again: stop at once)\n");
+        return;
+    }
     reports::abandon_output_files();
-    constexpr std::string_view message = "gnomon: interrupted; run it again\n";
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+    write_message("gnomon: interrupted; run it again\n");
     ::_exit(128 + signal);
 }
 
@@ -53,6 +66,16 @@ void clean_up_on_signals()
             ::sigaction(signal, &action, nullptr);
         }
     }
+}
+
+void stop_on_signals()
+{
+    may_stop = 1;
+}
+
+bool is_interrupted()
+{
+    return must_stop != 0;
 }
 
 } // namespace gnomon::cli

@@ -11,4 +11,9 @@ void keep_standard_streams();
 /// and no temporary file left; a signal that the caller ignores (nohup) stays ignored.
 void clean_up_on_signals();
 
+/// From now on the first SIGINT, SIGTERM or SIGHUP only makes `is_interrupted` true, for work that
+/// can stop at a good place; a second one ends the process at once.
+void stop_on_signals();
+[[nodiscard]] bool is_interrupted();
+
 } // namespace gnomon::cli

@@ -33,6 +33,7 @@ public:
     [[nodiscard]] std::uint64_t size() const { return size_; }
     [[nodiscard]] const std::vector<SweepAxis>& axes() const { return source_.sweep.axes; }
     [[nodiscard]] const std::string& mode() const { return source_.sweep.mode; }
+    [[nodiscard]] std::size_t case_count() const { return source_.cases.size(); }
 
     /// @param ordinal  below `size()`.
     [[nodiscard]] SweepPoint at(std::uint64_t ordinal) const;

@@ -1,0 +1,240 @@
+#include "cli/sweep_command.hpp"
+
+#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/cost.hpp"
+#include "cli/comparison_session.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/job_options.hpp"
+#include "cli/shell_text.hpp"
+#include "cli/standard_output.hpp"
+#include "cli/sweep_run.hpp"
+#include "cli/sweep_text.hpp"
+#include "reports/text.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+/// Sweeps of at most so many configurations keep their pixels unless told otherwise.
+constexpr std::uint64_t few_configurations = 20;
+
+struct SweepOptions {
+    JobOptions job;
+    std::vector<std::string> axes;
+    std::string folder;
+    std::string shard = "1/1";
+    std::string retry;
+    bool is_dry_run = false;
+    bool json = false;
+    bool keeps_pixels = false;
+    bool keeps_no_pixels = false;
+    bool is_quiet = false;
+    bool allows_mixed = false;
+    SessionOptions session;
+};
+
+/// "2/5" as the second of five.
+reports::Shard read_shard(const std::string& text)
+{
+    reports::Shard shard;
+    const char* const end = text.data() + text.size();
+    const auto [slash, index_error] = std::from_chars(text.data(), end, shard.index);
+    const bool has_slash = index_error == std::errc{} && slash != end && *slash == '/';
+    const auto [stop, count_error] =
+        std::from_chars(has_slash ? slash + 1 : end, end, shard.count);
+    if (!has_slash || count_error != std::errc{} || stop != end || shard.index < 1 ||
+        shard.index > shard.count || shard.count > 10'000) {
+        throw scene::InputError(fmt::format(
+            "--shard {}: must be k/n, the k-th of n parts, counted from 1: e.g. --shard 2/5", text));
+    }
+    return shard;
+}
+
+bool keeps_pixels(const SweepOptions& options, std::uint64_t configurations)
+{
+    if (options.keeps_pixels && options.keeps_no_pixels) {
+        throw scene::InputError("--keep-pixels and --no-keep-pixels exclude each other: give one");
+    }
+    return options.keeps_pixels ||
+           (!options.keeps_no_pixels && configurations <= few_configurations);
+}
+
+/// What the run remembers of its job: the file's text, or the built-in's name.
+std::string job_text(const JobOptions& options)
+{
+    if (!options.builtin.empty()) {
+        return fmt::format("[scene]\nbuiltin = \"{}\"\n", options.builtin);
+    }
+    if (!options.job_path.ends_with(".toml")) {
+        return fmt::format("# {}\n", options.job_path);
+    }
+    std::ifstream file{options.job_path, std::ios::binary};
+    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
+}
+
+/// The command that computes the sweep, without where it goes and which part.
+std::string command_text(const SweepOptions& options)
+{
+    std::vector<std::string> words{"gnomon", "sweep"};
+    const auto add = [&](std::string_view option, const std::string& value) {
+        if (!value.empty()) {
+            words.emplace_back(option);
+            words.push_back(value);
+        }
+    };
+    if (!options.job.job_path.empty()) {
+        words.push_back(options.job.job_path);
+    }
+    add("--builtin", options.job.builtin);
+    add("--case", options.job.case_name);
+    for (const std::string& setting : options.job.settings) {
+        add("--set", setting);
+    }
+    for (const std::string& axis : options.axes) {
+        add("--axis", axis);
+    }
+    return shell_text(words);
+}
+
+void print_plan(const SweepOptions& options, const scene::SweepSpace& space, bool keeps)
+{
+    const analysis::SweepCatalogue catalogue{space, keeps, GNOMON_VERSION};
+    const auto& requests = catalogue.requests();
+    const auto plan = analysis::make_plan(requests, analysis::camera_slots(requests));
+    SweepSummary summary;
+    summary.configurations = space.size();
+    for (const analysis::Refusal& refusal : catalogue.refusals()) {
+        summary.refused += refusal.ordinals.size();
+    }
+    summary.counts = plan.counts(requests);
+    summary.estimated_seconds = analysis::estimate_seconds(plan, requests);
+    summary.estimated_bytes = analysis::estimate_bytes(plan, requests);
+    print(options.json ? plan_json(summary) : plan_text(space, summary));
+}
+
+/// What was done, for people.
+std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcome)
+{
+    std::string text = fmt::format("{} of {} done",
+                                   reports::grouped(outcome.done),
+                                   reports::counted(outcome.configurations, "configuration"));
+    if (outcome.failed > 0) {
+        text += fmt::format(", {} failed", reports::grouped(outcome.failed));
+    }
+    text += fmt::format(": {}/results.csv\n  now: {}\n", options.folder,
+                        outcome.counts.configurations > 0 ? counts_text(outcome.counts)
+                                                          : "nothing was left to do");
+    if (outcome.retired > 0) {
+        text += fmt::format("  {} results of an earlier sweep stay in results.sqlite and are not "
+                            "in the CSV files\n",
+                            reports::grouped(outcome.retired));
+    }
+    return text;
+}
+
+int exit_code(const SweepOutcome& outcome)
+{
+    if (outcome.is_interrupted) {
+        return exit_codes::interrupted;
+    }
+    if (outcome.done < outcome.configurations) {
+        return exit_codes::incomplete;
+    }
+    return outcome.mismatches > 0 ? exit_codes::environment_failed : exit_codes::done;
+}
+
+void sweep(const SweepOptions& options)
+{
+    const scene::SweepSpace space{read_job_source(options.job), options.axes,
+                                  options.job.case_name};
+    const bool keeps = keeps_pixels(options, space.size());
+    if (options.is_dry_run) {
+        return print_plan(options, space, keeps);
+    }
+    if (options.folder.empty()) {
+        throw scene::InputError("no --out RUN: name the folder for the results, or ask what would "
+                                "be done with --dry-run");
+    }
+    SweepRunOptions run;
+    run.folder = options.folder;
+    run.shard = read_shard(options.shard);
+    run.keeps_pixels = keeps;
+    run.retries_failed = !options.retry.empty();
+    run.is_quiet = options.is_quiet;
+    run.allows_mixed = options.allows_mixed;
+    run.job_text = job_text(options.job);
+    run.command = command_text(options);
+    run.session = options.session;
+    const SweepOutcome outcome = run_sweep_command(space, run);
+    print(outcome_text(options, outcome));
+    const int code = exit_code(outcome);
+    if (outcome.is_interrupted) {
+        fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
+    } else if (code == exit_codes::incomplete) {
+        fmt::print(stderr, "gnomon: {} failed; `gnomon status {}` says why, --retry failed tries "
+                           "again\n",
+                   reports::counted(outcome.failed, "configuration"),
+                   shell_text({options.folder}));
+    } else if (code == exit_codes::environment_failed) {
+        fmt::print(stderr,
+                   "gnomon: {} pixels mismatch: GL's triangle is neither a first hit nor explained "
+                   "by snapping or depth resolution; report it with the job and the output of "
+                   "`gnomon doctor`\n",
+                   outcome.mismatches);
+    }
+    if (code != exit_codes::done) {
+        throw CLI::RuntimeError{code};
+    }
+}
+
+} // namespace
+
+void add_sweep_command(CLI::App& program)
+{
+    auto options = std::make_shared<SweepOptions>();
+    CLI::App* command = program.add_subcommand(
+        "sweep", "Compare a scene over any ranges of settings; resumes where it was stopped");
+    add_job_options(*command, options->job);
+    command
+        ->add_option("--axis", options->axes,
+                     "KEY=VALUES adds an axis or replaces the job's: 512,1024,2048 or "
+                     "{from=1e-6, to=0.1, count=50, scale=\"log\"}")
+        ->allow_extra_args(false);
+    command->add_option("--out", options->folder, "RUN, the folder for the results (docs/sweep.md)");
+    command->add_flag("--dry-run", options->is_dry_run,
+                      "Print what would be done, and roughly how long it takes, and stop");
+    command->add_flag("--json", options->json, "With --dry-run: print the plan as JSON");
+    command->add_flag("--keep-pixels", options->keeps_pixels,
+                      "Keep every configuration's layers in RUN/pixels; the default for up to 20 "
+                      "configurations");
+    command->add_flag("--no-keep-pixels", options->keeps_no_pixels, "Keep none");
+    command->add_option("--shard", options->shard,
+                        "k/n: compute the k-th of n parts; `gnomon merge` unites them")
+        ->capture_default_str();
+    command->add_option("--retry", options->retry, "failed: compute failed configurations again")
+        ->check(CLI::IsMember({"failed"}));
+    command->add_flag("--allow-mixed", options->allows_mixed,
+                      "Go on in a RUN that holds results of another driver or version");
+    command->add_flag("--quiet", options->is_quiet, "No progress on stderr");
+    add_session_options(*command, options->session);
+    command->footer(
+        "Exit status: 0 all are done; 5 some failed; 130 interrupted.\n\nExamples:\n"
+        "  gnomon sweep job.toml --out run\n"
+        "  gnomon sweep --builtin columns --out run --axis shadow_map.resolution=512,1024,2048 "
+        "--axis 'bias.constant={from=1e-6, to=0.1, count=200, scale=\"log\"}'\n"
+        "  gnomon sweep job.toml --dry-run");
+    command->callback([options] { sweep(*options); });
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,286 @@
+#include "cli/sweep_run.hpp"
+
+#include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/runner.hpp"
+#include "cli/memory.hpp"
+#include "cli/process.hpp"
+#include "cli/progress.hpp"
+#include "cli/sweep_scenes.hpp"
+#include "cli/sweep_text.hpp"
+#include "raster_gl/context.hpp"
+#include "reference_rt/truth.hpp"
+#include "reports/aov_exr.hpp"
+#include "reports/run/pixels.hpp"
+#include "reports/run/run_lock.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace gnomon::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::Configuration;
+using analysis::CurveRequest;
+using analysis::Refusal;
+using analysis::SweepCatalogue;
+using reports::RunState;
+using reports::RunStore;
+
+/// What the work says when the job is at fault; empty if it is not.
+template <typename Work>
+std::string refusal_of(const Work& work)
+{
+    try {
+        work();
+        return {};
+    } catch (const scene::InputError& error) {
+        return error.what();
+    }
+}
+
+/// Numbers as a sorted list, to be asked for.
+class Ordinals {
+public:
+    explicit Ordinals(std::vector<std::uint64_t> ascending) : ascending_{std::move(ascending)} {}
+
+    [[nodiscard]] std::vector<std::uint64_t>
+    common(const std::vector<std::uint64_t>& ordinals) const
+    {
+        std::vector<std::uint64_t> common;
+        std::set_intersection(ascending_.begin(), ascending_.end(), ordinals.begin(),
+                              ordinals.end(), std::back_inserter(common));
+        return common;
+    }
+
+private:
+    std::vector<std::uint64_t> ascending_;
+};
+
+class SweepRun {
+public:
+    SweepRun(const scene::SweepSpace& space, const SweepRunOptions& options)
+        : space_{space},
+          options_{options},
+          lock_{options.folder},
+          catalogue_{space, options.keeps_pixels, GNOMON_VERSION},
+          refusals_{catalogue_.refusals()},
+          context_{options.session.device},
+          scenes_{context_, options.session},
+          store_{options.folder, RunStore::Access::write}
+    {
+        if (options.session.threads > 0) {
+            threads_.emplace(tbb::global_control::max_allowed_parallelism,
+                             static_cast<std::size_t>(options.session.threads));
+        }
+    }
+
+    SweepOutcome run()
+    {
+        read_hashes();
+        plan();
+        select_missing();
+        if (!requests_.empty() || !refusals_.empty()) {
+            compute();
+        }
+        store_.write_csv();
+        outcome_.done = store_.ordinals(RunState::done).size();
+        outcome_.failed = store_.ordinals(RunState::failed).size();
+        return outcome_;
+    }
+
+private:
+    /// Finds every scene's hash; requests whose scene cannot be read, or which need more memory
+    /// than there is, are refused.
+    void read_hashes()
+    {
+        std::map<std::string, std::pair<std::string, std::string>> known; // hash, error
+        for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
+            const CurveRequest& request = catalogue_.requests()[i];
+            const scene::Job job = catalogue_.job(i);
+            const auto [entry, is_new] = known.try_emplace(request.keys.scene);
+            auto& [hash, error] = entry->second;
+            if (is_new) {
+                error = refusal_of([&] { hash = scenes_.hash(job); });
+            }
+            const std::string message =
+                error.empty() ? refusal_of([&] { require_memory(job); }) : error;
+            hashes_.push_back(hash);
+            is_refused_.push_back(!message.empty());
+            if (!message.empty()) {
+                refusals_.push_back({request.ordinals, message});
+            }
+        }
+        if (std::find(is_refused_.begin(), is_refused_.end(), false) == is_refused_.end()) {
+            throw scene::InputError(refusals_.front().message);
+        }
+    }
+
+    /// Records what the run is to compute.
+    void plan()
+    {
+        const auto& requests = catalogue_.requests();
+        const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
+        const auto shards = analysis::divide(whole, requests, options_.shard.count);
+        std::vector<Configuration> configurations;
+        const auto add = [&](std::uint32_t shard) {
+            return [&, shard](const Configuration& configuration) {
+                configurations.push_back(configuration);
+                configurations.back().shard = shard;
+            };
+        };
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            catalogue_.describe(i, hashes_[i], add(shards[i]));
+        }
+        for (const Refusal& refusal : catalogue_.refusals()) {
+            catalogue_.describe(refusal, add(1));
+        }
+        if (options_.keeps_pixels) {
+            for (const Configuration& configuration : configurations) {
+                ids_.emplace(configuration.ordinal, configuration.id);
+            }
+        }
+        const auto outcome =
+            store_.plan(description(), configurations,
+                        options_.allows_mixed ? reports::Environments::several
+                                              : reports::Environments::one);
+        outcome_.configurations = outcome.done + outcome.failed + outcome.planned;
+        outcome_.retired = outcome.retired;
+    }
+
+    [[nodiscard]] reports::RunDescription description() const
+    {
+        reports::RunDescription description;
+        const raster_gl::GlFacts& facts = context_.facts();
+        description.environment = {facts.renderer, facts.version, reference_rt::embree_version(),
+                                   GNOMON_VERSION};
+        description.shard = options_.shard;
+        description.size = space_.size();
+        for (const scene::SweepAxis& axis : space_.axes()) {
+            description.axes.push_back(axis.key);
+        }
+        description.job = options_.job_text;
+        description.command = options_.command;
+        return description;
+    }
+
+    /// Keeps of requests and refusals what is still to be done here.
+    void select_missing()
+    {
+        if (options_.retries_failed) {
+            store_.reset_failed();
+        }
+        const Ordinals missing{store_.ordinals(RunState::planned)};
+        for (Refusal& refusal : refusals_) {
+            refusal.ordinals = missing.common(refusal.ordinals);
+        }
+        std::erase_if(refusals_, [](const Refusal& refusal) { return refusal.ordinals.empty(); });
+        for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
+            CurveRequest request = catalogue_.requests()[i];
+            request.ordinals = missing.common(request.ordinals);
+            if (!request.ordinals.empty() && !is_refused_[i]) {
+                requests_.push_back(std::move(request));
+                request_numbers_.push_back(i);
+            }
+        }
+    }
+
+    void compute()
+    {
+        std::uint64_t total = 0;
+        for (const CurveRequest& request : requests_) {
+            total += request.ordinals.size();
+        }
+        for (const Refusal& refusal : refusals_) {
+            total += refusal.ordinals.size();
+        }
+        Progress progress{total, options_.is_quiet};
+        for (const Refusal& refusal : refusals_) {
+            store_.record_failure(refusal.ordinals, refusal.message);
+            progress.add(0, refusal.ordinals.size());
+        }
+        const auto plan = analysis::make_plan(requests_, analysis::camera_slots(requests_));
+        stop_on_signals();
+        outcome_.counts = analysis::run_sweep(plan, hooks(progress));
+        outcome_.is_interrupted = is_interrupted();
+    }
+
+    analysis::SweepHooks hooks(Progress& progress)
+    {
+        analysis::SweepHooks hooks;
+        hooks.open_scene = [this](const scene::Job& job) { return scenes_.open(job); };
+        hooks.task = [this, &progress](std::size_t curve) { return task(curve, progress); };
+        hooks.record = [this, &progress](const analysis::FinishedCurve& finished) {
+            store_.record(finished);
+            for (const auto& row : finished.rows) {
+                outcome_.mismatches += row.result.metrics.pixels.of(scene::ClassReason::mismatch);
+            }
+            progress.add(finished.rows.size(), 0);
+        };
+        hooks.record_failure = [this, &progress](std::span<const std::uint64_t> ordinals,
+                                                 const std::string& message) {
+            store_.record_failure(ordinals, message);
+            progress.add(0, ordinals.size());
+        };
+        hooks.should_stop = [] { return is_interrupted(); };
+        if (options_.keeps_pixels) {
+            hooks.keep_pixels = [this](std::uint64_t ordinal,
+                                       const analysis::Comparison& comparison) {
+                keep_pixels(ids_.at(ordinal), comparison);
+            };
+        }
+        return hooks;
+    }
+
+    analysis::SweepTask task(std::size_t curve, Progress& progress) const
+    {
+        const std::size_t number = request_numbers_[curve];
+        analysis::SweepTask task = catalogue_.task(number, hashes_[number]);
+        const auto& wanted = requests_[curve].ordinals;
+        std::erase_if(task.rows, [&](const analysis::SweepTask::Row& row) {
+            return !std::binary_search(wanted.begin(), wanted.end(), row.ordinal);
+        });
+        progress.begin(
+            point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
+        return task;
+    }
+
+    void keep_pixels(const std::string& id, const analysis::Comparison& comparison) const
+    {
+        const auto points = reference_rt::receiver_points(*comparison.triangles, comparison.view,
+                                                          comparison.receivers.triangle);
+        reports::write_aov(reports::pixels_path(options_.folder, id), comparison, points);
+    }
+
+    const scene::SweepSpace& space_;
+    const SweepRunOptions& options_;
+    reports::RunLock lock_;
+    SweepCatalogue catalogue_;
+    std::vector<Refusal> refusals_;
+    raster_gl::Context context_;
+    SweepScenes scenes_;
+    RunStore store_;
+    std::optional<tbb::global_control> threads_;
+    std::vector<std::string> hashes_;                    ///< by request of the catalogue
+    std::vector<bool> is_refused_;                       ///< likewise
+    std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
+    std::vector<CurveRequest> requests_;                 ///< what is still to be computed
+    std::vector<std::size_t> request_numbers_;           ///< theirs in the catalogue
+    SweepOutcome outcome_;
+};
+
+} // namespace
+
+SweepOutcome run_sweep_command(const scene::SweepSpace& space, const SweepRunOptions& options)
+{
+    return SweepRun{space, options}.run();
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,41 @@
+#include "cli/sweep_scenes.hpp"
+
+#include "analysis/sweep/stage_keys.hpp"
+#include "scene/load_scene.hpp"
+
+namespace gnomon::cli {
+
+SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options)
+    : context_{context},
+      options_{options}
+{
+}
+
+void SweepScenes::read(const scene::Job& job)
+{
+    std::string key = analysis::stage_keys(job).scene;
+    if (file_ != nullptr && key == key_) {
+        return;
+    }
+    hands_.reset(); // refers to the file
+    file_.reset();
+    file_ = std::make_unique<scene::SceneFile>(scene::load_scene(job.scene));
+    key_ = std::move(key);
+}
+
+std::string SweepScenes::hash(const scene::Job& job)
+{
+    read(job);
+    return scene::content_hash(file_->scene);
+}
+
+analysis::OpenScene SweepScenes::open(const scene::Job& job)
+{
+    read(job);
+    if (!hands_) {
+        hands_.emplace(context_, file_->scene, options_);
+    }
+    return {file_.get(), &hands_->renderers()};
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace gnomon::reports {
+
+/// Where a run keeps a configuration's layers (docs/aov.md): RUN/pixels/ID.exr. Makes the folder
+/// where there is none.
+/// @throws scene::EnvironmentError  if it cannot be made.
+[[nodiscard]] std::filesystem::path pixels_path(const std::filesystem::path& folder,
+                                                std::string_view id);
+
+} // namespace gnomon::reports
