@@ -2,9 +2,12 @@
 #include "cli/compare_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/doctor_command.hpp"
+#include "cli/merge_command.hpp"
 #include "cli/process.hpp"
 #include "cli/simple_commands.hpp"
 #include "cli/standard_output.hpp"
+#include "cli/status_command.hpp"
+#include "cli/sweep_command.hpp"
 #include "cli/tune_command.hpp"
 #include "scene/error.hpp"
 
@@ -45,10 +48,13 @@ void describe(CLI::App& program)
         "  gnomon init job.toml\n\n"
         "Exit status: 0 done; 1 `certify` refutes, or no setting meets `tune`'s limits;\n"
         "2 usage, or a job or scene that is bad, missing or unreadable; 4 GL, Embree or output "
-        "failed; 130 interrupted.");
+        "failed; 5 a run is incomplete; 130 interrupted.");
     gnomon::cli::add_compare_command(program);
     gnomon::cli::add_certify_command(program);
     gnomon::cli::add_tune_command(program);
+    gnomon::cli::add_sweep_command(program);
+    gnomon::cli::add_merge_command(program);
+    gnomon::cli::add_status_command(program);
     gnomon::cli::add_scenes_command(program);
     gnomon::cli::add_init_command(program);
     gnomon::cli::add_doctor_command(program);

@@ -83,7 +83,7 @@ void append_csv_number(std::string& out, double number)
 {
     std::array<char, 32> text{}; // the longest is "-2.2250738585072014e-308"
     const char* const end = fmt::format_to(text.data(), "{}", number);
-    out.append(text.data(), end);
+    out.append(text.data(), static_cast<std::size_t>(end - text.data()));
 }
 
 void append_csv_text(std::string& out, std::string_view text)

@@ -193,24 +193,6 @@ std::string read_text(const Database& database, std::string_view key)
     return find.bind(1, key).step() ? find.text(0) : std::string{};
 }
 
-PlanOutcome outcome(const Database& database)
-{
-    PlanOutcome result;
-    Statement counts{database, "SELECT c.status, count(*) FROM part p CROSS JOIN configurations c"
-                               " ON c.number = p.configuration GROUP BY c.status"};
-    while (counts.step()) {
-        const std::string status = counts.text(0);
-        std::uint64_t& count = status == "done"     ? result.done
-                               : status == "failed" ? result.failed
-                                                    : result.planned;
-        count = static_cast<std::uint64_t>(counts.integer(1));
-    }
-    result.retired = static_cast<std::uint64_t>(
-        database.integer("SELECT count(*) FROM configurations WHERE status = 'done'"
-                         " AND number NOT IN (SELECT configuration FROM plan)"));
-    return result;
-}
-
 } // namespace
 
 void write_description(const Database& database, const RunDescription& description)
@@ -243,8 +225,26 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     }
     database.run("DELETE FROM configurations WHERE status = 'planned'"
                  " AND number NOT IN (SELECT configuration FROM plan)");
-    const PlanOutcome result = outcome(database);
+    const PlanOutcome result = read_outcome(database);
     transaction.commit();
+    return result;
+}
+
+PlanOutcome read_outcome(const Database& database)
+{
+    PlanOutcome result;
+    Statement counts{database, "SELECT c.status, count(*) FROM part p CROSS JOIN configurations c"
+                               " ON c.number = p.configuration GROUP BY c.status"};
+    while (counts.step()) {
+        const std::string status = counts.text(0);
+        std::uint64_t& count = status == "done"     ? result.done
+                               : status == "failed" ? result.failed
+                                                    : result.planned;
+        count = static_cast<std::uint64_t>(counts.integer(1));
+    }
+    result.retired = static_cast<std::uint64_t>(
+        database.integer("SELECT count(*) FROM configurations WHERE status = 'done'"
+                         " AND number NOT IN (SELECT configuration FROM plan)"));
     return result;
 }
 

@@ -11,6 +11,9 @@ namespace gnomon::reports {
 PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& description,
                        const NextConfiguration& next, Environments environments);
 
+/// How the plan's configurations stand.
+[[nodiscard]] PlanOutcome read_outcome(const sqlite::Database& database);
+
 /// `RunStore::description`; everything is empty where nothing was planned yet.
 [[nodiscard]] RunDescription read_description(const sqlite::Database& database);
 

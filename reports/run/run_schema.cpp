@@ -15,6 +15,7 @@ namespace {
 using sqlite::Database;
 using sqlite::sql_name;
 using sqlite::Statement;
+using sqlite::Transaction;
 
 constexpr int application_id = 0x474E4D4E; ///< "GNMN"
 
@@ -139,20 +140,20 @@ bool was_made_by(const Database& database, const std::string& statement)
     return search.bind(1, std::string_view{statement}).first().has_value();
 }
 
-} // namespace
-
-std::filesystem::path results_path(const std::filesystem::path& folder)
-{
-    return folder / "results.sqlite";
-}
-
-void create_run_schema(const Database& database)
+void create_schema(const Database& database)
 {
     for (const std::string& statement : schema_statements()) {
         database.run(statement);
     }
     database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application_id,
                              run_schema));
+}
+
+} // namespace
+
+std::filesystem::path results_path(const std::filesystem::path& folder)
+{
+    return folder / "results.sqlite";
 }
 
 void require_run_schema(const Database& database)
@@ -169,6 +170,22 @@ void require_run_schema(const Database& database)
         if (!was_made_by(database, statement)) {
             refuse(database, "a Gnomon with other keys or results wrote it");
         }
+    }
+}
+
+void prepare_run(Database& database)
+{
+    const bool is_new = database.integer("SELECT count(*) FROM sqlite_schema") == 0;
+    if (!is_new) {
+        require_run_schema(database); // before anything of somebody else's is changed
+        database.require_sound();
+    }
+    database.enter_wal_mode();
+    database.run("PRAGMA cache_size = -32768"); // KiB
+    if (is_new) {
+        Transaction transaction{database};
+        create_schema(database);
+        transaction.commit();
     }
 }
 

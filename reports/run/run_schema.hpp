@@ -13,10 +13,12 @@ inline constexpr int run_schema = 1;
 /// The database of a run, in its folder.
 [[nodiscard]] std::filesystem::path results_path(const std::filesystem::path& folder);
 
-/// Makes the tables and views of an empty database (docs/runs.md), as part of a transaction.
-void create_run_schema(const sqlite::Database& database);
-
 /// @throws scene::InputError  if it is not a run's database, or one of another schema.
 void require_run_schema(const sqlite::Database& database);
+
+/// Readies a database for writing, whether it is new, whole or left by a process that was killed;
+/// a new one gets its tables and views (docs/runs.md).
+/// @throws scene::InputError  as `require_run_schema` does, and if the database is damaged.
+void prepare_run(sqlite::Database& database);
 
 } // namespace gnomon::reports

@@ -1,5 +1,7 @@
 #include "reports/run/run_store.hpp"
 
+#include "reports/run/csv_text.hpp"
+#include "reports/run/run_columns.hpp"
 #include "reports/run/run_csv.hpp"
 #include "reports/run/run_plan.hpp"
 #include "reports/run/run_recorder.hpp"
@@ -9,7 +11,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -21,7 +25,8 @@ namespace {
 
 using sqlite::Database;
 using sqlite::Statement;
-using sqlite::Transaction;
+
+constexpr std::uint64_t most_rows = std::numeric_limits<std::int64_t>::max();
 
 constexpr std::array<std::string_view, 3> state_names{"planned", "done", "failed"};
 
@@ -36,36 +41,40 @@ void require_results(const std::filesystem::path& folder)
     }
 }
 
-void prepare_writing(const Database& database)
+/// Those of the keys that are columns.
+std::vector<std::string> known_keys(const std::vector<std::string>& keys)
 {
-    database.enter_wal_mode();
-    database.run("PRAGMA cache_size = -32768"); // KiB
-    Transaction transaction{database};
-    if (database.integer("SELECT count(*) FROM sqlite_schema") == 0) {
-        create_run_schema(database);
+    std::vector<std::string> known;
+    for (const JobColumn& column : job_columns()) {
+        if (std::find(keys.begin(), keys.end(), column.name) != keys.end()) {
+            known.push_back(column.name);
+        }
     }
-    transaction.commit();
+    return known;
+}
+
+std::string shown(const sqlite::ValueView& value)
+{
+    std::string text;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        text = fmt::format("{}", *integer);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        append_csv_number(text, *real);
+    } else if (const auto* words = std::get_if<std::string_view>(&value)) {
+        text = *words;
+    }
+    return text;
 }
 
 } // namespace
 
 /// The database, and what is kept of it between calls.
 struct RunStore::Parts {
-    Parts(const std::filesystem::path& run, Access run_access)
+    Parts(const std::filesystem::path& run, Access access)
         : folder{run},
-          access{run_access},
           database{results_path(run),
                    access == Access::write ? Database::Access::write : Database::Access::read}
     {
-    }
-    Parts(const Parts&) = delete;
-    Parts& operator=(const Parts&) = delete;
-    ~Parts()
-    {
-        kept_recorder.reset(); // a statement would keep the journal in use
-        if (access == Access::write) {
-            database.leave_wal_mode();
-        }
     }
 
     RunRecorder& recorder()
@@ -74,10 +83,9 @@ struct RunStore::Parts {
     }
 
     std::filesystem::path folder;
-    Access access;
     Database database;
-    std::optional<RunRecorder> kept_recorder;
-    std::int64_t environment = 0; ///< number of the plan's
+    std::optional<RunRecorder> kept_recorder; ///< its statements go before the database
+    std::int64_t environment = 0;             ///< number of the plan's
 };
 
 RunStore::RunStore(const std::filesystem::path& folder, Access access)
@@ -87,11 +95,9 @@ RunStore::RunStore(const std::filesystem::path& folder, Access access)
     }
     parts_ = std::make_unique<Parts>(folder, access);
     if (access == Access::write) {
-        prepare_writing(parts_->database);
-    }
-    require_run_schema(parts_->database);
-    if (access == Access::write) {
-        parts_->database.require_sound();
+        prepare_run(parts_->database);
+    } else {
+        require_run_schema(parts_->database);
     }
     parts_->environment = environment_number(parts_->database);
 }
@@ -135,6 +141,40 @@ std::vector<std::uint64_t> RunStore::ordinals(RunState state) const
         ordinals.push_back(static_cast<std::uint64_t>(find.integer(0)));
     }
     return ordinals;
+}
+
+std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
+{
+    const std::vector<std::string> axes = known_keys(description().axes);
+    std::string columns;
+    for (const std::string& axis : axes) {
+        columns += ", c." + sqlite::sql_name(axis);
+    }
+    Statement find{parts_->database,
+                   fmt::format("SELECT p.ordinal, c.id, p.\"case\", c.message{} FROM part p"
+                               " CROSS JOIN configurations c ON c.number = p.configuration"
+                               " WHERE c.status = ? ORDER BY p.ordinal LIMIT ?",
+                               columns)};
+    find.bind(1, state_names[static_cast<std::size_t>(state)])
+        .bind(2, static_cast<std::int64_t>(std::min(most, most_rows)));
+    std::vector<RunRow> rows;
+    while (find.step()) {
+        RunRow row{static_cast<std::uint64_t>(find.integer(0)),
+                   find.text(1),
+                   find.text(2),
+                   find.text(3),
+                   {}};
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            row.axes.emplace_back(axes[i], shown(find.value(4 + static_cast<int>(i))));
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+PlanOutcome RunStore::outcome() const
+{
+    return read_outcome(parts_->database);
 }
 
 std::uint64_t RunStore::reset_failed()

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::reports {
@@ -41,7 +42,16 @@ enum class RunState : std::uint8_t {
     failed = 2,
 };
 
-/// What `RunStore::plan` found.
+/// A configuration, as far as it takes to tell it from the others.
+struct RunRow {
+    std::uint64_t ordinal = 0;
+    std::string id;
+    std::string case_name;                                 ///< empty without cases
+    std::string message;                                   ///< why it failed
+    std::vector<std::pair<std::string, std::string>> axes; ///< the sweep's keys and their values
+};
+
+/// How the configurations of a plan stand.
 struct PlanOutcome {
     std::uint64_t done = 0;    ///< of this part's configurations: they are not to be computed again
     std::uint64_t failed = 0;  ///< of this part's
@@ -102,6 +112,12 @@ public:
 
     /// Ordinals of this part's configurations in that state, ascending.
     [[nodiscard]] std::vector<std::uint64_t> ordinals(RunState state) const;
+
+    /// The first `most` of this part's configurations in that state, by ordinal.
+    [[nodiscard]] std::vector<RunRow> rows(RunState state, std::uint64_t most) const;
+
+    /// How the plan's configurations stand.
+    [[nodiscard]] PlanOutcome outcome() const;
 
     /// Makes failed configurations planned again; returns how many of this part's ordinals that is.
     std::uint64_t reset_failed();

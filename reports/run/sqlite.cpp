@@ -234,6 +234,14 @@ Database::Database(const std::filesystem::path& path, Access access)
     sqlite3_busy_timeout(handle, busy_timeout_ms);
 }
 
+Database::~Database()
+{
+    if (is_in_wal_mode_) {
+        sqlite3_busy_timeout(handle(), 0);
+        sqlite3_exec(handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+    }
+}
+
 void Database::run(const std::string& sql) const
 {
     const int code = sqlite3_exec(handle(), sql.c_str(), nullptr, nullptr, nullptr);
@@ -265,15 +273,10 @@ void Database::attach(const std::filesystem::path& path, std::string_view name) 
     statement.bind(1, std::string_view{address}).bind(2, name).run();
 }
 
-void Database::enter_wal_mode() const
+void Database::enter_wal_mode()
 {
     run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
-}
-
-void Database::leave_wal_mode() const noexcept
-{
-    sqlite3_busy_timeout(handle(), 0);
-    sqlite3_exec(handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
+    is_in_wal_mode_ = true;
 }
 
 void Database::require_sound() const

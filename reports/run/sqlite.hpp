@@ -62,7 +62,7 @@ private:
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// An SQLite database in a file.
+/// An SQLite database in a file; it outlives its statements.
 ///
 /// Every function throws, naming the file,
 ///   scene::InputError        if the file is no database, or is damaged;
@@ -75,7 +75,7 @@ public:
     Database(const std::filesystem::path& path, Access access);
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
-    ~Database() = default;
+    ~Database();
 
     /// Runs statements that return nothing of interest.
     void run(const std::string& sql) const;
@@ -90,11 +90,10 @@ public:
 
     /// @throws scene::InputError  if the file is damaged; reads all of it.
     void require_sound() const;
-    /// Lets readers work while this connection writes, and puts every commit on the disk.
-    void enter_wal_mode() const;
-    /// Makes the database one file again, which can be read where nothing may be written; it stays
-    /// as it is while others read it.
-    void leave_wal_mode() const noexcept;
+    /// Lets others read while this connection writes, and puts every commit on the disk. At its end
+    /// the database becomes one file again, which can be read where nothing may be written (unless
+    /// somebody reads it just then).
+    void enter_wal_mode();
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] sqlite3* handle() const { return handle_.get(); }
@@ -109,6 +108,7 @@ private:
     };
     std::filesystem::path path_;
     std::unique_ptr<sqlite3, Close> handle_;
+    bool is_in_wal_mode_ = false;
 };
 
 /// All or nothing: what happens to the database until `commit`, or none of it.

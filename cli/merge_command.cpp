@@ -1,0 +1,58 @@
+#include "cli/merge_command.hpp"
+
+#include "cli/standard_output.hpp"
+#include "reports/run/merge.hpp"
+#include "reports/run/run_lock.hpp"
+#include "reports/run/run_status.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+constexpr int incomplete_exit_code = 5;
+
+struct MergeOptions {
+    std::string out;
+    std::vector<std::string> runs;
+    bool allow_mixed = false;
+};
+
+void merge(const MergeOptions& options)
+{
+    constexpr std::uint64_t most_rows = 20;
+    const reports::RunLock lock{options.out};
+    const std::vector<std::filesystem::path> runs(options.runs.begin(), options.runs.end());
+    reports::merge_runs(options.out, runs,
+                        options.allow_mixed ? reports::Environments::several
+                                            : reports::Environments::one);
+    const reports::RunStatus status = reports::read_run_status(options.out, most_rows);
+    print(reports::run_status_text(status));
+    if (!status.is_complete()) {
+        throw CLI::RuntimeError{incomplete_exit_code};
+    }
+}
+
+} // namespace
+
+void add_merge_command(CLI::App& program)
+{
+    auto options = std::make_shared<MergeOptions>();
+    CLI::App* command =
+        program.add_subcommand("merge", "Unite the shards of a sweep, or overlapping runs of it");
+    command->add_option("OUT", options->out, "The folder of the united run: a new one")->required();
+    command->add_option("RUN", options->runs, "Folders that `gnomon sweep --out` wrote")
+        ->required();
+    command->add_flag("--allow-mixed", options->allow_mixed,
+                      "Unite results of different drivers or versions too");
+    command->footer("Exit status: 0 complete; 2 the runs do not fit together, or OUT holds one; 5 "
+                    "united, but configurations failed or are missing.\n\nExamples:\n"
+                    "  gnomon merge all part1 part2 part3\n"
+                    "  gnomon status all");
+    command->callback([options] { merge(*options); });
+}
+
+} // namespace gnomon::cli

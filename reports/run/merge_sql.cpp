@@ -1,0 +1,192 @@
+#include "reports/run/merge_sql.hpp"
+
+#include "reports/run/run_columns.hpp"
+#include "reports/run/sqlite.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gnomon::reports::merge_sql {
+
+namespace {
+
+using sqlite::sql_name;
+
+using Names = std::vector<std::string>;
+
+/// The input's configurations that its plan asks for.
+constexpr std::string_view planned = "i.number IN (SELECT configuration FROM input.plan)";
+
+/// The main number of the input's environment that row `i` names.
+constexpr std::string_view environment =
+    "(SELECT e.number FROM main.environments e JOIN input.environments f"
+    " USING (gl_renderer, gl_version, embree, gnomon) WHERE f.number = i.environment)";
+
+template <typename Columns>
+void append_names(Names& names, const Columns& columns)
+{
+    for (const auto& column : columns) {
+        names.push_back(sql_name(column.name));
+    }
+}
+
+Names curve_names()
+{
+    Names names{"lit", "blocked"};
+    append_names(names, map_columns());
+    append_names(names, bias_curve_columns());
+    return names;
+}
+
+Names result_names()
+{
+    Names names;
+    append_names(names, result_columns());
+    return names;
+}
+
+Names point_names()
+{
+    return {"point", "bias", "false_shadow", "false_lit"};
+}
+
+Names bin_names()
+{
+    Names names{"profile", "bin", "\"at\"", "bias"};
+    append_names(names, bin_columns());
+    return names;
+}
+
+/// "m.a, m.b"
+std::string listed(std::string_view table, const Names& names)
+{
+    std::string text;
+    for (const std::string& name : names) {
+        text += fmt::format("{}{}.{}", text.empty() ? "" : ", ", table, name);
+    }
+    return text;
+}
+
+/// "a = i.a, b = i.b"
+std::string assigned(const Names& names)
+{
+    std::string text;
+    for (const std::string& name : names) {
+        text += fmt::format("{}{} = i.{}", text.empty() ? "" : ", ", name, name);
+    }
+    return text;
+}
+
+/// The name of the first column in which rows `m` and `i` differ; NULL if there is none.
+std::string differing(const Names& names)
+{
+    std::string text = "CASE";
+    for (const std::string& name : names) {
+        const bool is_quoted = name.starts_with('"');
+        const std::string shown = is_quoted ? name.substr(1, name.size() - 2) : name;
+        text += fmt::format(" WHEN m.{0} IS NOT i.{0} THEN '{1}'", name, shown);
+    }
+    return text + " END";
+}
+
+/// Finds a curve whose rows in `table` are not the same in both.
+std::string other_rows(std::string_view table, const Names& names, std::string_view shown)
+{
+    const auto rows = [&](std::string_view schema, std::string_view number) {
+        return fmt::format("SELECT {} FROM {}.{} t WHERE t.curve = {}", listed("t", names), schema,
+                           table, number);
+    };
+    const std::string main_rows = rows("main", "m.number");
+    const std::string input_rows = rows("input", "i.number");
+    return fmt::format("SELECT m.id, '{0}' FROM main.curves m JOIN input.curves i ON i.id = m.id"
+                       " WHERE m.environment IS NOT NULL AND i.environment IS NOT NULL"
+                       " AND (EXISTS ({1} EXCEPT {2}) OR EXISTS ({2} EXCEPT {1})) LIMIT 1",
+                       shown, main_rows, input_rows);
+}
+
+/// Copies the rows in `table` of curves that only the input has results of.
+std::string copied_rows(std::string_view table, const Names& names)
+{
+    return fmt::format("INSERT INTO main.{0} (curve, {1}) SELECT m.number, {2}"
+                       " FROM input.curves i JOIN main.curves m ON m.id = i.id"
+                       " JOIN input.{0} t ON t.curve = i.number"
+                       " WHERE m.environment IS NULL AND i.environment IS NOT NULL",
+                       table, fmt::join(names, ", "), listed("t", names));
+}
+
+std::string new_configurations()
+{
+    Names names{"id", "scene_hash", "status", "message"};
+    append_names(names, job_columns());
+    append_names(names, result_columns());
+    return fmt::format("INSERT OR IGNORE INTO main.configurations (curve, environment, {})"
+                       " SELECT (SELECT m.number FROM input.curves v JOIN main.curves m"
+                       " ON m.id = v.id WHERE v.number = i.curve), {}, {}"
+                       " FROM input.configurations i WHERE {} ORDER BY i.number",
+                       fmt::join(names, ", "), environment, listed("i", names), planned);
+}
+
+std::string better_configurations()
+{
+    Names names{"status", "message"};
+    append_names(names, result_columns());
+    return fmt::format("UPDATE main.configurations AS m SET environment = {}, {}"
+                       " FROM input.configurations i WHERE i.id = m.id AND {}"
+                       " AND ((m.status <> 'done' AND i.status = 'done')"
+                       " OR (m.status = 'planned' AND i.status = 'failed'))",
+                       environment, assigned(names), planned);
+}
+
+} // namespace
+
+std::string other_plan()
+{
+    return "SELECT p.ordinal FROM input.plan p"
+           " JOIN input.configurations i ON i.number = p.configuration"
+           " JOIN main.plan q ON q.ordinal = p.ordinal"
+           " JOIN main.configurations m ON m.number = q.configuration"
+           " WHERE m.id <> i.id OR p.\"case\" <> q.\"case\" LIMIT 1";
+}
+
+std::vector<Conflict> conflicts()
+{
+    const std::string configurations =
+        fmt::format("SELECT m.id, {} AS differing FROM input.configurations i"
+                    " JOIN main.configurations m ON m.id = i.id WHERE m.status = 'done'"
+                    " AND i.status = 'done' AND {} AND differing IS NOT NULL LIMIT 1",
+                    differing(result_names()), planned);
+    const std::string curves = fmt::format(
+        "SELECT m.id, {} AS differing FROM input.curves i JOIN main.curves m ON m.id = i.id"
+        " WHERE m.environment IS NOT NULL AND i.environment IS NOT NULL"
+        " AND differing IS NOT NULL LIMIT 1",
+        differing(curve_names()));
+    return {{"configuration", configurations},
+            {"curve", curves},
+            {"curve", other_rows("curve_points", point_names(), "bias curve")},
+            {"curve", other_rows("curve_bins", bin_names(), "error by distance")}};
+}
+
+std::vector<std::string> union_statements()
+{
+    return {"INSERT OR IGNORE INTO main.environments (gl_renderer, gl_version, embree, gnomon)"
+            " SELECT gl_renderer, gl_version, embree, gnomon FROM input.environments"
+            " ORDER BY number",
+            fmt::format("INSERT OR IGNORE INTO main.curves (id) SELECT v.id FROM input.curves v"
+                        " WHERE v.number IN (SELECT i.curve FROM input.configurations i WHERE {})"
+                        " ORDER BY v.number",
+                        planned),
+            copied_rows("curve_points", point_names()),
+            copied_rows("curve_bins", bin_names()),
+            fmt::format("UPDATE main.curves AS m SET environment = {}, {} FROM input.curves i"
+                        " WHERE i.id = m.id AND m.environment IS NULL"
+                        " AND i.environment IS NOT NULL",
+                        environment, assigned(curve_names())),
+            new_configurations(),
+            better_configurations(),
+            "INSERT OR IGNORE INTO main.plan (ordinal, configuration, \"case\", shard)"
+            " SELECT p.ordinal, (SELECT m.number FROM input.configurations i"
+            " JOIN main.configurations m ON m.id = i.id WHERE i.number = p.configuration),"
+            " p.\"case\", p.shard FROM input.plan p ORDER BY p.ordinal"};
+}
+
+} // namespace gnomon::reports::merge_sql

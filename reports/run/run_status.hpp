@@ -1,0 +1,37 @@
+#pragma once
+
+#include "reports/run/run_store.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gnomon::reports {
+
+/// How far a run is.
+struct RunStatus {
+    std::filesystem::path folder;
+    RunDescription description;
+    std::uint64_t done = 0;
+    std::uint64_t failed = 0;
+    std::uint64_t missing = 0;
+    std::vector<RunRow> failed_rows;  ///< the first of them
+    std::vector<RunRow> missing_rows; ///< the first of those that the run knows of
+
+    [[nodiscard]] bool is_complete() const { return failed == 0 && missing == 0; }
+};
+
+/// @param most  rows of each list.
+/// @throws scene::InputError  if there is no run, or nothing was planned in it.
+[[nodiscard]] RunStatus read_run_status(const std::filesystem::path& folder, std::uint64_t most);
+
+/// The command that goes on with a run; empty if it is not known.
+[[nodiscard]] std::string resuming_command(const RunStatus& status);
+
+/// What `gnomon status` prints, with a final newline.
+[[nodiscard]] std::string run_status_text(const RunStatus& status);
+/// What `gnomon status --json` prints (docs/runs.md).
+[[nodiscard]] std::string run_status_json(const RunStatus& status);
+
+} // namespace gnomon::reports
