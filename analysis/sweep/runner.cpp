@@ -291,6 +291,7 @@ private:
     void answer(std::size_t slot)
     {
         ++counts_.curves;
+        counts_.configurations += task_->rows.size();
         if (is_compared()) {
             select(slot);
             teller_.tell(*task_, [&] { return compare_row(slot, task_->rows.at(0)); });
