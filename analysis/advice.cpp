@@ -114,7 +114,8 @@ private:
 
     void measure_with(const Job& job, const scene::View& view, std::vector<std::string> keys)
     {
-        const Metrics metrics = measure(comparison_.truth, renderers_.look_up(job, view), equal_taps(job.lookup.filter));
+        const Metrics metrics = measure(comparison_.truth, renderers_.look_up(job, view),
+                                        equal_taps(job.lookup.filter));
         advice_.push_back(
             {std::move(keys), {metrics.false_shadow, metrics.false_lit}, metrics.error_rate});
     }

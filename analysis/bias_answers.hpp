@@ -42,8 +42,8 @@ struct BiasQuestion {
 };
 
 /// 1 where a lit pixel is acne if it is shadowed.
-[[nodiscard]] scene::Image<std::uint8_t>
-acne_flags(const scene::Image<scene::PixelClass>& classes, const scene::Image<PixelCause>& pixels);
+[[nodiscard]] scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& classes,
+                                                    const scene::Image<PixelCause>& pixels);
 
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question);

@@ -141,8 +141,8 @@ private:
     /// Index of the first bias with which the pixel is lit.
     [[nodiscard]] std::size_t first_lit(float critical) const
     {
-        return static_cast<std::size_t>(
-            std::lower_bound(biases_.begin(), biases_.end(), critical) - biases_.begin());
+        return static_cast<std::size_t>(std::lower_bound(biases_.begin(), biases_.end(), critical) -
+                                        biases_.begin());
     }
 
     const BiasRowInputs& inputs_;
@@ -273,9 +273,9 @@ private:
     /// Index of the first bias with which the tap is lit.
     [[nodiscard]] std::size_t first_lit(float r, float d, float slope_term) const
     {
-        const auto first =
-            std::partition_point(biases_.begin(), biases_.end(),
-                                 [&](float bias) { return !is_lit(r, d, bias + slope_term); });
+        const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
+            return !is_lit(r, d, bias + slope_term);
+        });
         return static_cast<std::size_t>(first - biases_.begin());
     }
     /// The lookup's comparison; an infinite depth stands for the policy's verdict.
@@ -323,9 +323,9 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, std::span<const flo
         return {};
     }
     const RowCounter counter{inputs, biases};
-    const Changes changes = sum_over_pixels(
-        inputs.classes.pixel_count(), Changes{biases.size()},
-        [&](std::size_t pixel, Changes& sum) { counter.count(pixel, sum); });
+    const Changes changes =
+        sum_over_pixels(inputs.classes.pixel_count(), Changes{biases.size()},
+                        [&](std::size_t pixel, Changes& sum) { counter.count(pixel, sum); });
     return changes.rows();
 }
 

@@ -195,8 +195,7 @@ std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& class
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
             ObjectErrors& of_object = errors[scene.object_of(triangles[i])];
-            count_pixel(of_object.counts, classes[i],
-                        scene::is_lit(lookup.samples[i].verdict));
+            count_pixel(of_object.counts, classes[i], scene::is_lit(lookup.samples[i].verdict));
         }
     }
     return errors;

@@ -79,16 +79,15 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
                              map_depths, *light};
     diagnosis.pixels = find_causes(inputs);
     diagnosis.causes = classify_errors(layers.truth, layers.lookup, diagnosis.pixels, view.bias);
-    const auto panning =
-        detached_pixels(inputs, pixels_of(diagnosis.causes, Label::peter_panning));
+    const auto panning = detached_pixels(inputs, pixels_of(diagnosis.causes, Label::peter_panning));
     BlockerGaps gaps{view.image};
     gaps.find(*light, panning);
-    diagnosis.peter_panning = measure_gaps(
-        gaps_of_pixels(gaps, panning, geometry, view.frustum, resolution));
+    diagnosis.peter_panning =
+        measure_gaps(gaps_of_pixels(gaps, panning, geometry, view.frustum, resolution));
     if (has_curve) {
         const ForgiveGaps forgive = forgive_footprints(gaps, *light, geometry);
-        diagnosis.biases = answer_biases({job, view, layers.truth, deciding, diagnosis.pixels,
-                                          diagnosis.zeta_m, forgive});
+        diagnosis.biases = answer_biases(
+            {job, view, layers.truth, deciding, diagnosis.pixels, diagnosis.zeta_m, forgive});
     }
     diagnosis.map_error_m = map_depth_errors_m(inputs, view.frustum, job.shadow_map.depth_format);
     break_down(layers, diagnosis);

@@ -25,10 +25,11 @@ struct Gaps {
 };
 
 /// @param pixels  blocked in truth; their gaps must be known.
-[[nodiscard]] std::vector<PixelGap>
-gaps_of_pixels(const BlockerGaps& gaps, std::span<const std::size_t> pixels,
-               const ReceiverGeometry& geometry, const scene::LightFrustum& frustum,
-               int resolution_texels);
+[[nodiscard]] std::vector<PixelGap> gaps_of_pixels(const BlockerGaps& gaps,
+                                                   std::span<const std::size_t> pixels,
+                                                   const ReceiverGeometry& geometry,
+                                                   const scene::LightFrustum& frustum,
+                                                   int resolution_texels);
 
 /// @param gaps  of the pixels that are false lit by the bias.
 [[nodiscard]] Gaps measure_gaps(std::span<const PixelGap> gaps);

@@ -85,8 +85,7 @@ Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& l
 {
     const auto count = [&](const tbb::blocked_range<std::size_t>& pixels, Tally tally) {
         for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
-            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict,
-                      taps);
+            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict, taps);
         }
         return tally;
     };

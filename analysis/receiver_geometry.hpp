@@ -45,7 +45,7 @@ private:
 };
 
 /// Light distance of the scored receivers [m]; NaN elsewhere.
-[[nodiscard]] scene::Image<float>
-light_distances_m(const scene::Image<scene::PixelClass>& classes, const ReceiverGeometry& geometry);
+[[nodiscard]] scene::Image<float> light_distances_m(const scene::Image<scene::PixelClass>& classes,
+                                                    const ReceiverGeometry& geometry);
 
 } // namespace gnomon::analysis

@@ -71,9 +71,8 @@ std::vector<scene::ShadowMapSettings> maps(const Job& job, const TuneLimits& lim
             }
         }
     }
-    std::ranges::stable_sort(tried, {}, [](const scene::ShadowMapSettings& map) {
-        return map_bytes(map);
-    });
+    std::ranges::stable_sort(tried, {},
+                             [](const scene::ShadowMapSettings& map) { return map_bytes(map); });
     return tried;
 }
 
@@ -121,9 +120,8 @@ public:
         truth_ = renderers_.find_truth(view, renderers_.draw_receivers(view));
         TuneResult result;
         for (const scene::ShadowMapSettings& map : tried) {
-            const bool is_larger =
-                !result.considered.empty() &&
-                map_bytes(map) > map_bytes(result.considered.back().map);
+            const bool is_larger = !result.considered.empty() &&
+                                   map_bytes(map) > map_bytes(result.considered.back().map);
             if (is_larger && result.meets_limits) {
                 break;
             }

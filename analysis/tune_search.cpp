@@ -106,7 +106,8 @@ void BiasSearch::search_by_rendering(const TuneLimits& limits, TunedSetting& set
     bool is_first = true;
     for (const float bias : rendered_biases()) {
         view.bias.constant = bias;
-        const Metrics metrics = measure(truth_, renderers_.look_up(job_, view), equal_taps(job_.lookup.filter));
+        const Metrics metrics =
+            measure(truth_, renderers_.look_up(job_, view), equal_taps(job_.lookup.filter));
         TunedSetting tried = setting;
         tried.constant = bias;
         tried.interval = {bias, bias};

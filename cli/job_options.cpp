@@ -54,9 +54,8 @@ scene::JobFile read_job(const JobOptions& options)
 {
     require_one_job(options);
     const auto settings = overrides(options.settings);
-    return options.builtin.empty()
-               ? scene::read_job(options.job_path, settings, options.case_name)
-               : scene::builtin_job(options.builtin, settings);
+    return options.builtin.empty() ? scene::read_job(options.job_path, settings, options.case_name)
+                                   : scene::builtin_job(options.builtin, settings);
 }
 
 scene::JobSource read_job_source(const JobOptions& options)

@@ -89,8 +89,8 @@ std::string Progress::line() const
 void Progress::tell(bool is_forced)
 {
     const auto now = Clock::now();
-    const auto interval = is_terminal_ ? Clock::duration{terminal_interval}
-                                       : Clock::duration{pipe_interval};
+    const auto interval =
+        is_terminal_ ? Clock::duration{terminal_interval} : Clock::duration{pipe_interval};
     if (is_quiet_ || (!is_forced && has_line_ && now - told_ < interval)) {
         return;
     }

@@ -51,12 +51,12 @@ reports::Shard read_shard(const std::string& text)
     const char* const end = text.data() + text.size();
     const auto [slash, index_error] = std::from_chars(text.data(), end, shard.index);
     const bool has_slash = index_error == std::errc{} && slash != end && *slash == '/';
-    const auto [stop, count_error] =
-        std::from_chars(has_slash ? slash + 1 : end, end, shard.count);
+    const auto [stop, count_error] = std::from_chars(has_slash ? slash + 1 : end, end, shard.count);
     if (!has_slash || count_error != std::errc{} || stop != end || shard.index < 1 ||
         shard.index > shard.count || shard.count > 10'000) {
         throw scene::InputError(fmt::format(
-            "--shard {}: must be k/n, the k-th of n parts, counted from 1: e.g. --shard 2/5", text));
+            "--shard {}: must be k/n, the k-th of n parts, counted from 1: e.g. --shard 2/5",
+            text));
     }
     return shard;
 }
@@ -126,8 +126,7 @@ void print_plan(const SweepOptions& options, const scene::SweepSpace& space, boo
 /// What was done, for people.
 std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcome)
 {
-    std::string text = fmt::format("{} of {} done",
-                                   reports::grouped(outcome.done),
+    std::string text = fmt::format("{} of {} done", reports::grouped(outcome.done),
                                    reports::counted(outcome.configurations, "configuration"));
     if (outcome.failed > 0) {
         text += fmt::format(", {} failed", reports::grouped(outcome.failed));
@@ -182,10 +181,10 @@ void sweep(const SweepOptions& options)
     if (outcome.is_interrupted) {
         fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
     } else if (code == exit_codes::incomplete) {
-        fmt::print(stderr, "gnomon: {} failed; `gnomon status {}` says why, --retry failed tries "
-                           "again\n",
-                   reports::counted(outcome.failed, "configuration"),
-                   shell_text({options.folder}));
+        fmt::print(stderr,
+                   "gnomon: {} failed; `gnomon status {}` says why, --retry failed tries "
+                   "again\n",
+                   reports::counted(outcome.failed, "configuration"), shell_text({options.folder}));
     } else if (code == exit_codes::environment_failed) {
         fmt::print(stderr,
                    "gnomon: {} pixels mismatch: GL's triangle is neither a first hit nor explained "
@@ -211,7 +210,8 @@ void add_sweep_command(CLI::App& program)
                      "KEY=VALUES adds an axis or replaces the job's: 512,1024,2048 or "
                      "{from=1e-6, to=0.1, count=50, scale=\"log\"}")
         ->allow_extra_args(false);
-    command->add_option("--out", options->folder, "RUN, the folder for the results (docs/sweep.md)");
+    command->add_option("--out", options->folder,
+                        "RUN, the folder for the results (docs/sweep.md)");
     command->add_flag("--dry-run", options->is_dry_run,
                       "Print what would be done, and roughly how long it takes, and stop");
     command->add_flag("--json", options->json, "With --dry-run: print the plan as JSON");
@@ -219,8 +219,9 @@ void add_sweep_command(CLI::App& program)
                       "Keep every configuration's layers in RUN/pixels; the default for up to 20 "
                       "configurations");
     command->add_flag("--no-keep-pixels", options->keeps_no_pixels, "Keep none");
-    command->add_option("--shard", options->shard,
-                        "k/n: compute the k-th of n parts; `gnomon merge` unites them")
+    command
+        ->add_option("--shard", options->shard,
+                     "k/n: compute the k-th of n parts; `gnomon merge` unites them")
         ->capture_default_str();
     command->add_option("--retry", options->retry, "failed: compute failed configurations again")
         ->check(CLI::IsMember({"failed"}));

@@ -147,10 +147,9 @@ private:
                 ids_.emplace(configuration.ordinal, configuration.id);
             }
         }
-        const auto outcome =
-            store_.plan(description(), configurations,
-                        options_.allows_mixed ? reports::Environments::several
-                                              : reports::Environments::one);
+        const auto outcome = store_.plan(description(), configurations,
+                                         options_.allows_mixed ? reports::Environments::several
+                                                               : reports::Environments::one);
         outcome_.configurations = outcome.done + outcome.failed + outcome.planned;
         outcome_.retired = outcome.retired;
     }
@@ -247,8 +246,7 @@ private:
         std::erase_if(task.rows, [&](const analysis::SweepTask::Row& row) {
             return !std::binary_search(wanted.begin(), wanted.end(), row.ordinal);
         });
-        progress.begin(
-            point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
+        progress.begin(point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
         return task;
     }
 

@@ -57,19 +57,17 @@ std::string counts_text(const analysis::PlanCounts& counts)
     const auto passes = [](std::uint64_t count, std::string_view kind) {
         return fmt::format("{} {} pass{}", reports::grouped(count), kind, count == 1 ? "" : "es");
     };
-    return fmt::format("{}, {}, {}, {}, {}, {}", reports::counted(counts.scenes, "scene"),
-                       reports::counted(counts.truths, "truth"),
-                       passes(counts.receiver_passes, "receiver"),
-                       reports::counted(counts.shadow_maps, "shadow map"),
-                       passes(counts.lookup_passes, "lookup"),
-                       reports::counted(counts.curves, "bias curve"));
+    return fmt::format(
+        "{}, {}, {}, {}, {}, {}", reports::counted(counts.scenes, "scene"),
+        reports::counted(counts.truths, "truth"), passes(counts.receiver_passes, "receiver"),
+        reports::counted(counts.shadow_maps, "shadow map"), passes(counts.lookup_passes, "lookup"),
+        reports::counted(counts.curves, "bias curve"));
 }
 
 std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summary)
 {
-    std::string text = fmt::format("{}: {}\n",
-                                   reports::counted(summary.configurations, "configuration"),
-                                   axes_text(space));
+    std::string text = fmt::format(
+        "{}: {}\n", reports::counted(summary.configurations, "configuration"), axes_text(space));
     if (summary.refused > 0) {
         text += fmt::format("  {} of them fail: their keys do not go together\n",
                             reports::grouped(summary.refused));
@@ -85,20 +83,19 @@ std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summar
 std::string plan_json(const SweepSummary& summary)
 {
     const analysis::PlanCounts& counts = summary.counts;
-    const nlohmann::ordered_json json{
-        {"schema", 1},
-        {"configurations", summary.configurations},
-        {"refused", summary.refused},
-        {"plan",
-         {{"configurations", counts.configurations},
-          {"scenes", counts.scenes},
-          {"truths", counts.truths},
-          {"receiver_passes", counts.receiver_passes},
-          {"shadow_maps", counts.shadow_maps},
-          {"lookup_passes", counts.lookup_passes},
-          {"bias_curves", counts.curves}}},
-        {"estimated_seconds", summary.estimated_seconds},
-        {"estimated_bytes", summary.estimated_bytes}};
+    const nlohmann::ordered_json json{{"schema", 1},
+                                      {"configurations", summary.configurations},
+                                      {"refused", summary.refused},
+                                      {"plan",
+                                       {{"configurations", counts.configurations},
+                                        {"scenes", counts.scenes},
+                                        {"truths", counts.truths},
+                                        {"receiver_passes", counts.receiver_passes},
+                                        {"shadow_maps", counts.shadow_maps},
+                                        {"lookup_passes", counts.lookup_passes},
+                                        {"bias_curves", counts.curves}}},
+                                      {"estimated_seconds", summary.estimated_seconds},
+                                      {"estimated_bytes", summary.estimated_bytes}};
     return json.dump(2) + "\n";
 }
 

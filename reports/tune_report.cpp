@@ -88,13 +88,14 @@ std::string table(const TuneResult& result)
                                    "map", "near, far", "memory", "constant", "slope", "offset",
                                    "false shadow", "false lit", "errors", "limits");
     for (const TunedSetting* setting : best_of_each_map(result)) {
-        text += fmt::format("{:<14}{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
-                            fmt::format("{} {}", setting->map.resolution_texels,
-                                        scene::depth_format_name(setting->map.depth_format)),
-                            range(setting->map.frustum), mebibytes(analysis::map_bytes(setting->map)),
-                            setting->constant, setting->slope, setting->normal_texels,
-                            percent(setting->false_shadow_rate), percent(setting->false_lit_rate),
-                            grouped(setting->errors.total()), setting->meets_limits ? "met" : "-");
+        text +=
+            fmt::format("{:<14}{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
+                        fmt::format("{} {}", setting->map.resolution_texels,
+                                    scene::depth_format_name(setting->map.depth_format)),
+                        range(setting->map.frustum), mebibytes(analysis::map_bytes(setting->map)),
+                        setting->constant, setting->slope, setting->normal_texels,
+                        percent(setting->false_shadow_rate), percent(setting->false_lit_rate),
+                        grouped(setting->errors.total()), setting->meets_limits ? "met" : "-");
     }
     return text;
 }

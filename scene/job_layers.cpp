@@ -194,8 +194,8 @@ Layer layer_from_overrides(const std::vector<Override>& overrides)
         const std::string label = one_line(fmt::format("--set {}={}", given.key, given.value));
         const KeySpec* spec = find_key(given.key);
         if (spec == nullptr) {
-            throw InputError(fmt::format("{}: unknown key; the nearest is {}", label,
-                                         nearest_key(given.key)));
+            throw InputError(
+                fmt::format("{}: unknown key; the nearest is {}", label, nearest_key(given.key)));
         }
         std::erase_if(layer, [&](const Setting& earlier) { return earlier.spec == spec; });
         layer.push_back(make_setting(*spec, override_value(given.value, label), label));

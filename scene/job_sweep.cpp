@@ -303,8 +303,8 @@ Sweep read_sweep(const TomlMember& member, const std::string& file)
                 throw InputError(fmt::format("{}[sweep] {}: the axis is given twice; keep one",
                                              place.text(), spec.key.name));
             }
-            sweep.axes.push_back(read_axis(
-                spec, node, fmt::format("{}[sweep] {}", place.text(), spec.key.name)));
+            sweep.axes.push_back(
+                read_axis(spec, node, fmt::format("{}[sweep] {}", place.text(), spec.key.name)));
             check_axis_lengths(sweep, file);
         });
     return sweep;

@@ -22,7 +22,8 @@ struct SweepPoint {
 /// axes move together. `sample = N` keeps N of them, drawn without replacement by `seed`.
 class SweepSpace {
 public:
-    /// @param axis_arguments  "KEY=VALUES" as of `--axis`: each adds an axis or replaces the file's.
+    /// @param axis_arguments  "KEY=VALUES" as of `--axis`: each adds an axis or replaces the
+    /// file's.
     /// @param case_name       the only case to run; empty: all of them.
     /// @throws InputError  for a bad axis, a value that comes twice, a key that is an axis and also
     ///                     set by a case or an override, too many configurations, …

@@ -154,8 +154,7 @@ void SweepCatalogue::describe(const Refusal& refusal, const Visit& visit) const
             const scene::SweepAxis& values = space_.axes()[axis];
             configuration.parameters.emplace_back(values.key, values.values[point.values[axis]]);
         }
-        configuration.id =
-            id_of(version_, configuration.case_name, configuration.parameters, true);
+        configuration.id = id_of(version_, configuration.case_name, configuration.parameters, true);
         configuration.curve =
             id_of(version_, configuration.case_name, configuration.parameters, false);
         visit(configuration);

@@ -25,8 +25,7 @@ namespace gnomon::analysis {
 /// Divides the requests among shards: neighbours in the plan, which share stages, stay together,
 /// and every shard gets about the same estimated time.
 /// @return  for each request its shard, from 1.
-[[nodiscard]] std::vector<std::uint32_t> divide(const SweepPlan& plan,
-                                                std::span<const CurveRequest> requests,
-                                                std::uint32_t shards);
+[[nodiscard]] std::vector<std::uint32_t>
+divide(const SweepPlan& plan, std::span<const CurveRequest> requests, std::uint32_t shards);
 
 } // namespace gnomon::analysis

@@ -118,9 +118,8 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
     }
     std::erase_if(panning, [&](std::size_t pixel) { return detaches_[pixel] == 0; });
     subject_->gaps.find(*light_, panning);
-    const auto lengths =
-        gaps_of_pixels(subject_->gaps, panning, geometry_, lookup_.view.frustum,
-                       lookup_.job.shadow_map.resolution_texels);
+    const auto lengths = gaps_of_pixels(subject_->gaps, panning, geometry_, lookup_.view.frustum,
+                                        lookup_.job.shadow_map.resolution_texels);
     std::vector<PanningGap> gaps;
     gaps.reserve(panning.size());
     for (std::size_t i = 0; i < panning.size(); ++i) {
@@ -188,26 +187,23 @@ FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
     const Diagnosis& diagnosis = *comparison.diagnosis;
     FinishedCurve finished;
     finished.rows.push_back(
-        {ordinal,
-         {comparison.metrics, diagnosis.causes.counts, diagnosis.peter_panning}});
+        {ordinal, {comparison.metrics, diagnosis.causes.counts, diagnosis.peter_panning}});
     if (!diagnosis.biases) {
         finished.curve = describe_map(std::move(curve), comparison.job, comparison.view);
-        finished.curve.by_distance.push_back({DistanceProfile::At::job_bias,
-                                              comparison.view.bias.constant,
-                                              diagnosis.by_distance});
+        finished.curve.by_distance.push_back(
+            {DistanceProfile::At::job_bias, comparison.view.bias.constant, diagnosis.by_distance});
         return finished;
     }
     const BiasAnswers& answers = *diagnosis.biases;
-    finished.curve =
-        describe(std::move(curve), {comparison.job,
-                                    comparison.view,
-                                    answers.curve,
-                                    answers.best,
-                                    answers.bounds,
-                                    {comparison.truth.pixel_class, comparison.lookup,
-                                     answers.critical_bias, diagnosis.zeta_m,
-                                     diagnosis.map_error_m},
-                                    job_bias});
+    finished.curve = describe(std::move(curve),
+                              {comparison.job,
+                               comparison.view,
+                               answers.curve,
+                               answers.best,
+                               answers.bounds,
+                               {comparison.truth.pixel_class, comparison.lookup,
+                                answers.critical_bias, diagnosis.zeta_m, diagnosis.map_error_m},
+                               job_bias});
     return finished;
 }
 

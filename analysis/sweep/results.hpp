@@ -23,8 +23,8 @@ struct Configuration {
     std::string id;
     /// Like `id`, of everything but the constant bias: the name of its bias curve.
     std::string curve;
-    std::string case_name;  ///< of the job file's [[case]]; empty without cases
-    std::string scene_hash; ///< `scene::content_hash`; empty where the scene could not be read
+    std::string case_name;   ///< of the job file's [[case]]; empty without cases
+    std::string scene_hash;  ///< `scene::content_hash`; empty where the scene could not be read
     std::uint32_t shard = 1; ///< which part of a divided sweep computes it, from 1
     /// The job with every key written out, as `scene::resolved_keys` gives it.
     std::vector<std::pair<std::string, std::string>> parameters;
@@ -47,7 +47,7 @@ struct DistanceProfile {
 
 /// What the configurations that differ in nothing but the constant bias have in common.
 struct CurveResult {
-    std::string id; ///< `Configuration::curve`
+    std::string id;    ///< `Configuration::curve`
     double near_m = 0; ///< of the map, as fitted
     double far_m = 0;
     std::uint64_t map_bytes = 0;

@@ -109,8 +109,8 @@ public:
     template <typename Work>
     void tell(const SweepTask& task, const Work& work)
     {
-        const Made<FinishedCurve> made = make<FinishedCurve>(
-            [&] { return std::make_shared<FinishedCurve>(work()); });
+        const Made<FinishedCurve> made =
+            make<FinishedCurve>([&] { return std::make_shared<FinishedCurve>(work()); });
         if (made.value) {
             return finished(*made.value);
         }
@@ -127,8 +127,7 @@ private:
 };
 
 /// What the task asks of its curve; rows whose bias is none are told of and left out.
-CurveQuestion question_of(const SweepTask& task, const scene::LightFrustum& frustum,
-                          Teller& teller)
+CurveQuestion question_of(const SweepTask& task, const scene::LightFrustum& frustum, Teller& teller)
 {
     const scene::Bias own = scene::resolve_bias(task.job.bias, frustum);
     CurveQuestion question{task.id, own.slope, own.constant, {}};
