@@ -29,7 +29,7 @@ TEST(FirstHits, AreThoseOfBruteForceInRationals)
     for_each_case([&](const LitScene& lit) {
         for (const Cull cull : culls) {
             const auto texels = lit.all_texels();
-            const auto found = lit.exact_light(cull)->first_hits(texels);
+            const auto found = lit.exact_light(cull)->first_hits(texels, HitDetail::placed);
             ASSERT_EQ(found.size(), texels.size());
             for (std::size_t i = 0; i < texels.size(); ++i) {
                 const scene::Ray ray = lit.texel_ray(texels[i]);
@@ -82,7 +82,7 @@ TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
 Rational tap_depth(const LitScene& lit, const ExactTap& tap)
 {
     if (tap.triangle == no_triangle) {
-        return Rational{static_cast<double>(tap.constant)};
+        return Rational{tap.depth};
     }
     const scene::Ray ray = lit.texel_ray(tap.texel);
     return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));
@@ -103,7 +103,7 @@ TEST(CriticalBiases, AreThoseOfRationalsForOneTap)
         std::mt19937 random{7};
         const auto light = lit.exact_light();
         const auto texels = lit.all_texels();
-        const auto hits = light->first_hits(texels);
+        const auto hits = light->first_hits(texels, HitDetail::placed);
         std::vector<NearestQuery> queries;
         for (const std::size_t pixel : lit.scored_pixels()) {
             const std::size_t texel = random() % texels.size();
@@ -127,7 +127,7 @@ TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
         std::uniform_real_distribution<float> fraction{0, 1};
         const auto light = lit.exact_light();
         const auto texels = lit.all_texels();
-        const auto hits = light->first_hits(texels);
+        const auto hits = light->first_hits(texels, HitDetail::placed);
         std::vector<LinearQuery> queries;
         for (const std::size_t pixel : lit.scored_pixels()) {
             LinearQuery query{pixel, {}, {}};
@@ -197,8 +197,8 @@ TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
     const auto pixels = lit.scored_pixels();
     const auto one = lit.exact_light(Cull::none, 1);
     const auto three = lit.exact_light(Cull::none, 3);
-    const auto hits = one->first_hits(texels);
-    const auto same_hits = three->first_hits(texels);
+    const auto hits = one->first_hits(texels, HitDetail::placed);
+    const auto same_hits = three->first_hits(texels, HitDetail::placed);
     std::vector<NearestQuery> biases;
     std::vector<SheetQuery> sheets;
     for (std::size_t i = 0; i < texels.size(); ++i) {
