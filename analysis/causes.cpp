@@ -79,6 +79,10 @@ private:
     {
         Lookups lit{{}, {}, footprint_.tap_count()};
         Lookups blocked{{}, {}, footprint_.tap_count()};
+        const auto pixels = static_cast<std::size_t>(rows.end - rows.begin) *
+                            static_cast<std::size_t>(columns.end - columns.begin);
+        lit.pixels.reserve(pixels);
+        lit.taps.reserve(pixels * lit.taps_each);
         for (int y0 = rows.begin; y0 < rows.end; y0 += step_px) {
             for (int x0 = columns.begin; x0 < columns.end; x0 += step_px) {
                 for (int y = y0; y < std::min(y0 + step_px, rows.end); ++y) {

@@ -125,12 +125,17 @@ public:
     {
         const TexelFirstHits finder{reference_, rays_, depth_, cull_, detail};
         std::vector<TexelHit> hits(texels.size());
-        for_each_packet(texels.size(), threads_, [&](std::size_t first, std::size_t count) {
-            const auto packet = texels.subspan(first, count);
-            for (const Texel& texel : packet) {
-                check(texel);
-            }
-            finder.find(packet, std::span{hits}.subspan(first, count));
+        constexpr std::size_t at_once = 16 * packet_size;
+        const std::size_t runs = (texels.size() + at_once - 1) / at_once;
+        with_threads(threads_, [&] {
+            tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t i) {
+                const std::size_t first = i * at_once;
+                const auto run = texels.subspan(first, std::min(at_once, texels.size() - first));
+                for (const Texel& texel : run) {
+                    check(texel);
+                }
+                finder.find(run, std::span{hits}.subspan(first, run.size()));
+            });
         });
         reference_.errors.check("first_hits");
         return hits;

@@ -4,7 +4,6 @@
 
 #include <boost/container/small_vector.hpp>
 
-#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <utility>
@@ -94,6 +93,9 @@ public:
 
     [[nodiscard]] bool enters(std::uint32_t goal)
     {
+        if (begins_with(goal)) {
+            return true;
+        }
         visit(receiver_.triangle());
         while (!open_.empty() && !visited_.contains(goal)) {
             const std::uint32_t triangle = open_.back();
@@ -111,6 +113,24 @@ public:
     }
 
 private:
+    /// True when the walk's first step enters the triangle: a common case, and quick to tell.
+    [[nodiscard]] bool begins_with(std::uint32_t goal)
+    {
+        const Corners& corners = receiver_.corners();
+        const auto positions = setting_.fans.positions_of(receiver_.triangle());
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t next = (i + 1) % 3;
+            if (has_corner(goal, positions[i]) && has_corner(goal, positions[next])) {
+                const EdgeOf edge = edge_of(corners, static_cast<int>(i));
+                if (is_beyond(edge, goal) &&
+                    crosses(edge, line_side(corners[i]) * line_side(corners[next]))) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
     void visit(std::uint32_t triangle)
     {
         if (visited_.insert(triangle)) {
@@ -124,17 +144,29 @@ private:
         const CornerFans& fans = setting_.fans;
         const std::uint32_t far_end = fans.positions_of(triangle)[(edge + 1) % 3];
         for (const std::uint32_t other : fans.around(triangle, edge)) {
-            if (other == triangle || std::ranges::count(fans.positions_of(other), far_end) == 0) {
-                continue;
-            }
-            const EdgeOf crossed = edge_of(corners, static_cast<int>(edge));
-            const Corners beyond = corners_of(setting_.triangles, other);
-            for (int i = 0; i < 3; ++i) {
-                if (forms_seam(crossed, edge_of(beyond, i), setting_.light, counts_)) {
-                    visit(other);
-                }
+            if (other != triangle && has_corner(other, far_end) &&
+                is_beyond(edge_of(corners, static_cast<int>(edge)), other)) {
+                visit(other);
             }
         }
+    }
+
+    [[nodiscard]] bool has_corner(std::uint32_t triangle, std::uint32_t position) const
+    {
+        const auto [a, b, c] = setting_.fans.positions_of(triangle);
+        return a == position || b == position || c == position;
+    }
+
+    /// True when the triangle has the same edge on its other side.
+    [[nodiscard]] bool is_beyond(const EdgeOf& edge, std::uint32_t triangle)
+    {
+        const Corners corners = corners_of(setting_.triangles, triangle);
+        for (int i = 0; i < 3; ++i) {
+            if (forms_seam(edge, edge_of(corners, i), setting_.light, counts_)) {
+                return true;
+            }
+        }
+        return false;
     }
 
     /// True when the segment pc leaves the triangle by this edge, or meets the edge along the line

@@ -79,14 +79,20 @@ public:
         const Pencil& pencil;
     };
 
-    explicit TexelPacket(const Setting& setting) : setting_{setting} {}
+    explicit TexelPacket(const Setting& setting) : setting_{setting}
+    {
+        stand_ins_.reserve(packet_size);
+    }
 
+    /// Forgets the texels before.
     void trace(std::span<const Texel> texels)
     {
         assert(!texels.empty() && texels.size() <= packet_size);
         RTCRayHit16 packet;
         PacketMask valid;
-        stand_ins_.reserve(packet_size);
+        nearest_.fill({});
+        edges_.clear();
+        stand_ins_.clear();
         for (std::size_t i = 0; i < texels.size(); ++i) {
             rays_[i] = CameraRay{setting_.rays.ray(texels[i])};
             lines_[i] = setting_.depth.plainly_along(rays_[i].ray);
@@ -237,9 +243,12 @@ private:
 void TexelFirstHits::find(std::span<const Texel> texels, std::span<TexelHit> hits) const
 {
     TexelPacket packet{{reference_, rays_, depth_, cull_, pencil_}};
-    packet.trace(texels);
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        hits[i] = packet.result(i, detail_);
+    for (std::size_t first = 0; first < texels.size(); first += packet_size) {
+        const std::size_t count = std::min(packet_size, texels.size() - first);
+        packet.trace(texels.subspan(first, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[first + i] = packet.result(i, detail_);
+        }
     }
 }
 

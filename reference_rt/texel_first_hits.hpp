@@ -26,7 +26,7 @@ public:
     {
     }
 
-    /// The first hits of at most a packet of texels, best neighbours.
+    /// The first hits of texels, packet by packet: best where sixteen in a row are neighbours.
     void find(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
 
 private:
