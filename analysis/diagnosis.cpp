@@ -89,7 +89,8 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
         diagnosis.biases = answer_biases(
             {job, view, layers.truth, deciding, diagnosis.pixels, diagnosis.zeta_m, forgive});
     }
-    diagnosis.map_error_m = map_depth_errors_m(inputs, view.frustum, job.shadow_map.depth_format);
+    diagnosis.map_error_m =
+        map_depth_errors_m(inputs, CentreHits{inputs}, view.frustum, job.shadow_map.depth_format);
     break_down(layers, diagnosis);
     return diagnosis;
 }
