@@ -221,7 +221,10 @@ void TileSource::find_facets(Tile& tile) const
     for (LaneBits rest = tile.seen; rest != 0;) {
         const std::uint32_t triangle = tile.triangles[first_lane(rest)];
         const LaneBits lanes = lanes_with(tile.triangles, triangle);
-        tile.facets[tile.facet_count] = Facet{triangle, corners_of(triangles_, triangle)};
+        Facet& facet = tile.facets[tile.facet_count];
+        if (facet.triangle != triangle) { // the tile before often shows the same one
+            facet = Facet{triangle, corners_of(triangles_, triangle)};
+        }
         tile.facet_lanes[tile.facet_count] = lanes;
         ++tile.facet_count;
         rest &= ~lanes;
