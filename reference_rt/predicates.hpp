@@ -83,7 +83,7 @@ struct PlaneDistance {
     const double error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
                          3 * unit_roundoff * std::abs(t);
     const bool is_known = std::abs(delta.value) > 8 * delta.error();
-    return {t, is_known & is_tame ? error : std::numeric_limits<double>::infinity()};
+    return {t, (is_known & is_tame) ? error : std::numeric_limits<double>::infinity()};
 }
 
 /// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of

@@ -208,7 +208,7 @@ void TileSource::look_up(Tile& tile) const
     tile.valid = 0;
     tile.triangles.fill(no_triangle);
     for (int y = 0; y < rows; ++y) {
-        const auto first = static_cast<std::size_t>(y * tile_side_px);
+        const std::size_t first = static_cast<std::size_t>(y) * tile_side_px;
         std::copy_n(&receivers_(tile.left, tile.top + y), columns, &tile.triangles[first]);
         tile.valid |= ((LaneBits{1} << columns) - 1) << first;
     }
