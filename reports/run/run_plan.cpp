@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -118,6 +119,17 @@ private:
     std::unordered_map<std::string, std::int64_t> curves_; ///< numbers by id
 };
 
+/// False if there is none left.
+bool add_next(Planner& planner, const NextConfiguration& next)
+{
+    const std::optional<Configuration> configuration = next();
+    if (!configuration.has_value()) {
+        return false;
+    }
+    planner.add(configuration.value());
+    return true;
+}
+
 void require_valid(const Shard& shard)
 {
     if (shard.index < 1 || shard.index > shard.count) {
@@ -220,8 +232,7 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     write_description(database, description);
     database.run("DELETE FROM plan");
     Planner planner{database};
-    while (const auto configuration = next()) {
-        planner.add(*configuration);
+    while (add_next(planner, next)) {
     }
     database.run("DELETE FROM configurations WHERE status = 'planned'"
                  " AND number NOT IN (SELECT configuration FROM plan)");

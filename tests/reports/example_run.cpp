@@ -62,7 +62,7 @@ std::vector<analysis::ErrorBin> bins(std::uint64_t number)
         analysis::ErrorBin bin{
             lower, static_cast<double>(i + 1) / 3, {1000 * i, 77, 10 * i, number % 7}};
         bin.needed_bias = quantiles(1e-4F);
-        result.push_back(std::move(bin));
+        result.push_back(bin);
     }
     return result;
 }

@@ -74,7 +74,7 @@ FinishedCurve as_curve(const Comparison& comparison, const std::string& id)
             finished.curve.bounds = comparison.diagnosis->biases->bounds;
         }
     }
-    finished.rows.push_back({0, std::move(result)});
+    finished.rows.push_back({0, result});
     return finished;
 }
 

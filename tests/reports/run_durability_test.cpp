@@ -64,7 +64,7 @@ TEST(RunDurability, KeepsWhatWasReportedWhenItIsKilled)
     const auto log = folder / "reported";
     std::mt19937 random{5};
     for (int kills = 0; kills < 20; ++kills) {
-        Child child{[&](Child::Ready ready) {
+        Child child{[&](const Child::Ready& ready) {
             const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
             ready();
             resume(folder.path(), [&](std::uint64_t curve) {
@@ -316,7 +316,9 @@ TEST(RunDurability, RefusesOtherColumns)
 TEST(RunDurability, TakesADatabaseThatWasNeverMade)
 {
     const TemporaryFolder folder;
-    std::ofstream{folder / "results.sqlite"}; // what a kill at the very start leaves
+    {
+        const std::ofstream empty{folder / "results.sqlite"};
+    } // as a kill at the very start leaves it
     resume(folder.path(), [](std::uint64_t) {});
     EXPECT_EQ(csv_texts(folder.path()), undisturbed_csv());
 }
