@@ -143,7 +143,7 @@ public:
         const Made<FinishedCurve> made =
             make<FinishedCurve>([&] { return std::make_shared<FinishedCurve>(work()); });
         if (made.value) {
-            return finished(*made.value);
+            return made.value->rows.empty() ? void() : finished(*made.value);
         }
         std::vector<std::uint64_t> ordinals;
         for (const SweepTask::Row& row : task.rows) {
