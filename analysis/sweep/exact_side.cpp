@@ -12,7 +12,8 @@ ExactSide::ExactSide(const scene::TriangleScene& triangles, std::shared_ptr<Swee
       view_{view},
       geometry_{triangles, view_, subject_->receivers.triangle},
       light_{renderers.make_exact_light(job, view_, subject_->receivers)},
-      zeta_m_{light_distances_m(subject_->truth.pixel_class, geometry_)},
+      distances_{bin_by_distance(subject_->truth.pixel_class,
+                                 light_distances_m(subject_->truth.pixel_class, geometry_))},
       remembers_{job.lookup.filter == scene::Filter::nearest},
       causes_{view.image},
       detaches_{view.image, not_asked}

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/blocker_gaps.hpp"
+#include "analysis/breakdown.hpp"
 #include "analysis/causes.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/metrics.hpp"
@@ -41,8 +42,8 @@ public:
     [[nodiscard]] const SweepSubject& subject() const { return *subject_; }
     [[nodiscard]] const scene::ExactLight& light() const { return *light_; }
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
-    /// Light distance of the scored receivers [m].
-    [[nodiscard]] const scene::Image<float>& zeta_m() const { return zeta_m_; }
+    /// The scored receivers by light distance.
+    [[nodiscard]] const Binning& distances() const { return distances_; }
     [[nodiscard]] BlockerGaps& gaps() { return subject_->gaps; }
 
     [[nodiscard]] scene::Image<PixelCause> causes(const CauseInputs& inputs);
@@ -58,7 +59,7 @@ private:
     scene::View view_;
     ReceiverGeometry geometry_;
     std::unique_ptr<scene::ExactLight> light_;
-    scene::Image<float> zeta_m_;
+    Binning distances_;
     std::optional<CentreHits> centre_hits_;
     /// Only with a single tap what is found does not depend on the stored depths.
     bool remembers_;

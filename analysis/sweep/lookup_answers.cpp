@@ -5,6 +5,7 @@
 #include "analysis/tune.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +22,7 @@ struct DescribedCurve {
     const BiasCurve& curve;
     const BestBiases& best;
     const BiasBounds& bounds;
+    const Binning& distances;
     const BreakdownInputs& inputs;
     float job_bias;
 };
@@ -42,12 +44,10 @@ CurveResult describe(std::string id, const DescribedCurve& described)
     result.best = described.best;
     result.bounds = described.bounds;
     result.points = sample_curve(described.curve);
-    BreakdownInputs inputs = described.inputs;
-    for (const auto& [at, bias] : {std::pair{At::job_bias, described.job_bias},
-                                   std::pair{At::best_bias, described.best.recommended()}}) {
-        inputs.bias = bias;
-        result.by_distance.push_back({at, bias, errors_by_distance(inputs)});
-    }
+    const std::array<float, 2> biases{described.job_bias, described.best.recommended()};
+    auto profiles = errors_by_bin(described.distances, described.inputs, biases);
+    result.by_distance = {{At::job_bias, biases[0], std::move(profiles[0])},
+                          {At::best_bias, biases[1], std::move(profiles[1])}};
     return result;
 }
 
@@ -68,11 +68,18 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactSide> exact, SweepLookup looku
     : exact_{std::move(exact)},
       lookup_{std::move(lookup)},
       rule_{lookup_rule(lookup_.job, lookup_.view)},
-      deciding_{deciding_samples(lookup_.layers, lookup_.layers.texels, lookup_.map_depths, rule_)},
+      own_deciding_{make_deciding()},
       causes_{exact_->causes(cause_inputs())},
       map_error_m_{map_depth_errors_m(cause_inputs(), exact_->centre_hits(cause_inputs()),
                                       lookup_.view.frustum, lookup_.job.shadow_map.depth_format)}
 {
+}
+
+scene::LookupLayers LookupAnswers::make_deciding() const
+{
+    return equal_taps(rule_.filter) > 1
+               ? deciding_samples(lookup_.layers, lookup_.layers.texels, lookup_.map_depths, rule_)
+               : scene::LookupLayers{};
 }
 
 CauseInputs LookupAnswers::cause_inputs() const
@@ -118,7 +125,7 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<f
         return;
     }
     const int taps = equal_taps(rule.filter);
-    const auto counts = count_rows({classes(), deciding_, critical, causes_, rule}, biases);
+    const auto counts = count_rows({classes(), deciding(), critical, causes_, rule}, biases);
     const auto wrong_taps =
         taps > 1 ? count_wrong_taps(classes(), lookup_.layers, lookup_.map_depths, rule, biases)
                  : std::vector<std::uint64_t>{};
@@ -131,7 +138,7 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<f
         finished.rows.push_back(
             {row.ordinal,
              {make_metrics(exact_->subject().classes, {errors.false_shadow, errors.false_lit,
-                                               static_cast<double>(wrong) / taps}),
+                                                       static_cast<double>(wrong) / taps}),
               counts[i].causes, gaps[i]}});
     }
 }
@@ -140,7 +147,7 @@ FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
 {
     LookupRule rule = rule_;
     rule.slope = question.slope;
-    const scene::Image<float> critical = critical_biases(deciding_, rule);
+    const scene::Image<float> critical = critical_biases(deciding(), rule);
     const BiasCurve curve{critical, classes()};
     const BestBiases best = find_best_biases(curve);
     const BiasBounds bounds =
@@ -152,7 +159,8 @@ FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
                                             curve,
                                             best,
                                             bounds,
-                                            {classes(), deciding_, critical, exact_->zeta_m(), map_error_m_},
+                                            exact_->distances(),
+                                            {classes(), deciding(), critical, map_error_m_},
                                             question.job_bias});
     add_rows(question, critical, rule, finished);
     return finished;
@@ -175,15 +183,16 @@ FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
         return finished;
     }
     const BiasAnswers& answers = *diagnosis.biases;
-    finished.curve = describe(std::move(curve),
-                              {comparison.job,
-                               comparison.view,
-                               answers.curve,
-                               answers.best,
-                               answers.bounds,
-                               {comparison.truth.pixel_class, comparison.lookup,
-                                answers.critical_bias, diagnosis.zeta_m, diagnosis.map_error_m},
-                               job_bias});
+    finished.curve =
+        describe(std::move(curve), {comparison.job,
+                                    comparison.view,
+                                    answers.curve,
+                                    answers.best,
+                                    answers.bounds,
+                                    bin_by_distance(comparison.truth.pixel_class, diagnosis.zeta_m),
+                                    {comparison.truth.pixel_class, comparison.lookup,
+                                     answers.critical_bias, diagnosis.map_error_m},
+                                    job_bias});
     return finished;
 }
 

@@ -48,6 +48,11 @@ public:
 
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;
+    [[nodiscard]] scene::LookupLayers make_deciding() const;
+    [[nodiscard]] const scene::LookupLayers& deciding() const
+    {
+        return own_deciding_.samples.empty() ? lookup_.layers : own_deciding_;
+    }
     [[nodiscard]] const scene::Image<scene::PixelClass>& classes() const
     {
         return exact_->subject().truth.pixel_class;
@@ -60,7 +65,7 @@ private:
     std::shared_ptr<ExactSide> exact_;
     SweepLookup lookup_;
     LookupRule rule_;
-    scene::LookupLayers deciding_;
+    scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return
     scene::Image<PixelCause> causes_;
     scene::Image<float> map_error_m_;
 };
