@@ -5,10 +5,11 @@
 #include "analysis/own_sheets.hpp"
 #include "analysis/texel_hits.hpp"
 
-#include <tbb/blocked_range.h>
+#include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -21,9 +22,19 @@ using scene::PixelClass;
 
 namespace {
 
-/// Taps that a thread holds: bounds the memory, whatever the image and filter; neighbouring pixels
-/// share texels, so that it should not be too few.
-constexpr std::size_t taps_at_once = std::size_t{1} << 18U;
+/// Taps that a thread holds at most: bounds the memory, whatever the image and filter.
+constexpr double taps_at_once = 0x1p18;
+/// Pixels along a side of a square that is explained at once: neighbours share texels, so that it
+/// should not be too small, and what is kept of them fits a core's cache.
+constexpr int largest_square_px = 128;
+/// Pixels are collected in squares of this side, as neighbours share triangles too.
+constexpr int step_px = 4;
+
+int square_side_px(std::size_t taps_each)
+{
+    const double side = std::sqrt(taps_at_once / static_cast<double>(taps_each));
+    return std::min(largest_square_px, static_cast<int>(side) / step_px * step_px);
+}
 
 class CauseFinder {
 public:
@@ -37,23 +48,60 @@ public:
 
     scene::Image<PixelCause> find()
     {
-        const std::size_t at_once = std::max<std::size_t>(1, taps_at_once / footprint_.tap_count());
+        const auto [width_px, height_px] = causes_.size();
+        const int side = square_side_px(footprint_.tap_count());
+        const tbb::blocked_range2d<int> squares{0, (height_px + side - 1) / side, 1,
+                                                0, (width_px + side - 1) / side,  1};
         tbb::parallel_for(
-            tbb::blocked_range<std::size_t>{0, causes_.pixel_count(), at_once},
-            [&](const tbb::blocked_range<std::size_t>& run) {
-                Lookups lit{{}, {}, footprint_.tap_count()};
-                Lookups blocked{{}, {}, footprint_.tap_count()};
-                for (std::size_t pixel = run.begin(); pixel != run.end(); ++pixel) {
-                    collect(pixel, lit, blocked);
+            squares,
+            [&](const tbb::blocked_range2d<int>& range) {
+                for (int row = range.rows().begin(); row != range.rows().end(); ++row) {
+                    for (int column = range.cols().begin(); column != range.cols().end();
+                         ++column) {
+                        explain({column * side, std::min(width_px, (column + 1) * side)},
+                                {row * side, std::min(height_px, (row + 1) * side)});
+                    }
                 }
-                explain_lit({std::move(lit), inputs_.light});
-                explain_blocked({std::move(blocked), inputs_.light});
             },
             tbb::simple_partitioner{});
         return std::move(causes_);
     }
 
 private:
+    /// Coordinates from `begin` to before `end`.
+    struct Range {
+        int begin;
+        int end;
+    };
+
+    /// Explains the pixels of a rectangle.
+    void explain(const Range& columns, const Range& rows)
+    {
+        Lookups lit{{}, {}, footprint_.tap_count()};
+        Lookups blocked{{}, {}, footprint_.tap_count()};
+        const auto pixels = static_cast<std::size_t>(rows.end - rows.begin) *
+                            static_cast<std::size_t>(columns.end - columns.begin);
+        lit.pixels.reserve(pixels);
+        lit.taps.reserve(pixels * lit.taps_each);
+        for (int y0 = rows.begin; y0 < rows.end; y0 += step_px) {
+            for (int x0 = columns.begin; x0 < columns.end; x0 += step_px) {
+                for (int y = y0; y < std::min(y0 + step_px, rows.end); ++y) {
+                    for (int x = x0; x < std::min(x0 + step_px, columns.end); ++x) {
+                        collect(pixel_at(x, y), lit, blocked);
+                    }
+                }
+            }
+        }
+        explain_lit({std::move(lit), inputs_.light});
+        explain_blocked({std::move(blocked), inputs_.light});
+    }
+
+    [[nodiscard]] std::size_t pixel_at(int x, int y) const
+    {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(causes_.size().width_px) +
+               static_cast<std::size_t>(x);
+    }
+
     /// Keeps the pixel when the map is wrong about it without any bias.
     void collect(std::size_t pixel, Lookups& lit, Lookups& blocked)
     {
@@ -131,7 +179,7 @@ private:
             texels.insert(texels.end(), ring.begin(), ring.end());
             ends.push_back(texels.size());
         }
-        const TexelHits hits{inputs_.light, texels};
+        const TexelHits hits{inputs_.light, texels, scene::HitDetail::placed};
         const auto blockers = inputs_.light.find_blockers(pixels);
         std::size_t next = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -17,8 +17,11 @@ using scene::Outside;
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-/// Two depths within 2^-48 each may lie in either order when they are closer than this.
-constexpr double depth_doubt = 0x1p-46;
+/// What a tap's critical bias lies between, up to an order that all taps of a lookup share.
+struct Key {
+    double low;
+    double high;
+};
 
 class ExactLookup {
 public:
@@ -56,8 +59,8 @@ private:
     {
         const scene::Texel& texel = lookups_.taps_of(lookup)[tap].texel;
         const scene::TexelHit* hit = lookups_.hits_of(lookup)[tap];
-        return hit == nullptr ? ExactTap{texel, scene::no_triangle, rules_.border_depth()}
-                              : ExactTap{texel, hit->triangle, rules_.farthest_depth()};
+        return hit == nullptr ? ExactTap{texel, scene::no_triangle, rules_.border_depth(), 0}
+                              : ExactTap{texel, hit->triangle, hit->depth, hit->depth_error};
     }
 
     /// Linear: the taps' depths are interpolated, then compared.
@@ -120,24 +123,20 @@ private:
     }
 
     /// pcf: the ⌈K²/2⌉-th smallest of the taps' critical biases. It belongs to the tap of that rank
-    /// by depth, so that only taps as deep as that one have to be asked.
+    /// by depth, so that only taps which may be that one have to be asked.
     [[nodiscard]] std::vector<float> median_of_taps() const
     {
         std::vector<float> result(lookups_.size());
         std::vector<NearestQuery> queries;
         std::vector<Rank> ranks;
-        std::vector<double> keys(lookups_.size() > 0 ? lookups_.taps_of(0).size() : 0);
-        std::vector<double> sorted;
+        std::vector<Key> keys(lookups_.taps_of(0).size());
+        std::vector<double> ends(keys.size());
         for (std::size_t i = 0; i < result.size(); ++i) {
-            for (std::size_t t = 0; t < keys.size(); ++t) {
-                keys[t] = key(lookups_.hits_of(i)[t]);
-            }
-            const std::size_t middle = (keys.size() + 1) / 2 - 1;
-            sorted = keys;
-            std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(middle));
-            const double median = sorted[middle];
-            if (std::isinf(median)) {
-                result[i] = static_cast<float>(median);
+            std::ranges::transform(lookups_.hits_of(i), keys.begin(),
+                                   [&](const scene::TexelHit* hit) { return key(hit); });
+            const Key median{middle_of(keys, &Key::low, ends), middle_of(keys, &Key::high, ends)};
+            if (median.low == median.high && std::isinf(median.low)) {
+                result[i] = static_cast<float>(median.low);
             } else {
                 ranks.push_back(ask_around(i, keys, median, queries));
             }
@@ -153,6 +152,21 @@ private:
         return result;
     }
 
+    [[nodiscard]] static std::size_t middle_rank(std::size_t tap_count)
+    {
+        return (tap_count + 1) / 2 - 1;
+    }
+    /// The keys' ends of middle rank.
+    /// @param ends  of the same size; overwritten.
+    [[nodiscard]] static double middle_of(const std::vector<Key>& keys, double Key::*end,
+                                          std::vector<double>& ends)
+    {
+        std::ranges::transform(keys, ends.begin(), end);
+        const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(middle_rank(keys.size()));
+        std::ranges::nth_element(ends, middle);
+        return *middle;
+    }
+
     /// Which of the queries [first, first + count) answers for a lookup: the one of this rank.
     struct Rank {
         std::size_t lookup;
@@ -161,15 +175,16 @@ private:
         std::size_t count;
     };
 
-    /// Adds queries for the taps whose depth cannot be told from the median's.
-    [[nodiscard]] Rank ask_around(std::size_t lookup, const std::vector<double>& keys,
-                                  double median, std::vector<NearestQuery>& queries) const
+    /// Adds queries for the taps that may have the middle rank.
+    /// @param median  what the key of middle rank lies between.
+    [[nodiscard]] Rank ask_around(std::size_t lookup, const std::vector<Key>& keys,
+                                  const Key& median, std::vector<NearestQuery>& queries) const
     {
-        Rank rank{lookup, (keys.size() + 1) / 2 - 1, queries.size(), 0};
+        Rank rank{lookup, middle_rank(keys.size()), queries.size(), 0};
         for (std::size_t t = 0; t < keys.size(); ++t) {
-            if (keys[t] < median - depth_doubt) {
+            if (keys[t].high < median.low) {
                 --rank.rank;
-            } else if (keys[t] <= median + depth_doubt) {
+            } else if (keys[t].low <= median.high) {
                 queries.push_back(query(lookup, t));
                 ++rank.count;
             }
@@ -178,13 +193,17 @@ private:
     }
 
     /// Orders taps as their critical biases: those lit by the smallest bias first.
-    [[nodiscard]] double key(const scene::TexelHit* hit) const
+    [[nodiscard]] Key key(const scene::TexelHit* hit) const
     {
         if (hit == nullptr) {
-            return rules_.lookup.outside == Outside::shadowed ? double{infinity}
-                                                              : -double{infinity};
+            const double always =
+                rules_.lookup.outside == Outside::shadowed ? double{infinity} : -double{infinity};
+            return {always, always};
         }
-        return rules_.reversed ? hit->depth : -hit->depth;
+        const double depth = rules_.reversed ? hit->depth : -hit->depth;
+        // Pays for the roundings here, as a depth is in [0, 1].
+        const double reach = (1 + 0x1p-50) * hit->depth_error + 0x1p-50;
+        return {depth - reach, depth + reach};
     }
 
     const TapRules& rules_;
@@ -197,7 +216,7 @@ private:
 
 TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light)
     : lookups_{std::move(lookups)},
-      texels_{light, lookups_.taps},
+      texels_{light, texels_of(lookups_.taps), scene::HitDetail::bounded},
       hits_(lookups_.taps.size())
 {
     tbb::parallel_for(std::size_t{0}, hits_.size(), [&](std::size_t i) {

@@ -59,8 +59,9 @@ std::vector<Tap> Footprint::taps(const Vec2f& point) const
 void Footprint::append_taps(const Vec2f& point, std::vector<Tap>& taps) const
 {
     const Texel first = first_tap(point);
-    const double right = upper_weight(point.x);
-    const double above = upper_weight(point.y);
+    const bool is_weighted = interpolates();
+    const double right = is_weighted ? upper_weight(point.x) : 0;
+    const double above = is_weighted ? upper_weight(point.y) : 0;
     const std::array<double, 4> bilinear{(1 - right) * (1 - above), right * (1 - above),
                                          (1 - right) * above, right * above};
     std::size_t next = 0;
@@ -72,7 +73,7 @@ void Footprint::append_taps(const Vec2f& point, std::vector<Tap>& taps) const
                              std::clamp(tap.texel.y, 0, resolution_ - 1)};
             }
             tap.is_inside = is_on_map(tap.texel, resolution_);
-            if (interpolates()) {
+            if (is_weighted) {
                 tap.weight = bilinear[next++];
             }
             taps.push_back(tap);

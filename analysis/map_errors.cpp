@@ -43,7 +43,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
             texels.push_back(texel_at(inputs.unbiased.texels[i]));
         }
     }
-    const TexelHits hits{inputs.light, texels};
+    const TexelHits hits{inputs.light, texels, scene::HitDetail::placed};
     scene::Image<float> errors_m{classes.size(), std::numeric_limits<float>::quiet_NaN()};
     for (std::size_t p = 0; p < pixels.size(); ++p) {
         const scene::TexelHit& hit = hits[texels[p]];

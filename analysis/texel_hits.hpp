@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/footprint.hpp"
+#include "analysis/texel_index.hpp"
 #include "scene/exact_light.hpp"
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,18 +13,21 @@ namespace gnomon::analysis {
 class TexelHits {
 public:
     /// @param texels  of the map, in any order, repetitions included.
-    TexelHits(const scene::ExactLight& light, std::span<const scene::Texel> texels);
-    /// @param taps  those outside the map are left out.
-    TexelHits(const scene::ExactLight& light, std::span<const Tap> taps);
+    TexelHits(const scene::ExactLight& light, std::span<const scene::Texel> texels,
+              scene::HitDetail detail);
 
     /// Precondition: the texel was among those given.
-    [[nodiscard]] const scene::TexelHit& operator[](const scene::Texel& texel) const;
+    [[nodiscard]] const scene::TexelHit& operator[](const scene::Texel& texel) const
+    {
+        return hits_[index_[texel]];
+    }
 
 private:
-    void trace(const scene::ExactLight& light);
-
-    std::vector<std::uint64_t> keys_; ///< ascending, by row and column
+    TexelIndex index_;
     std::vector<scene::TexelHit> hits_;
 };
+
+/// The texels that taps read.
+[[nodiscard]] std::vector<scene::Texel> texels_of(std::span<const Tap> taps);
 
 } // namespace gnomon::analysis

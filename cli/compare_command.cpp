@@ -1,6 +1,8 @@
 #include "cli/compare_command.hpp"
 
 #include "analysis/advice.hpp"
+#include "cli/command_text.hpp"
+#include "cli/compare_run.hpp"
 #include "cli/comparison_session.hpp"
 #include "cli/job_options.hpp"
 #include "cli/standard_output.hpp"
@@ -15,6 +17,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -26,6 +29,7 @@ struct CompareOptions {
     bool json = false;
     std::string aov_path;
     std::string picture_path;
+    std::string folder; ///< RUN
     std::string truth = "exact";
     bool audit = false;
     bool advise = false;
@@ -97,6 +101,9 @@ void require_exact_truth(const CompareOptions& options)
         throw scene::InputError{
             "--audit needs --truth exact: it counts where float methods differ"};
     }
+    if (!options.folder.empty() && options.truth != "exact") {
+        throw scene::InputError{"--out needs --truth exact: a run holds causes and bias curves"};
+    }
     if (options.advise && options.truth != "exact") {
         throw scene::InputError{"--advise needs --truth exact: advice follows from the causes"};
     }
@@ -108,6 +115,10 @@ void compare(const CompareOptions& options)
     require_exact_truth(options);
     require_writable(options);
     const scene::Job job = read_job(options.job).job;
+    std::optional<CompareRun> run;
+    if (!options.folder.empty()) {
+        run.emplace(options.folder);
+    }
     SessionOptions session_options = options.session;
     session_options.audits = options.audit;
     session_options.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
@@ -123,6 +134,10 @@ void compare(const CompareOptions& options)
     }
     if (options.advise) {
         comparison.advice = analysis::advise(comparison, session.file(), session.renderers());
+    }
+    if (run) {
+        run->record(read_job_source(options.job), options.job.case_name, comparison,
+                    job_text(options.job), command_text("compare", options.job));
     }
     write_outputs(options, comparison);
     require_no_mismatch(comparison);
@@ -141,6 +156,8 @@ void add_compare_command(CLI::App& program)
                         "Write every layer into one EXR file (docs/aov.md)");
     command->add_option("--picture", options->picture_path,
                         "Write a labelled picture: GL's shadows, the true ones, the errors (PNG)");
+    command->add_option("--out", options->folder,
+                        "RUN, a folder for the result with all its layers, as of `gnomon sweep`");
     command
         ->add_option("--truth", options->truth,
                      "exact: every scored pixel is proven; float: plain Embree rays, for comparing "

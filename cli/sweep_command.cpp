@@ -2,6 +2,7 @@
 
 #include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/cost.hpp"
+#include "cli/command_text.hpp"
 #include "cli/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
@@ -16,11 +17,8 @@
 
 #include <charconv>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace gnomon::cli {
@@ -68,43 +66,6 @@ bool keeps_pixels(const SweepOptions& options, std::uint64_t configurations)
     }
     return options.keeps_pixels ||
            (!options.keeps_no_pixels && configurations <= few_configurations);
-}
-
-/// What the run remembers of its job: the file's text, or the built-in's name.
-std::string job_text(const JobOptions& options)
-{
-    if (!options.builtin.empty()) {
-        return fmt::format("[scene]\nbuiltin = \"{}\"\n", options.builtin);
-    }
-    if (!options.job_path.ends_with(".toml")) {
-        return fmt::format("# {}\n", options.job_path);
-    }
-    std::ifstream file{options.job_path, std::ios::binary};
-    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
-}
-
-/// The command that computes the sweep, without where it goes and which part.
-std::string command_text(const SweepOptions& options)
-{
-    std::vector<std::string> words{"gnomon", "sweep"};
-    const auto add = [&](std::string_view option, const std::string& value) {
-        if (!value.empty()) {
-            words.emplace_back(option);
-            words.push_back(value);
-        }
-    };
-    if (!options.job.job_path.empty()) {
-        words.push_back(options.job.job_path);
-    }
-    add("--builtin", options.job.builtin);
-    add("--case", options.job.case_name);
-    for (const std::string& setting : options.job.settings) {
-        add("--set", setting);
-    }
-    for (const std::string& axis : options.axes) {
-        add("--axis", axis);
-    }
-    return shell_text(words);
 }
 
 void print_plan(const SweepOptions& options, const scene::SweepSpace& space, bool keeps)
@@ -173,7 +134,7 @@ void sweep(const SweepOptions& options)
     run.is_quiet = options.is_quiet;
     run.allows_mixed = options.allows_mixed;
     run.job_text = job_text(options.job);
-    run.command = command_text(options);
+    run.command = command_text("sweep", options.job, options.axes);
     run.session = options.session;
     const SweepOutcome outcome = run_sweep_command(space, run);
     print(outcome_text(options, outcome));

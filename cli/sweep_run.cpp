@@ -2,6 +2,7 @@
 
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/runner.hpp"
+#include "cli/kept_pixels.hpp"
 #include "cli/memory.hpp"
 #include "cli/process.hpp"
 #include "cli/progress.hpp"
@@ -9,8 +10,6 @@
 #include "cli/sweep_text.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
-#include "reports/aov_exr.hpp"
-#include "reports/run/pixels.hpp"
 #include "reports/run/run_lock.hpp"
 #include "scene/error.hpp"
 
@@ -232,7 +231,7 @@ private:
         if (options_.keeps_pixels) {
             hooks.keep_pixels = [this](std::uint64_t ordinal,
                                        const analysis::Comparison& comparison) {
-                keep_pixels(ids_.at(ordinal), comparison);
+                keep_pixels(options_.folder, ids_.at(ordinal), comparison);
             };
         }
         return hooks;
@@ -248,13 +247,6 @@ private:
         });
         progress.begin(point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
         return task;
-    }
-
-    void keep_pixels(const std::string& id, const analysis::Comparison& comparison) const
-    {
-        const auto points = reference_rt::receiver_points(*comparison.triangles, comparison.view,
-                                                          comparison.receivers.triangle);
-        reports::write_aov(reports::pixels_path(options_.folder, id), comparison, points);
     }
 
     const scene::SweepSpace& space_;

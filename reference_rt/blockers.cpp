@@ -11,6 +11,20 @@ namespace gnomon::reference_rt {
 using scene::Image;
 using scene::no_triangle;
 
+SeenPixels::SeenPixels(const scene::TriangleScene& triangles_in, const scene::View& view_in,
+                       const Image<std::uint32_t>& receivers_in)
+    : triangles{triangles_in},
+      view{view_in},
+      receivers{receivers_in}
+{
+    for (int x = 0; x < view.image.width_px; ++x) {
+        sx.push_back(pixel_sx(view.camera, view.image, x));
+    }
+    for (int y = 0; y < view.image.height_px; ++y) {
+        sy.push_back(pixel_sy(view.camera, view.image, y));
+    }
+}
+
 void SeenPixels::check(std::span<const std::size_t> pixels, const char* caller) const
 {
     for (const std::size_t pixel : pixels) {

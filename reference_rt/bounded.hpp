@@ -84,6 +84,17 @@ template <std::size_t n>
     return rounded_once(sum + rest, 0x1p-99 * size);
 }
 
+/// row·(point, weight), summed in double: for a start.
+[[nodiscard]] inline Bounded plain_row_at(const scene::Vec4d& row, const scene::Vec3d& point,
+                                          double weight)
+{
+    const scene::Vec4d terms{row.x * point.x, row.y * point.y, row.z * point.z, row.w * weight};
+    const double size =
+        (std::abs(terms.x) + std::abs(terms.y)) + (std::abs(terms.z) + std::abs(terms.w));
+    // A term is rounded as a product and in two sums; the third unit pays for those of `size`.
+    return {(terms.x + terms.y) + (terms.z + terms.w), 4 * unit_roundoff * size + 0x1p-1000};
+}
+
 /// row·(point, weight): a row of a matrix at a point, or at infinity with weight 0.
 [[nodiscard]] inline Bounded row_at(const scene::Vec4d& row, const scene::Vec3d& point,
                                     double weight)

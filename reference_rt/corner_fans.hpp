@@ -2,6 +2,7 @@
 
 #include "scene/triangles.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -23,6 +24,13 @@ public:
         const std::uint32_t position = position_of_[scene_.triangles[triangle][corner]];
         return std::span{members_}.subspan(first_[position],
                                            first_[position + 1] - first_[position]);
+    }
+
+    /// The numbers of the corners' positions.
+    [[nodiscard]] std::array<std::uint32_t, 3> positions_of(std::uint32_t triangle) const
+    {
+        const auto& [a, b, c] = scene_.triangles[triangle];
+        return {position_of_[a], position_of_[b], position_of_[c]};
     }
 
 private:

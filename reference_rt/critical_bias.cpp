@@ -1,7 +1,6 @@
 #include "reference_rt/critical_bias.hpp"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -15,7 +14,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// What a texel's ray meets; it stays where it is, as the hit refers to its ray and facet.
 struct TapHit {
     CameraRay ray;
-    ClipLine line;
     Facet facet;
     Receiver hit;
 };
@@ -25,14 +23,22 @@ Fraction number(double x)
     return {Dyadic{x}, Dyadic{1}};
 }
 
-/// What a bias must make up for: r − d, or reversed d − r. `bounds` are those of the terms to use.
-template <typename Bounds>
-Bounded bounded_excess(const DepthTerm& receiver, std::span<const DepthTerm> taps,
-                       std::span<const double> weights, bool is_reversed, const Bounds& bounds)
+/// As `first_hits` found it.
+Bounded known_depth(const scene::ExactTap& tap)
 {
-    Bounded excess = std::invoke(bounds, receiver);
-    for (std::size_t i = 0; i < taps.size(); ++i) {
-        excess = excess - Bounded{weights[i], 0} * std::invoke(bounds, taps[i]);
+    return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
+}
+
+/// What a bias must make up for: r − d, or reversed d − r. `depth_of` bounds a tap's.
+template <typename Taps, std::size_t n, typename DepthOf>
+Bounded bounded_excess(const Bounded& receiver, const Taps& taps,
+                       const std::array<double, n>& weights, bool is_reversed,
+                       const DepthOf& depth_of)
+{
+    Bounded excess = receiver;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Bounded depth = depth_of(taps[i]);
+        excess = excess - (weights[i] == 1 ? depth : Bounded{weights[i], 0} * depth);
     }
     return is_reversed ? Bounded{-excess.value, excess.error} : excess;
 }
@@ -87,7 +93,8 @@ float smallest_bias_from(double x)
 
 Bounded DepthTerm::sharp() const
 {
-    return hit_ == nullptr ? bounded_ : depth_->at(*line_, sharp_parameter_of(*hit_));
+    return hit_ == nullptr ? bounded_
+                           : depth_->at(depth_->along(hit_->ray()), sharp_parameter_of(*hit_));
 }
 
 Fraction DepthTerm::exact() const
@@ -112,28 +119,34 @@ template <std::size_t n>
 float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
                          const std::array<double, n>& weights) const
 {
+    const auto bias = certain_bias(
+        bounded_excess(receiver.bounded(), taps, weights, depth_.is_reversed(), known_depth));
+    return bias ? *bias : find_exactly(receiver, taps, weights);
+}
+
+template <std::size_t n>
+float CriticalBias::find_exactly(const DepthTerm& receiver,
+                                 const std::array<scene::ExactTap, n>& taps,
+                                 const std::array<double, n>& weights) const
+{
     std::array<TapHit, n> hits;
     std::array<DepthTerm, n> terms;
     SignCounts counts;
     for (std::size_t i = 0; i < n; ++i) {
         if (taps[i].triangle == scene::no_triangle) {
-            terms[i] = DepthTerm{static_cast<double>(taps[i].constant)};
+            terms[i] = DepthTerm{taps[i].depth};
         } else {
             TapHit& tap = hits[i];
             tap.ray = CameraRay{rays_.ray(taps[i].texel)};
             tap.facet = Facet{taps[i].triangle, corners_of(triangles_, taps[i].triangle)};
             tap.hit = Receiver{tap.facet, tap.ray, counts};
-            tap.line = depth_.along(tap.ray.ray);
-            terms[i] = DepthTerm{depth_, tap.line, tap.hit};
+            terms[i] = DepthTerm{depth_, tap.hit, known_depth(taps[i])};
         }
     }
     const bool is_reversed = depth_.is_reversed();
-    if (const auto bias = certain_bias(
-            bounded_excess(receiver, terms, weights, is_reversed, &DepthTerm::bounded))) {
-        return *bias;
-    }
-    if (const auto bias = certain_bias(
-            bounded_excess(receiver, terms, weights, is_reversed, &DepthTerm::sharp))) {
+    const auto sharp = [](const DepthTerm& term) { return term.sharp(); };
+    if (const auto bias =
+            certain_bias(bounded_excess(receiver.sharp(), terms, weights, is_reversed, sharp))) {
         return *bias;
     }
     return smallest_bias_of(exact_excess(receiver, terms, weights, is_reversed));

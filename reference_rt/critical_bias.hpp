@@ -19,16 +19,13 @@ class DepthTerm {
 public:
     /// A constant.
     explicit DepthTerm(double constant = 0) : bounded_{constant, 0} {}
-    /// Of the hit of a ray with a plane; all arguments must outlive the term.
-    DepthTerm(const LightDepth& depth, const ClipLine& line, const Receiver& hit)
-        : bounded_{depth.at(line, parameter_of(hit))},
+    /// Of the hit of a ray with a plane, already bounded; both must outlive the term.
+    DepthTerm(const LightDepth& depth, const Receiver& hit, const Bounded& bounded)
+        : bounded_{bounded},
           depth_{&depth},
-          line_{&line},
           hit_{&hit}
     {
     }
-
-    DepthTerm(const LightDepth&, const ClipLine&&, const Receiver&) = delete;
 
     [[nodiscard]] Bounded bounded() const { return bounded_; }
     /// Bounded more closely, at a cost.
@@ -40,7 +37,6 @@ public:
 private:
     Bounded bounded_;
     const LightDepth* depth_ = nullptr;
-    const ClipLine* line_ = nullptr;
     const Receiver* hit_ = nullptr;
 };
 
@@ -63,6 +59,12 @@ public:
                              const std::array<double, n>& weights) const;
 
 private:
+    /// The same where the taps' bounds do not decide.
+    template <std::size_t n>
+    [[nodiscard]] float find_exactly(const DepthTerm& receiver,
+                                     const std::array<scene::ExactTap, n>& taps,
+                                     const std::array<double, n>& weights) const;
+
     const scene::TriangleScene& triangles_;
     const TexelRays& rays_;
     const LightDepth& depth_;

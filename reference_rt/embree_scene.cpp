@@ -148,14 +148,20 @@ void judge_distances(const RTCIntersectFunctionNArguments* arguments) noexcept
         *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
     const unsigned n = arguments->N;
     RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
-    const LaneBits asking = asking_lanes(arguments->valid, rays, n);
-    PacketOf<float> t_far;
-    for_each_asking(arguments->valid, rays, n,
-                    [&](unsigned i, unsigned lane) { t_far[lane] = RTCRayN_tfar(rays, n, i); });
+    LaneBits asking = 0;
+    PacketOf<float> t_far{};
+    for_each_asking(arguments->valid, rays, n, [&](unsigned i, unsigned lane) {
+        asking |= LaneBits{1} << lane;
+        t_far[lane] = RTCRayN_tfar(rays, n, i);
+    });
+    const PacketOf<float> t_far_before = t_far;
     try {
         judge.judge_distances(role.members[arguments->primID], asking, t_far);
     } catch (...) {
         judge.failure = std::current_exception();
+        return;
+    }
+    if (t_far == t_far_before) {
         return;
     }
     for_each_asking(arguments->valid, rays, n,

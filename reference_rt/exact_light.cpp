@@ -7,7 +7,6 @@
 #include "reference_rt/pixel_packets.hpp"
 #include "reference_rt/shadow_segments.hpp"
 #include "reference_rt/texel_first_hits.hpp"
-#include "reference_rt/texel_order.hpp"
 #include "reference_rt/texel_rays.hpp"
 
 #include <fmt/format.h>
@@ -19,6 +18,7 @@ namespace gnomon::reference_rt {
 
 using scene::BlockerHit;
 using scene::ExactTap;
+using scene::HitDetail;
 using scene::Image;
 using scene::LinearQuery;
 using scene::NearestQuery;
@@ -49,10 +49,15 @@ const std::array<double, 4>& weights_of(const LinearQuery& query)
     return query.weights;
 }
 
-/// P as it stands to the light; made again only when the pixel changes.
+/// P as it stands to the light; made again only as far as it changes.
 class LitPoint {
 public:
-    LitPoint(const SeenPixels& seen, const LightDepth& depth) : seen_{seen}, depth_{depth} {}
+    LitPoint(const SeenPixels& seen, const LightDepth& depth)
+        : seen_{seen},
+          depth_{depth},
+          has_eye_{seen.view.camera.projection == scene::Projection::perspective}
+    {
+    }
 
     void move_to(std::size_t pixel)
     {
@@ -60,10 +65,16 @@ public:
             return;
         }
         pixel_ = pixel;
-        facet_ = seen_.facet_of(pixel);
         ray_ = seen_.ray_of(pixel);
+        const bool is_same_facet = seen_.receivers[pixel] == facet_.triangle;
+        if (!is_same_facet) {
+            facet_ = seen_.facet_of(pixel);
+        }
+        if (!is_same_facet || !has_eye_) {
+            nu_ = nu_of(facet_, ray_.ray.origin);
+        }
         SignCounts counts;
-        receiver_ = Receiver{facet_, ray_, counts};
+        receiver_ = Receiver{facet_, ray_, nu_, counts};
         has_term_ = false;
     }
     [[nodiscard]] const Receiver& receiver() const { return receiver_; }
@@ -71,8 +82,11 @@ public:
     [[nodiscard]] const DepthTerm& term()
     {
         if (!has_term_) {
-            line_ = depth_.along(ray_.ray);
-            term_ = receiver_.delta_sign == 0 ? DepthTerm{} : DepthTerm{depth_, line_, receiver_};
+            term_ =
+                receiver_.delta_sign == 0
+                    ? DepthTerm{}
+                    : DepthTerm{depth_, receiver_,
+                                depth_.at(depth_.plainly_along(ray_.ray), parameter_of(receiver_))};
             has_term_ = true;
         }
         return term_;
@@ -81,10 +95,11 @@ public:
 private:
     const SeenPixels& seen_;
     const LightDepth& depth_;
+    bool has_eye_;
     std::size_t pixel_ = static_cast<std::size_t>(-1);
     Facet facet_;
+    Filtered<8> nu_; ///< of all rays from one eye
     CameraRay ray_;
-    ClipLine line_;
     Receiver receiver_;
     bool has_term_ = false;
     DepthTerm term_;
@@ -106,25 +121,20 @@ public:
     {
     }
 
-    std::vector<TexelHit> first_hits(std::span<const Texel> texels) const override
+    std::vector<TexelHit> first_hits(std::span<const Texel> texels, HitDetail detail) const override
     {
-        for (const Texel& texel : texels) {
-            check(texel);
-        }
-        const TexelFirstHits finder{reference_, rays_, depth_, cull_};
+        const TexelFirstHits finder{reference_, rays_, depth_, cull_, detail};
         std::vector<TexelHit> hits(texels.size());
+        constexpr std::size_t at_once = 16 * packet_size;
+        const std::size_t runs = (texels.size() + at_once - 1) / at_once;
         with_threads(threads_, [&] {
-            const TexelOrder order{texels};
-            for_each_packet(texels.size(), 0, [&](std::size_t first, std::size_t count) {
-                PacketOf<Texel> packet;
-                PacketOf<TexelHit> found;
-                for (std::size_t i = 0; i < count; ++i) {
-                    packet[i] = texels[order[first + i]];
+            tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t i) {
+                const std::size_t first = i * at_once;
+                const auto run = texels.subspan(first, std::min(at_once, texels.size() - first));
+                for (const Texel& texel : run) {
+                    check(texel);
                 }
-                finder.find(std::span{packet}.first(count), std::span{found}.first(count));
-                for (std::size_t i = 0; i < count; ++i) {
-                    hits[order[first + i]] = found[i];
-                }
+                finder.find(run, std::span{hits}.subspan(first, run.size()));
             });
         });
         reference_.errors.check("first_hits");
@@ -165,15 +175,13 @@ public:
 
     std::vector<std::uint8_t> are_own_sheets(std::span<const SheetQuery> queries) const override
     {
-        for (const SheetQuery& query : queries) {
-            seen_.check({&query.pixel, 1}, "are_own_sheets");
-            check(query.texel);
-            check(query.triangle);
-        }
         const OwnSheet sheet{reference_.triangles, reference_.corner_fans(), rays_};
         std::vector<std::uint8_t> answers(queries.size(), 0);
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
             const auto& [pixel, texel, triangle] = queries[i];
+            seen_.check({&pixel, 1}, "are_own_sheets");
+            check(texel);
+            check(triangle);
             if (triangle == seen_.receivers[pixel]) {
                 answers[i] = 1; // the walk begins where it ends
                 return;
@@ -229,10 +237,10 @@ private:
     template <typename Query>
     [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
     {
-        check(queries);
         const CriticalBias critical{reference_.triangles, rays_, depth_};
         std::vector<float> biases(queries.size());
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
+            check(queries[i]);
             point.move_to(queries[i].pixel);
             biases[i] = critical.find(clamps ? point.term().clamped() : point.term(),
                                       taps_of(queries[i]), weights_of(queries[i]));
@@ -241,15 +249,13 @@ private:
     }
 
     template <typename Query>
-    void check(std::span<const Query> queries) const
+    void check(const Query& query) const
     {
-        for (const Query& query : queries) {
-            seen_.check({&query.pixel, 1}, "critical_biases");
-            for (const ExactTap& tap : taps_of(query)) {
-                if (tap.triangle != no_triangle) {
-                    check(tap.texel);
-                    check(tap.triangle);
-                }
+        seen_.check({&query.pixel, 1}, "critical_biases");
+        for (const ExactTap& tap : taps_of(query)) {
+            if (tap.triangle != no_triangle) {
+                check(tap.texel);
+                check(tap.triangle);
             }
         }
     }

@@ -37,7 +37,8 @@ Bounded sharp_parameter_of(const Receiver& hit)
 LightDepth::LightDepth(const scene::LightFrustum& frustum)
     : frustum_{frustum},
       rows_{frustum},
-      is_parallel_{Vec3d{rows_.w} == Vec3d{0.0}}
+      is_parallel_{Vec3d{rows_.w} == Vec3d{0.0}},
+      has_unit_w_{is_parallel_ && rows_.w.w == 1}
 {
 }
 
@@ -49,13 +50,6 @@ ClipLine LightDepth::along(const Ray& ray) const
         return {z_start, z_step, {rows_.w.w, 0}, {0, 0}};
     }
     return {z_start, z_step, row_at(rows_.w, ray.origin, 1), row_at(rows_.w, ray.direction, 0)};
-}
-
-Bounded LightDepth::at(const ClipLine& line, const Bounded& t) const
-{
-    const Bounded ratio = line.z(t) / line.w(t);
-    constexpr Bounded half{0.5, 0};
-    return is_reversed() ? ratio : half * ratio + half;
 }
 
 bool LightDepth::is_level(const Facet& facet) const
@@ -80,11 +74,9 @@ Fraction LightDepth::exactly_at(const Receiver& hit) const
     return is_reversed() ? Fraction{z, w} : Fraction{z + w, w + w};
 }
 
-bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit) const
+bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit, const Bounded& depth) const
 {
-    const Bounded t = parameter_of(hit);
-    const Bounded w = line.w(t);
-    const Bounded depth = at(line, t);
+    const Bounded w = has_unit_w_ ? line.w_start : line.w(parameter_of(hit));
     const Bounded rest = Bounded{1, 0} - depth;
     if (w.is_certainly_positive() && depth.is_certainly_positive() &&
         rest.is_certainly_positive()) {
@@ -99,11 +91,13 @@ bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit) const
            (exact - Fraction{Dyadic{1}, Dyadic{1}}).sign() <= 0;
 }
 
-LightDepth::Place LightDepth::place(const ClipLine& line, const Receiver& hit) const
+LightDepth::Place LightDepth::place(const Receiver& hit) const
 {
+    constexpr double largest_error = 0x1p-48;
     const Bounded t = sharp_parameter_of(hit);
-    const Bounded depth = at(line, t);
-    return {depth.error <= 0x1p-48 ? depth.value : exactly_at(hit).value(), zeta_m(hit, t)};
+    const Bounded depth = at(along(hit.ray()), t);
+    return {depth.error <= largest_error ? depth : Bounded{exactly_at(hit).value(), largest_error},
+            zeta_m(hit, t)};
 }
 
 double LightDepth::zeta_m(const Receiver& hit, const Bounded& t) const

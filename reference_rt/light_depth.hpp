@@ -43,22 +43,36 @@ public:
     [[nodiscard]] bool is_reversed() const { return frustum_.reversed; }
 
     [[nodiscard]] ClipLine along(const scene::Ray& ray) const;
+    /// The same to within the roundings of plain sums.
+    [[nodiscard]] ClipLine plainly_along(const scene::Ray& ray) const
+    {
+        return {plain_row_at(rows_.z, ray.origin, 1), plain_row_at(rows_.z, ray.direction, 0),
+                is_parallel_ ? Bounded{rows_.w.w, 0} : plain_row_at(rows_.w, ray.origin, 1),
+                is_parallel_ ? Bounded{0, 0} : plain_row_at(rows_.w, ray.direction, 0)};
+    }
 
     /// Depth where the ray of `line` meets a plane at `t`.
-    [[nodiscard]] Bounded at(const ClipLine& line, const Bounded& t) const;
+    [[nodiscard]] Bounded at(const ClipLine& line, const Bounded& t) const
+    {
+        const Bounded ratio = has_unit_w_ ? line.z(t) : line.z(t) / line.w(t);
+        constexpr Bounded half{0.5, 0};
+        return is_reversed() ? ratio : half * ratio + half;
+    }
     /// The same point's depth, exactly. The denominator has the sign of W·H: 0 in the light's
     /// camera plane. Precondition: δ is not 0.
     [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
 
     /// True when the point is in front of the light and its depth in [0, 1].
-    [[nodiscard]] bool is_in_range(const ClipLine& line, const Receiver& hit) const;
+    /// @param depth  of the point, as `at` gives it.
+    [[nodiscard]] bool is_in_range(const ClipLine& line, const Receiver& hit,
+                                   const Bounded& depth) const;
 
     /// Depth, where it is in [0, 1] within 2^-48, and ζ to a relative 2^-44.
     struct Place {
-        double depth = 0;
+        Bounded depth;
         double zeta_m = 0;
     };
-    [[nodiscard]] Place place(const ClipLine& line, const Receiver& hit) const;
+    [[nodiscard]] Place place(const Receiver& hit) const;
 
 private:
     /// True where the facet's plane certainly has one depth: it faces a directional light.
@@ -68,6 +82,7 @@ private:
     const scene::LightFrustum& frustum_;
     ClipRows rows_;
     bool is_parallel_; ///< w is the same everywhere
+    bool has_unit_w_;  ///< namely 1
 };
 
 /// The parameter of a hit and its error.

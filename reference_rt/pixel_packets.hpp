@@ -11,20 +11,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace gnomon::reference_rt {
 
 /// The pixels of one view with GL's triangle in each. Everything must outlive it.
 struct SeenPixels {
+    SeenPixels(const scene::TriangleScene& triangles_in, const scene::View& view_in,
+               const scene::Image<std::uint32_t>& receivers_in);
+
     const scene::TriangleScene& triangles;
     const scene::View& view;
     const scene::Image<std::uint32_t>& receivers;
+    std::vector<double> sx; ///< of each column
+    std::vector<double> sy; ///< of each row
 
     [[nodiscard]] CameraRay ray_of(std::size_t pixel) const
     {
-        const auto width = static_cast<std::size_t>(view.image.width_px);
-        return CameraRay{pixel_ray(view.camera, view.image, static_cast<int>(pixel % width),
-                                   static_cast<int>(pixel / width))};
+        return CameraRay{pixel_ray(view.camera, sx[pixel % sx.size()], sy[pixel / sx.size()])};
     }
     [[nodiscard]] Facet facet_of(std::size_t pixel) const
     {

@@ -12,6 +12,7 @@
 
 namespace gnomon::reference_rt {
 
+using scene::HitDetail;
 using scene::no_triangle;
 using scene::Texel;
 using scene::TexelHit;
@@ -53,6 +54,7 @@ struct KeptHit {
     std::uint32_t triangle = no_triangle;
     double t = 0;
     double t_error = 0;
+    Bounded depth;
 
     /// −1 where `hit` is certainly nearer, 1 where farther, else 0.
     [[nodiscard]] Sign certain_order(const Receiver& hit) const
@@ -77,17 +79,23 @@ public:
         const Pencil& pencil;
     };
 
-    explicit TexelPacket(const Setting& setting) : setting_{setting} {}
+    explicit TexelPacket(const Setting& setting) : setting_{setting}
+    {
+        stand_ins_.reserve(packet_size);
+    }
 
+    /// Forgets the texels before.
     void trace(std::span<const Texel> texels)
     {
         assert(!texels.empty() && texels.size() <= packet_size);
         RTCRayHit16 packet;
         PacketMask valid;
-        stand_ins_.reserve(packet_size);
+        nearest_.fill({});
+        edges_.clear();
+        stand_ins_.clear();
         for (std::size_t i = 0; i < texels.size(); ++i) {
             rays_[i] = CameraRay{setting_.rays.ray(texels[i])};
-            lines_[i] = setting_.depth.along(rays_[i].ray);
+            lines_[i] = setting_.depth.plainly_along(rays_[i].ray);
             const CameraStandIn& stand_in =
                 stand_ins_.emplace_back(rays_[i], setting_.reference.frame);
             if (setting_.rays.has_lamp()) {
@@ -104,17 +112,21 @@ public:
         setting_.reference.find_candidates(valid, packet, *this);
     }
 
-    [[nodiscard]] TexelHit result(std::size_t lane)
+    [[nodiscard]] TexelHit result(std::size_t lane, HitDetail detail)
     {
         const KeptHit& kept = nearest_[lane];
         if (kept.triangle == no_triangle) {
             return {no_triangle, setting_.depth.is_reversed() ? 0.0 : 1.0,
                     std::numeric_limits<double>::infinity()};
         }
+        if (detail == HitDetail::bounded && kept.depth.error <= 0x1p-40) {
+            return {kept.triangle, kept.depth.value, std::numeric_limits<double>::quiet_NaN(),
+                    kept.depth.error};
+        }
         const Facet facet = facet_of(kept.triangle);
         const Receiver hit{facet, rays_[lane], counts_};
-        const auto [depth, zeta_m] = setting_.depth.place(lines_[lane], hit);
-        return {kept.triangle, depth, zeta_m};
+        const auto [depth, zeta_m] = setting_.depth.place(hit);
+        return {kept.triangle, depth.value, zeta_m, depth.error};
     }
 
     LaneBits judge_packet(std::uint32_t /*triangle*/, LaneBits /*asking*/) override { return 0; }
@@ -166,24 +178,29 @@ private:
         }
         const LineContact contact = is_inside ? LineContact{Contact::cross, 0}
                                               : line_contact(rays_[lane], hit.corners(), counts_);
-        if (contact.kind == Contact::none || !setting_.depth.is_in_range(lines_[lane], hit)) {
+        if (contact.kind == Contact::none) {
+            return false;
+        }
+        const Bounded depth = setting_.depth.at(lines_[lane], parameter_of(hit));
+        if (!setting_.depth.is_in_range(lines_[lane], hit, depth)) {
             return false;
         }
         if (contact.kind == Contact::cross) {
-            keep_nearer(lane, hit, hit.triangle());
+            keep_nearer(lane, hit, depth, hit.triangle());
             return true;
         }
-        return meet_edge(lane, hit, contact.edge);
+        return meet_edge(lane, hit, depth, contact.edge);
     }
 
     /// `triangle` is hit where `hit` is.
-    void keep_nearer(std::size_t lane, const Receiver& hit, std::uint32_t triangle)
+    void keep_nearer(std::size_t lane, const Receiver& hit, const Bounded& depth,
+                     std::uint32_t triangle)
     {
         KeptHit& kept = nearest_[lane];
         const Sign certain = kept.certain_order(hit);
         const Sign order = certain != 0 ? certain : compare_with_kept(lane, hit);
         if (order < 0) {
-            kept = {triangle, hit.t, hit.t_error};
+            kept = {triangle, hit.t, hit.t_error, depth};
         } else if (order == 0) {
             kept.triangle = std::min(kept.triangle, triangle);
         }
@@ -195,7 +212,7 @@ private:
         return compare_distance(hit, Receiver{facet, rays_[lane], counts_}, counts_);
     }
 
-    bool meet_edge(std::size_t lane, const Receiver& hit, int edge)
+    bool meet_edge(std::size_t lane, const Receiver& hit, const Bounded& depth, int edge)
     {
         const EdgeOf own = edge_of(hit.corners(), edge);
         bool is_seam = false;
@@ -203,7 +220,7 @@ private:
             const auto corners = corners_of(setting_.reference.triangles, other.triangle);
             if (other.lane == lane &&
                 forms_seam(own, edge_of(corners, other.edge), setting_.rays.light(), counts_)) {
-                keep_nearer(lane, hit, std::min(hit.triangle(), other.triangle));
+                keep_nearer(lane, hit, depth, std::min(hit.triangle(), other.triangle));
                 is_seam = true;
             }
         }
@@ -226,9 +243,12 @@ private:
 void TexelFirstHits::find(std::span<const Texel> texels, std::span<TexelHit> hits) const
 {
     TexelPacket packet{{reference_, rays_, depth_, cull_, pencil_}};
-    packet.trace(texels);
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        hits[i] = packet.result(i);
+    for (std::size_t first = 0; first < texels.size(); first += packet_size) {
+        const std::size_t count = std::min(packet_size, texels.size() - first);
+        packet.trace(texels.subspan(first, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[first + i] = packet.result(i, detail_);
+        }
     }
 }
 

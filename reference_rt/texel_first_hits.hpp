@@ -16,16 +16,17 @@ class TexelFirstHits {
 public:
     /// All arguments must outlive it.
     TexelFirstHits(const ReferenceScene::Implementation& reference, const TexelRays& rays,
-                   const LightDepth& depth, scene::Cull cull)
+                   const LightDepth& depth, scene::Cull cull, scene::HitDetail detail)
         : reference_{reference},
           rays_{rays},
           depth_{depth},
           cull_{cull},
+          detail_{detail},
           pencil_{reference.frame, rays.light()}
     {
     }
 
-    /// The first hits of at most a packet of texels, best neighbours.
+    /// The first hits of texels, packet by packet: best where sixteen in a row are neighbours.
     void find(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
 
 private:
@@ -33,6 +34,7 @@ private:
     const TexelRays& rays_;
     const LightDepth& depth_;
     scene::Cull cull_;
+    scene::HitDetail detail_;
     Pencil pencil_;
 };
 

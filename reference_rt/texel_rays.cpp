@@ -24,6 +24,7 @@ TexelRays::TexelRays(const scene::LightFrustum& frustum, const scene::Light& lig
                      int resolution_texels)
     : rows_{frustum},
       near_{frustum.reversed ? rows_.w - rows_.z : rows_.z + rows_.w},
+      crosses_{Vec3d{rows_.x}, Vec3d{rows_.y}, Vec3d{near_}},
       forward_{frustum.forward},
       resolution_{resolution_texels},
       light_{light}
@@ -31,6 +32,14 @@ TexelRays::TexelRays(const scene::LightFrustum& frustum, const scene::Light& lig
     if (!has_lamp()) {
         light_.direction = direction(rows_.x, rows_.y); // W·(point, 1) is 1 everywhere
     }
+}
+
+TexelRays::Crosses::Crosses(const Vec3d& a, const Vec3d& b, const Vec3d& n)
+    : b_near{glm::cross(b, n)},
+      near_a{glm::cross(n, a)},
+      a_b{glm::cross(a, b)},
+      a_b_near{glm::dot(a, b_near)}
+{
 }
 
 Vec3d TexelRays::direction(const Vec4d& a, const Vec4d& b) const
@@ -48,11 +57,9 @@ Ray TexelRays::ray(scene::Texel texel) const
     if (has_lamp()) {
         return {light_.position, direction(a, b)};
     }
-    const Vec3d b_near = glm::cross(Vec3d{b}, Vec3d{near_});
-    const Vec3d near_a = glm::cross(Vec3d{near_}, Vec3d{a});
-    const Vec3d a_b = glm::cross(Vec3d{a}, Vec3d{b});
+    const auto& [b_near, near_a, a_b, a_b_near] = crosses_;
     const Vec3d sum = a.w * b_near + b.w * near_a + near_.w * a_b;
-    return {-sum / glm::dot(Vec3d{a}, b_near), light_.direction};
+    return {-sum / a_b_near, light_.direction};
 }
 
 } // namespace gnomon::reference_rt

@@ -43,8 +43,18 @@ public:
 private:
     [[nodiscard]] scene::Vec3d direction(const scene::Vec4d& a, const scene::Vec4d& b) const;
 
+    /// A × B and its like, of which a directional light's rays have all alike: its W is 0 but for
+    /// the last component.
+    struct Crosses {
+        Crosses(const scene::Vec3d& a, const scene::Vec3d& b, const scene::Vec3d& n);
+
+        scene::Vec3d b_near, near_a, a_b;
+        double a_b_near; ///< A·(B × N)
+    };
+
     ClipRows rows_;
     scene::Vec4d near_; ///< N
+    Crosses crosses_;
     scene::Vec3d forward_;
     int resolution_;
     scene::Light light_;

@@ -19,21 +19,31 @@ struct Texel {
     friend bool operator==(const Texel&, const Texel&) = default;
 };
 
+/// How closely first hits are placed.
+enum class HitDetail : std::uint8_t {
+    bounded, ///< the depth within 2^-40, and as a rule much closer
+    placed,  ///< the depth within 2^-48, and the light distance
+};
+
 /// What the light sees through a texel's centre: the exact first hit between near and far.
 struct TexelHit {
     std::uint32_t triangle = no_triangle; ///< the lowest index of those at this depth
-    /// Matrix depth, within 2^-48; without a hit the farthest, 1 (reversed: 0).
+    /// Matrix depth; without a hit the farthest, 1 (reversed: 0).
     double depth = 1;
-    /// Light distance [m], to a relative 2^-44; infinite without a hit.
+    /// Light distance [m], to a relative 2^-44, or NaN where only bounded; infinite without a hit.
     double zeta_m = std::numeric_limits<double>::infinity();
+    double depth_error = 0; ///< the exact depth is no farther than this from `depth`
 };
 
 /// The depth that one tap of a lookup would find in a map of infinite precision: that of a triangle
 /// along a texel-centre ray, or a constant where nothing is seen or a policy decides.
 struct ExactTap {
     Texel texel;
-    std::uint32_t triangle = no_triangle; ///< as `first_hits` found it; `no_triangle`: `constant`
-    float constant = 1;                   ///< depth without a triangle, in [0, 1]
+    std::uint32_t triangle = no_triangle; ///< as `first_hits` found it
+    /// Without a triangle the depth, a float32 in [0, 1]; else as `first_hits` found it.
+    double depth = 1;
+    /// As `first_hits` found it. The answer is exact whatever it is, but slow without it.
+    double depth_error = std::numeric_limits<double>::infinity();
 };
 
 /// One receiver before one tap.
@@ -78,7 +88,9 @@ public:
 
     /// The first hit of each texel-centre ray, with a triangle that the culling leaves, at a matrix
     /// depth in [0, 1]. A seam is a hit; other degenerate contacts are none.
-    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels) const = 0;
+    /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
+    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+                                                           HitDetail detail) const = 0;
 
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).

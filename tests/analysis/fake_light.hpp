@@ -21,7 +21,7 @@ public:
     mutable std::size_t traced_texels = 0;
 
     [[nodiscard]] std::vector<scene::TexelHit>
-    first_hits(std::span<const scene::Texel> texels) const override
+    first_hits(std::span<const scene::Texel> texels, scene::HitDetail /*detail*/) const override
     {
         traced_texels += texels.size();
         return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
@@ -90,7 +90,7 @@ private:
     }
     [[nodiscard]] double depth(const scene::ExactTap& tap) const
     {
-        return tap.triangle == scene::no_triangle ? double{tap.constant} : hit(tap.texel).depth;
+        return tap.triangle == scene::no_triangle ? tap.depth : hit(tap.texel).depth;
     }
 };
 

@@ -29,15 +29,21 @@ TEST(FirstHits, AreThoseOfBruteForceInRationals)
     for_each_case([&](const LitScene& lit) {
         for (const Cull cull : culls) {
             const auto texels = lit.all_texels();
-            const auto found = lit.exact_light(cull)->first_hits(texels);
+            const auto light = lit.exact_light(cull);
+            const auto found = light->first_hits(texels, HitDetail::placed);
+            const auto bounded = light->first_hits(texels, HitDetail::bounded);
             ASSERT_EQ(found.size(), texels.size());
+            ASSERT_EQ(bounded.size(), texels.size());
             for (std::size_t i = 0; i < texels.size(); ++i) {
                 const scene::Ray ray = lit.texel_ray(texels[i]);
                 const Passing first = first_hit_of(lit.triangles, lit.view, ray, cull);
                 ASSERT_EQ(found[i].triangle, first.triangle)
                     << "texel " << texels[i].x << ' ' << texels[i].y << ", cull "
                     << scene::cull_name(cull);
+                ASSERT_EQ(bounded[i].triangle, first.triangle);
                 if (first.triangle == no_triangle) {
+                    EXPECT_EQ(bounded[i].depth, found[i].depth);
+                    EXPECT_EQ(bounded[i].depth_error, 0);
                     EXPECT_EQ(found[i].depth, lit.view.frustum.reversed ? 0 : 1);
                     EXPECT_EQ(found[i].zeta_m, std::numeric_limits<double>::infinity());
                     continue;
@@ -46,7 +52,11 @@ TEST(FirstHits, AreThoseOfBruteForceInRationals)
                 const RationalVec point =
                     RationalVec{ray.origin} + first.t * RationalVec{ray.direction};
                 const Rational depth = *matrix_depth(lit.view.frustum, point);
-                EXPECT_LE(abs(depth - Rational{found[i].depth}), Rational{0x1p-48});
+                EXPECT_LE(abs(depth - Rational{found[i].depth}), Rational{found[i].depth_error});
+                EXPECT_LE(found[i].depth_error, 0x1p-48);
+                EXPECT_LE(abs(depth - Rational{bounded[i].depth}),
+                          Rational{bounded[i].depth_error});
+                EXPECT_LE(bounded[i].depth_error, 0x1p-40);
                 const Rational zeta = dot(RationalVec{lit.view.frustum.forward},
                                           point - RationalVec{lit.view.frustum.origin});
                 EXPECT_LE(abs(zeta - Rational{found[i].zeta_m}), 0x1p-44 * abs(zeta));
@@ -82,10 +92,18 @@ TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
 Rational tap_depth(const LitScene& lit, const ExactTap& tap)
 {
     if (tap.triangle == no_triangle) {
-        return Rational{static_cast<double>(tap.constant)};
+        return Rational{tap.depth};
     }
     const scene::Ray ray = lit.texel_ray(tap.texel);
     return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));
+}
+
+/// A tap with what is known of its depth, or without.
+ExactTap tap_of(Texel texel, const TexelHit& hit, bool is_known)
+{
+    return hit.triangle == no_triangle ? ExactTap{texel, no_triangle, 0.75, 0}
+           : is_known                  ? ExactTap{texel, hit.triangle, hit.depth, hit.depth_error}
+                                       : ExactTap{texel, hit.triangle};
 }
 
 float expected_bias(const LitScene& lit, std::size_t pixel, const Rational& depth, bool clamps)
@@ -103,11 +121,11 @@ TEST(CriticalBiases, AreThoseOfRationalsForOneTap)
         std::mt19937 random{7};
         const auto light = lit.exact_light();
         const auto texels = lit.all_texels();
-        const auto hits = light->first_hits(texels);
+        const auto hits = light->first_hits(texels, HitDetail::bounded);
         std::vector<NearestQuery> queries;
         for (const std::size_t pixel : lit.scored_pixels()) {
             const std::size_t texel = random() % texels.size();
-            queries.push_back({pixel, {texels[texel], hits[texel].triangle, 0.75F}});
+            queries.push_back({pixel, tap_of(texels[texel], hits[texel], random() % 2 == 0)});
         }
         for (const bool clamps : {false, true}) {
             const auto biases = light->critical_biases(std::span{queries}, clamps);
@@ -127,7 +145,7 @@ TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
         std::uniform_real_distribution<float> fraction{0, 1};
         const auto light = lit.exact_light();
         const auto texels = lit.all_texels();
-        const auto hits = light->first_hits(texels);
+        const auto hits = light->first_hits(texels, HitDetail::bounded);
         std::vector<LinearQuery> queries;
         for (const std::size_t pixel : lit.scored_pixels()) {
             LinearQuery query{pixel, {}, {}};
@@ -136,7 +154,7 @@ TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
             query.weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
             for (ExactTap& tap : query.taps) {
                 const std::size_t texel = random() % texels.size();
-                tap = {texels[texel], hits[texel].triangle, 1};
+                tap = tap_of(texels[texel], hits[texel], random() % 2 == 0);
             }
             queries.push_back(query);
         }
@@ -197,8 +215,8 @@ TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
     const auto pixels = lit.scored_pixels();
     const auto one = lit.exact_light(Cull::none, 1);
     const auto three = lit.exact_light(Cull::none, 3);
-    const auto hits = one->first_hits(texels);
-    const auto same_hits = three->first_hits(texels);
+    const auto hits = one->first_hits(texels, HitDetail::placed);
+    const auto same_hits = three->first_hits(texels, HitDetail::placed);
     std::vector<NearestQuery> biases;
     std::vector<SheetQuery> sheets;
     for (std::size_t i = 0; i < texels.size(); ++i) {

@@ -10,6 +10,7 @@ namespace gnomon::reference_rt::test {
 
 using scene::Cull;
 using scene::ExactTap;
+using scene::HitDetail;
 using scene::LinearQuery;
 using scene::NearestQuery;
 using scene::SheetQuery;

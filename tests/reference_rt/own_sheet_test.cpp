@@ -70,7 +70,7 @@ TEST(OwnSheet, LeadsAcrossManyTriangles)
     Noon noon{builder};
     noon.receivers = brute_force_receivers(noon.triangles, noon.view);
     const auto texels = noon.all_texels();
-    const auto hits = noon.exact_light()->first_hits(texels);
+    const auto hits = noon.exact_light()->first_hits(texels, HitDetail::placed);
     std::vector<SheetQuery> queries;
     for (std::size_t pixel = 0; pixel < noon.receivers.pixel_count(); pixel += 7) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -256,7 +256,7 @@ TEST(OwnSheet, IsThatOfPlaneGeometryInRationals)
             const LitScene lit{crumpled_sheet(seed, seed % 2 == 0), light.light, light.frustum, 8};
             const auto exact = lit.exact_light();
             const auto texels = lit.all_texels();
-            const auto hits = exact->first_hits(texels);
+            const auto hits = exact->first_hits(texels, HitDetail::placed);
             const auto pixels = lit.scored_pixels();
             std::mt19937 random{seed};
             std::vector<SheetQuery> queries;

@@ -1,0 +1,65 @@
+#include "analysis/texel_index.hpp"
+
+#include <algorithm>
+
+namespace gnomon::analysis {
+
+using scene::Texel;
+
+TexelIndex::TexelIndex(std::span<const Texel> texels)
+{
+    if (!texels.empty()) {
+        frame(texels);
+        mark(texels);
+        number();
+    }
+}
+
+void TexelIndex::frame(std::span<const Texel> texels)
+{
+    Texel lowest = texels.front();
+    Texel highest = lowest;
+    for (const Texel& texel : texels) {
+        lowest = {std::min(lowest.x, texel.x), std::min(lowest.y, texel.y)};
+        highest = {std::max(highest.x, texel.x), std::max(highest.y, texel.y)};
+    }
+    first_column_ = lowest.x >> side_bits;
+    first_row_ = lowest.y >> side_bits;
+    columns_ = static_cast<std::size_t>((highest.x >> side_bits) - first_column_) + 1;
+    block_at_.assign(cell_of(highest) + 1, none);
+}
+
+void TexelIndex::mark(std::span<const Texel> texels)
+{
+    Block empty;
+    empty.fill(none);
+    for (const Texel& texel : texels) {
+        std::uint32_t& block = block_at_[cell_of(texel)];
+        if (block == none) {
+            block = static_cast<std::uint32_t>(blocks_.size());
+            blocks_.push_back(empty);
+            origins_.push_back({texel.x - texel.x % side, texel.y - texel.y % side});
+        }
+        blocks_[block][place_of(texel)] = 0;
+    }
+}
+
+void TexelIndex::number()
+{
+    std::array<Texel, std::size_t{side} * side> step;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            step[place_of({x, y})] = {x, y};
+        }
+    }
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        for (std::size_t place = 0; place < step.size(); ++place) {
+            if (blocks_[b][place] != none) {
+                blocks_[b][place] = static_cast<std::uint32_t>(texels_.size());
+                texels_.push_back({origins_[b].x + step[place].x, origins_[b].y + step[place].y});
+            }
+        }
+    }
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,45 @@
+#include "cli/compare_run.hpp"
+
+#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/lookup_answers.hpp"
+#include "cli/kept_pixels.hpp"
+#include "scene/sweep_space.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace gnomon::cli {
+
+CompareRun::CompareRun(std::filesystem::path folder)
+    : folder_{std::move(folder)},
+      lock_{folder_},
+      store_{folder_, reports::RunStore::Access::write}
+{
+}
+
+void CompareRun::record(scene::JobSource source, std::string_view case_name,
+                        const analysis::Comparison& comparison, std::string job_text,
+                        std::string command)
+{
+    source.sweep = {};
+    if (case_name.empty()) {
+        source.cases.clear();
+    }
+    const scene::SweepSpace space{std::move(source), {}, case_name};
+    const analysis::SweepCatalogue catalogue{space, true, GNOMON_VERSION};
+    std::vector<analysis::Configuration> configurations;
+    catalogue.describe(0, comparison.scene.hash,
+                       [&](const analysis::Configuration& configuration) {
+                           configurations.push_back(configuration);
+                       });
+    const analysis::Configuration& own = configurations.front();
+    // Another driver's results in the folder are replaced, not mixed with.
+    store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), std::move(command)},
+                configurations, reports::Environments::several);
+    keep_pixels(folder_, own.id, comparison);
+    store_.record(analysis::finish_compared(comparison, own.curve, 0,
+                                            comparison.view.bias.constant));
+    store_.write_csv();
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,17 @@
+#include "cli/kept_pixels.hpp"
+
+#include "reference_rt/truth.hpp"
+#include "reports/aov_exr.hpp"
+#include "reports/run/pixels.hpp"
+
+namespace gnomon::cli {
+
+void keep_pixels(const std::filesystem::path& folder, std::string_view id,
+                 const analysis::Comparison& comparison)
+{
+    const auto points = reference_rt::receiver_points(*comparison.triangles, comparison.view,
+                                                      comparison.receivers.triangle);
+    reports::write_aov(reports::pixels_path(folder, id), comparison, points);
+}
+
+} // namespace gnomon::cli

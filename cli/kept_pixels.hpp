@@ -1,0 +1,15 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+
+#include <filesystem>
+#include <string_view>
+
+namespace gnomon::cli {
+
+/// Writes every layer of a configuration to RUN/pixels/ID.exr (docs/aov.md).
+/// @throws scene::EnvironmentError  if it cannot be written.
+void keep_pixels(const std::filesystem::path& folder, std::string_view id,
+                 const analysis::Comparison& comparison);
+
+} // namespace gnomon::cli
