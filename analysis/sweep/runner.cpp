@@ -105,23 +105,6 @@ public:
         const std::lock_guard lock{mutex_};
         hooks_.record_failure(ordinals, message);
     }
-    /// Records what `work` makes of the task's rows, or why it could not. `work` may take rows from
-    /// the task, and returns nothing if none is left.
-    template <typename Work>
-    void tell(SweepTask& task, const Work& work)
-    {
-        const auto made = make<std::optional<FinishedCurve>>(
-            [&] { return std::make_shared<std::optional<FinishedCurve>>(work()); });
-        if (!made.value) {
-            std::vector<std::uint64_t> ordinals;
-            for (const SweepTask::Row& row : task.rows) {
-                ordinals.push_back(row.ordinal);
-            }
-            failed(ordinals, made.error);
-        } else if (const auto& curve = *made.value) {
-            finished(*curve);
-        }
-    }
 
 private:
     const SweepHooks& hooks_;
@@ -138,8 +121,15 @@ float own_constant_bias(const scene::Job& job, const scene::LightFrustum& frustu
     }
 }
 
-/// What the task asks of its curve; rows whose bias is none are told of and taken from it.
-CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum, Teller& teller)
+/// A row that cannot be computed, and why.
+struct RefusedRow {
+    std::uint64_t ordinal = 0;
+    std::string message;
+};
+
+/// What the task asks of its curve; moves rows whose bias is none from the task to `refused`.
+CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum,
+                          std::vector<RefusedRow>& refused)
 {
     const float slope = scene::resolve_bias({.slope = task.job.bias.slope}, frustum).slope;
     CurveQuestion question{task.id, slope, own_constant_bias(task.job, frustum), {}};
@@ -148,11 +138,20 @@ CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum, T
             question.rows.push_back({row.ordinal, scene::resolve_bias(row.bias, frustum).constant});
             return false;
         } catch (const scene::InputError& error) {
-            teller.failed({row.ordinal}, error.what());
+            refused.push_back({row.ordinal, error.what()});
             return true;
         }
     });
     return question;
+}
+
+std::vector<std::uint64_t> ordinals_of(const SweepTask& task)
+{
+    std::vector<std::uint64_t> ordinals;
+    for (const SweepTask::Row& row : task.rows) {
+        ordinals.push_back(row.ordinal);
+    }
+    return ordinals;
 }
 
 class Runner {
@@ -314,20 +313,53 @@ private:
         ++counts_.curves;
         counts_.configurations += task_->rows.size();
         if (is_compared()) {
-            teller_.tell(*task_, [&] { return compare_row(slot, task_->rows.at(0)); });
-            return;
+            return answer_by_comparison(slot, task_->rows.at(0));
         }
         background_.add([this, task = std::move(*task_), lookup = lookup_]() mutable {
-            teller_.tell(task, [&]() -> std::optional<FinishedCurve> {
-                const auto work = need(lookup);
-                const CurveQuestion question = question_of(task, work->frustum(), teller_);
-                return question.rows.empty() ? std::nullopt : std::optional{work->answer(question)};
-            });
+            answer_by_curve(task, lookup);
         });
         task_.reset();
     }
 
-    FinishedCurve compare_row(std::size_t slot, const SweepTask::Row& row)
+    /// Called by the background. Only the work is a stage: what the hooks throw ends the sweep.
+    void answer_by_curve(SweepTask& task, const Made<LookupWork>& lookup)
+    {
+        std::vector<RefusedRow> refused;
+        const auto made = make<std::optional<FinishedCurve>>([&] {
+            const auto work = need(lookup);
+            const CurveQuestion question = question_of(task, work->frustum(), refused);
+            auto finished = std::make_shared<std::optional<FinishedCurve>>();
+            if (!question.rows.empty()) {
+                *finished = work->answer(question);
+            }
+            return finished;
+        });
+        for (const RefusedRow& row : refused) {
+            teller_.failed({row.ordinal}, row.message);
+        }
+        if (!made.value) {
+            teller_.failed(ordinals_of(task), made.error);
+        } else if (const auto& finished = *made.value) {
+            teller_.finished(*finished);
+        }
+    }
+
+    void answer_by_comparison(std::size_t slot, const SweepTask::Row& row)
+    {
+        const auto made =
+            make<Comparison>([&] { return std::make_shared<Comparison>(compare_row(slot, row)); });
+        if (!made.value) {
+            return teller_.failed({row.ordinal}, made.error);
+        }
+        const Comparison& comparison = *made.value;
+        if (hooks_.keep_pixels) {
+            hooks_.keep_pixels(row.ordinal, comparison);
+        }
+        teller_.finished(finish_compared(comparison, task_->id, row.ordinal,
+                                         own_constant_bias(task_->job, comparison.view.frustum)));
+    }
+
+    Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
     {
         static_cast<void>(need(map_));
         static_cast<void>(need(receivers_[slot]));
@@ -347,11 +379,7 @@ private:
         comparison.truth = subject->truth;
         comparison.lookup = renderers().look_up(comparison.job, comparison.view);
         measure_comparison(comparison, renderers());
-        if (hooks_.keep_pixels) {
-            hooks_.keep_pixels(row.ordinal, comparison);
-        }
-        return finish_compared(comparison, task_->id, row.ordinal,
-                               own_constant_bias(task_->job, comparison.view.frustum));
+        return comparison;
     }
 
     const SweepPlan& plan_;
