@@ -2,8 +2,8 @@
 
 namespace gnomon::cli {
 
-/// Makes file descriptors 0 to 2 exist and a broken pipe an error of the call that writes.
-/// Otherwise, with stdout closed, the first file opened would take its number and receive what is
+/// Makes file descriptors 0 to 2 exist, and a broken pipe or a file beyond `ulimit -f` an error of
+/// the call that writes. Otherwise, with stdout closed, the first file opened would take its number and receive what is
 /// printed.
 void keep_standard_streams();
 
