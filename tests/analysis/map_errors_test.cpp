@@ -85,20 +85,16 @@ TEST(MapDepthErrors, AreStoredLessExactWhereBothSeeSomething)
     EXPECT_TRUE(std::isnan(errors_m[3])) << "not scored";
 }
 
-TEST(Gaps, AreMeasuredInMetresAndInTexelsAtTheReceiver)
+TEST(Gaps, AreMeasuredInMetresAndInTexels)
 {
-    FakeLight light;
-    light.blockers[0] = {3, 0.5, 2, 4}; // gap 0.5 m, P at ζ = 4
-    light.blockers[1] = {3, 1.5, 2, 4};
-    scene::LightFrustum frustum = frustum_of(scene::Projection::perspective, false);
-    const std::vector<std::size_t> pixels{0, 1};
-    const Gaps gaps = measure_gaps(light, pixels, frustum, 8);
-    // A texel is 2·4/8 = 1 m wide there.
+    const std::vector<PixelGap> pixels{{0.5F, 1.0F}, {1.5F, 3.0F}};
+    const Gaps gaps = measure_gaps(pixels);
     EXPECT_EQ(gaps.metres->count, 2U);
     EXPECT_EQ(gaps.metres->median, 0.5F);
     EXPECT_EQ(gaps.metres->max, 1.5F);
-    EXPECT_EQ(gaps.texels->max, 1.5F);
-    EXPECT_FALSE(measure_gaps(light, {}, frustum, 8).metres);
+    EXPECT_EQ(gaps.texels->median, 1.0F);
+    EXPECT_EQ(gaps.texels->max, 3.0F);
+    EXPECT_FALSE(measure_gaps({}).metres);
 }
 
 } // namespace
