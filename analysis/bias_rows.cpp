@@ -4,16 +4,19 @@
 #include "analysis/pcf_taps.hpp"
 #include "analysis/radix_sort.hpp"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -24,10 +27,10 @@ namespace {
 
 constexpr std::size_t pixels_per_task = std::size_t{1} << 16U;
 
-void require_ascending(std::span<const float> biases)
+void require_ascending(std::span<const float> biases, std::string_view function)
 {
     if (std::adjacent_find(biases.begin(), biases.end(), std::greater_equal<>{}) != biases.end()) {
-        throw std::invalid_argument("count_rows: biases: must ascend");
+        throw std::invalid_argument(fmt::format("{}: biases: must ascend", function));
     }
 }
 
@@ -169,8 +172,12 @@ public:
         }
     }
 
+    /// Leaves out a value that is not finite, as `find_quantiles` does.
     void insert(std::size_t index)
     {
+        if (!std::isfinite(values_[rank_[index]])) {
+            return;
+        }
         for (std::size_t i = rank_[index] + 1; i < tree_.size(); i += i & (~i + 1)) {
             ++tree_[i];
         }
@@ -313,7 +320,7 @@ Sum sum_over_pixels(std::size_t pixels, const Sum& zero, const Count& count)
 
 std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, std::span<const float> biases)
 {
-    require_ascending(biases);
+    require_ascending(biases, "count_rows");
     const scene::ImageSize size = inputs.classes.size();
     if (inputs.deciding.samples.size() != size || inputs.critical_bias.size() != size ||
         inputs.causes.size() != size) {
@@ -334,7 +341,7 @@ std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& clas
                                             const scene::Image<float>& map_depths,
                                             const LookupRule& rule, std::span<const float> biases)
 {
-    require_ascending(biases);
+    require_ascending(biases, "count_wrong_taps");
     const TapCounter counter{classes, lookup, {map_depths, rule}, rule, biases};
     const TapChanges changes =
         sum_over_pixels(classes.pixel_count(), TapChanges{biases.size()},
@@ -344,7 +351,7 @@ std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& clas
 
 std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps, std::span<const float> biases)
 {
-    require_ascending(biases);
+    require_ascending(biases, "find_gaps_at");
     radix_sort(gaps, [](const PanningGap& gap) { return sort_key(gap.critical_bias); });
     std::vector<float> metres;
     std::vector<float> texels;

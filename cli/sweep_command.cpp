@@ -173,9 +173,11 @@ void add_sweep_command(CLI::App& program)
         ->allow_extra_args(false);
     command->add_option("--out", options->folder,
                         "RUN, the folder for the results (docs/sweep.md)");
-    command->add_flag("--dry-run", options->is_dry_run,
-                      "Print what would be done, and roughly how long it takes, and stop");
-    command->add_flag("--json", options->json, "With --dry-run: print the plan as JSON");
+    CLI::Option* const dry_run =
+        command->add_flag("--dry-run", options->is_dry_run,
+                          "Print what would be done, and roughly how long it takes, and stop");
+    command->add_flag("--json", options->json, "With --dry-run: print the plan as JSON")
+        ->needs(dry_run);
     command->add_flag("--keep-pixels", options->keeps_pixels,
                       "Keep every configuration's layers in RUN/pixels; the default for up to 20 "
                       "configurations");

@@ -215,6 +215,13 @@ std::string_view trimmed(std::string_view text)
                : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// True for "[a, b]", not for "[0, 1], [2, 3]".
+bool is_bracketed(std::string_view text)
+{
+    const bool has_brackets = text.size() >= 2 && text.front() == '[' && text.back() == ']';
+    return has_brackets && split_at_commas(text).size() == 1;
+}
+
 /// A range, a list, or values between commas; a bare word is a string.
 TomlNode axis_values(std::string_view text, const std::string& label)
 {
@@ -224,7 +231,7 @@ TomlNode axis_values(std::string_view text, const std::string& label)
                  std::holds_alternative<TomlTable>(node->value))) {
         return std::move(*node);
     }
-    if (inner.size() >= 2 && inner.front() == '[' && inner.back() == ']') {
+    if (is_bracketed(inner)) {
         inner = inner.substr(1, inner.size() - 2);
     }
     TomlArray values;
@@ -277,7 +284,8 @@ SweepAxis read_axis_argument(const std::string& argument)
         throw InputError(fmt::format("{}: unknown key {}; the nearest is {}", label,
                                      toml_excerpt({key}), nearest_key(key)));
     }
-    return read_axis(*spec, axis_values(argument.substr(equals + 1), label), label);
+    return read_axis(*spec, axis_values(argument.substr(equals + 1), label),
+                     fmt::format("--axis {}", key));
 }
 
 Sweep read_sweep(const TomlMember& member, const std::string& file)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 #include <utility>
@@ -66,6 +67,7 @@ SweepSpace::SweepSpace(JobSource source, const std::vector<std::string>& axis_ar
     check_keys();
     resolve_values();
     check_repetitions();
+    number_zipped_structures();
     count();
 }
 
@@ -120,10 +122,13 @@ void SweepSpace::resolve_values()
     for (const SweepAxis& axis : axes()) {
         Layer& values = values_.emplace_back();
         std::vector<std::size_t>& firsts = first_equal_.emplace_back();
-        for (const std::string& value : axis.values) {
-            values.push_back(layer_from_overrides({{axis.key, value}}).front());
-            const auto first = std::find(axis.values.begin(), axis.values.end(), value);
-            firsts.push_back(static_cast<std::size_t>(first - axis.values.begin()));
+        std::map<std::string_view, std::size_t> first_of;
+        for (std::size_t i = 0; i < axis.values.size(); ++i) {
+            const std::string& value = axis.values[i];
+            Setting& setting =
+                values.emplace_back(layer_from_overrides({{axis.key, value}}).front());
+            setting.label = fmt::format("[sweep] {} = {}", axis.key, value);
+            firsts.push_back(first_of.try_emplace(value, i).first->second);
         }
     }
 }
@@ -154,15 +159,32 @@ void SweepSpace::check_repetitions() const
     }
 }
 
+void SweepSpace::number_zipped_structures()
+{
+    std::map<std::vector<std::size_t>, std::size_t> firsts;
+    for (std::size_t i = 0; is_zipped() && !axes().empty() && i < axes().front().values.size();
+         ++i) {
+        std::vector<std::size_t> tuple;
+        for (std::size_t axis = 0; axis < axes().size(); ++axis) {
+            if (!is_constant_bias(axes()[axis].key)) {
+                tuple.push_back(first_equal_[axis][i]);
+            }
+        }
+        zipped_structures_.push_back(firsts.try_emplace(std::move(tuple), i).first->second);
+    }
+}
+
 void SweepSpace::count()
 {
     std::uint64_t size = std::max<std::uint64_t>(1, source_.cases.size());
     for (std::size_t i = 0; i < axes().size() && (i == 0 || !is_zipped()); ++i) {
-        // Every factor is at most 100,000: no overflow before the limit is met.
-        size *= axes()[i].values.size();
-        if (size > std::numeric_limits<std::uint64_t>::max() / 100'000) {
-            break;
+        const std::uint64_t length = axes()[i].values.size();
+        if (size > std::numeric_limits<std::uint64_t>::max() / length) {
+            throw InputError(fmt::format("{}: [sweep]: 2^64 configurations or more, too many even "
+                                         "to draw some of them; shorten the axes",
+                                         source_.name));
         }
+        size *= length;
     }
     const auto sample = static_cast<std::uint64_t>(source_.sweep.sample);
     size_ = sample > 0 ? std::min(size, sample) : size;
@@ -205,6 +227,9 @@ std::string_view SweepSpace::case_name(const SweepPoint& point) const
 std::uint64_t SweepSpace::structure(const SweepPoint& point) const
 {
     std::uint64_t structure = point.case_index;
+    if (!zipped_structures_.empty()) {
+        return structure * zipped_structures_.size() + zipped_structures_[point.values.front()];
+    }
     for (std::size_t i = 0; i < axes().size(); ++i) {
         if (!is_constant_bias(axes()[i].key)) {
             structure = structure * axes()[i].values.size() + first_equal_[i][point.values[i]];

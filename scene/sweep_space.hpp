@@ -59,6 +59,7 @@ private:
     void check_keys() const;
     void resolve_values();
     void check_repetitions() const;
+    void number_zipped_structures();
     void count();
 
     [[nodiscard]] const CaseLayer* chosen_case(const SweepPoint& point) const;
@@ -68,6 +69,8 @@ private:
     std::vector<Layer> values_; ///< each axis's values as settings
     /// For each value of each axis the first that equals it: with zip, values may come again.
     std::vector<std::vector<std::size_t>> first_equal_;
+    /// With zip, for each index the first one whose values differ in constant biases at most.
+    std::vector<std::size_t> zipped_structures_;
     std::uint64_t size_ = 0;
     std::vector<std::uint64_t> sample_; ///< ascending numbers of the whole space; empty: all
 };

@@ -70,6 +70,7 @@ private:
             const std::function<void()> piece = std::move(waiting_.front());
             waiting_.pop_front();
             is_busy_ = true;
+            changed_.notify_all();
             lock.unlock();
             std::exception_ptr error;
             try {

@@ -21,6 +21,7 @@ std::string id_of(std::string_view version, std::string_view scene_hash,
                   const Parameters& parameters, bool with_constant_bias)
 {
     scene::Fnv1a hash;
+    hash.add(fmt::format("schema {}", result_schema));
     hash.add(version);
     hash.add(scene_hash);
     for (const auto& [key, value] : parameters) {

@@ -15,6 +15,9 @@
 
 namespace gnomon::analysis {
 
+/// Counts up when results of the same job change their meaning: part of every id.
+inline constexpr int result_schema = 1;
+
 /// A configuration of a sweep: one row of its results, known before anything is computed.
 struct Configuration {
     std::uint64_t ordinal = 0; ///< its place in the sweep, from 0: the order of the rows

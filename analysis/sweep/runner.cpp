@@ -136,40 +136,53 @@ public:
         const std::lock_guard lock{mutex_};
         hooks_.record_failure(ordinals, message);
     }
-    /// Records what `work` makes of the task's rows, or why it could not.
-    template <typename Work>
-    void tell(const SweepTask& task, const Work& work)
-    {
-        const Made<FinishedCurve> made =
-            make<FinishedCurve>([&] { return std::make_shared<FinishedCurve>(work()); });
-        if (made.value) {
-            return made.value->rows.empty() ? void() : finished(*made.value);
-        }
-        std::vector<std::uint64_t> ordinals;
-        for (const SweepTask::Row& row : task.rows) {
-            ordinals.push_back(row.ordinal);
-        }
-        failed(ordinals, made.error);
-    }
 
 private:
     const SweepHooks& hooks_;
     std::mutex mutex_;
 };
 
-/// What the task asks of its curve; rows whose bias is none are told of and left out.
-CurveQuestion question_of(const SweepTask& task, const scene::LightFrustum& frustum, Teller& teller)
+/// The job's own constant bias [depth units]; 0 where it is none in this frustum.
+float own_constant_bias(const scene::Job& job, const scene::LightFrustum& frustum)
 {
-    const scene::Bias own = scene::resolve_bias(task.job.bias, frustum);
-    CurveQuestion question{task.id, own.slope, own.constant, {}};
-    for (const SweepTask::Row& row : task.rows) {
+    try {
+        return scene::resolve_bias(job.bias, frustum).constant;
+    } catch (const scene::InputError&) {
+        return 0;
+    }
+}
+
+/// A row that cannot be computed, and why.
+struct RefusedRow {
+    std::uint64_t ordinal = 0;
+    std::string message;
+};
+
+/// What the task asks of its curve; moves rows whose bias is none from the task to `refused`.
+CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum,
+                          std::vector<RefusedRow>& refused)
+{
+    const float slope = scene::resolve_bias({.slope = task.job.bias.slope}, frustum).slope;
+    CurveQuestion question{task.id, slope, own_constant_bias(task.job, frustum), {}};
+    std::erase_if(task.rows, [&](const SweepTask::Row& row) {
         try {
             question.rows.push_back({row.ordinal, scene::resolve_bias(row.bias, frustum).constant});
+            return false;
         } catch (const scene::InputError& error) {
-            teller.failed({row.ordinal}, error.what());
+            refused.push_back({row.ordinal, error.what()});
+            return true;
         }
-    }
+    });
     return question;
+}
+
+std::vector<std::uint64_t> ordinals_of(const SweepTask& task)
+{
+    std::vector<std::uint64_t> ordinals;
+    for (const SweepTask::Row& row : task.rows) {
+        ordinals.push_back(row.ordinal);
+    }
+    return ordinals;
 }
 
 class Runner {
@@ -222,6 +235,14 @@ private:
         const scene::SceneFile& file = *need(scene_)->open.file;
         return scene::resolve_view(job, file.scene, file.defaults);
     }
+    /// The step's view without constant bias: one that is none fails its own row, not the stages.
+    [[nodiscard]] scene::View stage_view() const
+    {
+        scene::Job job = task_->job;
+        job.bias.constant = 0;
+        job.bias.constant_m.reset();
+        return view_of(job);
+    }
     [[nodiscard]] const Renderers& renderers() const { return *need(scene_)->open.renderers; }
     void select(std::size_t slot) const
     {
@@ -250,7 +271,7 @@ private:
     {
         ++counts_.receiver_passes;
         receivers_[slot] = make<scene::ReceiverLayers>([&] {
-            const scene::View view = view_of(task_->job);
+            const scene::View view = stage_view();
             select(slot);
             return std::make_shared<scene::ReceiverLayers>(renderers().draw_receivers(view));
         });
@@ -261,7 +282,7 @@ private:
         ++counts_.truths;
         subjects_[slot] = make<SweepSubject>([&] {
             const auto receivers = need(receivers_[slot]);
-            const scene::View view = view_of(task_->job);
+            const scene::View view = stage_view();
             auto subject = std::make_shared<SweepSubject>(view.image);
             subject->receivers = *receivers;
             subject->truth = renderers().find_truth(view, subject->receivers);
@@ -274,7 +295,7 @@ private:
     {
         ++counts_.shadow_maps;
         map_ = make<bool>([&] {
-            renderers().draw_shadow_map(task_->job, view_of(task_->job));
+            renderers().draw_shadow_map(task_->job, stage_view());
             return std::make_shared<bool>(true);
         });
     }
@@ -299,7 +320,7 @@ private:
     {
         SweepLookup lookup;
         lookup.job = task_->job;
-        lookup.view = view_of(task_->job);
+        lookup.view = stage_view();
         scene::View view = lookup.view;
         view.bias = {.constant = 0, .slope = 0, .normal_texels = view.bias.normal_texels};
         lookup.layers = renderers().look_up(lookup.job, view);
@@ -324,25 +345,59 @@ private:
         ++counts_.curves;
         counts_.configurations += task_->rows.size();
         if (is_compared()) {
-            select(slot);
-            teller_.tell(*task_, [&] { return compare_row(slot, task_->rows.at(0)); });
-            return;
+            return answer_by_comparison(slot, task_->rows.at(0));
         }
-        background_.add([this, task = std::move(*task_), lookup = lookup_] {
-            teller_.tell(task, [&] {
-                const auto work = need(lookup);
-                return work->answer(question_of(task, work->frustum(), teller_));
-            });
+        background_.add([this, task = std::move(*task_), lookup = lookup_]() mutable {
+            answer_by_curve(task, lookup);
         });
         task_.reset();
     }
 
-    FinishedCurve compare_row(std::size_t slot, const SweepTask::Row& row)
+    /// Called by the background. Only the work is a stage: what the hooks throw ends the sweep.
+    void answer_by_curve(SweepTask& task, const Made<LookupWork>& lookup)
+    {
+        std::vector<RefusedRow> refused;
+        const auto made = make<std::optional<FinishedCurve>>([&] {
+            const auto work = need(lookup);
+            const CurveQuestion question = question_of(task, work->frustum(), refused);
+            auto finished = std::make_shared<std::optional<FinishedCurve>>();
+            if (!question.rows.empty()) {
+                *finished = work->answer(question);
+            }
+            return finished;
+        });
+        for (const RefusedRow& row : refused) {
+            teller_.failed({row.ordinal}, row.message);
+        }
+        if (!made.value) {
+            teller_.failed(ordinals_of(task), made.error);
+        } else if (const auto& finished = *made.value) {
+            teller_.finished(*finished);
+        }
+    }
+
+    void answer_by_comparison(std::size_t slot, const SweepTask::Row& row)
+    {
+        const auto made =
+            make<Comparison>([&] { return std::make_shared<Comparison>(compare_row(slot, row)); });
+        if (!made.value) {
+            return teller_.failed({row.ordinal}, made.error);
+        }
+        const Comparison& comparison = *made.value;
+        if (hooks_.keep_pixels) {
+            hooks_.keep_pixels(row.ordinal, comparison);
+        }
+        teller_.finished(finish_compared(comparison, task_->id, row.ordinal,
+                                         own_constant_bias(task_->job, comparison.view.frustum)));
+    }
+
+    Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
     {
         static_cast<void>(need(map_));
         static_cast<void>(need(receivers_[slot]));
         const auto subject = need(subjects_[slot]);
         const auto scene = need(scene_);
+        select(slot);
         Comparison comparison;
         comparison.job = task_->job;
         comparison.job.bias = row.bias;
@@ -356,11 +411,7 @@ private:
         comparison.truth = subject->truth;
         comparison.lookup = renderers().look_up(comparison.job, comparison.view);
         measure_comparison(comparison, renderers());
-        if (hooks_.keep_pixels) {
-            hooks_.keep_pixels(row.ordinal, comparison);
-        }
-        const scene::Bias own = scene::resolve_bias(task_->job.bias, comparison.view.frustum);
-        return finish_compared(comparison, task_->id, row.ordinal, own.constant);
+        return comparison;
     }
 
     const SweepPlan& plan_;

@@ -1,0 +1,417 @@
+// Counts at many biases from one lookup, against counting each bias by itself.
+
+#include "analysis/bias_rows.hpp"
+
+#include "analysis/bias_order.hpp"
+#include "analysis/metrics.hpp"
+#include "analysis/pcf_taps.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+namespace {
+
+using scene::Filter;
+using scene::Outside;
+using scene::PixelClass;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+const float nan = std::nanf("");
+
+/// One lookup and what is known of its pixels.
+struct Subject {
+    scene::Image<PixelClass> classes;
+    scene::LookupLayers deciding;
+    scene::Image<PixelCause> causes;
+    LookupRule rule;
+
+    explicit Subject(scene::ImageSize size)
+        : classes{size},
+          deciding{scene::Image<scene::LookupSample>{size}, scene::Image<scene::Vec2f>{size}},
+          causes{size}
+    {
+    }
+    [[nodiscard]] std::vector<BiasRow> rows(const std::vector<float>& biases) const
+    {
+        const auto critical = critical_biases(deciding, rule);
+        return count_rows({classes, deciding, critical, causes, rule}, biases);
+    }
+};
+
+/// Counts one bias by the definition: verdict, cause and label of every pixel.
+BiasRow count_row(const Subject& subject, float bias)
+{
+    BiasRow row;
+    for (std::size_t i = 0; i < subject.classes.pixel_count(); ++i) {
+        const PixelClass truth = subject.classes[i];
+        const scene::LookupSample& sample = subject.deciding.samples[i];
+        const float whole = bias + subject.rule.slope * sample.tan_theta;
+        bool is_lit = subject.rule.reversed ? sample.receiver_depth + whole >= sample.map_depth
+                                            : sample.receiver_depth - whole <= sample.map_depth;
+        if (std::isnan(sample.map_depth)) {
+            is_lit = subject.rule.outside == Outside::lit;
+        }
+        if (!scene::is_scored(truth) || is_lit == (truth == PixelClass::lit)) {
+            continue;
+        }
+        ++(is_lit ? row.errors.false_lit : row.errors.false_shadow);
+        const Cause cause = cause_of(subject.causes[i], truth, whole);
+        ++row.causes.by_cause[static_cast<std::size_t>(cause)];
+        ++row.causes.by_label[static_cast<std::size_t>(label_of(subject.causes[i], truth, cause))];
+    }
+    return row;
+}
+
+std::string text_of(const BiasRow& row)
+{
+    return fmt::format("{} {} | {} {} {} {} | {} {} {} {} {}", row.errors.false_shadow,
+                       row.errors.false_lit, row.causes.of(Cause::bias),
+                       row.causes.of(Cause::precision), row.causes.of(Cause::resolution),
+                       row.causes.of(Cause::coverage), row.causes.of(Label::acne),
+                       row.causes.of(Label::peter_panning), row.causes.of(Label::leak),
+                       row.causes.of(Label::edge), row.causes.of(Label::overshadow));
+}
+
+TEST(BiasRows, CountAPixelOnEitherSideOfItsCriticalBias)
+{
+    Subject subject{{2, 1}};
+    // r − b <= d from b = 0.5 on; the difference is exact there.
+    subject.classes[0] = PixelClass::lit;
+    subject.deciding.samples[0] = {0.75F, 0.25F, 0, 0};
+    subject.causes[0] = {Cause::resolution, true, 0.125F};
+    subject.classes[1] = PixelClass::blocked;
+    subject.deciding.samples[1] = {0.75F, 0.25F, 0, 0};
+    const std::vector<float> biases{0.0F, 0.125F, previous_bias(0.5F), 0.5F, 1.0F};
+    const auto rows = subject.rows(biases);
+    ASSERT_EQ(rows.size(), biases.size());
+    EXPECT_EQ(text_of(rows[0]), "1 0 | 0 0 1 0 | 1 0 0 0 0");
+    // Exact depths suffice from 0.125 on.
+    EXPECT_EQ(text_of(rows[1]), "1 0 | 0 1 0 0 | 1 0 0 0 0");
+    EXPECT_EQ(text_of(rows[2]), "1 0 | 0 1 0 0 | 1 0 0 0 0");
+    EXPECT_EQ(text_of(rows[3]), "0 1 | 1 0 0 0 | 0 1 0 0 0");
+    EXPECT_EQ(text_of(rows[4]), "0 1 | 1 0 0 0 | 0 1 0 0 0");
+}
+
+TEST(BiasRows, CountPolicyPixelsAtEveryBias)
+{
+    Subject subject{{2, 1}};
+    subject.classes[0] = PixelClass::lit;
+    subject.classes[1] = PixelClass::blocked;
+    for (std::size_t i = 0; i < 2; ++i) {
+        subject.deciding.samples[i] = {0.5F, nan, 0, 0};
+        subject.causes[i] = {Cause::coverage, false, infinity};
+    }
+    const std::vector<float> biases{bias_of_rank(-largest_bias_rank), -1, 0, 1,
+                                    bias_of_rank(largest_bias_rank)};
+    for (const BiasRow& row : subject.rows(biases)) {
+        EXPECT_EQ(text_of(row), "0 1 | 0 0 0 1 | 0 0 1 0 0");
+    }
+    subject.rule.outside = Outside::shadowed;
+    for (const BiasRow& row : subject.rows(biases)) {
+        EXPECT_EQ(text_of(row), "1 0 | 0 0 0 1 | 0 0 0 0 1");
+    }
+}
+
+TEST(BiasRows, OfNoBiasAreNone)
+{
+    const Subject subject{{2, 1}};
+    EXPECT_THAT(subject.rows({}), IsEmpty());
+    const scene::Image<float> map{{1, 1}};
+    EXPECT_THAT(count_wrong_taps(subject.classes, subject.deciding, map, {Filter::pcf3}, {}),
+                IsEmpty());
+    EXPECT_THAT(find_gaps_at({}, {}), IsEmpty());
+}
+
+/// A depth of few digits, so that many pixels turn at the same bias, some of them at 0.
+float random_depth(std::mt19937& random)
+{
+    return static_cast<float>(random() % 9) / 8.0F;
+}
+
+Subject random_subject(std::mt19937& random)
+{
+    Subject subject{{1 + static_cast<int>(random() % 9), 1 + static_cast<int>(random() % 7)}};
+    constexpr std::array<Filter, 2> filters{Filter::nearest, Filter::linear};
+    constexpr std::array<float, 4> slopes{0.0F, 0.0F, 0.0625F, -0.1F};
+    subject.rule = {filters.at(random() % 2), static_cast<Outside>(random() % 3), random() % 2 == 0,
+                    slopes.at(random() % 4)};
+    constexpr std::array<PixelClass, 4> classes{PixelClass::lit, PixelClass::blocked,
+                                                PixelClass::attached, PixelClass::background};
+    for (std::size_t i = 0; i < subject.classes.pixel_count(); ++i) {
+        subject.classes[i] = classes.at(random() % 5 == 0 ? random() % 4 : random() % 2);
+        const bool is_policy = subject.rule.outside != Outside::clamp && random() % 8 == 0;
+        subject.deciding.samples[i] = {random_depth(random), is_policy ? nan : random_depth(random),
+                                       static_cast<float>(random() % 5) * 0.75F, 0};
+        if (random() % 10 == 0) {
+            // Depths that round.
+            subject.deciding.samples[i].receiver_depth =
+                std::ldexp(static_cast<float>(random()), -32);
+        }
+        // A lit pixel that V1 shadows is never of cause `precision` whatever the bias.
+        constexpr std::array<Cause, 4> causes{Cause::none, Cause::resolution, Cause::coverage,
+                                              Cause::precision};
+        const bool is_blocked = subject.classes[i] == PixelClass::blocked;
+        const std::array<float, 5> exact{-infinity, infinity, 0.0F, random_depth(random),
+                                         -random_depth(random)};
+        subject.causes[i] = {causes.at(random() % (is_blocked ? 4 : 3)), random() % 2 == 0,
+                             exact.at(random() % 5)};
+    }
+    return subject;
+}
+
+/// Biases at which something changes, their neighbours and a few others, ascending.
+std::vector<float> random_biases(std::mt19937& random, const std::vector<float>& criticals)
+{
+    std::vector<float> biases;
+    const auto add = [&](float bias) {
+        if (std::isfinite(bias) && random() % 3 != 0) {
+            biases.push_back(bias);
+        }
+    };
+    for (const float critical : criticals) {
+        add(previous_bias(critical));
+        add(critical);
+        add(next_bias(critical));
+    }
+    for (const float bias : {0.0F, -0.5F, 0.125F, 0.25F, bias_of_rank(1), bias_of_rank(-1),
+                             bias_of_rank(largest_bias_rank), bias_of_rank(-largest_bias_rank)}) {
+        add(bias);
+    }
+    std::sort(biases.begin(), biases.end());
+    biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
+    return biases;
+}
+
+TEST(BiasRows, AgreeWithCountingEachBiasByItself)
+{
+    std::mt19937 random{31};
+    for (int round = 0; round < 1500; ++round) {
+        const Subject subject = random_subject(random);
+        const auto critical = critical_biases(subject.deciding, subject.rule);
+        std::vector<float> criticals{critical.begin(), critical.end()};
+        for (const PixelCause& cause : subject.causes) {
+            criticals.push_back(cause.exact_critical_bias);
+        }
+        const auto biases = random_biases(random, criticals);
+        const auto rows = subject.rows(biases);
+        ASSERT_EQ(rows.size(), biases.size());
+        for (std::size_t i = 0; i < biases.size(); ++i) {
+            ASSERT_EQ(text_of(rows[i]), text_of(count_row(subject, biases[i])))
+                << "round " << round << ", bias " << biases[i] << ", slope " << subject.rule.slope
+                << (subject.rule.reversed ? ", reversed" : "");
+        }
+    }
+}
+
+TEST(BiasRows, RejectBiasesThatDoNotAscend)
+{
+    const Subject subject{{1, 1}};
+    const scene::Image<float> map{{1, 1}};
+    for (const std::vector<float>& biases :
+         {std::vector<float>{1.0F, 0.5F}, {0.5F, 0.5F}, {-0.0F, 0.0F}}) {
+        EXPECT_THROW((void)subject.rows(biases), std::invalid_argument);
+        EXPECT_THROW(
+            (void)count_wrong_taps(subject.classes, subject.deciding, map, {Filter::pcf3}, biases),
+            std::invalid_argument);
+        EXPECT_THROW((void)find_gaps_at({}, biases), std::invalid_argument);
+    }
+}
+
+TEST(BiasRows, RejectImagesOfDifferentSizes)
+{
+    const Subject subject{{2, 1}};
+    const Subject other{{1, 2}};
+    const scene::Image<float> critical{{2, 1}};
+    const scene::Image<float> turned{{1, 2}};
+    const std::vector<float> biases{0.0F};
+    EXPECT_THROW(
+        (void)count_rows({other.classes, subject.deciding, critical, subject.causes, {}}, biases),
+        std::invalid_argument);
+    EXPECT_THROW(
+        (void)count_rows({subject.classes, other.deciding, critical, subject.causes, {}}, biases),
+        std::invalid_argument);
+    EXPECT_THROW(
+        (void)count_rows({subject.classes, subject.deciding, turned, subject.causes, {}}, biases),
+        std::invalid_argument);
+    EXPECT_THROW(
+        (void)count_rows({subject.classes, subject.deciding, critical, other.causes, {}}, biases),
+        std::invalid_argument);
+}
+
+/// A pcfK lookup of some pixels in a small map.
+struct Taps {
+    scene::Image<PixelClass> classes;
+    scene::LookupLayers lookup;
+    scene::Image<float> map;
+    LookupRule rule;
+};
+
+/// Lit taps of a pixel, counted as the shader does.
+int count_lit_taps(const Taps& taps, std::size_t pixel, float bias)
+{
+    const scene::LookupSample& sample = taps.lookup.samples[pixel];
+    const LookupRule& rule = taps.rule;
+    const int radius = scene::filter_width_texels(rule.filter) / 2;
+    const int side = taps.map.size().width_px;
+    const float r = sample.receiver_depth;
+    const float whole = bias + rule.slope * sample.tan_theta;
+    const bool is_beyond_far = rule.reversed ? r < 0.0F : r > 1.0F;
+    int lit = 0;
+    for (int y = -radius; y <= radius; ++y) {
+        for (int x = -radius; x <= radius; ++x) {
+            const int column = static_cast<int>(std::floor(taps.lookup.texels[pixel].x)) + x;
+            const int row = static_cast<int>(std::floor(taps.lookup.texels[pixel].y)) + y;
+            const bool is_outside = column < 0 || row < 0 || column >= side || row >= side;
+            if (rule.outside != Outside::clamp && (is_outside || is_beyond_far)) {
+                lit += rule.outside == Outside::lit ? 1 : 0;
+                continue;
+            }
+            const float d =
+                taps.map(std::clamp(column, 0, side - 1), side - 1 - std::clamp(row, 0, side - 1));
+            lit += (rule.reversed ? r + whole >= d : r - whole <= d) ? 1 : 0;
+        }
+    }
+    return lit;
+}
+
+Taps random_taps(std::mt19937& random)
+{
+    constexpr std::array<Filter, 4> filters{Filter::pcf3, Filter::pcf5, Filter::pcf7, Filter::pcf9};
+    constexpr std::array<float, 3> slopes{0.0F, 0.0625F, -0.1F};
+    const int side = 1 + static_cast<int>(random() % 12);
+    const scene::ImageSize size{1 + static_cast<int>(random() % 4),
+                                1 + static_cast<int>(random() % 4)};
+    Taps taps{scene::Image<PixelClass>{size},
+              {scene::Image<scene::LookupSample>{size}, scene::Image<scene::Vec2f>{size}},
+              scene::Image<float>{{side, side}},
+              {filters.at(random() % 4), static_cast<Outside>(random() % 3), random() % 2 == 0,
+               slopes.at(random() % 3)}};
+    for (std::size_t i = 0; i < taps.map.pixel_count(); ++i) {
+        taps.map[i] = random_depth(random);
+    }
+    std::uniform_real_distribution<float> coordinate{-6.0F, static_cast<float>(side) + 6.0F};
+    constexpr std::array<PixelClass, 3> classes{PixelClass::lit, PixelClass::blocked,
+                                                PixelClass::attached};
+    for (std::size_t i = 0; i < taps.classes.pixel_count(); ++i) {
+        taps.classes[i] = classes.at(random() % 3);
+        taps.lookup.texels[i] = {coordinate(random), coordinate(random)};
+        const bool is_outside = random() % 6 == 0 && taps.rule.outside != Outside::clamp;
+        taps.lookup.samples[i] = {random_depth(random) + (is_outside ? 1.0F : 0.0F), 0.5F,
+                                  static_cast<float>(random() % 3) * 0.5F, 0};
+    }
+    return taps;
+}
+
+TEST(WrongTaps, AreTheTapsThatDisagreeWithTheTruth)
+{
+    Taps taps{scene::Image<PixelClass>{{2, 1}},
+              {scene::Image<scene::LookupSample>{{2, 1}, {0.75F, 0.25F, 0, 0}},
+               scene::Image<scene::Vec2f>{{2, 1}, {1.5F, 1.5F}}},
+              scene::Image<float>{{3, 3}, 0.25F},
+              {Filter::pcf3}};
+    taps.classes[0] = PixelClass::lit;
+    taps.classes[1] = PixelClass::blocked;
+    taps.map(2, 0) = 0.75F;
+    // Without bias one tap of nine is lit: eight errors of the lit pixel, one of the blocked one.
+    const std::vector<float> biases{0.0F, previous_bias(0.5F), 0.5F};
+    EXPECT_THAT(count_wrong_taps(taps.classes, taps.lookup, taps.map, taps.rule, biases),
+                ElementsAre(9, 9, 9));
+    taps.classes[1] = PixelClass::attached;
+    EXPECT_THAT(count_wrong_taps(taps.classes, taps.lookup, taps.map, taps.rule, biases),
+                ElementsAre(8, 8, 0));
+}
+
+TEST(WrongTaps, AgreeWithCountingEachBiasByItself)
+{
+    std::mt19937 random{32};
+    for (int round = 0; round < 1000; ++round) {
+        const Taps taps = random_taps(random);
+        std::vector<float> criticals;
+        for (int i = 0; i < 6; ++i) {
+            criticals.push_back(random_depth(random) - random_depth(random));
+        }
+        const auto biases = random_biases(random, criticals);
+        const auto wrong = count_wrong_taps(taps.classes, taps.lookup, taps.map, taps.rule, biases);
+        ASSERT_EQ(wrong.size(), biases.size());
+        const int all = equal_taps(taps.rule.filter);
+        for (std::size_t i = 0; i < biases.size(); ++i) {
+            std::uint64_t expected = 0;
+            for (std::size_t pixel = 0; pixel < taps.classes.pixel_count(); ++pixel) {
+                const int lit = count_lit_taps(taps, pixel, biases[i]);
+                const PixelClass truth = taps.classes[pixel];
+                expected += truth == PixelClass::lit       ? static_cast<unsigned>(all - lit)
+                            : truth == PixelClass::blocked ? static_cast<unsigned>(lit)
+                                                           : 0U;
+            }
+            ASSERT_EQ(wrong[i], expected)
+                << "round " << round << ", bias " << biases[i] << ", "
+                << scene::filter_name(taps.rule.filter) << ", "
+                << scene::outside_name(taps.rule.outside) << ", slope " << taps.rule.slope
+                << (taps.rule.reversed ? ", reversed" : "");
+        }
+    }
+}
+
+TEST(GapsAtBiases, GrowWithTheBias)
+{
+    const std::vector<PanningGap> gaps{{0.5F, {3, 30}}, {0.25F, {1, 10}}, {-infinity, {2, 20}}};
+    const std::vector<float> biases{0, 0.25F, 0.5F};
+    const auto rows = find_gaps_at(gaps, biases);
+    EXPECT_EQ(rows[0].metres, (Quantiles{1, 2, 2, 2, 2}));
+    EXPECT_EQ(rows[1].metres, (Quantiles{2, 1, 1, 2, 2}));
+    EXPECT_EQ(rows[2].metres, (Quantiles{3, 1, 2, 3, 3}));
+    EXPECT_EQ(rows[2].texels, (Quantiles{3, 10, 20, 30, 30}));
+}
+
+TEST(GapsAtBiases, AreEmptyWhereNothingPans)
+{
+    const std::vector<PanningGap> gaps{{0.5F, {3, 30}}, {infinity, {1, 10}}};
+    const std::vector<float> biases{previous_bias(0.5F)};
+    EXPECT_EQ(find_gaps_at(gaps, biases)[0].metres, std::nullopt);
+    EXPECT_EQ(find_gaps_at(gaps, biases)[0].texels, std::nullopt);
+}
+
+TEST(GapsAtBiases, AgreeWithMeasuringEachBiasByItself)
+{
+    std::mt19937 random{33};
+    for (int round = 0; round < 1000; ++round) {
+        std::vector<PanningGap> gaps(random() % 60);
+        std::vector<float> criticals;
+        for (PanningGap& gap : gaps) {
+            gap.critical_bias = random() % 9 == 0 ? -infinity : random_depth(random) - 0.5F;
+            // Few lengths, so that many are equal; some are not finite, as beside a light.
+            gap.gap = {static_cast<float>(random() % 12),
+                       random() % 20 == 0 ? infinity : static_cast<float>(random() % 12)};
+            criticals.push_back(gap.critical_bias);
+        }
+        const auto biases = random_biases(random, criticals);
+        const auto rows = find_gaps_at(gaps, biases);
+        ASSERT_EQ(rows.size(), biases.size());
+        for (std::size_t i = 0; i < biases.size(); ++i) {
+            std::vector<PixelGap> panning;
+            for (const PanningGap& gap : gaps) {
+                if (gap.critical_bias <= biases[i]) {
+                    panning.push_back(gap.gap);
+                }
+            }
+            const Gaps expected = measure_gaps(panning);
+            ASSERT_EQ(rows[i].metres, expected.metres) << "round " << round << ", " << biases[i];
+            ASSERT_EQ(rows[i].texels, expected.texels) << "round " << round << ", " << biases[i];
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::analysis

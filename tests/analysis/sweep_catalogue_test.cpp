@@ -1,0 +1,306 @@
+// Who a sweep's configurations are, and what is asked of each curve.
+
+#include "analysis/sweep/catalogue.hpp"
+
+#include "scene/job_source.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr const char* hash = "0123456789abcdef";
+
+scene::SweepSpace space_of(const std::vector<std::string>& axes,
+                           const std::vector<scene::Override>& overrides = {})
+{
+    return {scene::builtin_job_source("wall", overrides), axes};
+}
+
+/// All configurations in the order of their ordinals.
+std::vector<Configuration> describe_all(const scene::SweepSpace& space,
+                                        std::string_view scene_hash = hash,
+                                        const std::string& version = "1.0",
+                                        bool keeps_every_bias = false)
+{
+    const SweepCatalogue catalogue{space, keeps_every_bias, version};
+    std::vector<Configuration> all;
+    const auto visit = [&](const Configuration& configuration) { all.push_back(configuration); };
+    for (std::size_t i = 0; i < catalogue.requests().size(); ++i) {
+        catalogue.describe(i, scene_hash, visit);
+    }
+    for (const Refusal& refusal : catalogue.refusals()) {
+        catalogue.describe(refusal, visit);
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Configuration& a, const Configuration& b) { return a.ordinal < b.ordinal; });
+    return all;
+}
+
+Configuration only_one(const std::vector<scene::Override>& overrides,
+                       const std::vector<std::string>& axes = {})
+{
+    const auto all = describe_all(space_of(axes, overrides));
+    EXPECT_THAT(all, SizeIs(1));
+    return all.at(0);
+}
+
+TEST(SweepCatalogue, DescribesEveryConfigurationOnce)
+{
+    const auto all = describe_all(space_of({"bias.constant=0,0.5", "bias.slope=0,1,2"}));
+    ASSERT_THAT(all, SizeIs(6));
+    std::set<std::string> ids;
+    std::set<std::string> curves;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(all[i].ordinal, i);
+        EXPECT_EQ(all[i].scene_hash, hash);
+        EXPECT_EQ(all[i].case_name, "");
+        EXPECT_THAT(all[i].id, ::testing::MatchesRegex("[0-9a-f]{16}"));
+        ids.insert(all[i].id);
+        curves.insert(all[i].curve);
+    }
+    EXPECT_EQ(ids.size(), 6U);
+    EXPECT_EQ(curves.size(), 3U);
+    EXPECT_EQ(all[0].curve, all[3].curve);
+}
+
+TEST(SweepCatalogue, WritesEveryKeyOut)
+{
+    const scene::SweepSpace space =
+        space_of({"bias.constant=0,0.5", "lookup.filter=pcf3,hardware"});
+    for (const Configuration& configuration : describe_all(space)) {
+        EXPECT_EQ(configuration.parameters,
+                  scene::resolved_keys(space.job(space.at(configuration.ordinal))))
+            << configuration.ordinal;
+    }
+}
+
+TEST(SweepCatalogue, NamesEqualJobsEqually)
+{
+    EXPECT_EQ(only_one({}).id, only_one({}).id);
+    EXPECT_EQ(only_one({}).id, only_one({{"bias.slope", "0"}}).id);
+    EXPECT_EQ(only_one({{"bias.slope", "0.5"}}).id, only_one({}, {"bias.slope=0.5"}).id);
+    // This is a contract with runs on disk: an id that changes makes a sweep start anew.
+    const auto rows = describe_all(space_of({"bias.slope=0,1", "bias.constant=0,0.5"}));
+    const auto turned = describe_all(space_of({"bias.constant=0,0.5", "bias.slope=0,1"}));
+    EXPECT_EQ(rows[1].id, turned[2].id);
+    EXPECT_EQ(rows[2].id, turned[1].id);
+    EXPECT_EQ(rows[1].curve, turned[2].curve);
+}
+
+TEST(SweepCatalogue, NamesAConfigurationAlikeWhereverTheSweepEnds)
+{
+    const auto few = describe_all(space_of({"bias.constant=0.5"}));
+    const auto many = describe_all(space_of({"bias.constant={from=0, to=1, count=5}"}));
+    EXPECT_EQ(few[0].id, many[2].id);
+    EXPECT_EQ(few[0].curve, many[2].curve);
+    // Keeping pixels changes what is run, and not what it is called.
+    const auto kept = describe_all(space_of({"bias.constant=0.5"}), hash, "1.0", true);
+    EXPECT_EQ(few[0].id, kept[0].id);
+    EXPECT_EQ(few[0].curve, kept[0].curve);
+}
+
+TEST(SweepCatalogue, NamesJobsThatDifferInAnyKeyDifferently)
+{
+    const std::vector<scene::Override> changes{{"scene.ground", "true"},
+                                               {"scene.no_cast", "[\"a\"]"},
+                                               {"camera.eye", "[1, 2, 3]"},
+                                               {"camera.up", "[0, 0, 1]"},
+                                               {"image.width", "77"},
+                                               {"image.height", "77"},
+                                               {"light.direction", "[0, -1, 0.5]"},
+                                               {"shadow_map.resolution", "77"},
+                                               {"shadow_map.depth_format", "u8"},
+                                               {"shadow_map.fit", "camera"},
+                                               {"shadow_map.roll_deg", "7"},
+                                               {"shadow_map.near", "-77"},
+                                               {"shadow_map.far", "77"},
+                                               {"shadow_map.cull", "back"},
+                                               {"shadow_map.reversed", "true"},
+                                               {"lookup.filter", "pcf3"},
+                                               {"lookup.outside", "clamp"},
+                                               {"bias.constant", "0.5"},
+                                               {"bias.constant_m", "0.5"},
+                                               {"bias.slope", "0.5"},
+                                               {"bias.normal_texels", "0.5"}};
+    std::map<std::string, std::string> by_id{{only_one({}).id, "nothing"}};
+    for (const scene::Override& change : changes) {
+        const auto [entry, is_new] = by_id.emplace(only_one({change}).id, change.key);
+        EXPECT_TRUE(is_new) << change.key << " and " << entry->second;
+    }
+}
+
+TEST(SweepCatalogue, NamesScenesByContentAndNotByPlace)
+{
+    const auto of_file = [](const char* file, const char* scene_hash) {
+        return describe_all(space_of({"bias.slope=0.5"}, {{"scene.file", file}}), scene_hash)[0];
+    };
+    EXPECT_EQ(of_file("a.obj", hash).id, of_file("b/c.obj", hash).id);
+    EXPECT_EQ(of_file("a.obj", hash).curve, of_file("b/c.obj", hash).curve);
+    EXPECT_NE(of_file("a.obj", hash).id, of_file("a.obj", "0123456789abcdee").id);
+    EXPECT_NE(of_file("a.obj", hash).curve, of_file("a.obj", "0123456789abcdee").curve);
+}
+
+TEST(SweepCatalogue, NamesResultsOfAnotherVersionDifferently)
+{
+    const scene::SweepSpace space = space_of({});
+    EXPECT_NE(describe_all(space, hash, "1.0")[0].id, describe_all(space, hash, "1.1")[0].id);
+    EXPECT_NE(describe_all(space, hash, "1.0")[0].curve, describe_all(space, hash, "1.1")[0].curve);
+}
+
+TEST(SweepCatalogue, LeavesTheConstantBiasOutOfTheCurvesName)
+{
+    EXPECT_EQ(only_one({}).curve, only_one({{"bias.constant", "0.5"}}).curve);
+    EXPECT_EQ(only_one({}).curve, only_one({{"bias.constant_m", "0.5"}}).curve);
+    EXPECT_NE(only_one({}).curve, only_one({{"bias.slope", "0.5"}}).curve);
+    EXPECT_NE(only_one({}).curve, only_one({{"lookup.filter", "linear"}}).curve);
+}
+
+TEST(SweepCatalogue, GivesEachBiasOfHardwareACurveOfItsOwn)
+{
+    const scene::SweepSpace space =
+        space_of({"lookup.filter=hardware,linear", "bias.constant=0,0.25,0.5"});
+    const auto all = describe_all(space);
+    EXPECT_NE(all[0].curve, all[1].curve);
+    EXPECT_NE(all[1].curve, all[2].curve);
+    EXPECT_EQ(all[3].curve, all[4].curve);
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    ASSERT_THAT(catalogue.requests(), SizeIs(4));
+    EXPECT_THAT(catalogue.requests()[1].ordinals, ElementsAre(1));
+    EXPECT_THAT(catalogue.requests()[3].ordinals, ElementsAre(3, 4, 5));
+}
+
+TEST(SweepCatalogue, AsksForEveryBiasByItselfToKeepPixels)
+{
+    const scene::SweepSpace space = space_of({"bias.slope=0,1", "bias.constant=0,0.25,0.5"});
+    EXPECT_THAT((SweepCatalogue{space, false, "1.0"}.requests()), SizeIs(2));
+    const SweepCatalogue catalogue{space, true, "1.0"};
+    ASSERT_THAT(catalogue.requests(), SizeIs(6));
+    std::set<std::string> lookups;
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_THAT(catalogue.requests()[i].ordinals, ElementsAre(i));
+        lookups.insert(catalogue.requests()[i].keys.lookup);
+    }
+    EXPECT_EQ(lookups.size(), 6U);
+}
+
+TEST(SweepCatalogue, SaysHowLargeImageAndMapAre)
+{
+    const scene::SweepSpace space = space_of(
+        {}, {{"image.width", "30"}, {"image.height", "20"}, {"shadow_map.resolution", "16"}});
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    EXPECT_EQ(catalogue.requests()[0].pixels, 600U);
+    EXPECT_EQ(catalogue.requests()[0].texels, 256U);
+}
+
+TEST(SweepCatalogue, AsksOfACurveTheJobsOwnBiasAndThoseOfItsRows)
+{
+    const scene::SweepSpace space =
+        space_of({"bias.slope=1,2", "bias.constant=0,0.25,0.5"}, {{"shadow_map.cull", "front"}});
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    const SweepTask task = catalogue.task(1, hash);
+    EXPECT_EQ(task.id, describe_all(space)[4].curve);
+    EXPECT_EQ(task.job.bias.slope, 2);
+    EXPECT_EQ(task.job.bias.constant, 0);
+    EXPECT_EQ(task.job.shadow_map.cull, scene::Cull::front);
+    ASSERT_THAT(task.rows, SizeIs(3));
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(task.rows[i].ordinal, 3 + i);
+        EXPECT_EQ(task.rows[i].bias.slope, 2);
+        EXPECT_EQ(task.rows[i].bias.constant, 0.25 * static_cast<double>(i));
+    }
+}
+
+TEST(SweepCatalogue, KnowsTheFilesBiasBesideTheAxes)
+{
+    scene::JobSource source = scene::builtin_job_source("wall", {});
+    source.cases.push_back({"plain", {}});
+    source.cases.push_back({"biased", scene::layer_from_overrides({{"bias.constant", "0.125"}})});
+    source.cases.push_back({"metres", scene::layer_from_overrides({{"bias.constant_m", "0.25"}})});
+    const scene::SweepSpace space{source, {"bias.slope=1"}};
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    ASSERT_THAT(catalogue.requests(), SizeIs(3));
+    EXPECT_EQ(catalogue.task(0, hash).job.bias.constant, 0);
+    EXPECT_EQ(catalogue.task(1, hash).job.bias.constant, 0.125);
+    EXPECT_EQ(catalogue.task(1, hash).rows.at(0).bias.constant, 0.125);
+    EXPECT_EQ(catalogue.task(2, hash).job.bias.constant_m, 0.25);
+    EXPECT_EQ(catalogue.task(2, hash).rows.at(0).bias.constant_m, 0.25);
+    EXPECT_EQ(describe_all(space)[2].case_name, "metres");
+}
+
+TEST(SweepCatalogue, PutsMetresInPlaceOfDepthUnits)
+{
+    const scene::SweepSpace space =
+        space_of({"bias.constant_m=0.25,0.5"}, {{"shadow_map.cull", "front"}});
+    const SweepTask task = SweepCatalogue{space, false, "1.0"}.task(0, hash);
+    EXPECT_EQ(task.job.bias.constant_m, 0.05) << "the built-in's own";
+    ASSERT_THAT(task.rows, SizeIs(2));
+    EXPECT_EQ(task.rows[0].bias.constant_m, 0.25);
+    EXPECT_EQ(task.rows[1].bias.constant_m, 0.5);
+    const auto all = describe_all(space);
+    EXPECT_NE(all[0].id, all[1].id);
+    EXPECT_EQ(all[0].curve, all[1].curve);
+}
+
+TEST(SweepCatalogue, RefusesConfigurationsWhoseKeysDoNotGoTogether)
+{
+    const scene::SweepSpace space =
+        space_of({"shadow_map.near=1,5", "shadow_map.far=4,9", "bias.constant=0,0.5"});
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    EXPECT_THAT(catalogue.requests(), SizeIs(3));
+    ASSERT_THAT(catalogue.refusals(), SizeIs(1));
+    const Refusal& refusal = catalogue.refusals()[0];
+    EXPECT_THAT(refusal.ordinals, ElementsAre(4, 5));
+    EXPECT_THAT(refusal.message, HasSubstr("must be less than shadow_map.far"));
+    const auto all = describe_all(space);
+    ASSERT_THAT(all, SizeIs(8));
+    std::set<std::string> ids;
+    for (const Configuration& configuration : all) {
+        ids.insert(configuration.id);
+    }
+    EXPECT_EQ(ids.size(), 8U);
+    using Pair = std::pair<std::string, std::string>;
+    EXPECT_THAT(all[5].parameters,
+                ElementsAre(Pair{"shadow_map.near", "5"}, Pair{"shadow_map.far", "4"},
+                            Pair{"bias.constant", "0.5"}));
+    EXPECT_EQ(all[5].scene_hash, "");
+    EXPECT_EQ(all[4].curve, all[5].curve);
+}
+
+TEST(SweepCatalogue, MayRefuseEverything)
+{
+    const scene::SweepSpace space = space_of({"shadow_map.near=5,6"}, {{"shadow_map.far", "4"}});
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    EXPECT_THAT(catalogue.requests(), IsEmpty());
+    EXPECT_THAT(catalogue.refusals(), SizeIs(2));
+}
+
+TEST(SweepCatalogue, ListsItsCurvesInTheOrderOfTheirFirstConfigurations)
+{
+    const scene::SweepSpace space =
+        space_of({"bias.constant=0,0.5", "shadow_map.resolution=16,32,64"});
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    ASSERT_THAT(catalogue.requests(), SizeIs(3));
+    EXPECT_THAT(catalogue.requests()[0].ordinals, ElementsAre(0, 3));
+    EXPECT_THAT(catalogue.requests()[1].ordinals, ElementsAre(1, 4));
+    EXPECT_THAT(catalogue.requests()[2].ordinals, ElementsAre(2, 5));
+    EXPECT_EQ(catalogue.job(2).shadow_map.resolution_texels, 64);
+}
+
+} // namespace
+} // namespace gnomon::analysis

@@ -1,0 +1,522 @@
+// What a sweep shares: stage keys, the plan, and how it is divided.
+
+#include "analysis/sweep/plan.hpp"
+
+#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/cost.hpp"
+#include "scene/job_source.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+namespace {
+
+using Kind = SweepStep::Kind;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+scene::Job job_with(const std::vector<scene::Override>& overrides)
+{
+    return scene::make_job(scene::builtin_job_source("wall", overrides));
+}
+
+/// Names of the stages whose keys the override changes.
+std::vector<std::string> changed_by(const scene::Override& change,
+                                    std::vector<scene::Override> base = {})
+{
+    const StageKeys before = stage_keys(job_with(base));
+    base.push_back(change);
+    const StageKeys after = stage_keys(job_with(base));
+    const std::vector<std::pair<std::string, std::string StageKeys::*>> members{
+        {"scene", &StageKeys::scene},         {"light", &StageKeys::light},
+        {"truth", &StageKeys::truth},         {"frustum", &StageKeys::frustum},
+        {"receivers", &StageKeys::receivers}, {"map", &StageKeys::map},
+        {"lookup", &StageKeys::lookup},       {"curve", &StageKeys::curve}};
+    std::vector<std::string> changed;
+    for (const auto& [name, member] : members) {
+        if (before.*member != after.*member) {
+            changed.push_back(name);
+        }
+    }
+    return changed;
+}
+
+TEST(StageKeys, ChangeWithTheStagesThatAKeyDecides)
+{
+    EXPECT_THAT(
+        changed_by({"scene.builtin", "room"}),
+        ElementsAre("scene", "light", "truth", "frustum", "receivers", "map", "lookup", "curve"));
+    EXPECT_THAT(
+        changed_by({"scene.no_cast", "[\"cube\"]"}),
+        ElementsAre("scene", "light", "truth", "frustum", "receivers", "map", "lookup", "curve"));
+    EXPECT_THAT(changed_by({"light.direction", "[0, -1, 0.25]"}),
+                ElementsAre("light", "truth", "frustum", "receivers", "map", "lookup", "curve"));
+    for (const scene::Override& camera : {scene::Override{"camera.eye", "[1, 2, 9]"},
+                                          {"camera.vertical_fov_deg", "33"},
+                                          {"image.width", "77"}}) {
+        EXPECT_THAT(changed_by(camera), ElementsAre("truth", "receivers", "lookup", "curve"))
+            << camera.key;
+    }
+    for (const scene::Override& matrix : {scene::Override{"shadow_map.near", "0.125"},
+                                          {"shadow_map.far", "99"},
+                                          {"shadow_map.roll_deg", "3"},
+                                          {"shadow_map.reversed", "true"}}) {
+        EXPECT_THAT(changed_by(matrix),
+                    ElementsAre("frustum", "receivers", "map", "lookup", "curve"))
+            << matrix.key;
+    }
+    for (const scene::Override& map : {scene::Override{"shadow_map.resolution", "77"},
+                                       {"shadow_map.depth_format", "d16"},
+                                       {"shadow_map.cull", "front"}}) {
+        EXPECT_THAT(changed_by(map), ElementsAre("map", "lookup", "curve")) << map.key;
+    }
+    for (const scene::Override& lookup : {scene::Override{"lookup.filter", "pcf3"},
+                                          {"lookup.outside", "clamp"},
+                                          {"bias.normal_texels", "1.5"}}) {
+        EXPECT_THAT(changed_by(lookup), ElementsAre("lookup", "curve")) << lookup.key;
+    }
+    EXPECT_THAT(changed_by({"bias.slope", "1.5"}), ElementsAre("curve"));
+    EXPECT_THAT(changed_by({"bias.constant", "0.5"}), IsEmpty());
+    EXPECT_THAT(changed_by({"bias.constant_m", "0.5"}), IsEmpty());
+}
+
+TEST(StageKeys, FollowTheCameraWhereTheMapDoes)
+{
+    const std::vector<scene::Override> fit{{"shadow_map.fit", "camera"}};
+    EXPECT_THAT(changed_by({"camera.eye", "[1, 2, 9]"}, fit),
+                ElementsAre("truth", "frustum", "receivers", "map", "lookup", "curve"));
+    EXPECT_THAT(changed_by({"image.height", "77"}, fit),
+                ElementsAre("truth", "frustum", "receivers", "map", "lookup", "curve"));
+    EXPECT_THAT(changed_by({"bias.constant", "0.5"}, fit), IsEmpty());
+}
+
+TEST(StageKeys, LookEveryBiasUpForHardwareAndToKeepPixels)
+{
+    const std::vector<scene::Override> hardware{{"lookup.filter", "hardware"}};
+    EXPECT_THAT(changed_by({"bias.constant", "0.5"}, hardware), ElementsAre("lookup", "curve"));
+    EXPECT_THAT(changed_by({"bias.slope", "1.5"}, hardware), ElementsAre("lookup", "curve"));
+    const StageKeys zero = stage_keys_with_bias(job_with({}));
+    const StageKeys half = stage_keys_with_bias(job_with({{"bias.constant", "0.5"}}));
+    EXPECT_EQ(zero.map, half.map);
+    EXPECT_EQ(zero.receivers, half.receivers);
+    EXPECT_NE(zero.lookup, half.lookup);
+    EXPECT_NE(zero.curve, half.curve);
+}
+
+TEST(StageKeys, NameEveryKeyExactlyOnce)
+{
+    const scene::Job job = job_with({});
+    const std::string curve = stage_keys_with_bias(job).curve;
+    for (const auto& [key, value] : scene::resolved_keys(job)) {
+        const std::string line = fmt::format("{}={}\n", key, value);
+        EXPECT_NE(curve.find(line), std::string::npos) << line;
+    }
+}
+
+/// The plan of a job's text; `keeps` as of `SweepCatalogue`.
+struct Planned {
+    std::vector<CurveRequest> requests;
+    SweepPlan plan;
+    PlanCounts counts;
+};
+
+Planned plan_of(const scene::SweepSpace& space)
+{
+    const SweepCatalogue catalogue{space, false, "1"};
+    Planned planned;
+    planned.requests = catalogue.requests();
+    planned.plan = make_plan(planned.requests, camera_slots(planned.requests));
+    planned.counts = planned.plan.counts(planned.requests);
+    return planned;
+}
+
+TEST(SweepPlan, OfTwoHundredThousandConfigurationsSharesAllItCan)
+{
+    // The example of the issue: 2 cameras come as cases, like anything that takes several keys.
+    scene::JobSource source =
+        scene::builtin_job_source("columns", {{"light.type", "spot"},
+                                              {"light.position", "[0, 12, 0]"},
+                                              {"light.target", "[1, 0, 1]"},
+                                              {"light.cone_deg", "80"},
+                                              {"image.width", "1280"},
+                                              {"image.height", "720"}});
+    for (const char* const eye : {"[0, 2, 6]", "[3, 2, 6]"}) {
+        source.cases.push_back({eye, scene::layer_from_overrides({{"camera.eye", eye}})});
+    }
+    const scene::SweepSpace space{source,
+                                  {"bias.constant={from=1e-6, to=0.1, count=1000, scale=\"log\"}",
+                                   "shadow_map.resolution=256,512,1024,2048,4096",
+                                   "shadow_map.depth_format=d16,d24,d32f,u12",
+                                   "shadow_map.near=0.1,0.2,0.5,1,2"}};
+    ASSERT_EQ(space.size(), 200'000U);
+    const Planned planned = plan_of(space);
+    EXPECT_EQ(planned.counts, (PlanCounts{.configurations = 200'000,
+                                          .scenes = 1,
+                                          .truths = 2,
+                                          .receiver_passes = 10,
+                                          .shadow_maps = 100,
+                                          .lookup_passes = 200,
+                                          .curves = 200}));
+}
+
+TEST(SweepPlan, OfOneConfigurationRunsEachStageOnce)
+{
+    const scene::SweepSpace space{scene::builtin_job_source("wall", {}), {}};
+    const Planned planned = plan_of(space);
+    std::vector<Kind> kinds;
+    for (const SweepStep& step : planned.plan.steps) {
+        kinds.push_back(step.kind);
+    }
+    EXPECT_THAT(kinds, ElementsAre(Kind::read_scene, Kind::draw_receivers, Kind::find_truth,
+                                   Kind::draw_shadow_map, Kind::look_up, Kind::answer));
+    EXPECT_EQ(planned.counts, (PlanCounts{1, 1, 1, 1, 1, 1, 1}));
+}
+
+TEST(SweepPlan, AnswersSlopesFromOneLookup)
+{
+    const scene::SweepSpace space{scene::builtin_job_source("wall", {}),
+                                  {"bias.slope=0,1,2", "bias.constant=0,0.5"}};
+    EXPECT_EQ(plan_of(space).counts, (PlanCounts{6, 1, 1, 1, 1, 1, 3}));
+}
+
+TEST(SweepPlan, OfNothingIsEmpty)
+{
+    const SweepPlan plan = make_plan({}, 2);
+    EXPECT_THAT(plan.steps, IsEmpty());
+    EXPECT_EQ(plan.counts({}), PlanCounts{});
+    EXPECT_EQ(estimate_seconds(plan, {}), 0);
+    EXPECT_THAT(divide(plan, {}, 3), IsEmpty());
+}
+
+TEST(SweepPlan, NeedsASlot)
+{
+    EXPECT_THROW((void)make_plan({}, 0), std::invalid_argument);
+}
+
+/// The keys of random jobs, made as `stage_keys` makes them, from a few values of each part.
+std::vector<CurveRequest> random_requests(std::mt19937& random)
+{
+    const auto pick = [&](std::uint64_t most, const char* name) {
+        return fmt::format("{}{} ", name, random() % most);
+    };
+    const std::uint64_t scenes = 1 + random() % 3;
+    const std::uint64_t lights = 1 + random() % 3;
+    const std::uint64_t cameras = 1 + random() % 5;
+    const std::uint64_t frusta = 1 + random() % 3;
+    const std::uint64_t maps = 1 + random() % 3;
+    std::map<std::string, CurveRequest> by_curve;
+    const std::size_t count = 1 + random() % 40;
+    for (std::size_t i = 0; i < count; ++i) {
+        CurveRequest request;
+        StageKeys& keys = request.keys;
+        keys.scene = pick(scenes, "s");
+        keys.light = keys.scene + pick(lights, "l");
+        keys.truth = keys.light + pick(cameras, "c");
+        const std::string frustum = pick(frusta, "f");
+        const bool follows_camera = frustum.starts_with("f0");
+        keys.frustum = (follows_camera ? keys.truth : keys.light) + frustum;
+        keys.receivers = keys.truth + frustum;
+        const std::string map = pick(maps, "m");
+        keys.map = keys.frustum + map;
+        keys.lookup = keys.receivers + map + pick(2, "k");
+        keys.curve = keys.lookup + pick(2, "b");
+        request.pixels = 1 + random() % 1'000'000;
+        request.texels = 1 + random() % 1'000'000;
+        by_curve.try_emplace(keys.curve, request);
+    }
+    std::vector<CurveRequest> requests;
+    std::uint64_t ordinal = 0;
+    for (auto& [curve, request] : by_curve) {
+        for (std::size_t i = 1 + random() % 4; i-- > 0;) {
+            request.ordinals.push_back(ordinal++);
+        }
+        requests.push_back(request);
+    }
+    std::shuffle(requests.begin(), requests.end(), random);
+    return requests;
+}
+
+std::string text_of(const std::vector<CurveRequest>& requests, std::size_t slots)
+{
+    std::string text = fmt::format("{} slots:", slots);
+    for (const CurveRequest& request : requests) {
+        text += "\n  " + request.keys.curve;
+    }
+    return text;
+}
+
+/// Runs the steps on keys instead of results: what each stage leaves is the keys that it was made
+/// with.
+class Interpreter {
+public:
+    Interpreter(const std::vector<CurveRequest>& requests, std::size_t slots)
+        : requests_{requests},
+          receivers_(slots),
+          truths_(slots)
+    {
+    }
+
+    void run(const SweepStep& step)
+    {
+        const StageKeys& keys = requests_.at(step.curve).keys;
+        ASSERT_LT(step.slot, receivers_.size());
+        switch (step.kind) {
+        case Kind::read_scene:
+            scene_ = keys.scene;
+            std::fill(receivers_.begin(), receivers_.end(), "");
+            std::fill(truths_.begin(), truths_.end(), "");
+            map_.clear();
+            lookup_.clear();
+            break;
+        case Kind::draw_receivers:
+            EXPECT_EQ(scene_, keys.scene);
+            receivers_[step.slot] = keys.receivers;
+            break;
+        case Kind::find_truth:
+            EXPECT_EQ(receivers_[step.slot], keys.receivers);
+            truths_[step.slot] = keys.truth;
+            break;
+        case Kind::draw_shadow_map:
+            EXPECT_EQ(scene_, keys.scene);
+            map_ = keys.map;
+            break;
+        case Kind::look_up:
+            EXPECT_EQ(receivers_[step.slot], keys.receivers);
+            EXPECT_EQ(truths_[step.slot], keys.truth);
+            EXPECT_EQ(map_, keys.map);
+            lookup_ = keys.lookup;
+            break;
+        case Kind::answer:
+            EXPECT_EQ(scene_, keys.scene);
+            EXPECT_EQ(receivers_[step.slot], keys.receivers);
+            EXPECT_EQ(truths_[step.slot], keys.truth);
+            EXPECT_EQ(map_, keys.map);
+            EXPECT_EQ(lookup_, keys.lookup);
+            ++answers_[step.curve];
+            break;
+        }
+    }
+    [[nodiscard]] const std::map<std::size_t, int>& answers() const { return answers_; }
+
+private:
+    const std::vector<CurveRequest>& requests_;
+    std::string scene_;
+    std::vector<std::string> receivers_;
+    std::vector<std::string> truths_;
+    std::string map_;
+    std::string lookup_;
+    std::map<std::size_t, int> answers_;
+};
+
+TEST(SweepPlan, LeavesBeforeEveryAnswerWhatItNeeds)
+{
+    std::mt19937 random{21};
+    for (int round = 0; round < 400; ++round) {
+        const auto requests = random_requests(random);
+        const std::size_t slots = 1 + random() % 4;
+        SCOPED_TRACE(fmt::format("round {}: {}", round, text_of(requests, slots)));
+        const SweepPlan plan = make_plan(requests, slots);
+        ASSERT_EQ(plan.slots, slots);
+        Interpreter interpreter{requests, slots};
+        for (const SweepStep& step : plan.steps) {
+            interpreter.run(step);
+        }
+        ASSERT_EQ(interpreter.answers().size(), requests.size());
+        for (const auto& [request, times] : interpreter.answers()) {
+            EXPECT_EQ(times, 1) << "request " << request;
+        }
+        if (HasFailure()) {
+            return;
+        }
+    }
+}
+
+/// How many different texts the member has among the requests.
+std::size_t distinct(const std::vector<CurveRequest>& requests, std::string StageKeys::*member)
+{
+    std::set<std::string> texts;
+    for (const CurveRequest& request : requests) {
+        texts.insert(request.keys.*member);
+    }
+    return texts.size();
+}
+
+TEST(SweepPlan, RunsEachStageOnceForEachOfItsKeysWhereCamerasFit)
+{
+    std::mt19937 random{22};
+    for (int round = 0; round < 400; ++round) {
+        const auto requests = random_requests(random);
+        SCOPED_TRACE(fmt::format("round {}: {}", round, text_of(requests, 5)));
+        const PlanCounts counts = make_plan(requests, 5).counts(requests);
+        EXPECT_EQ(counts.scenes, distinct(requests, &StageKeys::scene));
+        EXPECT_EQ(counts.truths, distinct(requests, &StageKeys::truth));
+        EXPECT_EQ(counts.receiver_passes, distinct(requests, &StageKeys::receivers));
+        EXPECT_EQ(counts.shadow_maps, distinct(requests, &StageKeys::map));
+        EXPECT_EQ(counts.lookup_passes, distinct(requests, &StageKeys::lookup));
+        EXPECT_EQ(counts.curves, requests.size());
+    }
+}
+
+TEST(SweepPlan, NeverRepeatsATruthWithFewerSlotsThanCameras)
+{
+    std::mt19937 random{23};
+    for (int round = 0; round < 400; ++round) {
+        const auto requests = random_requests(random);
+        const std::size_t slots = 1 + random() % 4;
+        SCOPED_TRACE(fmt::format("round {}: {}", round, text_of(requests, slots)));
+        const PlanCounts counts = make_plan(requests, slots).counts(requests);
+        EXPECT_EQ(counts.scenes, distinct(requests, &StageKeys::scene));
+        EXPECT_EQ(counts.truths, distinct(requests, &StageKeys::truth));
+        EXPECT_EQ(counts.receiver_passes, distinct(requests, &StageKeys::receivers));
+        EXPECT_EQ(counts.lookup_passes, distinct(requests, &StageKeys::lookup));
+        // One map for each group of `slots` of at most 5 cameras.
+        const std::size_t groups = (5 + slots - 1) / slots;
+        EXPECT_LE(counts.shadow_maps, groups * distinct(requests, &StageKeys::map));
+    }
+}
+
+TEST(SweepPlan, CountsItsSteps)
+{
+    std::mt19937 random{24};
+    for (int round = 0; round < 50; ++round) {
+        const auto requests = random_requests(random);
+        const SweepPlan plan = make_plan(requests, 2);
+        std::map<Kind, std::uint64_t> kinds;
+        for (const SweepStep& step : plan.steps) {
+            ++kinds[step.kind];
+        }
+        std::uint64_t configurations = 0;
+        for (const CurveRequest& request : requests) {
+            configurations += request.ordinals.size();
+        }
+        EXPECT_EQ(plan.counts(requests),
+                  (PlanCounts{configurations, kinds[Kind::read_scene], kinds[Kind::find_truth],
+                              kinds[Kind::draw_receivers], kinds[Kind::draw_shadow_map],
+                              kinds[Kind::look_up], kinds[Kind::answer]}))
+            << text_of(requests, 2);
+    }
+}
+
+TEST(SweepPlan, DependsOnNothingButItsRequests)
+{
+    std::mt19937 random{25};
+    const auto requests = random_requests(random);
+    EXPECT_EQ(make_plan(requests, 2).steps, make_plan(requests, 2).steps);
+}
+
+TEST(SweepCost, KeepsFewerCamerasOfLargerImages)
+{
+    std::vector<CurveRequest> requests(1);
+    requests[0].pixels = 1;
+    const std::size_t most = camera_slots(requests);
+    EXPECT_GE(most, 2U);
+    std::size_t before = most;
+    for (std::uint64_t pixels = 1; pixels <= std::uint64_t{1} << 28; pixels *= 2) {
+        requests[0].pixels = pixels;
+        EXPECT_LE(camera_slots(requests), before) << pixels;
+        before = camera_slots(requests);
+    }
+    EXPECT_EQ(before, 1U);
+    EXPECT_EQ(camera_slots({}), most);
+}
+
+TEST(SweepCost, GrowsWithTheWork)
+{
+    CurveRequest small;
+    small.pixels = 1000;
+    small.texels = 1000;
+    small.ordinals = {0};
+    CurveRequest large = small;
+    large.pixels = 2'000'000;
+    large.texels = 4'000'000;
+    large.ordinals.resize(1000);
+    for (const Kind kind : {Kind::draw_receivers, Kind::find_truth, Kind::draw_shadow_map,
+                            Kind::look_up, Kind::answer}) {
+        const SweepStep step{kind, 0, 0};
+        EXPECT_GT(estimate_seconds(step, small), 0) << static_cast<int>(kind);
+        EXPECT_GT(estimate_seconds(step, large), estimate_seconds(step, small))
+            << static_cast<int>(kind);
+    }
+    const std::vector<CurveRequest> requests{small, large};
+    const SweepPlan plan = make_plan(requests, 1);
+    double sum = 0;
+    for (const SweepStep& step : plan.steps) {
+        sum += estimate_seconds(step, requests[step.curve]);
+    }
+    EXPECT_EQ(estimate_seconds(plan, requests), sum);
+    EXPECT_LT(estimate_bytes(make_plan(std::span{&small, 1}, 1), std::span{&small, 1}),
+              estimate_bytes(plan, requests));
+}
+
+/// The cost of each request: its answer and the steps that lead to it.
+std::vector<double> costs_in_plan_order(const SweepPlan& plan,
+                                        const std::vector<CurveRequest>& requests,
+                                        std::vector<std::size_t>& order)
+{
+    std::vector<double> costs;
+    double pending = 0;
+    for (const SweepStep& step : plan.steps) {
+        pending += estimate_seconds(step, requests[step.curve]);
+        if (step.kind == Kind::answer) {
+            costs.push_back(pending);
+            order.push_back(step.curve);
+            pending = 0;
+        }
+    }
+    return costs;
+}
+
+TEST(SweepCost, DividesNeighboursEvenly)
+{
+    std::mt19937 random{26};
+    for (int round = 0; round < 300; ++round) {
+        const auto requests = random_requests(random);
+        const auto shards = static_cast<std::uint32_t>(1 + random() % 6);
+        SCOPED_TRACE(fmt::format("round {}, {} shards: {}", round, shards, text_of(requests, 2)));
+        const SweepPlan plan = make_plan(requests, 2);
+        std::vector<std::size_t> order;
+        const auto costs = costs_in_plan_order(plan, requests, order);
+        const auto shard_of = divide(plan, requests, shards);
+        ASSERT_EQ(shard_of.size(), requests.size());
+        std::vector<double> sums(shards);
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::uint32_t shard = shard_of[order[i]];
+            ASSERT_GE(shard, 1U);
+            ASSERT_LE(shard, shards);
+            if (i > 0) {
+                EXPECT_GE(shard, shard_of[order[i - 1]]) << "not contiguous";
+            }
+            sums[shard - 1] += costs[i];
+        }
+        // A request goes where its middle lies, so that each end of a part is off by at most half
+        // of a request's cost.
+        const double fair = std::accumulate(costs.begin(), costs.end(), 0.0) / shards;
+        const double largest = *std::max_element(costs.begin(), costs.end());
+        for (const double sum : sums) {
+            // 1e-9: sums of up to some hundred doubles.
+            EXPECT_NEAR(sum, fair, largest * (1 + 1e-9));
+        }
+    }
+}
+
+TEST(SweepCost, GivesOneShardEverything)
+{
+    std::mt19937 random{27};
+    const auto requests = random_requests(random);
+    EXPECT_THAT(divide(make_plan(requests, 1), requests, 1), ::testing::Each(1U));
+}
+
+} // namespace
+} // namespace gnomon::analysis

@@ -1,0 +1,295 @@
+#pragma once
+
+#include "analysis/metrics.hpp"
+#include "analysis/renderers.hpp"
+#include "analysis/sweep/stage_keys.hpp"
+#include "fake_light.hpp"
+#include "scene/fnv1a.hpp"
+#include "scene/scene_file.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// A world whose every depth and class is drawn from a hash of what it depends on, and renderers
+/// that see it as GL and Embree would: with a map and receivers of their own, which a lookup reads
+/// whatever it is asked for.
+class SweepWorld {
+public:
+    /// Called before each stage with its name; may throw.
+    std::function<void(std::string_view stage, const scene::Job*, const scene::View&)> before_stage;
+    std::vector<std::string> calls; ///< of GL and of the truth
+
+    SweepWorld()
+    {
+        scene::SceneBuilder builder;
+        const std::vector<std::array<std::uint32_t, 3>> triangle{{0, 2, 1}};
+        const std::vector<scene::Vec3d> ground{{-50, 0, -50}, {50, 0, -50}, {0, 0, 50}};
+        const std::vector<scene::Vec3d> roof{{-1, 1, -1}, {1, 1, -1}, {0, 1, 1}};
+        builder.add("ground", ground, triangle);
+        builder.add("roof", roof, triangle);
+        file_.scene = builder.take();
+        fill_renderers();
+    }
+    SweepWorld(const SweepWorld&) = delete;
+    SweepWorld& operator=(const SweepWorld&) = delete;
+
+    [[nodiscard]] const scene::SceneFile& file() const { return file_; }
+    [[nodiscard]] const Renderers& renderers() const { return renderers_; }
+
+private:
+    /// What `draw_receivers` left in a slot.
+    struct Slot {
+        scene::Vec3d eye;
+        scene::Mat4f light_clip{0};
+    };
+
+    /// A number below `most` that depends on the text alone.
+    static std::uint64_t draw(const std::string& text, std::uint64_t most)
+    {
+        scene::Fnv1a hash;
+        hash.add(text);
+        // The last bytes reach the upper bits only here.
+        return (hash.value() * 0x9E3779B97F4A7C15ULL >> 32U) % most;
+    }
+    /// A depth of few values, so that pixels turn at common biases.
+    static float draw_depth(const std::string& text)
+    {
+        return static_cast<float>(draw(text, 17)) / 16.0F;
+    }
+    static std::string camera_text(const scene::View& view)
+    {
+        return fmt::format("{} {} {}", view.camera.eye.x, view.camera.eye.y, view.camera.eye.z);
+    }
+    static std::string light_text(const scene::View& view)
+    {
+        return fmt::format("{} {} {}", view.frustum.near_m, view.frustum.far_m,
+                           view.frustum.reversed);
+    }
+    static float receiver_depth(const scene::View& view, std::size_t pixel)
+    {
+        const std::string text =
+            fmt::format("r {} {} {}", camera_text(view), light_text(view), pixel);
+        // Some receivers lie beyond far.
+        return draw(text + "far", 11) == 0 ? (view.frustum.reversed ? -0.25F : 1.25F)
+                                           : draw_depth(text);
+    }
+    static scene::Vec2f texel_of(const scene::Job& job, const scene::View& view, std::size_t pixel)
+    {
+        const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
+        const std::string text = fmt::format("t {} {}", camera_text(view), pixel);
+        // From one texel before the map to one behind it.
+        return {static_cast<float>(draw(text + "x", side + 2)) - 0.5F + view.bias.normal_texels,
+                static_cast<float>(draw(text + "y", side + 2)) - 0.5F};
+    }
+
+    /// A lookup in the map drawn last.
+    class Lookup {
+    public:
+        Lookup(const SweepWorld& world, const scene::Job& job, const scene::View& view)
+            : world_{world},
+              job_{job},
+              view_{view}
+        {
+        }
+        [[nodiscard]] scene::LookupSample sample(std::size_t pixel) const
+        {
+            const scene::Vec2f texel = texel_of(job_, view_, pixel);
+            scene::LookupSample sample;
+            sample.receiver_depth = receiver_depth(view_, pixel);
+            const float r = sample.receiver_depth;
+            const bool is_far = view_.frustum.reversed ? r < 0 : r > 1;
+            if (job_.lookup.outside == scene::Outside::clamp) {
+                sample.receiver_depth = std::clamp(r, 0.0F, 1.0F);
+            }
+            sample.tan_theta = static_cast<float>(draw(fmt::format("tan {}", pixel), 4)) * 0.5F;
+            sample.map_depth = depth_at(texel, 0, 0);
+            const bool is_policy = job_.lookup.outside != scene::Outside::clamp && is_far;
+            if (is_policy) {
+                sample.map_depth = std::numeric_limits<float>::quiet_NaN();
+            }
+            sample.verdict = is_policy ? policy() : verdict(sample, texel);
+            return sample;
+        }
+
+    private:
+        [[nodiscard]] float policy() const
+        {
+            return job_.lookup.outside == scene::Outside::lit ? 1.0F : 0.0F;
+        }
+        /// NaN where the policy decides.
+        [[nodiscard]] float depth_at(scene::Vec2f texel, int dx, int dy) const
+        {
+            const int last = job_.shadow_map.resolution_texels - 1;
+            int x = static_cast<int>(std::floor(texel.x)) + dx;
+            int y = static_cast<int>(std::floor(texel.y)) + dy;
+            if (job_.lookup.outside == scene::Outside::clamp) {
+                x = std::clamp(x, 0, last);
+                y = std::clamp(y, 0, last);
+            }
+            return x < 0 || y < 0 || x > last || y > last ? std::numeric_limits<float>::quiet_NaN()
+                                                          : world_.map_depths_(x, last - y);
+        }
+        [[nodiscard]] float tap(float r, float d, float bias) const
+        {
+            if (std::isnan(d)) {
+                return policy();
+            }
+            return (view_.frustum.reversed ? r + bias >= d : r - bias <= d) ? 1.0F : 0.0F;
+        }
+        [[nodiscard]] float verdict(const scene::LookupSample& sample, scene::Vec2f texel) const
+        {
+            const float bias = view_.bias.constant + view_.bias.slope * sample.tan_theta;
+            const int radius = scene::filter_width_texels(job_.lookup.filter) / 2;
+            const bool is_pcf = equal_taps(job_.lookup.filter) > 1;
+            if (!is_pcf) {
+                return tap(sample.receiver_depth, sample.map_depth, bias);
+            }
+            float sum = 0;
+            for (int y = -radius; y <= radius; ++y) {
+                for (int x = -radius; x <= radius; ++x) {
+                    sum += tap(sample.receiver_depth, depth_at(texel, x, y), bias);
+                }
+            }
+            return sum / static_cast<float>(equal_taps(job_.lookup.filter));
+        }
+
+        const SweepWorld& world_;
+        const scene::Job& job_;
+        const scene::View& view_;
+    };
+
+    void begin(std::string_view stage, const scene::Job* job, const scene::View& view)
+    {
+        calls.emplace_back(stage);
+        if (before_stage) {
+            before_stage(stage, job, view);
+        }
+    }
+
+    void fill_renderers()
+    {
+        renderers_.select_receivers = [this](std::size_t slot) {
+            selected_ = slot;
+            slots_.resize(std::max(slots_.size(), slot + 1));
+        };
+        renderers_.draw_receivers = [this](const scene::View& view) {
+            begin("receivers", nullptr, view);
+            slots_.resize(std::max(slots_.size(), selected_ + 1));
+            slots_[selected_] = {view.camera.eye, view.frustum.light_clip_from_world};
+            return scene::ReceiverLayers{scene::Image<std::uint32_t>{view.image, 0}};
+        };
+        renderers_.find_truth = [this](const scene::View& view, const scene::ReceiverLayers&) {
+            begin("truth", nullptr, view);
+            return truth(view);
+        };
+        renderers_.draw_shadow_map = [this](const scene::Job& job, const scene::View& view) {
+            begin("map", &job, view);
+            draw_map(job);
+        };
+        renderers_.look_up = [this](const scene::Job& job, const scene::View& view) {
+            begin("lookup", &job, view);
+            return look_up(job, view);
+        };
+        renderers_.read_map_depths = [this] { return map_depths_; };
+        renderers_.make_exact_light = [this](const scene::Job& job, const scene::View& view,
+                                             const scene::ReceiverLayers&) {
+            if (before_stage) {
+                before_stage("light", &job, view);
+            }
+            return light(job, view);
+        };
+        renderers_.truth_method = "exact";
+    }
+
+    static scene::TruthLayers truth(const scene::View& view)
+    {
+        constexpr std::array<scene::PixelClass, 5> classes{
+            scene::PixelClass::lit, scene::PixelClass::blocked, scene::PixelClass::lit,
+            scene::PixelClass::blocked, scene::PixelClass::attached};
+        scene::TruthLayers truth;
+        truth.pixel_class = scene::Image<scene::PixelClass>{view.image};
+        for (std::size_t i = 0; i < view.image.pixel_count(); ++i) {
+            truth.pixel_class[i] =
+                classes.at(draw(fmt::format("c {} {}", camera_text(view), i), 5));
+        }
+        truth.reason = scene::Image<scene::ClassReason>{view.image};
+        truth.witness = scene::Image<std::uint32_t>{view.image, scene::no_triangle};
+        return truth;
+    }
+
+    void draw_map(const scene::Job& job)
+    {
+        map_key_ = stage_keys(job).map;
+        const int side = job.shadow_map.resolution_texels;
+        map_depths_ = scene::Image<float>{{side, side}};
+        for (std::size_t i = 0; i < map_depths_.pixel_count(); ++i) {
+            map_depths_[i] = draw_depth(fmt::format("d {} {}", map_key_, i));
+        }
+    }
+
+    scene::LookupLayers look_up(const scene::Job& job, const scene::View& view) const
+    {
+        EXPECT_EQ(map_key_, stage_keys(job).map) << "looked up in another map";
+        EXPECT_EQ(slots_.at(selected_).eye, view.camera.eye) << "read other receivers";
+        EXPECT_EQ(slots_.at(selected_).light_clip, view.frustum.light_clip_from_world)
+            << "read receivers of another light matrix";
+        const Lookup lookup{*this, job, view};
+        scene::LookupLayers layers{scene::Image<scene::LookupSample>{view.image},
+                                   scene::Image<scene::Vec2f>{view.image}};
+        for (std::size_t i = 0; i < view.image.pixel_count(); ++i) {
+            layers.samples[i] = lookup.sample(i);
+            layers.texels[i] = texel_of(job, view, i);
+        }
+        return layers;
+    }
+
+    static std::unique_ptr<scene::ExactLight> light(const scene::Job& job, const scene::View& view)
+    {
+        auto light = std::make_unique<FakeLight>();
+        const std::string key = stage_keys(job).map;
+        const int side = job.shadow_map.resolution_texels;
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const std::string text = fmt::format("h {} {} {}", key, x, y);
+                if (draw(text, 5) != 0) {
+                    light->hits[{x, y}] = {1, double{draw_depth(text)},
+                                           view.frustum.near_m + static_cast<double>(x + y) / 8};
+                }
+            }
+        }
+        for (std::size_t i = 0; i < view.image.pixel_count(); ++i) {
+            const std::string text = fmt::format("p {} {}", camera_text(view), i);
+            light->receiver_depths[i] = double{receiver_depth(view, i)};
+            light->blockers[i] = {1, 0.25 * static_cast<double>(1 + draw(text, 7)), 2.0, 3.0};
+            if (draw(text + "crossed", 2) == 0) {
+                light->crossed.insert(i);
+            }
+            if (draw(text + "own", 2) == 0) {
+                light->own.insert({i, 1});
+            }
+        }
+        return light;
+    }
+
+    scene::SceneFile file_;
+    Renderers renderers_;
+    std::size_t selected_ = 0;
+    std::vector<Slot> slots_;
+    std::string map_key_;
+    scene::Image<float> map_depths_;
+};
+
+} // namespace gnomon::analysis
