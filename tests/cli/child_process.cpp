@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <fcntl.h>
+#include <grp.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -87,7 +88,7 @@ void redirect_stdout(const Start& start, int captured)
 {
     ::setpgid(0, 0);
     // Whoever runs the tests in the background may ignore these, and that is inherited.
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) {
         ::signal(signal, SIG_DFL);
     }
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -99,6 +100,14 @@ void redirect_stdout(const Start& start, int captured)
     if (start.address_space_bytes != 0) {
         const rlimit limit{start.address_space_bytes, start.address_space_bytes};
         ::setrlimit(RLIMIT_AS, &limit);
+    }
+    if (start.file_bytes != 0) {
+        const rlimit limit{start.file_bytes, start.file_bytes};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    if (start.user_id != 0 && (::setgroups(0, nullptr) != 0 || ::setgid(start.user_id) != 0 ||
+                               ::setuid(start.user_id) != 0)) {
+        ::_exit(126);
     }
     ::execvp(arguments[0], arguments);
     ::_exit(127);

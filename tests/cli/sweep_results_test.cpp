@@ -1,0 +1,205 @@
+// What `gnomon sweep` computes: always the same, and what `gnomon compare` says.
+
+#include "child_process.hpp"
+#include "run_folder.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using std::filesystem::path;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// The member that a column names: the way to it joined with dots; nullptr if there is none.
+const Json* find_member(const Json& object, const std::string& column)
+{
+    if (object.at("job").contains(column)) {
+        return &object.at("job").at(column);
+    }
+    const Json* member = &object;
+    std::string rest = column;
+    while (!rest.empty()) {
+        const std::string name = rest.substr(0, rest.find('.'));
+        rest.erase(0, name.size() + 1);
+        if (member->is_null()) {
+            return member; // a group that was not computed
+        }
+        if (member->is_array()) {
+            const std::size_t index = name == "lo" ? 0 : name == "hi" ? 1 : std::stoul(name);
+            member = &member->at(index);
+        } else if (member->contains(name)) {
+            member = &member->at(name);
+        } else {
+            return nullptr;
+        }
+    }
+    return member;
+}
+
+/// Whether a cell says what the JSON says.
+bool is_same(const std::string& cell, const Json& value)
+{
+    if (value.is_null()) {
+        return cell.empty();
+    }
+    if (value.is_number()) {
+        return !cell.empty() && std::strtod(cell.c_str(), nullptr) == value.get<double>();
+    }
+    if (value.is_string()) {
+        return cell == value.get<std::string>();
+    }
+    return !cell.empty() && Json::parse(cell, nullptr, false) == value;
+}
+
+/// Holds every column of a row against `gnomon compare --json` of the same settings.
+void expect_row_compares(const std::map<std::string, std::string>& row, const Json& compared)
+{
+    // What a comparison says under another name, or does not say.
+    const std::set<std::string> others{"schema",     "ordinal",   "id",       "curve",
+                                       "case",       "status",    "message",  "scene_hash",
+                                       "map_near_m", "map_far_m", "map_bytes"};
+    std::size_t found = 0;
+    for (const auto& [column, cell] : row) {
+        const Json* value = find_member(compared, column);
+        if (value != nullptr) {
+            EXPECT_TRUE(is_same(cell, *value)) << column << ": " << cell << " and " << *value;
+            ++found;
+        } else if (!others.contains(column)) {
+            EXPECT_EQ(cell, "") << column << " is a key that the job leaves out";
+        }
+    }
+    EXPECT_EQ(row.at("scene_hash"), compared.at("scene").at("hash"));
+    EXPECT_GT(found, 80U) << "columns were compared";
+}
+
+/// Compares each row of the run once more by itself.
+void expect_rows_compare(const path& job, const path& run, const std::vector<std::string>& axes,
+                         std::size_t rows_expected)
+{
+    const auto rows = csv_rows(run / "results.csv");
+    ASSERT_EQ(rows.size(), rows_expected);
+    for (const auto& row : rows) {
+        std::vector<std::string> arguments{"compare", job, "--case", row.at("case"), "--json"};
+        for (const std::string& key : axes) {
+            arguments.insert(arguments.end(), {"--set", key + "=" + row.at(key)});
+        }
+        const Ending ending = gnomon(arguments);
+        SCOPED_TRACE(ending.command);
+        ASSERT_EQ(ending.exit_code, 0) << ending.err;
+        EXPECT_EQ(row.at("status"), "done");
+        expect_row_compares(row, Json::parse(ending.out));
+    }
+}
+
+TEST(Sweep, GivesWhatCompareGives)
+{
+    const TemporaryFolder folder;
+    const std::size_t sample = runs_full_tests() ? 120 : 10;
+    const path job = folder.write("job.toml", two_lights + fmt::format(R"(
+[sweep]
+sample = {}
+seed = 5
+"shadow_map.resolution" = [16, 40]
+"shadow_map.depth_format" = ["d24", "d16", "d32f", "u8"]
+"shadow_map.fit" = ["scene", "camera"]
+"shadow_map.reversed" = [false, true]
+"shadow_map.cull" = ["none", "front", "back"]
+"lookup.filter" = ["nearest", "linear", "hardware", "pcf3", "pcf7"]
+"lookup.outside" = ["lit", "shadowed", "clamp"]
+"bias.slope" = [0, 0.002]
+"bias.normal_texels" = [0, 1.5]
+"bias.constant" = [0, 0.001, -0.01, 0.05]
+)",
+                                                                       sample));
+    const path run = folder.path() / "run";
+    swept(sweep(job, run, {"--no-keep-pixels"}));
+    expect_rows_compare(job, run,
+                        {"shadow_map.resolution", "shadow_map.depth_format", "shadow_map.fit",
+                         "shadow_map.reversed", "shadow_map.cull", "lookup.filter",
+                         "lookup.outside", "bias.slope", "bias.normal_texels", "bias.constant"},
+                        sample);
+}
+
+TEST(Sweep, GivesWhatCompareGivesForBiasesOfOneCurve)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights + "[sweep]\n"
+                                                           "\"lookup.filter\" = [\"pcf3\"]\n"
+                                                           "\"bias.slope\" = [0.001]\n"
+                                                           "\"bias.constant\" = [0.02, 0]\n");
+    const path run = folder.path() / "run";
+    const Ending ending =
+        swept(sweep(job, run, {"--no-keep-pixels", "--set", "shadow_map.resolution=24"}));
+    EXPECT_THAT(ending.out, HasSubstr("4 of 4 configurations done"));
+    EXPECT_THAT(ending.out, HasSubstr("1 scene, 2 truths, 2 receiver passes, 2 shadow maps, "
+                                      "2 lookup passes, 2 bias curves"));
+    const std::vector<std::string> axes{"shadow_map.resolution", "lookup.filter", "bias.slope",
+                                        "bias.constant"};
+    expect_rows_compare(job, run, axes, 4);
+}
+
+TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights);
+    const std::vector<std::string> axes{"--axis", "bias.constant=0,0.001,0.02",
+                                        "--axis", "bias.slope=0,0.01",
+                                        "--axis", "lookup.filter=pcf3,linear"};
+    const path kept = folder.path() / "kept";
+    const path bare = folder.path() / "bare";
+    swept(sweep(job, kept, with(axes, {"--keep-pixels"})));
+    swept(sweep(job, bare, axes)); // more than twenty keep none
+    EXPECT_EQ(entry_count(kept / "pixels"), 24U);
+    EXPECT_EQ(entry_count(bare / "pixels"), 0U);
+    expect_same(RunCsv{kept}, RunCsv{bare});
+    for (const auto& row : csv_rows(kept / "results.csv")) {
+        EXPECT_TRUE(std::filesystem::exists(kept / "pixels" / (row.at("id") + ".exr")))
+            << row.at("id");
+    }
+}
+
+TEST(Sweep, GivesTheSameBytesForAnyNumberOfThreadsAndShards)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights);
+    const std::vector<std::string> axes{"--axis",          "shadow_map.resolution=16,24,32",
+                                        "--axis",          "lookup.filter=nearest,hardware",
+                                        "--axis",          "bias.constant=0,0.001,0.02",
+                                        "--no-keep-pixels"};
+    const path whole = folder.path() / "1";
+    swept(sweep(job, whole, with(axes, {"--threads", "1"})));
+    const RunCsv expected{whole};
+    for (const char* const threads : {"2", "7"}) {
+        SCOPED_TRACE(threads);
+        const path run = folder.path() / threads;
+        swept(sweep(job, run, with(axes, {"--threads", threads})));
+        expect_same(RunCsv{run}, expected);
+    }
+    const path all = folder.path() / "all";
+    std::vector<std::string> merge{"merge", all};
+    std::size_t rows = 0;
+    for (int shard = 1; shard <= 5; ++shard) {
+        const path part = folder.path() / fmt::format("part{}", shard);
+        swept(sweep(job, part, with(axes, {"--shard", fmt::format("{}/5", shard)})));
+        merge.push_back(part);
+        rows += csv_rows(part / "results.csv").size();
+        EXPECT_LT(csv_rows(part / "results.csv").size(), 36U) << shard;
+    }
+    EXPECT_EQ(rows, 36U);
+    swept(merge);
+    expect_same(RunCsv{all}, expected);
+}
+
+} // namespace
+} // namespace gnomon::testing
