@@ -8,9 +8,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string_view>
-#include <utility>
 
 namespace gnomon::cli {
 namespace {
@@ -29,7 +29,7 @@ std::size_t terminal_columns()
 /// "1:02:03", "2:03".
 std::string clock_text(double seconds)
 {
-    const auto whole = static_cast<std::uint64_t>(seconds + 0.5);
+    const auto whole = static_cast<std::uint64_t>(std::llround(seconds));
     const std::uint64_t hours = whole / 3600;
     return hours > 0 ? fmt::format("{}:{:02}:{:02}", hours, whole / 60 % 60, whole % 60)
                      : fmt::format("{}:{:02}", whole / 60, whole % 60);
@@ -51,7 +51,7 @@ Progress::~Progress()
     }
 }
 
-void Progress::begin(std::string configuration)
+void Progress::begin(const std::string& configuration)
 {
     const std::lock_guard lock{mutex_};
     current_ = scene::one_line(configuration);

@@ -18,7 +18,7 @@ public:
     /// Ends the live line.
     ~Progress();
 
-    void begin(std::string configuration); ///< what is worked on now
+    void begin(const std::string& configuration); ///< what is worked on now
     void add(std::uint64_t done, std::uint64_t failed);
 
 private:
