@@ -2,6 +2,7 @@
 
 #include "analysis/metrics.hpp"
 #include "analysis/pcf_taps.hpp"
+#include "analysis/radix_sort.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -164,8 +165,7 @@ public:
           tree_(values.size() + 1)
     {
         std::iota(order_.begin(), order_.end(), std::size_t{0});
-        std::stable_sort(order_.begin(), order_.end(),
-                         [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+        radix_sort(order_, [&](std::size_t i) { return sort_key(values[i]); });
         for (std::size_t i = 0; i < order_.size(); ++i) {
             rank_[order_[i]] = i;
             values_[i] = values[order_[i]];
@@ -352,9 +352,7 @@ std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& clas
 std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps, std::span<const float> biases)
 {
     require_ascending(biases, "find_gaps_at");
-    std::sort(gaps.begin(), gaps.end(), [](const PanningGap& a, const PanningGap& b) {
-        return a.critical_bias < b.critical_bias;
-    });
+    radix_sort(gaps, [](const PanningGap& gap) { return sort_key(gap.critical_bias); });
     std::vector<float> metres;
     std::vector<float> texels;
     for (const PanningGap& gap : gaps) {

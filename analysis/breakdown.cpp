@@ -1,13 +1,16 @@
 #include "analysis/breakdown.hpp"
 
+#include "analysis/pixel_runs.hpp"
 #include "analysis/ratio.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 
@@ -28,90 +31,20 @@ void count_pixel(PartCounts& counts, PixelClass pixel_class, bool is_lit)
     }
 }
 
-void require_inputs(std::string_view function, const BreakdownInputs& inputs, int bins)
+void require_bins(std::string_view function, int bins)
 {
-    const scene::ImageSize size = inputs.classes.size();
-    const bool fits = inputs.lookup.samples.size() == size && inputs.criticals.size() == size &&
-                      inputs.zeta_m.size() == size &&
-                      (inputs.map_error_m.empty() || inputs.map_error_m.size() == size);
-    if (!fits) {
-        throw std::invalid_argument(fmt::format("{}: inputs: the images differ in size", function));
-    }
-    if (bins < 1) {
-        throw std::invalid_argument(fmt::format("{}: bins: {} is below 1", function, bins));
+    if (bins < 1 || bins >= Binning::no_bin) {
+        throw std::invalid_argument(
+            fmt::format("{}: bins: {} is not from 1 to {}", function, bins, Binning::no_bin - 1));
     }
 }
 
-/// Equal bins over [lower, upper].
-class Bins {
-public:
-    Bins(double lower, double upper, int count)
-        : lower_{lower},
-          upper_{upper},
-          parts_(static_cast<std::size_t>(count))
-    {
+void require_size(std::string_view function, scene::ImageSize size, scene::ImageSize expected)
+{
+    if (size != expected) {
+        throw std::invalid_argument(fmt::format("{}: the images differ in size", function));
     }
-
-    void add(double value, const BreakdownInputs& inputs, std::size_t pixel)
-    {
-        Part& part = parts_[index(value)];
-        const PixelClass pixel_class = inputs.classes[pixel];
-        count_pixel(part.counts, pixel_class, inputs.is_lit(pixel));
-        if (pixel_class == PixelClass::lit) {
-            part.needed.push_back(inputs.criticals[pixel]);
-        }
-        if (!inputs.map_error_m.empty()) {
-            part.map_errors_m.push_back(inputs.map_error_m[pixel]);
-        }
-    }
-
-    [[nodiscard]] std::vector<ErrorBin> take()
-    {
-        std::vector<ErrorBin> bins;
-        for (std::size_t i = 0; i < parts_.size(); ++i) {
-            Part& part = parts_[i];
-            bins.push_back({edge(i), edge(i + 1), part.counts,
-                            find_quantiles(std::move(part.needed)),
-                            find_quantiles(std::move(part.map_errors_m))});
-        }
-        return bins;
-    }
-
-private:
-    struct Part {
-        PartCounts counts;
-        std::vector<float> needed;
-        std::vector<float> map_errors_m;
-    };
-
-    [[nodiscard]] double edge(std::size_t i) const
-    {
-        return std::lerp(lower_, upper_,
-                         static_cast<double>(i) / static_cast<double>(parts_.size()));
-    }
-    /// The quotient may round across an edge; the edges decide.
-    [[nodiscard]] std::size_t index(double value) const
-    {
-        const std::size_t last = parts_.size() - 1;
-        if (!(upper_ > lower_)) {
-            return 0;
-        }
-        const double position =
-            (value - lower_) / (upper_ - lower_) * static_cast<double>(parts_.size());
-        auto i = std::min(static_cast<std::size_t>(std::max(position, 0.0)), last);
-        while (i > 0 && value < edge(i)) {
-            --i;
-        }
-        while (i < last && value >= edge(i + 1)) {
-            ++i;
-        }
-        return i;
-    }
-
-    double lower_;
-    double upper_;
-    std::vector<Part> parts_;
-};
+}
 
 struct Range {
     double lower = std::numeric_limits<double>::infinity();
@@ -127,12 +60,122 @@ Range scored_range(const scene::Image<PixelClass>& classes, const scene::Image<f
         }
         if (!std::isfinite(zeta_m[i])) {
             throw std::invalid_argument(fmt::format(
-                "errors_by_distance: zeta_m: that of scored pixel {} is {}", i, zeta_m[i]));
+                "bin_by_distance: zeta_m: that of scored pixel {} is {}", i, zeta_m[i]));
         }
         range.lower = std::min(range.lower, double{zeta_m[i]});
         range.upper = std::max(range.upper, double{zeta_m[i]});
     }
     return range;
+}
+
+/// The value's bin; the quotient may round across an edge, and the edges decide.
+std::uint8_t bin_of(const Binning& binning, double value)
+{
+    if (!(binning.upper > binning.lower)) {
+        return 0;
+    }
+    const int last = binning.bins - 1;
+    const double position =
+        (value - binning.lower) / (binning.upper - binning.lower) * binning.bins;
+    int i = std::min(static_cast<int>(std::max(position, 0.0)), last);
+    while (i > 0 && value < binning.edge(i)) {
+        --i;
+    }
+    while (i < last && value >= binning.edge(i + 1)) {
+        ++i;
+    }
+    return static_cast<std::uint8_t>(i);
+}
+
+/// Puts each scored pixel into the bin of its value.
+template <typename ValueOf>
+void fill(Binning& binning, const scene::Image<PixelClass>& classes, const ValueOf& value_of)
+{
+    binning.bin = scene::Image<std::uint8_t>{classes.size(), Binning::no_bin};
+    for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            if (scene::is_scored(classes[i])) {
+                binning.bin[i] = bin_of(binning, value_of(i));
+            }
+        }
+    });
+}
+
+/// Values gathered by bin, in the order of the pixels.
+class Gathered {
+public:
+    /// @param has  whether a pixel has a value.
+    template <typename Has, typename ValueOf>
+    Gathered(const Binning& binning, const Has& has, const ValueOf& value_of)
+        : ends_(static_cast<std::size_t>(binning.bins) + 1)
+    {
+        const std::size_t pixels = binning.bin.pixel_count();
+        for (std::size_t i = 0; i < pixels; ++i) {
+            if (has(i)) {
+                ++ends_[binning.bin[i] + std::size_t{1}];
+            }
+        }
+        std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+        values_.resize(ends_.back());
+        std::vector<std::size_t> next{ends_.begin(), ends_.end() - 1};
+        for (std::size_t i = 0; i < pixels; ++i) {
+            if (has(i)) {
+                values_[next[binning.bin[i]]++] = value_of(i);
+            }
+        }
+    }
+
+    [[nodiscard]] std::optional<Quantiles> quantiles(std::size_t bin)
+    {
+        return find_quantiles(std::span{values_}.subspan(ends_[bin], ends_[bin + 1] - ends_[bin]));
+    }
+
+private:
+    std::vector<std::size_t> ends_; ///< where each bin's values begin, and the last one's end
+    std::vector<float> values_;
+};
+
+/// The bins without their counts.
+std::vector<ErrorBin> spreads(const Binning& binning, const BreakdownInputs& inputs)
+{
+    Gathered needed{binning, [&](std::size_t i) { return inputs.classes[i] == PixelClass::lit; },
+                    [&](std::size_t i) { return inputs.criticals[i]; }};
+    Gathered map_errors_m{binning,
+                          [&](std::size_t i) {
+                              return !inputs.map_error_m.empty() &&
+                                     scene::is_scored(inputs.classes[i]);
+                          },
+                          [&](std::size_t i) { return inputs.map_error_m[i]; }};
+    std::vector<ErrorBin> bins(static_cast<std::size_t>(binning.bins));
+    tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
+        bins[i] = {binning.edge(static_cast<int>(i)),
+                   binning.edge(static_cast<int>(i) + 1),
+                   {},
+                   needed.quantiles(i),
+                   map_errors_m.quantiles(i)};
+    });
+    return bins;
+}
+
+template <typename IsLit>
+void count_bins(const Binning& binning, const scene::Image<PixelClass>& classes,
+                const IsLit& is_lit, std::vector<ErrorBin>& bins)
+{
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (binning.bin[i] != Binning::no_bin) {
+            count_pixel(bins[binning.bin[i]].counts, classes[i], is_lit(i));
+        }
+    }
+}
+
+void require_inputs(const Binning& binning, const BreakdownInputs& inputs)
+{
+    const scene::ImageSize size = inputs.classes.size();
+    for (const scene::ImageSize other :
+         {binning.bin.size(), inputs.lookup.samples.size(), inputs.criticals.size(),
+          inputs.map_error_m.empty() ? size : inputs.map_error_m.size()}) {
+        require_size("errors_by_bin", other, size);
+    }
 }
 
 } // namespace
@@ -152,32 +195,62 @@ std::optional<double> PartCounts::error_rate() const
     return ratio(false_shadow + false_lit, lit + blocked);
 }
 
-std::vector<ErrorBin> errors_by_distance(const BreakdownInputs& inputs, int bins)
+double Binning::edge(int i) const
 {
-    require_inputs("errors_by_distance", inputs, bins);
-    const Range range = scored_range(inputs.classes, inputs.zeta_m);
-    if (range.lower > range.upper) {
-        return {};
-    }
-    Bins by_distance{range.lower, range.upper, range.lower < range.upper ? bins : 1};
-    for (std::size_t i = 0; i < inputs.classes.pixel_count(); ++i) {
-        if (scene::is_scored(inputs.classes[i])) {
-            by_distance.add(double{inputs.zeta_m[i]}, inputs, i);
-        }
-    }
-    return by_distance.take();
+    return std::lerp(lower, upper, static_cast<double>(i) / bins);
 }
 
-std::vector<ErrorBin> errors_by_angle(const BreakdownInputs& inputs, int bins)
+Binning bin_by_distance(const scene::Image<PixelClass>& classes, const scene::Image<float>& zeta_m,
+                        int bins)
 {
-    require_inputs("errors_by_angle", inputs, bins);
-    Bins by_angle{0.0, std::numbers::pi / 2, bins};
-    for (std::size_t i = 0; i < inputs.classes.pixel_count(); ++i) {
-        if (scene::is_scored(inputs.classes[i])) {
-            by_angle.add(std::atan(double{inputs.lookup.samples[i].tan_theta}), inputs, i);
-        }
+    require_bins("bin_by_distance", bins);
+    require_size("bin_by_distance", zeta_m.size(), classes.size());
+    const Range range = scored_range(classes, zeta_m);
+    Binning binning;
+    if (range.lower <= range.upper) {
+        binning.lower = range.lower;
+        binning.upper = range.upper;
+        binning.bins = range.lower < range.upper ? bins : 1;
     }
-    return by_angle.take();
+    fill(binning, classes, [&](std::size_t i) { return double{zeta_m[i]}; });
+    return binning;
+}
+
+Binning bin_by_angle(const scene::Image<PixelClass>& classes, const scene::LookupLayers& lookup,
+                     int bins)
+{
+    require_bins("bin_by_angle", bins);
+    require_size("bin_by_angle", lookup.samples.size(), classes.size());
+    Binning binning;
+    binning.upper = std::numbers::pi / 2;
+    binning.bins = bins;
+    fill(binning, classes,
+         [&](std::size_t i) { return std::atan(double{lookup.samples[i].tan_theta}); });
+    return binning;
+}
+
+std::vector<std::vector<ErrorBin>>
+errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases)
+{
+    require_inputs(binning, inputs);
+    const std::vector<ErrorBin> empty = spreads(binning, inputs);
+    std::vector<std::vector<ErrorBin>> result;
+    for (const float bias : biases) {
+        count_bins(
+            binning, inputs.classes, [&](std::size_t i) { return inputs.criticals[i] <= bias; },
+            result.emplace_back(empty));
+    }
+    return result;
+}
+
+std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInputs& inputs)
+{
+    require_inputs(binning, inputs);
+    std::vector<ErrorBin> bins = spreads(binning, inputs);
+    count_bins(
+        binning, inputs.classes,
+        [&](std::size_t i) { return scene::is_lit(inputs.lookup.samples[i].verdict); }, bins);
+    return bins;
 }
 
 std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& classes,

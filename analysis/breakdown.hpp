@@ -6,6 +6,7 @@
 #include "scene/triangles.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,17 +31,8 @@ struct PartCounts {
 struct BreakdownInputs {
     const scene::Image<scene::PixelClass>& classes;
     const scene::LookupLayers& lookup;
-    const scene::Image<float>& criticals; ///< critical bias, depth units
-    const scene::Image<float>& zeta_m;    ///< light distance of the receiver [m]; finite if scored
+    const scene::Image<float>& criticals;   ///< critical bias, depth units
     const scene::Image<float>& map_error_m; ///< stored minus exact ζ [m]; NaN: none; may be empty
-    /// If set, verdicts are those of this constant bias, by the critical biases, and not the
-    /// lookup's.
-    std::optional<float> bias = {};
-
-    [[nodiscard]] bool is_lit(std::size_t pixel) const
-    {
-        return bias ? criticals[pixel] <= *bias : scene::is_lit(lookup.samples[pixel].verdict);
-    }
 };
 
 /// The pixels whose value lies in [lower, upper), the last bin's in [lower, upper].
@@ -52,18 +44,40 @@ struct ErrorBin {
     std::optional<Quantiles> map_error_m; ///< of the scored pixels that have one, signed [m]
 };
 
-/// By light distance ζ [m]: bins of equal width over the range of the scored pixels; one bin if
-/// they are all equally far, none if there are none.
-/// @throws std::invalid_argument  if `bins` < 1, the images differ in size, or a scored pixel's ζ
-/// is
-///                                not finite.
-[[nodiscard]] std::vector<ErrorBin> errors_by_distance(const BreakdownInputs& inputs,
-                                                       int bins = 32);
+/// Bins of equal width, and which of them each scored pixel falls into.
+struct Binning {
+    double lower = 0;
+    double upper = 0;
+    int bins = 0;
+    scene::Image<std::uint8_t> bin; ///< `no_bin` where the pixel is not scored
+    static constexpr std::uint8_t no_bin = 255;
 
-/// By the receiver's angle θ between geometric normal and light [rad]: bins of equal width from 0
-/// to π/2, 5 degrees each unless told otherwise.
-/// @throws std::invalid_argument  if `bins` < 1 or the images differ in size.
-[[nodiscard]] std::vector<ErrorBin> errors_by_angle(const BreakdownInputs& inputs, int bins = 18);
+    /// The i-th bin's lower edge.
+    [[nodiscard]] double edge(int i) const;
+};
+
+/// By light distance ζ [m], over the range of the scored pixels; one bin if they are all equally
+/// far, none if there are none.
+/// @throws std::invalid_argument  if `bins` is not in [1, 254], the images differ in size, or a
+///                                scored pixel's ζ is not finite.
+[[nodiscard]] Binning bin_by_distance(const scene::Image<scene::PixelClass>& classes,
+                                      const scene::Image<float>& zeta_m, int bins = 32);
+
+/// By the receiver's angle θ between geometric normal and light [rad], from 0 to π/2, 5 degrees a
+/// bin unless told otherwise.
+/// @throws std::invalid_argument  as `bin_by_distance`.
+[[nodiscard]] Binning bin_by_angle(const scene::Image<scene::PixelClass>& classes,
+                                   const scene::LookupLayers& lookup, int bins = 18);
+
+/// The errors of each bin. Needed bias and map error do not depend on the bias: they are found once
+/// for all of `biases`.
+/// @param biases  Verdicts are those of these constant biases, by the critical biases.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] std::vector<std::vector<ErrorBin>>
+errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases);
+/// The same with the lookup's own verdicts.
+[[nodiscard]] std::vector<ErrorBin> errors_by_bin(const Binning& binning,
+                                                  const BreakdownInputs& inputs);
 
 struct ObjectErrors {
     std::string name;

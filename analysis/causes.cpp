@@ -38,8 +38,9 @@ int square_side_px(std::size_t taps_each)
 
 class CauseFinder {
 public:
-    explicit CauseFinder(const CauseInputs& inputs)
+    CauseFinder(const CauseInputs& inputs, CauseMemory* memory)
         : inputs_{inputs},
+          memory_{memory},
           rules_{inputs.rules()},
           footprint_{inputs.lookup, inputs.resolution_texels},
           causes_{inputs.truth.pixel_class.size()}
@@ -92,8 +93,19 @@ private:
                 }
             }
         }
-        explain_lit({std::move(lit), inputs_.light});
-        explain_blocked({std::move(blocked), inputs_.light});
+        const TracedLookups traced_lit{std::move(lit), inputs_.light};
+        const TracedLookups traced_blocked{std::move(blocked), inputs_.light};
+        explain_lit(traced_lit);
+        explain_blocked(traced_blocked);
+        remember(traced_lit);
+        remember(traced_blocked);
+    }
+
+    void remember(const TracedLookups& lookups)
+    {
+        for (std::size_t i = 0; memory_ != nullptr && i < lookups.size(); ++i) {
+            memory_->remember(lookups.pixel(i), causes_[lookups.pixel(i)]);
+        }
     }
 
     [[nodiscard]] std::size_t pixel_at(int x, int y) const
@@ -109,6 +121,11 @@ private:
         const scene::LookupSample& sample = inputs_.unbiased.samples[pixel];
         if (!scene::is_scored(truth) ||
             scene::is_lit(sample.verdict) == (truth == PixelClass::lit)) {
+            return;
+        }
+        const PixelCause* const known = memory_ == nullptr ? nullptr : memory_->find(pixel);
+        if (known != nullptr) {
+            causes_[pixel] = *known;
             return;
         }
         Lookups& lookups = truth == PixelClass::lit ? lit : blocked;
@@ -191,6 +208,7 @@ private:
     }
 
     const CauseInputs& inputs_;
+    CauseMemory* memory_;
     TapRules rules_;
     Footprint footprint_;
     scene::Image<PixelCause> causes_;
@@ -210,10 +228,13 @@ void require_sizes(const CauseInputs& inputs)
 
 } // namespace
 
-scene::Image<PixelCause> find_causes(const CauseInputs& inputs)
+scene::Image<PixelCause> find_causes(const CauseInputs& inputs, CauseMemory* memory)
 {
     require_sizes(inputs);
-    return CauseFinder{inputs}.find();
+    if (memory != nullptr && inputs.lookup.filter != scene::Filter::nearest) {
+        throw std::invalid_argument("find_causes: memory: only for the filter nearest");
+    }
+    return CauseFinder{inputs, memory}.find();
 }
 
 Cause cause_of(const PixelCause& pixel, PixelClass truth, float bias)

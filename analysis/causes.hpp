@@ -58,11 +58,37 @@ struct CauseInputs {
     }
 };
 
+/// What `find_causes` found for `nearest`, kept for maps of other depth formats: with a single tap
+/// a pixel's cause does not depend on what is stored, only whether it is wrong does.
+///
+/// Valid as long as truth, light, receivers, resolution, culling and policy stay the same.
+class CauseMemory {
+public:
+    explicit CauseMemory(scene::ImageSize size) : causes_{size}, is_known_{size} {}
+
+    [[nodiscard]] const PixelCause* find(std::size_t pixel) const
+    {
+        return is_known_[pixel] != 0 ? &causes_[pixel] : nullptr;
+    }
+    void remember(std::size_t pixel, const PixelCause& cause)
+    {
+        causes_[pixel] = cause;
+        is_known_[pixel] = 1;
+    }
+
+private:
+    scene::Image<PixelCause> causes_;
+    scene::Image<std::uint8_t> is_known_;
+};
+
 /// Finds the causes of every scored pixel that the map without bias gets wrong, for all biases.
 ///
 /// V2 puts exact depths at the same taps, V3 is one infinitely fine lookup (DESIGN §4).
-/// @throws std::invalid_argument  if layers differ in size, or map depths are missing.
-[[nodiscard]] scene::Image<PixelCause> find_causes(const CauseInputs& inputs);
+/// @param memory  Read and added to; nullptr for filters other than `nearest`.
+/// @throws std::invalid_argument  if layers differ in size, map depths are missing, or a memory is
+///                                given to a filter that has none.
+[[nodiscard]] scene::Image<PixelCause> find_causes(const CauseInputs& inputs,
+                                                   CauseMemory* memory = nullptr);
 
 /// Each wrong pixel's cause and label.
 struct CauseLayers {

@@ -47,9 +47,9 @@ void break_down(const ComparedLayers& layers, Diagnosis& diagnosis)
                                            std::numeric_limits<float>::quiet_NaN()};
     const BreakdownInputs inputs{classes, layers.lookup,
                                  diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
-                                 diagnosis.zeta_m, diagnosis.map_error_m};
-    diagnosis.by_distance = errors_by_distance(inputs);
-    diagnosis.by_angle = errors_by_angle(inputs);
+                                 diagnosis.map_error_m};
+    diagnosis.by_distance = errors_by_bin(bin_by_distance(classes, diagnosis.zeta_m), inputs);
+    diagnosis.by_angle = errors_by_bin(bin_by_angle(classes, layers.lookup), inputs);
     diagnosis.by_object =
         errors_by_object(classes, layers.lookup, layers.receivers.triangle, layers.triangles);
 }
@@ -89,7 +89,8 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
         diagnosis.biases = answer_biases(
             {job, view, layers.truth, deciding, diagnosis.pixels, diagnosis.zeta_m, forgive});
     }
-    diagnosis.map_error_m = map_depth_errors_m(inputs, view.frustum, job.shadow_map.depth_format);
+    diagnosis.map_error_m =
+        map_depth_errors_m(inputs, CentreHits{inputs}, view.frustum, job.shadow_map.depth_format);
     break_down(layers, diagnosis);
     return diagnosis;
 }

@@ -1,7 +1,8 @@
 #include "analysis/map_errors.hpp"
 
 #include "analysis/bias_units.hpp"
-#include "analysis/texel_hits.hpp"
+#include "analysis/footprint.hpp"
+#include "analysis/pixel_runs.hpp"
 
 #include <cmath>
 #include <limits>
@@ -17,6 +18,29 @@ scene::Texel texel_at(const scene::Vec2f& point)
     return {static_cast<int>(point.x), static_cast<int>(point.y)};
 }
 
+std::vector<CentreHits::Seen> seen_texels(const CauseInputs& inputs)
+{
+    const auto& classes = inputs.truth.pixel_class;
+    const Footprint footprint{inputs.lookup, inputs.resolution_texels};
+    std::vector<CentreHits::Seen> seen;
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
+            seen.push_back({i, texel_at(inputs.unbiased.texels[i])});
+        }
+    }
+    return seen;
+}
+
+std::vector<scene::Texel> texels_of(const std::vector<CentreHits::Seen>& seen)
+{
+    std::vector<scene::Texel> texels;
+    texels.reserve(seen.size());
+    for (const CentreHits::Seen& each : seen) {
+        texels.push_back(each.texel);
+    }
+    return texels;
+}
+
 } // namespace
 
 double zeta_of_depth_m(const scene::LightFrustum& frustum, double depth)
@@ -28,34 +52,33 @@ double zeta_of_depth_m(const scene::LightFrustum& frustum, double depth)
     return 1 / (1 / frustum.near_m - (1 / frustum.near_m - 1 / frustum.far_m) * from_near);
 }
 
-scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
+CentreHits::CentreHits(const CauseInputs& inputs)
+    : seen_{seen_texels(inputs)},
+      hits_{inputs.light, texels_of(seen_), scene::HitDetail::placed}
+{
+}
+
+scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHits& hits,
                                        const scene::LightFrustum& frustum,
                                        scene::DepthFormat format)
 {
-    const auto& classes = inputs.truth.pixel_class;
-    const Footprint footprint{inputs.lookup, inputs.resolution_texels};
     const float farthest = inputs.rules().farthest_depth();
-    std::vector<std::size_t> pixels;
-    std::vector<scene::Texel> texels;
-    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
-            pixels.push_back(i);
-            texels.push_back(texel_at(inputs.unbiased.texels[i]));
+    scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
+                                 std::numeric_limits<float>::quiet_NaN()};
+    const auto& seen = hits.seen();
+    for_each_run(seen.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            const scene::TexelHit& hit = hits.hit(seen[i]);
+            const float stored = inputs.stored_depth(seen[i].pixel, seen[i].texel);
+            // The farthest depth stands for nothing, unless what is seen rounds to it.
+            const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
+                                                             depth_step(format, farthest);
+            if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
+                errors_m[seen[i].pixel] =
+                    static_cast<float>(zeta_of_depth_m(frustum, double{stored}) - hit.zeta_m);
+            }
         }
-    }
-    const TexelHits hits{inputs.light, texels, scene::HitDetail::placed};
-    scene::Image<float> errors_m{classes.size(), std::numeric_limits<float>::quiet_NaN()};
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
-        const scene::TexelHit& hit = hits[texels[p]];
-        const float stored = inputs.stored_depth(pixels[p], texels[p]);
-        // The farthest depth stands for nothing, unless what is seen rounds to it.
-        const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
-                                                         depth_step(format, farthest);
-        if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
-            errors_m[pixels[p]] =
-                static_cast<float>(zeta_of_depth_m(frustum, double{stored}) - hit.zeta_m);
-        }
-    }
+    });
     return errors_m;
 }
 

@@ -1,23 +1,32 @@
 #include "analysis/quantiles.hpp"
 
-#include "analysis/radix_sort.hpp"
-
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::analysis {
 
-std::optional<Quantiles> find_quantiles(std::vector<float> values)
+std::optional<Quantiles> find_quantiles(std::span<float> values)
 {
-    std::erase_if(values, [](float value) { return !std::isfinite(value); });
-    if (values.empty()) {
+    const auto end = std::partition(values.begin(), values.end(),
+                                    [](float value) { return std::isfinite(value); });
+    const auto finite = values.first(static_cast<std::size_t>(end - values.begin()));
+    if (finite.empty()) {
         return std::nullopt;
     }
-    radix_sort(values);
-    const std::size_t count = values.size();
-    const auto at_percent = [&](std::size_t percent) {
-        return values[quantile_rank(count, percent) - 1];
-    };
-    return Quantiles{count, values.front(), at_percent(50), at_percent(95), values.back()};
+    const std::size_t count = finite.size();
+    const auto p95 = finite.begin() + static_cast<std::ptrdiff_t>(quantile_rank(count, 95) - 1);
+    const auto median = finite.begin() + static_cast<std::ptrdiff_t>(quantile_rank(count, 50) - 1);
+    std::nth_element(finite.begin(), p95, finite.end());
+    const float max = *std::max_element(p95, finite.end());
+    std::nth_element(finite.begin(), median, p95 + 1);
+    const float min = *std::min_element(finite.begin(), median + 1);
+    // Which of two equal zeros stands at a rank is chance: −0 becomes 0.
+    return Quantiles{count, min + 0.0F, *median + 0.0F, *p95 + 0.0F, max + 0.0F};
+}
+
+std::optional<Quantiles> find_quantiles(std::vector<float>&& values)
+{
+    return find_quantiles(std::span{values});
 }
 
 } // namespace gnomon::analysis

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -26,8 +27,9 @@ struct Quantiles {
     return (count * percent + 99) / 100;
 }
 
-/// @param values  In any order; those that are not finite are left out.
+/// @param values  In any order; those that are not finite are left out. They are reordered.
 /// @return  Empty if no value is finite.
-[[nodiscard]] std::optional<Quantiles> find_quantiles(std::vector<float> values);
+[[nodiscard]] std::optional<Quantiles> find_quantiles(std::span<float> values);
+[[nodiscard]] std::optional<Quantiles> find_quantiles(std::vector<float>&& values);
 
 } // namespace gnomon::analysis

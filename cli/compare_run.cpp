@@ -28,17 +28,16 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     const scene::SweepSpace space{std::move(source), {}, case_name};
     const analysis::SweepCatalogue catalogue{space, true, GNOMON_VERSION};
     std::vector<analysis::Configuration> configurations;
-    catalogue.describe(0, comparison.scene.hash,
-                       [&](const analysis::Configuration& configuration) {
-                           configurations.push_back(configuration);
-                       });
+    catalogue.describe(0, comparison.scene.hash, [&](const analysis::Configuration& configuration) {
+        configurations.push_back(configuration);
+    });
     const analysis::Configuration& own = configurations.front();
     // Another driver's results in the folder are replaced, not mixed with.
     store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), std::move(command)},
                 configurations, reports::Environments::several);
     keep_pixels(folder_, own.id, comparison);
-    store_.record(analysis::finish_compared(comparison, own.curve, 0,
-                                            comparison.view.bias.constant));
+    store_.record(
+        analysis::finish_compared(comparison, own.curve, 0, comparison.view.bias.constant));
     store_.write_csv();
 }
 

@@ -50,8 +50,9 @@ void keep_standard_streams()
     }
     struct sigaction ignore {};
     ignore.sa_handler = SIG_IGN;
-    ::sigaction(SIGPIPE, &ignore, nullptr);
-    ::sigaction(SIGXFSZ, &ignore, nullptr);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) {
+        ::sigaction(signal, &ignore, nullptr);
+    }
 }
 
 void clean_up_on_signals()

@@ -2,9 +2,9 @@
 
 namespace gnomon::cli {
 
-/// Makes file descriptors 0 to 2 exist, and a broken pipe or a file beyond `ulimit -f` an error of
-/// the call that writes. Otherwise, with stdout closed, the first file opened would take its number and receive what is
-/// printed.
+/// Makes file descriptors 0 to 2 exist, and a broken pipe or a file that may not grow (ulimit -f)
+/// an error of the call that writes. Otherwise, with stdout closed, the first file opened would
+/// take its number and receive what is printed.
 void keep_standard_streams();
 
 /// Ends the process on SIGINT, SIGTERM and SIGHUP with exit status 128 + signal, 130 for SIGINT,

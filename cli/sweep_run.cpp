@@ -128,25 +128,35 @@ private:
         const auto& requests = catalogue_.requests();
         const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
         const auto shards = analysis::divide(whole, requests, options_.shard.count);
-        std::vector<Configuration> configurations;
-        const auto add = [&](std::uint32_t shard) {
+        // One request's configurations in memory at a time: all of them may be too many.
+        std::vector<Configuration> described;
+        std::size_t next_request = 0;
+        const auto keep = [&](std::uint32_t shard) {
             return [&, shard](const Configuration& configuration) {
-                configurations.push_back(configuration);
-                configurations.back().shard = shard;
+                described.push_back(configuration);
+                described.back().shard = shard;
             };
         };
-        for (std::size_t i = 0; i < requests.size(); ++i) {
-            catalogue_.describe(i, hashes_[i], add(shards[i]));
-        }
         for (const Refusal& refusal : catalogue_.refusals()) {
-            catalogue_.describe(refusal, add(1));
+            catalogue_.describe(refusal, keep(1));
         }
-        if (options_.keeps_pixels) {
-            for (const Configuration& configuration : configurations) {
+        const reports::NextConfiguration next = [&]() -> std::optional<Configuration> {
+            if (described.empty() && next_request < requests.size()) {
+                catalogue_.describe(next_request, hashes_[next_request],
+                                    keep(shards[next_request]));
+                ++next_request;
+            }
+            if (described.empty()) {
+                return std::nullopt;
+            }
+            Configuration configuration = std::move(described.back());
+            described.pop_back();
+            if (options_.keeps_pixels) {
                 ids_.emplace(configuration.ordinal, configuration.id);
             }
-        }
-        const auto outcome = store_.plan(description(), configurations,
+            return configuration;
+        };
+        const auto outcome = store_.plan(description(), next,
                                          options_.allows_mixed ? reports::Environments::several
                                                                : reports::Environments::one);
         outcome_.configurations = outcome.done + outcome.failed + outcome.planned;

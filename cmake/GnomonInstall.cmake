@@ -6,7 +6,10 @@ set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 
 list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
 install(TARGETS gnomon_options ${gnomon_layer_targets} EXPORT gnomon-targets)
-foreach(layer ${gnomon_layers})
+# The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
+install(FILES reference_rt/certificate.hpp reference_rt/exact_light.hpp reference_rt/truth.hpp
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/reference_rt)
+foreach(layer scene raster_gl analysis reports)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon
           FILES_MATCHING PATTERN "*.hpp" PATTERN shaders EXCLUDE)
 endforeach()

@@ -35,10 +35,10 @@ Scored scored_of(const Tile& tile, const scene::TruthLayers& truth)
 {
     Scored scored;
     for (std::size_t i = 0; i < packet_size; ++i) {
-        if (!tile.seen[i]) {
+        if ((tile.seen >> i & 1U) == 0) {
             continue;
         }
-        const PixelClass pixel_class = truth.pixel_class(tile.x[i], tile.y[i]);
+        const PixelClass pixel_class = truth.pixel_class(tile.x(i), tile.y(i));
         if (scene::is_scored(pixel_class)) {
             scored.lanes.add(i);
         }
@@ -86,7 +86,7 @@ std::vector<FloatMethodErrors> audit_float_methods(const ReferenceScene& referen
         for (std::size_t m = 0; m < methods.size(); ++m) {
             count_wrong(scored,
                         trace_plain(implementation, view.light, methods[m].first, scored.lanes,
-                                    tile.receivers),
+                                    tile.receivers()),
                         wrong.local()[m]);
         }
     });

@@ -25,14 +25,14 @@ TruthLayers classify_by_plain_rays(const ReferenceScene::Implementation& referen
         source.fill(tile, column, row, ignored);
         PacketMask open;
         for (std::size_t i = 0; i < packet_size; ++i) {
-            if (!tile.seen[i]) {
+            if ((tile.seen >> i & 1U) == 0) {
                 continue;
             }
-            const Receiver& receiver = tile.receivers[i];
-            PixelClass& pixel_class = layers.pixel_class(tile.x[i], tile.y[i]);
+            const Receiver& receiver = tile.receiver(i);
+            PixelClass& pixel_class = layers.pixel_class(tile.x(i), tile.y(i));
             if (receiver.delta_sign == 0) { // edge-on: there is no point P
                 pixel_class = PixelClass::unmatched;
-                layers.reason(tile.x[i], tile.y[i]) = ClassReason::snap;
+                layers.reason(tile.x(i), tile.y(i)) = ClassReason::snap;
             } else if (is_attached(receiver, light_side(receiver.corners(), view.light, ignored))) {
                 pixel_class = PixelClass::attached;
             } else if (is_out_of_light(receiver, view.light, ignored)) {
@@ -45,10 +45,10 @@ TruthLayers classify_by_plain_rays(const ReferenceScene::Implementation& referen
             return;
         }
         const PacketMask blocked =
-            trace_plain(reference, view.light, PlainOffset::ray_start, open, tile.receivers);
+            trace_plain(reference, view.light, PlainOffset::ray_start, open, tile.receivers());
         for (std::size_t i = 0; i < packet_size; ++i) {
             if (open[i]) {
-                layers.pixel_class(tile.x[i], tile.y[i]) =
+                layers.pixel_class(tile.x(i), tile.y(i)) =
                     blocked[i] ? PixelClass::blocked : PixelClass::lit;
             }
         }

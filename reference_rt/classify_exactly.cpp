@@ -9,6 +9,7 @@ namespace gnomon::reference_rt {
 
 using scene::ClassReason;
 using scene::Image;
+using scene::LightType;
 using scene::PixelClass;
 using scene::TruthLayers;
 using scene::View;
@@ -22,7 +23,6 @@ public:
              const Image<std::uint32_t>& receivers, const RasterFacts& raster)
         : reference_{reference},
           view_{view},
-          receivers_{receivers},
           source_{reference.triangles, view, receivers},
           first_hits_{reference, view, raster},
           light_{reference, view.light},
@@ -36,21 +36,19 @@ public:
         Worker& worker = workers_.local();
         const Tile& tile = worker.tile;
         source_.fill(worker.tile, column, row, worker.counts);
-        const PacketMask matched = first_hits_.match(tile, worker.counts);
-        find_light_sides(worker);
-        PacketMask open; // lanes that the shadow rays decide
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            if (tile.valid[i] && !matched[i]) {
-                const auto [pixel_class, reason] =
-                    first_hits_.explain(tile.rays[i], tile.x[i], tile.y[i],
-                                        receivers_(tile.x[i], tile.y[i]), worker.counts);
-                write(tile, i, pixel_class, reason);
-            } else if (tile.seen[i] && may_be_lit(worker, i)) {
-                open.add(i);
-            }
+        if (tile.seen != 0) {
+            find_unit_points(tile.rays, tile.hits, reference_.frame, worker.starts.points);
         }
-        if (open.any()) {
-            cast_shadow_rays(tile, open, worker.counts);
+        const LaneBits matched = first_hits_.match(tile, worker.starts.points, worker.counts);
+        explain(worker, tile.valid & ~matched);
+        const LaneBits surface = tile.seen & matched;
+        const LaneBits attached = surface & find_attached(worker);
+        write(tile, attached, PixelClass::attached);
+        const LaneBits out = find_out_of_light(worker, surface & ~attached);
+        write(tile, out, PixelClass::out_of_light);
+        worker.starts.lanes = surface & ~attached & ~out;
+        if (worker.starts.lanes != 0) {
+            cast_shadow_rays(worker);
         }
     }
 
@@ -66,56 +64,91 @@ public:
 private:
     /// What a thread keeps from tile to tile.
     struct Worker {
+        Worker()
+        {
+            starts.receiver = [this](std::size_t lane) -> const Receiver& {
+                return tile.receiver(lane);
+            };
+        }
+        Worker(const Worker&) = delete;
+        Worker& operator=(const Worker&) = delete;
+
         Tile tile;
-        PacketOf<Sign> light_side{}; ///< of each facet
+        SegmentStarts starts;
         SignCounts counts;
     };
 
-    void find_light_sides(Worker& worker) const
-    {
-        for (std::size_t f = 0; f < worker.tile.facet_count; ++f) {
-            worker.light_side[f] =
-                light_side(worker.tile.facets[f].corners, view_.light, worker.counts);
-        }
-    }
-
-    /// False when the light cannot reach the side that is seen; its class is written.
-    [[nodiscard]] bool may_be_lit(Worker& worker, std::size_t i)
+    /// Of lanes in which GL's triangle is no first hit.
+    void explain(Worker& worker, LaneBits unmatched)
     {
         const Tile& tile = worker.tile;
-        if (is_attached(tile.receivers[i], worker.light_side[tile.facet_of[i]])) {
-            write(tile, i, PixelClass::attached, ClassReason::none);
-            return false;
+        for (; unmatched != 0; unmatched &= unmatched - 1) {
+            const std::size_t lane = first_lane(unmatched);
+            const auto [pixel_class, reason] =
+                first_hits_.explain(tile.rays.ray(lane), tile.x(lane), tile.y(lane),
+                                    tile.triangles[lane], worker.counts);
+            write(tile, lane, pixel_class, reason);
         }
-        if (is_out_of_light(tile.receivers[i], view_.light, worker.counts)) {
-            write(tile, i, PixelClass::out_of_light, ClassReason::none);
-            return false;
-        }
-        return true;
     }
 
-    void cast_shadow_rays(const Tile& tile, const PacketMask& open, SignCounts& counts)
+    /// The lanes in which the light is not on the side that is seen.
+    [[nodiscard]] LaneBits find_attached(Worker& worker) const
     {
-        const auto contacts = trace_segments(reference_, light_, open, tile.receivers,
-                                             SegmentGoal::any_blocker, counts);
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            if (open[i]) {
-                const Shadowing shadowing = classify_segment(contacts[i]);
-                write(tile, i, shadowing.pixel_class, shadowing.reason);
-                layers_.witness(tile.x[i], tile.y[i]) = contacts[i].witness;
+        const Tile& tile = worker.tile;
+        LaneBits attached = 0;
+        for (std::size_t f = 0; f < tile.facet_count; ++f) {
+            const Sign side = light_side(tile.facets[f], view_.light, worker.counts);
+            attached |= tile.facet_lanes[f] & are_attached(tile.hits, side);
+        }
+        return attached;
+    }
+
+    [[nodiscard]] LaneBits find_out_of_light(Worker& worker, LaneBits lanes) const
+    {
+        LaneBits out = 0;
+        if (view_.light.type == LightType::directional) {
+            return out;
+        }
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const std::size_t lane = first_lane(lanes);
+            if (is_out_of_light(worker.tile.receiver(lane), view_.light, worker.counts)) {
+                out |= LaneBits{1} << lane;
             }
         }
+        return out;
     }
 
-    void write(const Tile& tile, std::size_t i, PixelClass pixel_class, ClassReason reason)
+    void cast_shadow_rays(Worker& worker)
     {
-        layers_.pixel_class(tile.x[i], tile.y[i]) = pixel_class;
-        layers_.reason(tile.x[i], tile.y[i]) = reason;
+        const Tile& tile = worker.tile;
+        SegmentStarts& starts = worker.starts;
+        starts.triangles = tile.triangles;
+        const auto contacts =
+            trace_segments(reference_, light_, starts, SegmentGoal::any_blocker, worker.counts);
+        for (LaneBits rest = starts.lanes; rest != 0; rest &= rest - 1) {
+            const std::size_t lane = first_lane(rest);
+            const Shadowing shadowing = classify_segment(contacts[lane]);
+            write(tile, lane, shadowing.pixel_class, shadowing.reason);
+            layers_.witness(tile.x(lane), tile.y(lane)) = contacts[lane].witness;
+        }
+    }
+
+    void write(const Tile& tile, LaneBits lanes, PixelClass pixel_class)
+    {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const std::size_t lane = first_lane(lanes);
+            layers_.pixel_class(tile.x(lane), tile.y(lane)) = pixel_class;
+        }
+    }
+
+    void write(const Tile& tile, std::size_t lane, PixelClass pixel_class, ClassReason reason)
+    {
+        layers_.pixel_class(tile.x(lane), tile.y(lane)) = pixel_class;
+        layers_.reason(tile.x(lane), tile.y(lane)) = reason;
     }
 
     const ReferenceScene::Implementation& reference_;
     const View& view_;
-    const Image<std::uint32_t>& receivers_;
     TileSource source_;
     FirstHits first_hits_;
     SegmentLight light_;

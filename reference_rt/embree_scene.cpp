@@ -1,5 +1,6 @@
 #include "reference_rt/embree_scene.hpp"
 
+#include "reference_rt/lanes.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -111,11 +112,14 @@ void for_each_asking(const int* valid, RTCRayN* rays, unsigned n, const Visit& v
     }
 }
 
+GNOMON_WIDEST_VECTORS
 LaneBits asking_lanes(const int* valid, RTCRayN* rays, unsigned n)
 {
+    const unsigned* const ids = &RTCRayN_id(rays, n, 0);
     LaneBits asking = 0;
-    for_each_asking(valid, rays, n,
-                    [&](unsigned /*i*/, unsigned lane) { asking |= LaneBits{1} << lane; });
+    for (unsigned i = 0; i < n; ++i) {
+        asking |= valid[i] != 0 ? LaneBits{1} << (ids[i] % packet_size) : 0;
+    }
     return asking;
 }
 
@@ -166,6 +170,30 @@ void judge_distances(const RTCIntersectFunctionNArguments* arguments) noexcept
     }
     for_each_asking(arguments->valid, rays, n,
                     [&](unsigned i, unsigned lane) { RTCRayN_tfar(rays, n, i) = t_far[lane]; });
+}
+
+/// Writes the rays of `lanes`, and idle ones as `idle_other_lanes` does.
+GNOMON_WIDEST_VECTORS
+void fill_packet(LaneBits lanes, const FloatRays& rays, RayMask mask, PacketMask& valid,
+                 RTCRay16& packet)
+{
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        const bool takes_part = (lanes >> i & 1U) != 0;
+        valid.lane[i] = takes_part ? -1 : 0;
+        packet.org_x[i] = takes_part ? rays.origin_x[i] : 0;
+        packet.org_y[i] = takes_part ? rays.origin_y[i] : 0;
+        packet.org_z[i] = takes_part ? rays.origin_z[i] : 0;
+        packet.dir_x[i] = takes_part ? rays.direction_x[i] : 1;
+        packet.dir_y[i] = takes_part ? rays.direction_y[i] : 1;
+        packet.dir_z[i] = takes_part ? rays.direction_z[i] : 1;
+        packet.tnear[i] = takes_part ? 0 : infinity;
+        packet.tfar[i] = takes_part ? rays.t_far[i] : -infinity;
+        packet.mask[i] = takes_part ? unsigned{mask} : 0U;
+        packet.time[i] = 0;
+        packet.id[i] = static_cast<unsigned>(i);
+        packet.flags[i] = 0;
+    }
 }
 
 void rethrow_failure(const CandidateJudge& judge)
@@ -257,12 +285,14 @@ const CornerFans& ReferenceScene::Implementation::corner_fans() const
     return *corner_fans_;
 }
 
-void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRay16& rays,
-                                                     CandidateJudge& judge) const
+void ReferenceScene::Implementation::find_candidates(LaneBits lanes, const FloatRays& rays,
+                                                     RayMask mask, CandidateJudge& judge) const
 {
-    idle_other_lanes(rays, valid);
+    PacketMask valid;
+    RTCRay16 packet;
+    fill_packet(lanes, rays, mask, valid, packet);
     embree::Query query{embree::Coherence::coherent, nullptr, &judge};
-    embree::occluded16(valid.lane.data(), padded.get(), query, rays);
+    embree::occluded16(valid.lane.data(), padded.get(), query, packet);
     rethrow_failure(judge);
 }
 

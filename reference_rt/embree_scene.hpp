@@ -3,6 +3,7 @@
 #include "reference_rt/corner_fans.hpp"
 #include "reference_rt/embree.hpp"
 #include "reference_rt/faults.hpp"
+#include "reference_rt/lane_rays.hpp"
 #include "reference_rt/packet.hpp"
 #include "reference_rt/truth.hpp"
 #include "reference_rt/unit_frame.hpp"
@@ -63,10 +64,12 @@ struct ReferenceScene::Implementation {
         return roles[geometry].members[primitive];
     }
 
-    /// Shows the judge every triangle that the segments behind `rays` may touch (in the unit frame;
-    /// see `box_padding`). Each lane's id must be its index.
-    void find_candidates(const PacketMask& valid, RTCRay16& rays, CandidateJudge& judge) const;
-    /// As above, from near to far as a rule, and only up to the judge's distances.
+    /// Shows the judge every triangle of a role in `mask` that the segments behind `rays` may touch
+    /// (in the unit frame; see `box_padding`).
+    void find_candidates(LaneBits lanes, const FloatRays& rays, RayMask mask,
+                         CandidateJudge& judge) const;
+    /// As above, from near to far as a rule, and only up to the judge's distances. Each lane's id
+    /// must be its index.
     void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateJudge& judge) const;
     void find_candidates(RTCRayHit& ray, CandidateJudge& judge) const;
 

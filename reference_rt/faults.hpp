@@ -1,7 +1,6 @@
 #pragma once
 
 #include "reference_rt/contact.hpp"
-#include "reference_rt/truth.hpp"
 #include "scene/triangles.hpp"
 
 #include <cstdint>
@@ -14,10 +13,5 @@ struct Faults {
     double padding_share = 1; ///< 0 leaves Embree's boxes as tight as they round
     std::uint32_t hidden_triangle = scene::no_triangle; ///< this one Embree never meets
 };
-
-/// A reference scene with all hierarchies of the exact truth, and these faults.
-/// @throws scene::EnvironmentError  if Embree fails.
-[[nodiscard]] ReferenceScene make_faulty_scene(const scene::TriangleScene& triangles,
-                                               const Faults& faults);
 
 } // namespace gnomon::reference_rt

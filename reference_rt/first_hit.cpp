@@ -3,7 +3,6 @@
 #include "reference_rt/stand_in.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +27,17 @@ bool is_hit(const CameraRay& ray, const Facet& facet, double near_m, SignCounts&
     return is_beyond(hit, near_m, counts);
 }
 
+/// The lanes whose hit is certainly beyond the near plane.
+GNOMON_WIDEST_VECTORS
+LaneBits certainly_beyond(const LaneHits& hits, double near_m)
+{
+    Lanes<int> is_beyond;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        is_beyond[i] = static_cast<int>(hits.t[i] - hits.t_error[i] > near_m);
+    }
+    return bits_of(is_beyond);
+}
+
 /// The camera rays of one packet: which are hidden from their receivers, or see where GL does not.
 class Sight final : public CandidateJudge {
 public:
@@ -38,31 +48,34 @@ public:
         double near_m;
     };
 
-    Sight(const Setting& setting, const Tile& tile, SignCounts& counts)
+    Sight(const Setting& setting, const Tile& tile, const LanePositions& points, SignCounts& counts)
         : setting_{setting},
           tile_{tile},
           counts_{counts}
     {
+        if (tile.seen != 0) {
+            hits_.set(points);
+        }
     }
 
     /// The lanes in which GL is right.
-    PacketMask match()
+    LaneBits match()
     {
-        RTCRay16 packet;
-        PacketMask traced;
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            if (tile_.valid[i] && may_match(i)) {
-                traced.add(i);
-                prepare(i, packet);
-            }
+        const LaneBits traced = tile_.valid & ~nowhere_hit();
+        if (traced == 0) {
+            return 0;
         }
-        if (traced.any()) {
-            setting_.reference.find_candidates(traced, packet, *this);
-        }
-        PacketMask matched;
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            if (traced[i] && (hidden_ >> i & 1U) == 0 && receiver_is_hit(i)) {
-                matched.add(i);
+        FloatRays stand_ins;
+        LanePositions origins;
+        stand_in_for(tile_.rays, tile_.hits, tile_.seen, setting_.reference.frame, stand_ins,
+                     origins);
+        points_.set(setting_.has_eye ? directions() : origins);
+        setting_.reference.find_candidates(traced, stand_ins, receivers, *this);
+        LaneBits matched = traced & ~hidden_;
+        for (LaneBits rest = matched & tile_.seen & ~covered_; rest != 0; rest &= rest - 1) {
+            const std::size_t lane = first_lane(rest);
+            if (!meets(tile_.rays.ray(lane), tile_.facet(lane).corners, counts_)) {
+                matched &= ~(LaneBits{1} << lane);
             }
         }
         return matched;
@@ -71,23 +84,28 @@ public:
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
         const Corners corners = corners_of(setting_.reference.triangles, triangle);
-        const LineVerdicts lines = judge_lines(
-            points_, make_planes(setting_.reference.frame, setting_.pencil, corners,
-                                 setting_.has_eye ? LaneKind::directions : LaneKind::points));
+        const TrianglePlanes planes =
+            make_planes(setting_.reference.frame, setting_.pencil, corners,
+                        setting_.has_eye ? LaneKind::directions : LaneKind::points);
+        const LineVerdicts lines = judge_lines(points_, planes);
         const LaneBits open = asking & ~lines.outside;
         if (open == 0) {
             return 0;
         }
-        const LaneBits own = lanes_on(triangle);
+        const LaneBits own = tile_.seen & lanes_with(tile_.triangles, triangle);
         covered_ |= own & lines.inside;
         LaneBits rest = open & ~own;
+        if (rest != 0 && planes.towards != 0) {
+            // Where P is on the camera's side of the triangle's plane, that is crossed after P.
+            rest &= ~(tile_.seen & certainly_on_side(hits_, planes, planes.towards));
+        }
         if (rest == 0) {
             return 0;
         }
         const Facet facet{triangle, corners};
         LaneBits hidden = 0;
         for (; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            const std::size_t lane = first_lane(rest);
             hidden |= hides(lane, facet) ? LaneBits{1} << lane : 0;
         }
         hidden_ |= hidden;
@@ -100,57 +118,45 @@ public:
     }
 
 private:
-    /// False where GL's triangle is edge-on, or not beyond the near plane: it is no hit.
-    [[nodiscard]] bool may_match(std::size_t i)
+    /// The lanes in which GL's triangle is edge-on, or not beyond the near plane: it is no hit.
+    [[nodiscard]] LaneBits nowhere_hit()
     {
-        const Receiver& receiver = tile_.receivers[i];
-        return !tile_.seen[i] || receiver.t - receiver.t_error > setting_.near_m ||
-               (receiver.delta_sign != 0 && is_beyond(receiver, setting_.near_m, counts_));
+        LaneBits nowhere = 0;
+        for (LaneBits rest = tile_.seen & ~certainly_beyond(tile_.hits, setting_.near_m); rest != 0;
+             rest &= rest - 1) {
+            const std::size_t lane = first_lane(rest);
+            const Receiver& receiver = tile_.receiver(lane);
+            if (receiver.delta_sign == 0 || !is_beyond(receiver, setting_.near_m, counts_)) {
+                nowhere |= LaneBits{1} << lane;
+            }
+        }
+        return nowhere;
     }
 
-    void prepare(std::size_t i, RTCRay16& packet)
+    /// Of the rays, as points.
+    [[nodiscard]] LanePositions directions() const
     {
-        const CameraStandIn stand_in{tile_.rays[i], setting_.reference.frame};
-        if (setting_.has_eye) {
-            points_.set(i, tile_.rays[i].ray.direction, 0);
-        } else {
-            points_.set(i, stand_in.origin().position, stand_in.origin().error);
-        }
-        own_[i] = tile_.seen[i] ? tile_.receivers[i].triangle() : no_triangle;
-        set_lane(packet, i,
-                 stand_in.ray(tile_.seen[i] ? stand_in.t_beyond(tile_.receivers[i]) : infinity));
-    }
-
-    /// The valid lanes in which GL saw the triangle.
-    [[nodiscard]] LaneBits lanes_on(std::uint32_t triangle) const
-    {
-        LaneBits lanes = 0;
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            lanes |= own_[i] == triangle ? LaneBits{1} << i : 0;
-        }
+        LanePositions lanes;
+        lanes.position = tile_.rays.direction;
+        lanes.error.fill(0);
         return lanes;
     }
 
     /// True when the lane's ray meets the facet before its receiver, or without having one.
     [[nodiscard]] bool hides(std::size_t lane, const Facet& facet)
     {
+        const CameraRay ray = tile_.rays.ray(lane);
         Receiver hit;
-        return is_hit(tile_.rays[lane], facet, setting_.near_m, counts_, hit) &&
-               (!tile_.seen[lane] || compare_distance(hit, tile_.receivers[lane], counts_) < 0);
-    }
-
-    /// True when nothing was expected, or the ray meets the closed T.
-    [[nodiscard]] bool receiver_is_hit(std::size_t i)
-    {
-        return !tile_.seen[i] || (covered_ >> i & 1U) != 0 ||
-               meets(tile_.rays[i], tile_.receivers[i].corners(), counts_);
+        return is_hit(ray, facet, setting_.near_m, counts_, hit) &&
+               ((tile_.seen >> lane & 1U) == 0 ||
+                compare_distance(hit, tile_.receiver(lane), counts_) < 0);
     }
 
     Setting setting_;
     const Tile& tile_;
     SignCounts& counts_;
-    LanePoints points_;
-    PacketOf<std::uint32_t> own_{};
+    LanePoints points_;    ///< on the lines of sight
+    LanePoints hits_;      ///< P, in the lanes in `seen`
     LaneBits covered_ = 0; ///< T certainly covers the pixel's centre
     LaneBits hidden_ = 0;
 };
@@ -222,9 +228,9 @@ FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scen
 {
 }
 
-PacketMask FirstHits::match(const Tile& tile, SignCounts& counts) const
+LaneBits FirstHits::match(const Tile& tile, const LanePositions& points, SignCounts& counts) const
 {
-    return Sight{{reference_, pencil_, has_eye_, near_m_}, tile, counts}.match();
+    return Sight{{reference_, pencil_, has_eye_, near_m_}, tile, points, counts}.match();
 }
 
 std::vector<std::uint32_t> FirstHits::first_hits(const CameraRay& ray, SignCounts& counts) const

@@ -27,8 +27,9 @@ public:
               const RasterFacts& facts);
 
     /// The lanes in which GL is right: its triangle is in T*, or it saw nothing and T* is empty.
-    ///
-    [[nodiscard]] PacketMask match(const Tile& tile, SignCounts& counts) const;
+    /// @param points  P of each lane in `tile.seen`, as `find_unit_points` leaves it.
+    [[nodiscard]] LaneBits match(const Tile& tile, const LanePositions& points,
+                                 SignCounts& counts) const;
 
     /// Why GL's triangle, or its seeing none, does not match.
     [[nodiscard]] UnmatchedVerdict explain(const CameraRay& ray, int x, int y,

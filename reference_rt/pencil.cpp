@@ -1,20 +1,15 @@
 #include "reference_rt/pencil.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
 
 namespace gnomon::reference_rt {
 
 using scene::Vec3d;
 
 namespace {
-
-/// Compiles a function for several instruction sets and takes the best at run time; results are the
-/// same, as nothing is contracted. The choice is made before AddressSanitizer is ready.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define GNOMON_WIDEST_VECTORS [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
-#else
-#define GNOMON_WIDEST_VECTORS
-#endif
 
 /// Vectors cannot cross a call between functions compiled for different instruction sets, and a
 /// debug build inlines only what it must.
@@ -48,7 +43,9 @@ GNOMON_INLINE Planes3 cross(const Planes3& a, const Planes3& b)
 
 GNOMON_INLINE Planes size(const Planes& x)
 {
-    return x < 0 ? -x : x;
+    using Bits [[gnu::vector_size(sizeof(Planes))]] = std::int64_t;
+    constexpr std::int64_t without_sign = std::numeric_limits<std::int64_t>::max();
+    return reinterpret_cast<Planes>(reinterpret_cast<Bits>(x) & without_sign);
 }
 
 GNOMON_INLINE Planes sum_of_sizes(const Planes3& v)
@@ -58,17 +55,22 @@ GNOMON_INLINE Planes sum_of_sizes(const Planes3& v)
 
 GNOMON_INLINE void store(const Planes& values, std::array<float, 4>& target)
 {
-    for (std::size_t i = 0; i < 4; ++i) {
-        target[i] = static_cast<float>(values[i]);
-    }
+    using Narrow [[gnu::vector_size(4 * sizeof(float))]] = float;
+    const auto narrow = __builtin_convertvector(values, Narrow);
+    std::memcpy(target.data(), &narrow, sizeof(narrow));
 }
 
-/// A component of the four planes' corners, and of the corners after them.
+/// A component of the four planes' corners.
 template <int axis>
-GNOMON_INLINE Planes component(const Corners& c, std::size_t shift)
+GNOMON_INLINE Planes component(const Corners& c)
 {
-    return Planes{c[shift][axis], c[(1 + shift) % 3][axis], c[(2 + shift) % 3][axis],
-                  c[shift][axis]};
+    return Planes{c[0][axis], c[1][axis], c[2][axis], c[0][axis]};
+}
+
+/// Of the corners after them.
+GNOMON_INLINE Planes next(const Planes& values)
+{
+    return __builtin_shufflevector(values, values, 1, 2, 0, 1);
 }
 
 } // namespace
@@ -98,12 +100,31 @@ Pencil::Pencil(const UnitFrame& frame, const scene::Camera& camera)
 }
 
 GNOMON_WIDEST_VECTORS
+void LanePoints::set(const LanePositions& points)
+{
+    Lanes<float> xs;
+    Lanes<float> ys;
+    Lanes<float> zs;
+    Lanes<float> reaches;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        const Vec3d point = points.at(i);
+        xs[i] = static_cast<float>(point.x);
+        ys[i] = static_cast<float>(point.y);
+        zs[i] = static_cast<float>(point.z);
+        reaches[i] = reach_of(point, points.error[i]);
+    }
+    std::memcpy(&x, &xs, sizeof(x));
+    std::memcpy(&y, &ys, sizeof(y));
+    std::memcpy(&z, &zs, sizeof(z));
+    std::memcpy(&reach, &reaches, sizeof(reach));
+}
+
+GNOMON_WIDEST_VECTORS
 TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil, const Corners& corners,
                            LaneKind kind)
 {
-    const Planes3 from{component<0>(corners, 0), component<1>(corners, 0),
-                       component<2>(corners, 0)};
-    const Planes3 to{component<0>(corners, 1), component<1>(corners, 1), component<2>(corners, 1)};
+    const Planes3 from{component<0>(corners), component<1>(corners), component<2>(corners)};
+    const Planes3 to{next(from.x), next(from.y), next(from.z)};
     const double scale = frame.scale();
     const Planes3 along{scale * (to.x - from.x), scale * (to.y - from.y), scale * (to.z - from.z)};
     const Vec3d& direction = pencil.direction_;
@@ -121,11 +142,12 @@ TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil, const C
     other.z[surface] = along.z[1];
     const Planes3 normal = cross(along, other);
     const Vec3d& centre = frame.centre();
-    const Planes offset = kind == LaneKind::directions
-                              ? zero
-                              : normal.x * (scale * (from.x - centre.x)) +
-                                    normal.y * (scale * (from.y - centre.y)) +
-                                    normal.z * (scale * (from.z - centre.z));
+    Planes offset = normal.x * (scale * (from.x - centre.x)) +
+                    normal.y * (scale * (from.y - centre.y)) +
+                    normal.z * (scale * (from.z - centre.z));
+    if (kind == LaneKind::directions) {
+        offset = Planes{0, 0, 0, offset[surface]};
+    }
     // The error of a × b in double is below 4u|a|₁|b|₁, and moves the plane's value by at most 6
     // times as much: nothing beside 2^-20 times the lanes' reach. 2^-90 covers every underflow.
     const Planes product = sum_of_sizes(along) * sum_of_sizes(other);

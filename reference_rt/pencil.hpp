@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference_rt/lane_rays.hpp"
 #include "reference_rt/packet.hpp"
 #include "reference_rt/unit_frame.hpp"
 #include "scene/camera.hpp"
@@ -52,8 +53,15 @@ struct LanePoints {
         x[lane] = static_cast<float>(point.x);
         y[lane] = static_cast<float>(point.y);
         z[lane] = static_cast<float>(point.z);
-        reach[lane] =
-            static_cast<float>(1.01 * (error + 8 * float_roundoff * (1 + largest(point))));
+        reach[lane] = reach_of(point, error);
+    }
+    /// All lanes.
+    void set(const LanePositions& points);
+
+private:
+    [[nodiscard]] static float reach_of(const scene::Vec3d& point, double error)
+    {
+        return static_cast<float>(1.01 * (error + 8 * float_roundoff * (1 + largest(point))));
     }
 };
 
@@ -67,7 +75,8 @@ struct TrianglePlanes {
     Sign towards = 0;            ///< certain side of the pencil's point from the surface, or 0
 };
 
-/// Whether lanes are points, or directions from the pencil's point, which lies in every edge plane.
+/// Whether lines are judged by points, or by directions from the pencil's point, which lies in
+/// every edge plane.
 enum class LaneKind : std::uint8_t { points, directions };
 [[nodiscard]] TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil,
                                          const Corners& corners, LaneKind kind);

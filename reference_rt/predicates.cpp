@@ -121,6 +121,16 @@ Sign light_side(const Corners& corners, const Light& light, SignCounts& counts)
     });
 }
 
+Sign light_side(const Facet& facet, const Light& light, SignCounts& counts)
+{
+    const auto sign = filtered_sign(counts, true, [&]<typename Field>(Field) {
+        return dot(facet.normal, towards<Field>(light, facet.corners[0]));
+    });
+    return sign ? *sign : exact_sign(counts, [&]<typename Field>(Field) {
+        return dot(normal_of<Field>(facet.corners), towards<Field>(light, facet.corners[0]));
+    });
+}
+
 bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& counts)
 {
     if (light.type == LightType::directional) {

@@ -67,6 +67,25 @@ struct Facet {
     return dot(facet.normal, difference<FilterField>(facet.corners[0], eye));
 }
 
+/// How far along a ray the plane of T is, and the bound of that number's error: infinite where δ is
+/// hardly known.
+struct PlaneDistance {
+    double t = 0; ///< ν/δ
+    double t_error = std::numeric_limits<double>::infinity();
+};
+[[nodiscard]] inline PlaneDistance plane_distance(const Filtered<7>& delta, const Filtered<8>& nu,
+                                                  bool is_tame)
+{
+    const double inverse = 1 / delta.value;
+    const double t = nu.value * inverse;
+    // |ν̂/δ̂ − ν/δ| <= (|ν̂ − ν| + |ν̂/δ̂||δ̂ − δ|)/|δ|, and |δ| >= 7/8 |δ̂|; the inverse and the
+    // product round.
+    const double error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
+                         3 * unit_roundoff * std::abs(t);
+    const bool is_known = std::abs(delta.value) > 8 * delta.error();
+    return {t, (is_known & is_tame) ? error : std::numeric_limits<double>::infinity()};
+}
+
 /// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of
 /// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
 struct Receiver {
@@ -86,14 +105,9 @@ struct Receiver {
     {
         const auto sign = filtered_sign(counts, is_tame(), [&](auto) { return delta; });
         delta_sign = sign ? *sign : exact_delta_sign(counts);
-        const double inverse = 1 / delta.value;
-        t = nu.value * inverse;
-        if (is_tame() && std::abs(delta.value) > 8 * delta.error()) {
-            // |ν̂/δ̂ − ν/δ| <= (|ν̂ − ν| + |ν̂/δ̂||δ̂ − δ|)/|δ|, and |δ| >= 7/8 |δ̂|; the inverse and
-            // the product round.
-            t_error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
-                      3 * unit_roundoff * std::abs(t);
-        }
+        const PlaneDistance distance = plane_distance(delta, nu, is_tame());
+        t = distance.t;
+        t_error = distance.t_error;
     }
     Receiver(const Facet&&, const CameraRay&, SignCounts&) = delete;
     Receiver(const Facet&, const CameraRay&&, SignCounts&) = delete;
@@ -148,6 +162,7 @@ private:
 /// Side of the light from the plane of a triangle.
 [[nodiscard]] Sign light_side(const Corners& corners, const scene::Light& light,
                               SignCounts& counts);
+[[nodiscard]] Sign light_side(const Facet& facet, const scene::Light& light, SignCounts& counts);
 
 /// True when the light is behind, or in the plane of, the side of T that the camera sees.
 /// @param light_side  of the light from the plane of T.

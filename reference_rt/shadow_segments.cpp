@@ -3,7 +3,6 @@
 #include "reference_rt/crossing.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace gnomon::reference_rt {
 
@@ -22,34 +21,33 @@ struct EdgeContact {
 class Segments final : public CandidateJudge {
 public:
     Segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
-             const PacketOf<Receiver>& receivers, SegmentGoal goal, const SegmentScope& scope,
-             SignCounts& counts)
+             SegmentStarts& starts, SegmentGoal goal, const SegmentScope& scope, SignCounts& counts)
         : reference_{reference},
           light_{light},
-          receivers_{receivers},
+          starts_{starts},
           goal_{goal},
           scope_{scope},
           counts_{counts}
     {
     }
 
-    void trace(const PacketMask& valid)
+    void trace()
     {
-        RTCRay16 packet;
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            if (valid[i]) {
-                const BoundedPoint point = unit_point(receivers_[i], reference_.frame);
-                points_.set(i, point.position, point.error);
-                own_[i] = receivers_[i].triangle();
-                set_lane(packet, i, light_.stand_in.ray(point.position));
-            }
-        }
-        reference_.find_candidates(valid, packet, *this);
+        resolve_points();
+        points_.set(starts_.points);
+        FloatRays rays{};
+        light_.stand_in.from(starts_.points, starts_.lanes, rays);
+        reference_.find_candidates(starts_.lanes, rays, casters, *this);
         resolve_edges();
     }
 
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
+        // The segment meets the plane of T at P only.
+        asking &= ~lanes_with(starts_.triangles, triangle);
+        if (asking == 0) {
+            return 0;
+        }
         const Corners corners = corners_of(reference_.triangles, triangle);
         TrianglePlanes planes =
             make_planes(reference_.frame, light_.pencil, corners, LaneKind::points);
@@ -58,7 +56,6 @@ public:
         if (open == 0 || is_culled(planes.towards, corners)) {
             return 0;
         }
-        open &= ~lanes_on(triangle); // the segment meets the plane of T at P only
         LaneBits crossing = 0;
         planes.towards *= reference_.faults.light_sign;
         if (planes.towards != 0) {
@@ -68,11 +65,11 @@ public:
         }
         LaneBits settled = 0;
         for (LaneBits rest = crossing; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            const auto lane = first_lane(rest);
             settled |= is_in_range(lane, corners) ? block(lane, triangle) : 0;
         }
         for (LaneBits rest = open; rest != 0; rest &= rest - 1) {
-            settled |= decide(static_cast<std::size_t>(std::countr_zero(rest)), triangle, corners);
+            settled |= decide(first_lane(rest), triangle, corners);
         }
         return settled;
     }
@@ -85,14 +82,20 @@ public:
     [[nodiscard]] const PacketOf<SegmentContacts>& contacts() const { return contacts_; }
 
 private:
-    /// The lanes whose receiver lies on the triangle.
-    [[nodiscard]] LaneBits lanes_on(std::uint32_t triangle) const
+    [[nodiscard]] const Receiver& receiver(std::size_t lane) const
     {
-        LaneBits lanes = 0;
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            lanes |= own_[i] == triangle ? LaneBits{1} << i : 0;
+        return starts_.receiver(lane);
+    }
+
+    /// Finds exactly the points that doubles do not resolve.
+    void resolve_points()
+    {
+        for (LaneBits rest = starts_.lanes; rest != 0; rest &= rest - 1) {
+            const std::size_t lane = first_lane(rest);
+            if (!is_resolved(starts_.points.error[lane])) {
+                starts_.points.set(lane, exact_unit_point(receiver(lane), reference_.frame));
+            }
         }
-        return lanes;
     }
 
     [[nodiscard]] Corners corners(std::uint32_t triangle) const
@@ -109,14 +112,14 @@ private:
     [[nodiscard]] bool is_in_range(std::size_t lane, const Corners& s)
     {
         return scope_.depth == nullptr ||
-               crosses_in_range(receivers_[lane], s, light_.light, *scope_.depth, counts_);
+               crosses_in_range(receiver(lane), s, light_.light, *scope_.depth, counts_);
     }
 
     /// The lane's bit when the triangle settles it; contacts that do not are kept.
     LaneBits decide(std::size_t lane, std::uint32_t triangle, const Corners& s)
     {
         int edge = 0;
-        switch (find_contact(receivers_[lane], s, light_.light, counts_, edge)) {
+        switch (find_contact(receiver(lane), s, light_.light, counts_, edge)) {
         case Contact::none:
             break;
         case Contact::cross:
@@ -130,7 +133,7 @@ private:
             contacts_[lane].touches_vertex = true;
             break;
         case Contact::plane:
-            contacts_[lane].runs_in_triangle |= runs_through(receivers_[lane], s, light_.light);
+            contacts_[lane].runs_in_triangle |= runs_through(receiver(lane), s, light_.light);
             break;
         }
         return 0;
@@ -143,7 +146,7 @@ private:
             witness = triangle;
             return LaneBits{1} << lane;
         }
-        witness = witness == no_triangle ? triangle : nearer(receivers_[lane], witness, triangle);
+        witness = witness == no_triangle ? triangle : nearer(receiver(lane), witness, triangle);
         return 0;
     }
 
@@ -189,12 +192,11 @@ private:
 
     const ReferenceScene::Implementation& reference_;
     const SegmentLight& light_;
-    const PacketOf<Receiver>& receivers_;
+    SegmentStarts& starts_;
     SegmentGoal goal_;
     SegmentScope scope_;
     SignCounts& counts_;
     LanePoints points_;
-    PacketOf<std::uint32_t> own_{};
     PacketOf<SegmentContacts> contacts_;
     std::vector<EdgeContact> edges_;
 };
@@ -202,13 +204,30 @@ private:
 } // namespace
 
 PacketOf<SegmentContacts> trace_segments(const ReferenceScene::Implementation& reference,
+                                         const SegmentLight& light, SegmentStarts& starts,
+                                         SegmentGoal goal, SignCounts& counts,
+                                         const SegmentScope& scope)
+{
+    Segments segments{reference, light, starts, goal, scope, counts};
+    segments.trace();
+    return segments.contacts();
+}
+
+PacketOf<SegmentContacts> trace_segments(const ReferenceScene::Implementation& reference,
                                          const SegmentLight& light, const PacketMask& valid,
                                          const PacketOf<Receiver>& receivers, SegmentGoal goal,
                                          SignCounts& counts, const SegmentScope& scope)
 {
-    Segments segments{reference, light, receivers, goal, scope, counts};
-    segments.trace(valid);
-    return segments.contacts();
+    SegmentStarts starts;
+    starts.receiver = [&](std::size_t lane) -> const Receiver& { return receivers[lane]; };
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (valid[i]) {
+            starts.lanes |= LaneBits{1} << i;
+            starts.points.set(i, unit_point(receivers[i], reference.frame));
+            starts.triangles[i] = receivers[i].triangle();
+        }
+    }
+    return trace_segments(reference, light, starts, goal, counts, scope);
 }
 
 } // namespace gnomon::reference_rt

@@ -10,8 +10,9 @@
 #include "scene/job.hpp"
 #include "scene/light.hpp"
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <functional>
 
 namespace gnomon::reference_rt {
 
@@ -41,8 +42,20 @@ struct SegmentLight {
     ShadowStandIn stand_in;
 };
 
+/// Where the segments of a packet begin.
+struct SegmentStarts {
+    LaneBits lanes = 0;               ///< those with a segment; their δ is not 0
+    LanePositions points{};           ///< P, as `find_unit_points` leaves it
+    Lanes<std::uint32_t> triangles{}; ///< T
+    std::function<const Receiver&(std::size_t)> receiver; ///< of a lane; few are asked for
+};
+
 /// What meets the open segments P→light of a packet: every triangle that the segment touches is a
 /// candidate, and each is decided exactly. What is out of scope is no contact.
+[[nodiscard]] PacketOf<SegmentContacts>
+trace_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
+               SegmentStarts& starts, SegmentGoal goal, SignCounts& counts,
+               const SegmentScope& scope = {});
 [[nodiscard]] PacketOf<SegmentContacts>
 trace_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
                const PacketMask& valid, const PacketOf<Receiver>& receivers, SegmentGoal goal,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference_rt/embree_scene.hpp"
+#include "reference_rt/lane_rays.hpp"
 #include "reference_rt/packet.hpp"
 #include "reference_rt/predicates.hpp"
 #include "scene/image.hpp"
@@ -12,23 +12,53 @@
 #include <tbb/task_arena.h>
 
 #include <cstddef>
-#include <memory>
+#include <cstdint>
+#include <vector>
 
 namespace gnomon::reference_rt {
 
 /// 4×4 pixels, what GL saw in them, and where their rays meet that. A worker keeps one and fills it
 /// again for each tile.
-struct Tile {
-    PacketMask valid; ///< lanes within the image's border
-    PacketMask seen;  ///< lanes in which GL saw a triangle
-    PacketOf<int> x{};
-    PacketOf<int> y{};
-    PacketOf<CameraRay> rays;
-    PacketOf<Receiver> receivers; ///< of the lanes in `seen`
-    PacketOf<std::size_t> facet_of{};
-    PacketOf<Facet> facets;
-    PacketOf<Filtered<8>> nu; ///< of each facet, for the ray that saw it first
+class Tile {
+public:
+    LaneBits valid = 0; ///< lanes within the image's border
+    LaneBits seen = 0;  ///< lanes in which GL saw a triangle
+    int left = 0;       ///< the first column and row
+    int top = 0;
+    LaneRays rays{};
+    LaneHits hits{}; ///< of the lanes in `seen`
+    Lanes<std::uint32_t> triangles{};
     std::size_t facet_count = 0;
+    PacketOf<Facet> facets; ///< the different triangles
+    PacketOf<LaneBits> facet_lanes{};
+
+    [[nodiscard]] int x(std::size_t lane) const
+    {
+        return left + static_cast<int>(lane) % tile_side_px;
+    }
+    [[nodiscard]] int y(std::size_t lane) const
+    {
+        return top + static_cast<int>(lane) / tile_side_px;
+    }
+    /// Of a lane in `seen`.
+    [[nodiscard]] const Facet& facet(std::size_t lane) const;
+    /// Of a lane in `seen`; made when first asked for, and valid until the tile is filled again.
+    [[nodiscard]] const Receiver& receiver(std::size_t lane) const
+    {
+        SignCounts ignored; // the sign of δ has been counted
+        return receiver(lane, ignored);
+    }
+    /// Of all lanes in `seen`.
+    [[nodiscard]] const PacketOf<Receiver>& receivers() const;
+
+private:
+    friend class TileSource;
+
+    [[nodiscard]] const Receiver& receiver(std::size_t lane, SignCounts& counts) const;
+
+    mutable LaneBits made_ = 0;
+    mutable PacketOf<CameraRay> camera_rays_;
+    mutable PacketOf<Receiver> receivers_;
 };
 
 /// Fills tiles with what GL saw in them.
@@ -36,65 +66,22 @@ class TileSource {
 public:
     /// @param receivers  GL's triangle per pixel. All arguments must outlive the source.
     TileSource(const scene::TriangleScene& triangles, const scene::View& view,
-               const scene::Image<std::uint32_t>& receivers)
-        : triangles_{triangles},
-          view_{view},
-          receivers_{receivers},
-          has_eye_{view.camera.projection == scene::Projection::perspective}
-    {
-    }
+               const scene::Image<std::uint32_t>& receivers);
 
-    void fill(Tile& tile, int column, int row, SignCounts& counts) const
-    {
-        tile.valid = {};
-        tile.seen = {};
-        tile.facet_count = 0;
-        std::array<double, tile_side_px> sx{};
-        std::array<double, tile_side_px> sy{};
-        for (int i = 0; i < tile_side_px; ++i) {
-            const auto lane = static_cast<std::size_t>(i);
-            sx[lane] = pixel_sx(view_.camera, view_.image, column * tile_side_px + i);
-            sy[lane] = pixel_sy(view_.camera, view_.image, row * tile_side_px + i);
-        }
-        for (std::size_t i = 0; i < packet_size; ++i) {
-            const int x = column * tile_side_px + static_cast<int>(i) % tile_side_px;
-            const int y = row * tile_side_px + static_cast<int>(i) / tile_side_px;
-            if (x < view_.image.width_px && y < view_.image.height_px) {
-                tile.valid.add(i);
-                tile.x[i] = x;
-                tile.y[i] = y;
-                std::construct_at(&tile.rays[i], pixel_ray(view_.camera, sx[i % tile_side_px],
-                                                           sy[i / tile_side_px]));
-                see(tile, i, receivers_(x, y), counts);
-            }
-        }
-    }
+    void fill(Tile& tile, int column, int row, SignCounts& counts) const;
 
 private:
-    void see(Tile& tile, std::size_t i, std::uint32_t triangle, SignCounts& counts) const
-    {
-        if (triangle == scene::no_triangle) {
-            return;
-        }
-        tile.seen.add(i);
-        // Neighbouring pixels often show the same triangle.
-        if (tile.facet_count == 0 || tile.facets[tile.facet_count - 1].triangle != triangle) {
-            tile.facets[tile.facet_count] = Facet{triangle, corners_of(triangles_, triangle)};
-            tile.nu[tile.facet_count] =
-                nu_of(tile.facets[tile.facet_count], tile.rays[i].ray.origin);
-            ++tile.facet_count;
-        }
-        const std::size_t last = tile.facet_count - 1;
-        tile.facet_of[i] = last;
-        const Facet& facet = tile.facets[last];
-        const Filtered<8> nu = has_eye_ ? tile.nu[last] : nu_of(facet, tile.rays[i].ray.origin);
-        std::construct_at(&tile.receivers[i], facet, tile.rays[i], nu, counts); // no copy
-    }
+    void find_rays(Tile& tile) const;
+    void look_up(Tile& tile) const;
+    void find_facets(Tile& tile) const;
+    void find_hits(Tile& tile, SignCounts& counts) const;
 
     const scene::TriangleScene& triangles_;
     const scene::View& view_;
     const scene::Image<std::uint32_t>& receivers_;
-    bool has_eye_;
+    bool has_eye_;           ///< the rays start at one point
+    std::vector<double> sx_; ///< of each column, up to a whole number of tiles
+    std::vector<double> sy_; ///< of each row
 };
 
 /// Runs `job` with that many threads; 0 means all cores.

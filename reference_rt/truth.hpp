@@ -53,7 +53,7 @@ public:
     [[nodiscard]] const scene::TriangleScene& triangles() const;
 
     struct Implementation;
-    /// Takes over what was made elsewhere: `make_faulty_scene` does, for tests.
+    /// Takes over what was made elsewhere, as tests do.
     explicit ReferenceScene(std::unique_ptr<Implementation> implementation);
     [[nodiscard]] const Implementation& implementation() const { return *implementation_; }
 

@@ -4,7 +4,8 @@
 #include "scene/triangles.hpp"
 #include "scene/vec.hpp"
 
-#include <glm/common.hpp>
+#include <algorithm>
+#include <cmath>
 
 namespace gnomon::reference_rt {
 
@@ -35,8 +36,7 @@ private:
 /// Largest absolute component.
 [[nodiscard]] inline double largest(const scene::Vec3d& v)
 {
-    const scene::Vec3d size = glm::abs(v);
-    return std::max({size.x, size.y, size.z});
+    return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
 }
 
 /// Half of float32's spacing at 1: what rounding to float32 may add, relative.

@@ -2,10 +2,10 @@
 
 #include "analysis/bias_answers.hpp"
 #include "analysis/map_errors.hpp"
-#include "analysis/own_sheets.hpp"
 #include "analysis/tune.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -15,8 +15,6 @@ using scene::PixelClass;
 
 namespace {
 
-constexpr std::uint8_t not_asked = 2;
-
 /// A curve, and what its description is made from.
 struct DescribedCurve {
     const scene::Job& job;
@@ -24,6 +22,7 @@ struct DescribedCurve {
     const BiasCurve& curve;
     const BestBiases& best;
     const BiasBounds& bounds;
+    const Binning& distances;
     const BreakdownInputs& inputs;
     float job_bias;
 };
@@ -45,12 +44,10 @@ CurveResult describe(std::string id, const DescribedCurve& described)
     result.best = described.best;
     result.bounds = described.bounds;
     result.points = sample_curve(described.curve);
-    BreakdownInputs inputs = described.inputs;
-    for (const auto& [at, bias] : {std::pair{At::job_bias, described.job_bias},
-                                   std::pair{At::best_bias, described.best.recommended()}}) {
-        inputs.bias = bias;
-        result.by_distance.push_back({at, bias, errors_by_distance(inputs)});
-    }
+    const std::array<float, 2> biases{described.job_bias, described.best.recommended()};
+    auto profiles = errors_by_bin(described.distances, described.inputs, biases);
+    result.by_distance = {{At::job_bias, biases[0], std::move(profiles[0])},
+                          {At::best_bias, biases[1], std::move(profiles[1])}};
     return result;
 }
 
@@ -67,21 +64,22 @@ std::vector<float> ascending_biases(const CurveQuestion& question)
 
 } // namespace
 
-LookupAnswers::LookupAnswers(const scene::TriangleScene& triangles,
-                             std::shared_ptr<SweepSubject> subject, SweepLookup lookup,
-                             const Renderers& renderers)
-    : subject_{std::move(subject)},
+LookupAnswers::LookupAnswers(std::shared_ptr<ExactSide> exact, SweepLookup lookup)
+    : exact_{std::move(exact)},
       lookup_{std::move(lookup)},
-      geometry_{triangles, lookup_.view, subject_->receivers.triangle},
-      light_{renderers.make_exact_light(lookup_.job, lookup_.view, subject_->receivers)},
       rule_{lookup_rule(lookup_.job, lookup_.view)},
-      deciding_{deciding_samples(lookup_.layers, lookup_.layers.texels, lookup_.map_depths, rule_)},
-      causes_{find_causes(cause_inputs())},
-      zeta_m_{light_distances_m(subject_->truth.pixel_class, geometry_)},
-      map_error_m_{map_depth_errors_m(cause_inputs(), lookup_.view.frustum,
-                                      lookup_.job.shadow_map.depth_format)},
-      detaches_{lookup_.view.image, not_asked}
+      own_deciding_{make_deciding()},
+      causes_{exact_->causes(cause_inputs())},
+      map_error_m_{map_depth_errors_m(cause_inputs(), exact_->centre_hits(cause_inputs()),
+                                      lookup_.view.frustum, lookup_.job.shadow_map.depth_format)}
 {
+}
+
+scene::LookupLayers LookupAnswers::make_deciding() const
+{
+    return equal_taps(rule_.filter) > 1
+               ? deciding_samples(lookup_.layers, lookup_.layers.texels, lookup_.map_depths, rule_)
+               : scene::LookupLayers{};
 }
 
 CauseInputs LookupAnswers::cause_inputs() const
@@ -90,36 +88,27 @@ CauseInputs LookupAnswers::cause_inputs() const
     return {lookup_.job.lookup,
             lookup_.job.shadow_map.resolution_texels,
             lookup_.view.frustum.reversed,
-            subject_->truth,
+            exact_->subject().truth,
             is_moved ? lookup_.unmoved : lookup_.layers,
             lookup_.map_depths,
-            *light_};
+            exact_->light()};
 }
 
 std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& critical,
                                                     float largest_bias)
 {
-    const auto& classes = subject_->truth.pixel_class;
     std::vector<std::size_t> panning;
-    std::vector<std::size_t> unknown;
-    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (classes[i] != PixelClass::blocked || causes_[i].unbiased != Cause::none ||
-            critical[i] > largest_bias) {
-            continue;
-        }
-        panning.push_back(i);
-        if (detaches_[i] == not_asked) {
-            detaches_[i] = 0;
-            unknown.push_back(i);
+    for (std::size_t i = 0; i < critical.pixel_count(); ++i) {
+        if (classes()[i] == PixelClass::blocked && causes_[i].unbiased == Cause::none &&
+            critical[i] <= largest_bias) {
+            panning.push_back(i);
         }
     }
-    for (const std::size_t pixel : detached_pixels(cause_inputs(), unknown)) {
-        detaches_[pixel] = 1;
-    }
-    std::erase_if(panning, [&](std::size_t pixel) { return detaches_[pixel] == 0; });
-    subject_->gaps.find(*light_, panning);
-    const auto lengths = gaps_of_pixels(subject_->gaps, panning, geometry_, lookup_.view.frustum,
-                                        lookup_.job.shadow_map.resolution_texels);
+    panning = exact_->detached(cause_inputs(), panning);
+    exact_->gaps().find(exact_->light(), panning);
+    const auto lengths =
+        gaps_of_pixels(exact_->gaps(), panning, exact_->geometry(), lookup_.view.frustum,
+                       lookup_.job.shadow_map.resolution_texels);
     std::vector<PanningGap> gaps;
     gaps.reserve(panning.size());
     for (std::size_t i = 0; i < panning.size(); ++i) {
@@ -135,11 +124,10 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<f
     if (biases.empty()) {
         return;
     }
-    const auto& classes = subject_->truth.pixel_class;
     const int taps = equal_taps(rule.filter);
-    const auto counts = count_rows({classes, deciding_, critical, causes_, rule}, biases);
+    const auto counts = count_rows({classes(), deciding(), critical, causes_, rule}, biases);
     const auto wrong_taps =
-        taps > 1 ? count_wrong_taps(classes, lookup_.layers, lookup_.map_depths, rule, biases)
+        taps > 1 ? count_wrong_taps(classes(), lookup_.layers, lookup_.map_depths, rule, biases)
                  : std::vector<std::uint64_t>{};
     const auto gaps = find_gaps_at(panning_gaps(critical, biases.back()), biases);
     for (const CurveQuestion::Row& row : question.rows) {
@@ -149,30 +137,30 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<f
         const std::uint64_t wrong = taps > 1 ? wrong_taps[i] : errors.total();
         finished.rows.push_back(
             {row.ordinal,
-             {make_metrics(subject_->classes, {errors.false_shadow, errors.false_lit,
-                                               static_cast<double>(wrong) / taps}),
+             {make_metrics(exact_->subject().classes, {errors.false_shadow, errors.false_lit,
+                                                       static_cast<double>(wrong) / taps}),
               counts[i].causes, gaps[i]}});
     }
 }
 
 FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
 {
-    const auto& classes = subject_->truth.pixel_class;
     LookupRule rule = rule_;
     rule.slope = question.slope;
-    const scene::Image<float> critical = critical_biases(deciding_, rule);
-    const BiasCurve curve{critical, classes};
+    const scene::Image<float> critical = critical_biases(deciding(), rule);
+    const BiasCurve curve{critical, classes()};
     const BestBiases best = find_best_biases(curve);
     const BiasBounds bounds =
-        find_bias_bounds(curve, critical, classes, acne_flags(classes, causes_),
-                         forgive_footprints(subject_->gaps, *light_, geometry_));
+        find_bias_bounds(curve, critical, classes(), acne_flags(classes(), causes_),
+                         forgive_footprints(exact_->gaps(), exact_->light(), exact_->geometry()));
     FinishedCurve finished;
     finished.curve = describe(question.id, {lookup_.job,
                                             lookup_.view,
                                             curve,
                                             best,
                                             bounds,
-                                            {classes, deciding_, critical, zeta_m_, map_error_m_},
+                                            exact_->distances(),
+                                            {classes(), deciding(), critical, map_error_m_},
                                             question.job_bias});
     add_rows(question, critical, rule, finished);
     return finished;
@@ -195,15 +183,16 @@ FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
         return finished;
     }
     const BiasAnswers& answers = *diagnosis.biases;
-    finished.curve = describe(std::move(curve),
-                              {comparison.job,
-                               comparison.view,
-                               answers.curve,
-                               answers.best,
-                               answers.bounds,
-                               {comparison.truth.pixel_class, comparison.lookup,
-                                answers.critical_bias, diagnosis.zeta_m, diagnosis.map_error_m},
-                               job_bias});
+    finished.curve =
+        describe(std::move(curve), {comparison.job,
+                                    comparison.view,
+                                    answers.curve,
+                                    answers.best,
+                                    answers.bounds,
+                                    bin_by_distance(comparison.truth.pixel_class, diagnosis.zeta_m),
+                                    {comparison.truth.pixel_class, comparison.lookup,
+                                     answers.critical_bias, diagnosis.map_error_m},
+                                    job_bias});
     return finished;
 }
 

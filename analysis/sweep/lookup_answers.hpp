@@ -1,33 +1,19 @@
 #pragma once
 
 #include "analysis/bias_rows.hpp"
-#include "analysis/blocker_gaps.hpp"
 #include "analysis/causes.hpp"
 #include "analysis/comparison.hpp"
-#include "analysis/receiver_geometry.hpp"
-#include "analysis/renderers.hpp"
+#include "analysis/sweep/exact_side.hpp"
 #include "analysis/sweep/results.hpp"
-#include "scene/exact_light.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon::analysis {
-
-/// A camera before a light: what GL sees there and what is true, whatever the map.
-struct SweepSubject {
-    explicit SweepSubject(scene::ImageSize image) : gaps{image} {}
-
-    scene::ReceiverLayers receivers;
-    scene::TruthLayers truth;
-    ClassCounts classes;
-    BlockerGaps gaps;
-};
 
 /// One GL lookup, without constant and slope bias, and what it was made with.
 struct SweepLookup {
@@ -54,9 +40,7 @@ struct CurveQuestion {
 /// them without GL. Not for `hardware`.
 class LookupAnswers {
 public:
-    /// @param renderers  Only `make_exact_light` is called.
-    LookupAnswers(const scene::TriangleScene& triangles, std::shared_ptr<SweepSubject> subject,
-                  SweepLookup lookup, const Renderers& renderers);
+    LookupAnswers(std::shared_ptr<ExactSide> exact, SweepLookup lookup);
     LookupAnswers(const LookupAnswers&) = delete;
     LookupAnswers& operator=(const LookupAnswers&) = delete;
 
@@ -64,22 +48,26 @@ public:
 
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;
+    [[nodiscard]] scene::LookupLayers make_deciding() const;
+    [[nodiscard]] const scene::LookupLayers& deciding() const
+    {
+        return own_deciding_.samples.empty() ? lookup_.layers : own_deciding_;
+    }
+    [[nodiscard]] const scene::Image<scene::PixelClass>& classes() const
+    {
+        return exact_->subject().truth.pixel_class;
+    }
     [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
                                                        float largest_bias);
     void add_rows(const CurveQuestion& question, const scene::Image<float>& critical,
                   const LookupRule& rule, FinishedCurve& finished);
 
-    std::shared_ptr<SweepSubject> subject_;
+    std::shared_ptr<ExactSide> exact_;
     SweepLookup lookup_;
-    ReceiverGeometry geometry_;
-    std::unique_ptr<scene::ExactLight> light_;
     LookupRule rule_;
-    scene::LookupLayers deciding_;
+    scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return
     scene::Image<PixelCause> causes_;
-    scene::Image<float> zeta_m_;
     scene::Image<float> map_error_m_;
-    /// 1: a bias that lights this blocked pixel detaches its shadow; 0: not; 2: not asked yet.
-    scene::Image<std::uint8_t> detaches_;
 };
 
 /// A configuration's row from its own comparison; the curve from its diagnosis.

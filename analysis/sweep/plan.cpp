@@ -32,6 +32,7 @@ struct Place {
     std::size_t light = 0;
     std::size_t group = 0; ///< of cameras that are kept side by side
     std::size_t frustum = 0;
+    std::size_t texels = 0; ///< the map but for its depth format: what exact rays see is kept
     std::size_t map = 0;
     std::size_t truth = 0;
     std::size_t receivers = 0;
@@ -41,7 +42,7 @@ struct Place {
 
     [[nodiscard]] auto order() const
     {
-        return std::tie(scene, light, group, frustum, map, truth, lookup, curve);
+        return std::tie(scene, light, group, frustum, texels, map, truth, lookup, curve);
     }
 };
 
@@ -50,6 +51,7 @@ std::vector<Place> places(std::span<const CurveRequest> requests, std::size_t sl
     Numbers scenes;
     Numbers lights;
     Numbers frusta;
+    Numbers texels;
     Numbers maps;
     Numbers truths;
     Numbers receivers;
@@ -60,8 +62,9 @@ std::vector<Place> places(std::span<const CurveRequest> requests, std::size_t sl
         const StageKeys& keys = requests[i].keys;
         const std::size_t camera = truths_by_light[keys.light].of(keys.truth);
         all.push_back({scenes.of(keys.scene), lights.of(keys.light), camera / slots,
-                       frusta.of(keys.frustum), maps.of(keys.map), truths.of(keys.truth),
-                       receivers.of(keys.receivers), lookups.of(keys.lookup), i, camera % slots});
+                       frusta.of(keys.frustum), texels.of(keys.texels), maps.of(keys.map),
+                       truths.of(keys.truth), receivers.of(keys.receivers), lookups.of(keys.lookup),
+                       i, camera % slots});
     }
     std::sort(all.begin(), all.end(),
               [](const Place& a, const Place& b) { return a.order() < b.order(); });

@@ -6,6 +6,7 @@
 #include "analysis/sweep/lookup_answers.hpp"
 #include "scene/error.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -61,12 +62,37 @@ struct ReadScene {
     SceneSummary summary;
 };
 
+/// The exact sides of the cameras that are kept side by side, the last of each: maps that differ in
+/// depth format only come one after the other.
+class ExactSides {
+public:
+    template <typename Make>
+    std::shared_ptr<ExactSide> find(std::size_t slot, const std::string& key, const Make& make)
+    {
+        sides_.resize(std::max(sides_.size(), slot + 1));
+        auto& [known, side] = sides_[slot];
+        if (side == nullptr || known != key) {
+            side.reset(); // before the next one takes memory
+            side = make();
+            known = key;
+        }
+        return side;
+    }
+    void forget() { sides_.clear(); }
+
+private:
+    std::vector<std::pair<std::string, std::shared_ptr<ExactSide>>> sides_;
+};
+
 /// The answers of one lookup, made by the background when they are first needed.
 class LookupWork {
 public:
-    LookupWork(const ReadScene& scene, std::shared_ptr<SweepSubject> subject, SweepLookup lookup)
+    LookupWork(const ReadScene& scene, std::shared_ptr<SweepSubject> subject, std::size_t slot,
+               ExactSides& sides, SweepLookup lookup)
         : scene_{scene},
           subject_{std::move(subject)},
+          slot_{slot},
+          sides_{sides},
           lookup_{std::move(lookup)}
     {
     }
@@ -76,8 +102,11 @@ public:
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question)
     {
         if (!answers_) {
-            answers_ = std::make_unique<LookupAnswers>(scene_.open.file->scene, subject_,
-                                                       std::move(lookup_), *scene_.open.renderers);
+            auto side = sides_.find(slot_, stage_keys(lookup_.job).exact, [&] {
+                return std::make_shared<ExactSide>(scene_.open.file->scene, subject_, lookup_.job,
+                                                   lookup_.view, *scene_.open.renderers);
+            });
+            answers_ = std::make_unique<LookupAnswers>(std::move(side), std::move(lookup_));
         }
         return answers_->answer(question);
     }
@@ -85,6 +114,8 @@ public:
 private:
     const ReadScene& scene_;
     std::shared_ptr<SweepSubject> subject_;
+    std::size_t slot_;
+    ExactSides& sides_;
     SweepLookup lookup_;
     scene::LightFrustum frustum_ = lookup_.view.frustum;
     std::unique_ptr<LookupAnswers> answers_;
@@ -224,6 +255,7 @@ private:
     {
         background_.finish(); // what it works on refers to the scene before
         lookup_ = {};
+        sides_.forget();
         map_ = {};
         receivers_.assign(plan_.slots, {});
         subjects_.assign(plan_.slots, {});
@@ -279,7 +311,7 @@ private:
             static_cast<void>(need(receivers_[slot]));
             auto subject = need(subjects_[slot]);
             select(slot);
-            return std::make_shared<LookupWork>(*need(scene_), std::move(subject),
+            return std::make_shared<LookupWork>(*need(scene_), std::move(subject), slot, sides_,
                                                 look_up_unbiased());
         });
     }
@@ -392,6 +424,7 @@ private:
     std::vector<Made<scene::ReceiverLayers>> receivers_; ///< by slot
     std::vector<Made<SweepSubject>> subjects_;           ///< by slot
     Made<bool> map_;
+    ExactSides sides_; ///< the background's
     Made<LookupWork> lookup_;
     Background background_{1}; ///< last: it works on the others
 };

@@ -35,7 +35,8 @@ struct Parts {
     std::string light;
     std::string camera; ///< and image
     std::string frustum;
-    std::string map;
+    std::string map; ///< but the format
+    std::string format;
     std::string lookup;
     std::string slope;
     std::string constant;
@@ -52,7 +53,7 @@ struct Parts {
             return frustum;
         }
         if (has(stages, Stage::shadow_map)) {
-            return map;
+            return key == "shadow_map.depth_format" ? format : map;
         }
         if (has(stages, Stage::lookup)) {
             return lookup;
@@ -85,8 +86,10 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.truth = keys.light + parts.camera;
     keys.frustum = (follows_camera ? keys.truth : keys.light) + parts.frustum;
     keys.receivers = keys.truth + parts.frustum;
-    keys.map = keys.frustum + parts.map;
-    keys.lookup = keys.receivers + parts.map + parts.lookup;
+    keys.texels = keys.frustum + parts.map;
+    keys.map = keys.texels + parts.format;
+    keys.exact = keys.receivers + parts.map + parts.lookup;
+    keys.lookup = keys.exact + parts.format;
     keys.lookup += looks_up_every_bias ? bias : std::string{};
     keys.curve = keys.lookup + parts.slope;
     return keys;

@@ -14,7 +14,9 @@ struct StageKeys {
     std::string truth;     ///< scene, light, camera and image
     std::string frustum;   ///< the light's matrix: with fit = "camera" also camera and image
     std::string receivers; ///< camera, image and the light's matrix
+    std::string texels;    ///< the map but for its depth format
     std::string map;
+    std::string exact; ///< what exact rays say of a lookup: everything but the depth format
     std::string lookup;
     std::string curve; ///< everything but the constant bias; for `hardware` that too
 };

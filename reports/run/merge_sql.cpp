@@ -114,15 +114,36 @@ std::string copied_rows(std::string_view table, const Names& names)
                        table, fmt::join(names, ", "), listed("t", names));
 }
 
+constexpr const char* new_environments =
+    "INSERT OR IGNORE INTO main.environments (gl_renderer, gl_version, embree, gnomon)"
+    " SELECT gl_renderer, gl_version, embree, gnomon FROM input.environments ORDER BY number";
+
+std::string new_curves()
+{
+    return fmt::format("INSERT OR IGNORE INTO main.curves (id) SELECT v.id FROM input.curves v"
+                       " WHERE v.number IN (SELECT i.curve FROM input.configurations i WHERE {})"
+                       " ORDER BY v.number",
+                       planned);
+}
+
+std::string better_curves()
+{
+    return fmt::format("UPDATE main.curves AS m SET environment = {}, {} FROM input.curves i"
+                       " WHERE i.id = m.id AND m.environment IS NULL"
+                       " AND i.environment IS NOT NULL",
+                       environment, assigned(curve_names()));
+}
+
 std::string new_configurations()
 {
     Names names{"id", "scene_hash", "status", "message"};
     append_names(names, job_columns());
     append_names(names, result_columns());
-    return fmt::format("INSERT OR IGNORE INTO main.configurations (curve, environment, {})"
+    return fmt::format("INSERT INTO main.configurations (curve, environment, {})"
                        " SELECT (SELECT m.number FROM input.curves v JOIN main.curves m"
                        " ON m.id = v.id WHERE v.number = i.curve), {}, {}"
-                       " FROM input.configurations i WHERE {} ORDER BY i.number",
+                       " FROM input.configurations i WHERE {} AND i.id NOT IN"
+                       " (SELECT id FROM main.configurations) ORDER BY i.number",
                        fmt::join(names, ", "), environment, listed("i", names), planned);
 }
 
@@ -136,6 +157,13 @@ std::string better_configurations()
                        " OR (m.status = 'planned' AND i.status = 'failed'))",
                        environment, assigned(names), planned);
 }
+
+constexpr const char* new_plan =
+    "INSERT INTO main.plan (ordinal, configuration, \"case\", shard)"
+    " SELECT p.ordinal, (SELECT m.number FROM input.configurations i"
+    " JOIN main.configurations m ON m.id = i.id WHERE i.number = p.configuration),"
+    " p.\"case\", p.shard FROM input.plan p"
+    " WHERE p.ordinal NOT IN (SELECT ordinal FROM main.plan) ORDER BY p.ordinal";
 
 } // namespace
 
@@ -168,25 +196,14 @@ std::vector<Conflict> conflicts()
 
 std::vector<std::string> union_statements()
 {
-    return {"INSERT OR IGNORE INTO main.environments (gl_renderer, gl_version, embree, gnomon)"
-            " SELECT gl_renderer, gl_version, embree, gnomon FROM input.environments"
-            " ORDER BY number",
-            fmt::format("INSERT OR IGNORE INTO main.curves (id) SELECT v.id FROM input.curves v"
-                        " WHERE v.number IN (SELECT i.curve FROM input.configurations i WHERE {})"
-                        " ORDER BY v.number",
-                        planned),
+    return {new_environments,
+            new_curves(),
             copied_rows("curve_points", point_names()),
             copied_rows("curve_bins", bin_names()),
-            fmt::format("UPDATE main.curves AS m SET environment = {}, {} FROM input.curves i"
-                        " WHERE i.id = m.id AND m.environment IS NULL"
-                        " AND i.environment IS NOT NULL",
-                        environment, assigned(curve_names())),
+            better_curves(),
             new_configurations(),
             better_configurations(),
-            "INSERT OR IGNORE INTO main.plan (ordinal, configuration, \"case\", shard)"
-            " SELECT p.ordinal, (SELECT m.number FROM input.configurations i"
-            " JOIN main.configurations m ON m.id = i.id WHERE i.number = p.configuration),"
-            " p.\"case\", p.shard FROM input.plan p ORDER BY p.ordinal"};
+            new_plan};
 }
 
 } // namespace gnomon::reports::merge_sql

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -105,8 +106,8 @@ private:
         return entry->second;
     }
 
-    /// The number that an insertion returns.
-    static std::int64_t finished(Statement& insertion) { return insertion.first().value(); }
+    /// The number that an insertion returns; it always does.
+    static std::int64_t finished(Statement& insertion) { return insertion.first().value_or(0); }
 
     const Database* database_;
     Statement find_;
@@ -117,6 +118,17 @@ private:
     std::unordered_map<std::string_view, int> parameters_; ///< of `insert_`, by key
     std::unordered_map<std::string, std::int64_t> curves_; ///< numbers by id
 };
+
+/// False if there is none left.
+bool add_next(Planner& planner, const NextConfiguration& next)
+{
+    const std::optional<Configuration> configuration = next();
+    if (!configuration.has_value()) {
+        return false;
+    }
+    planner.add(configuration.value());
+    return true;
+}
 
 void require_valid(const Shard& shard)
 {
@@ -149,7 +161,7 @@ std::int64_t recorded(const Database& database, const Environment& environment)
         find.bind(parameter++, std::string_view{environment.*member});
     }
     insert.run();
-    return find.first().value();
+    return find.first().value_or(0); // it is there now
 }
 
 /// @throws scene::InputError  naming what differs, if a result is of another environment.
@@ -220,8 +232,7 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     write_description(database, description);
     database.run("DELETE FROM plan");
     Planner planner{database};
-    while (const auto configuration = next()) {
-        planner.add(*configuration);
+    while (add_next(planner, next)) {
     }
     database.run("DELETE FROM configurations WHERE status = 'planned'"
                  " AND number NOT IN (SELECT configuration FROM plan)");

@@ -39,31 +39,45 @@ std::string selections(std::string_view table, const Columns& columns)
     return text;
 }
 
-std::vector<std::string> tables()
+constexpr const char* run_table = "CREATE TABLE run (key TEXT PRIMARY KEY, value) WITHOUT ROWID";
+
+constexpr const char* environments_table =
+    "CREATE TABLE environments (number INTEGER PRIMARY KEY, gl_renderer TEXT NOT NULL,"
+    " gl_version TEXT NOT NULL, embree TEXT NOT NULL, gnomon TEXT NOT NULL,"
+    " UNIQUE (gl_renderer, gl_version, embree, gnomon))";
+
+constexpr const char* plan_table = "CREATE TABLE plan (ordinal INTEGER PRIMARY KEY,"
+                                   " configuration INTEGER NOT NULL REFERENCES configurations,"
+                                   " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL)";
+
+constexpr const char* points_table =
+    "CREATE TABLE curve_points (curve INTEGER NOT NULL REFERENCES curves, point INTEGER,"
+    " bias REAL, false_shadow INTEGER, false_lit INTEGER, PRIMARY KEY (curve, point))"
+    " WITHOUT ROWID";
+
+std::string curves_table()
 {
-    return {"CREATE TABLE run (key TEXT PRIMARY KEY, value) WITHOUT ROWID",
-            "CREATE TABLE environments (number INTEGER PRIMARY KEY, gl_renderer TEXT NOT NULL,"
-            " gl_version TEXT NOT NULL, embree TEXT NOT NULL, gnomon TEXT NOT NULL,"
-            " UNIQUE (gl_renderer, gl_version, embree, gnomon))",
-            fmt::format("CREATE TABLE curves (number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE,"
-                        " environment INTEGER REFERENCES environments, lit INTEGER,"
-                        " blocked INTEGER{}{})",
-                        definitions(map_columns()), definitions(bias_curve_columns())),
-            fmt::format("CREATE TABLE configurations (number INTEGER PRIMARY KEY,"
-                        " id TEXT NOT NULL UNIQUE, curve INTEGER NOT NULL REFERENCES curves,"
-                        " scene_hash TEXT NOT NULL, environment INTEGER REFERENCES environments,"
-                        " status TEXT NOT NULL, message TEXT{}{})",
-                        definitions(job_columns()), definitions(result_columns())),
-            "CREATE TABLE plan (ordinal INTEGER PRIMARY KEY,"
-            " configuration INTEGER NOT NULL REFERENCES configurations,"
-            " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL)",
-            "CREATE TABLE curve_points (curve INTEGER NOT NULL REFERENCES curves, point INTEGER,"
-            " bias REAL, false_shadow INTEGER, false_lit INTEGER, PRIMARY KEY (curve, point))"
-            " WITHOUT ROWID",
-            fmt::format("CREATE TABLE curve_bins (curve INTEGER NOT NULL REFERENCES curves,"
-                        " profile INTEGER, bin INTEGER, \"at\" TEXT NOT NULL, bias REAL{},"
-                        " PRIMARY KEY (curve, profile, bin)) WITHOUT ROWID",
-                        definitions(bin_columns()))};
+    return fmt::format("CREATE TABLE curves (number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE,"
+                       " environment INTEGER REFERENCES environments, lit INTEGER,"
+                       " blocked INTEGER{}{})",
+                       definitions(map_columns()), definitions(bias_curve_columns()));
+}
+
+std::string configurations_table()
+{
+    return fmt::format("CREATE TABLE configurations (number INTEGER PRIMARY KEY,"
+                       " id TEXT NOT NULL UNIQUE, curve INTEGER NOT NULL REFERENCES curves,"
+                       " scene_hash TEXT NOT NULL, environment INTEGER REFERENCES environments,"
+                       " status TEXT NOT NULL, message TEXT{}{})",
+                       definitions(job_columns()), definitions(result_columns()));
+}
+
+std::string bins_table()
+{
+    return fmt::format("CREATE TABLE curve_bins (curve INTEGER NOT NULL REFERENCES curves,"
+                       " profile INTEGER, bin INTEGER, \"at\" TEXT NOT NULL, bias REAL{},"
+                       " PRIMARY KEY (curve, profile, bin)) WITHOUT ROWID",
+                       definitions(bin_columns()));
 }
 
 /// The rows of `plan` that this run computes: all of them unless the sweep is divided.
@@ -120,11 +134,9 @@ std::string bias_curves_view()
 
 std::vector<std::string> schema_statements()
 {
-    std::vector<std::string> statements = tables();
-    for (auto* const view : {part_view, results_view, error_vs_z_view, bias_curves_view}) {
-        statements.push_back(view());
-    }
-    return statements;
+    return {run_table,      environments_table, curves_table(),    configurations_table(),
+            plan_table,     points_table,       bins_table(),      part_view(),
+            results_view(), error_vs_z_view(),  bias_curves_view()};
 }
 
 [[noreturn]] void refuse(const Database& database, std::string_view what)

@@ -82,9 +82,9 @@ TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
         analysis::tune(job, compared.file(), compared.renderers(), {0.5, 0.5, 4096}, {});
     ASSERT_TRUE(result.meets_limits);
     EXPECT_EQ(result.best().map.resolution_texels, 256);
-    EXPECT_EQ(result.best().map_bytes(), 256U * 256 * 2);
+    EXPECT_EQ(analysis::map_bytes(result.best().map), 256U * 256 * 2);
     for (const analysis::TunedSetting& setting : result.considered) {
-        EXPECT_EQ(setting.map_bytes(), result.best().map_bytes());
+        EXPECT_EQ(analysis::map_bytes(setting.map), analysis::map_bytes(result.best().map));
         EXPECT_GE(setting.errors.total(), result.best().errors.total());
     }
 }

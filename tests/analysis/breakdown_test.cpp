@@ -35,7 +35,7 @@ TEST(Quantiles, LeaveOutWhatIsNotFinite)
 {
     EXPECT_EQ(find_quantiles({infinity, -infinity, none, -2}), (Quantiles{1, -2, -2, -2, -2}));
     EXPECT_FALSE(find_quantiles({infinity, none}).has_value());
-    EXPECT_FALSE(find_quantiles({}).has_value());
+    EXPECT_FALSE(find_quantiles(std::vector<float>{}).has_value());
 }
 
 struct Pixel {
@@ -71,7 +71,15 @@ struct Images {
     }
     [[nodiscard]] BreakdownInputs inputs() const
     {
-        return {classes, lookup, criticals, zeta_m, map_error_m};
+        return {classes, lookup, criticals, map_error_m};
+    }
+    [[nodiscard]] std::vector<ErrorBin> by_distance(int bins = 32) const
+    {
+        return errors_by_bin(bin_by_distance(classes, zeta_m, bins), inputs());
+    }
+    [[nodiscard]] std::vector<ErrorBin> by_angle(int bins = 18) const
+    {
+        return errors_by_bin(bin_by_angle(classes, lookup, bins), inputs());
     }
 };
 
@@ -82,7 +90,7 @@ TEST(ErrorsByDistance, SplitTheObservedRangeEvenly)
                          {blocked, 1, 9.0F, 3.0F},
                          {blocked, 0, 9.0F, 6.0F},
                          {PixelClass::attached, 1, 9.0F, 100.0F}}};
-    const auto bins = errors_by_distance(images.inputs(), 4);
+    const auto bins = images.by_distance(4);
     ASSERT_EQ(bins.size(), 4U);
     EXPECT_EQ(bins[0].lower, 2.0);
     EXPECT_EQ(bins[0].upper, 3.0);
@@ -98,8 +106,8 @@ TEST(ErrorsByDistance, SplitTheObservedRangeEvenly)
 
 TEST(ErrorsByDistance, NeedNoRange)
 {
-    EXPECT_TRUE(errors_by_distance(Images{{{PixelClass::background}}}.inputs()).empty());
-    const auto bins = errors_by_distance(Images{{{lit}, {lit, 1}}}.inputs());
+    EXPECT_TRUE(Images{{{PixelClass::background}}}.by_distance().empty());
+    const auto bins = Images{{{lit}, {lit, 1}}}.by_distance();
     ASSERT_EQ(bins.size(), 1U);
     EXPECT_EQ(bins[0].counts, (PartCounts{2, 0, 1, 0}));
     EXPECT_EQ(bins[0].counts.false_shadow_rate(), 0.5);
@@ -118,7 +126,7 @@ TEST(ErrorsByDistance, HoldEveryScoredPixelInTheBinOfItsValue)
             pixel.verdict = static_cast<float>(random() % 2);
             pixel.zeta_m = distance(random);
         }
-        const auto bins = errors_by_distance(Images{pixels}.inputs(), 7);
+        const auto bins = Images{pixels}.by_distance(7);
         std::uint64_t total = 0;
         for (const ErrorBin& bin : bins) {
             const auto expected = std::count_if(pixels.begin(), pixels.end(), [&](const Pixel& p) {
@@ -133,10 +141,23 @@ TEST(ErrorsByDistance, HoldEveryScoredPixelInTheBinOfItsValue)
     }
 }
 
+TEST(ErrorsByBin, CountAnyBiasByTheCriticalBiases)
+{
+    const Images images{{{lit, 0, 0.5F}, {lit, 0, 0.25F}, {blocked, 0, 0.375F}}};
+    const std::array<float, 3> biases{0.0F, 0.375F, 0.5F};
+    const auto profiles =
+        errors_by_bin(bin_by_distance(images.classes, images.zeta_m), images.inputs(), biases);
+    ASSERT_EQ(profiles.size(), 3U);
+    EXPECT_EQ(profiles[0][0].counts, (PartCounts{2, 1, 2, 0}));
+    EXPECT_EQ(profiles[1][0].counts, (PartCounts{2, 1, 1, 1}));
+    EXPECT_EQ(profiles[2][0].counts, (PartCounts{2, 1, 0, 1}));
+    EXPECT_EQ(profiles[2][0].needed_bias, profiles[0][0].needed_bias);
+}
+
 TEST(ErrorsByAngle, SplitTheQuarterTurnEvenly)
 {
     const Images images{{{lit, 0, 0, 1, 0.0F}, {lit, 0, 0, 1, 0.9F}, {blocked, 1, 0, 1, 3.0e38F}}};
-    const auto bins = errors_by_angle(images.inputs());
+    const auto bins = images.by_angle();
     ASSERT_EQ(bins.size(), 18U);
     EXPECT_EQ(bins[0].counts, (PartCounts{1, 0, 1, 0}));
     EXPECT_EQ(bins[8].counts, (PartCounts{1, 0, 1, 0})); // atan 0.9 = 41.99 degrees
@@ -171,18 +192,19 @@ TEST(ErrorsByObject, ListEveryObjectInOrder)
 TEST(Breakdown, RejectsWhatItCannotBin)
 {
     const Images images{{{lit}}};
-    EXPECT_THROW((void)errors_by_distance(images.inputs(), 0), std::invalid_argument);
-    EXPECT_THROW((void)errors_by_angle(images.inputs(), 0), std::invalid_argument);
+    EXPECT_THROW((void)images.by_distance(0), std::invalid_argument);
+    EXPECT_THROW((void)images.by_angle(255), std::invalid_argument);
     const Images nowhere{{{lit, 0, 0, infinity}}};
-    EXPECT_THROW((void)errors_by_distance(nowhere.inputs()), std::invalid_argument);
+    EXPECT_THROW((void)nowhere.by_distance(), std::invalid_argument);
     EXPECT_THROW((void)errors_by_object(images.classes, images.lookup, {}, {}),
                  std::invalid_argument);
     const scene::Image<float> empty;
-    const BreakdownInputs uneven{images.classes, images.lookup, images.criticals, empty, empty};
-    EXPECT_THROW((void)errors_by_distance(uneven), std::invalid_argument);
-    const BreakdownInputs no_map_errors{images.classes, images.lookup, images.criticals,
-                                        images.zeta_m, empty};
-    EXPECT_FALSE(errors_by_distance(no_map_errors)[0].map_error_m.has_value());
+    const Binning binning = bin_by_distance(images.classes, images.zeta_m);
+    const BreakdownInputs uneven{images.classes, images.lookup, empty, empty};
+    EXPECT_THROW((void)errors_by_bin(binning, uneven), std::invalid_argument);
+    EXPECT_THROW((void)bin_by_distance(images.classes, empty), std::invalid_argument);
+    const BreakdownInputs no_map_errors{images.classes, images.lookup, images.criticals, empty};
+    EXPECT_FALSE(errors_by_bin(binning, no_map_errors)[0].map_error_m.has_value());
 }
 
 } // namespace

@@ -70,7 +70,8 @@ struct Row {
                                  lookup,
                                  no_depths,
                                  light};
-        return map_depth_errors_m(inputs, frustum_of(scene::Projection::orthographic, false),
+        return map_depth_errors_m(inputs, CentreHits{inputs},
+                                  frustum_of(scene::Projection::orthographic, false),
                                   {scene::DepthFormat::Kind::unorm, 8});
     }
 };

@@ -14,6 +14,9 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+if(EXISTS ${WORK}/prefix/include/gnomon/reference_rt/faults.hpp)
+  message(FATAL_ERROR "the installed headers let a caller put faults into the truth")
+endif()
 run(${CMAKE_COMMAND} -S ${ROOT}/examples/find_package -B ${WORK}/build -G Ninja
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/build)

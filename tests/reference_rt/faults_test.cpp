@@ -1,4 +1,4 @@
-#include "reference_rt/faults.hpp"
+#include "reference_rt/embree_scene.hpp"
 
 #include "claims.hpp"
 #include "scene_fixture.hpp"
@@ -7,11 +7,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string_view>
 
 /// Whatever is wrong with the truth, the certifier must find it: faults are put in one at a time.
 namespace gnomon::reference_rt::test {
 namespace {
+
+/// A reference scene with all hierarchies of the exact truth, and these faults.
+ReferenceScene make_faulty_scene(const TriangleScene& scene, const Faults& faults)
+{
+    return ReferenceScene{
+        std::make_unique<ReferenceScene::Implementation>(scene, ReferenceOptions{}, faults)};
+}
 
 /// A box and a sphere on the ground.
 TriangleScene box_and_sphere()

@@ -62,7 +62,7 @@ std::vector<analysis::ErrorBin> bins(std::uint64_t number)
         analysis::ErrorBin bin{
             lower, static_cast<double>(i + 1) / 3, {1000 * i, 77, 10 * i, number % 7}};
         bin.needed_bias = quantiles(1e-4F);
-        result.push_back(std::move(bin));
+        result.push_back(bin);
     }
     return result;
 }
@@ -110,8 +110,8 @@ std::vector<analysis::Configuration> ExampleRun::configurations() const
         for (std::uint64_t b = 0; b < biases; ++b) {
             job.bias.constant = double{bias_of(b)};
             const std::uint64_t ordinal = c * biases + b;
-            all.push_back({ordinal, example_id(ordinal, 'a'), example_id(c, 'c'), "noon",
-                           "0123456789abcdef", static_cast<std::uint32_t>(c % shards + 1),
+            all.push_back({ordinal, example_id(1000 * biases + ordinal, 'a'), example_id(c, 'c'),
+                           "noon", "0123456789abcdef", static_cast<std::uint32_t>(c % shards + 1),
                            scene::resolved_keys(job)});
         }
     }

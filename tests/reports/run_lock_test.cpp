@@ -48,7 +48,7 @@ TEST(RunLock, IsFreeAgainWhenItsOwnerIsDone)
 TEST(RunLock, NamesTheProcessThatHoldsIt)
 {
     const TemporaryFolder folder;
-    const Child child{[&](Child::Ready ready) {
+    const Child child{[&](const Child::Ready& ready) {
         const RunLock lock{folder.path()};
         ready();
         ::pause();
@@ -64,7 +64,7 @@ TEST(RunLock, IsNotHeldByTheDead)
 {
     const TemporaryFolder folder;
     {
-        Child child{[&](Child::Ready ready) {
+        Child child{[&](const Child::Ready& ready) {
             const RunLock lock{folder.path()};
             ready();
             ::pause();

@@ -1,0 +1,106 @@
+#include "scene/job_file.hpp"
+#include "subject.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+/// GL's passes one by one, readbacks included where the lookup needs them: `columns` at 1280×720.
+namespace gnomon::benchmarks {
+namespace {
+
+scene::Job make_job(const std::vector<scene::Override>& keys)
+{
+    std::vector<scene::Override> all{{"image.width", "1280"}, {"image.height", "720"}};
+    all.insert(all.end(), keys.begin(), keys.end());
+    return scene::builtin_job("columns", all).job;
+}
+
+/// A subject whose receivers and map are drawn once, so that everything is allocated.
+struct Drawn {
+    explicit Drawn(const scene::Job& job)
+        : subject{job},
+          view{scene::resolve_view(job, subject.file.scene, subject.file.defaults)}
+    {
+        static_cast<void>(subject.gl->draw_receivers(view));
+        subject.gl->draw_shadow_map(job, view);
+    }
+
+    Subject subject;
+    scene::View view;
+};
+
+void shadow_pass(benchmark::State& state, const std::string& resolution, const std::string& format)
+{
+    Drawn drawn{
+        make_job({{"shadow_map.resolution", resolution}, {"shadow_map.depth_format", format}})};
+    for (auto _ : state) {
+        drawn.subject.gl->draw_shadow_map(drawn.subject.job, drawn.view);
+    }
+}
+
+void receiver_pass(benchmark::State& state)
+{
+    Drawn drawn{make_job({})};
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(drawn.subject.gl->draw_receivers(drawn.view).triangle.data());
+    }
+}
+
+void lookup_pass(benchmark::State& state, const std::string& filter)
+{
+    Drawn drawn{make_job({{"lookup.filter", filter}})};
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(
+            drawn.subject.gl->look_up(drawn.subject.job, drawn.view).samples.data());
+    }
+}
+
+void map_readback(benchmark::State& state, const std::string& resolution)
+{
+    Drawn drawn{make_job({{"shadow_map.resolution", resolution}})};
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(drawn.subject.gl->read_map_depths().data());
+    }
+}
+
+void add_all()
+{
+    for (const char* resolution : {"512", "2048", "8192"}) {
+        for (const char* format : {"d16", "d24", "d32f", "u16"}) {
+            benchmark::RegisterBenchmark(
+                fmt::format("shadow_pass/{}/{}", resolution, format).c_str(),
+                [resolution, format](benchmark::State& state) {
+                    shadow_pass(state, resolution, format);
+                })
+                ->Unit(benchmark::kMillisecond);
+        }
+        benchmark::RegisterBenchmark(
+            fmt::format("map_readback/{}", resolution).c_str(),
+            [resolution](benchmark::State& state) { map_readback(state, resolution); })
+            ->Unit(benchmark::kMillisecond);
+    }
+    benchmark::RegisterBenchmark("receiver_pass", receiver_pass)->Unit(benchmark::kMillisecond);
+    for (const char* filter : {"nearest", "linear", "hardware", "pcf3", "pcf9"}) {
+        benchmark::RegisterBenchmark(
+            fmt::format("lookup_pass/{}", filter).c_str(),
+            [filter](benchmark::State& state) { lookup_pass(state, filter); })
+            ->Unit(benchmark::kMillisecond);
+    }
+}
+
+} // namespace
+} // namespace gnomon::benchmarks
+
+int main(int argc, char** argv)
+{
+    gnomon::benchmarks::add_all();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+        return 2;
+    }
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

@@ -1,0 +1,174 @@
+#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/plan.hpp"
+#include "cli/sweep_run.hpp"
+#include "raw_embree.hpp"
+#include "scene/job_source.hpp"
+#include "scene/sweep_space.hpp"
+#include "subject.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// A whole sweep, database and CSV files included, against its floor in the same run: its GL passes
+/// with the readbacks that they need, textures allocated before, and one raw Embree pass for each
+/// truth and for each distinct set of texel-centre rays.
+namespace gnomon::benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = analysis::SweepStep::Kind;
+
+/// columns at 1280×720 under a spot: 1000 biases × resolutions × 4 formats × near planes × 2
+/// cameras; 200,000 configurations, or a tenth of that.
+scene::SweepSpace make_space(bool is_whole)
+{
+    scene::JobSource source =
+        scene::builtin_job_source("columns", {{"image.width", "1280"},
+                                              {"image.height", "720"},
+                                              {"light.type", "spot"},
+                                              {"light.position", "[-14, 19, 10]"},
+                                              {"light.target", "[0, 0, 0]"},
+                                              {"light.cone_deg", "60"}});
+    source.cases = {{"corner", scene::layer_from_overrides({{"camera.eye", "[11.5, 3.6, 11.5]"}})},
+                    {"front", scene::layer_from_overrides({{"camera.eye", "[2, 4, 16]"}})}};
+    const std::string resolutions = is_whole ? "512,1024,2048,4096,8192" : "1024,4096";
+    return scene::SweepSpace{
+        std::move(source),
+        {"bias.constant={from = 1e-7, to = 1e-2, count = 1000, scale = \"log\"}",
+         "shadow_map.resolution=" + resolutions, "shadow_map.depth_format=d16,d24,d32,d32f",
+         is_whole ? "shadow_map.near=0.1,0.3,0.6,1,2" : "shadow_map.near=0.1,0.6"}};
+}
+
+/// The floor of a plan.
+class Floor {
+public:
+    Floor(const analysis::SweepCatalogue& catalogue, Subject& subject)
+        : catalogue_{catalogue},
+          subject_{subject}
+    {
+    }
+
+    double gl_s = 0;
+    double embree_s = 0;
+
+    void run(const analysis::SweepPlan& plan)
+    {
+        for (const analysis::SweepStep& step : plan.steps) {
+            const scene::Job job = catalogue_.job(step.curve);
+            const scene::View view =
+                scene::resolve_view(job, subject_.file.scene, subject_.file.defaults);
+            subject_.gl->select_receivers(step.slot);
+            do_step(step, job, view);
+        }
+    }
+
+private:
+    void do_step(const analysis::SweepStep& step, const scene::Job& job, const scene::View& view)
+    {
+        switch (step.kind) {
+        case Kind::draw_receivers:
+            static_cast<void>(subject_.gl->draw_receivers(view));
+            gl_s += seconds_of([&] { receivers_ = subject_.gl->draw_receivers(view); });
+            break;
+        case Kind::find_truth:
+            trace(view);
+            break;
+        case Kind::draw_shadow_map:
+            subject_.gl->draw_shadow_map(job, view);
+            gl_s += seconds_of([&] { subject_.gl->draw_shadow_map(job, view); });
+            break;
+        case Kind::look_up:
+            gl_s += seconds_of(
+                [&] { benchmark::DoNotOptimize(subject_.gl->look_up(job, view).samples.data()); });
+            // A set of texel-centre rays has at most as many rays as the camera sees receivers.
+            if (texel_rays_.insert(analysis::stage_keys(job).exact).second) {
+                embree_s += seconds_of([&] { benchmark::DoNotOptimize(raw_->run()); });
+            }
+            break;
+        case Kind::read_scene:
+        case Kind::answer:
+            break;
+        }
+    }
+
+    void trace(const scene::View& view)
+    {
+        const auto& triangles = subject_.file.scene;
+        const reference_rt::RasterFacts raster{subject_.context.facts().subpixel_bits,
+                                               subject_.gl->receiver_clip_positions(view)};
+        const auto truth =
+            reference_rt::compute_truth(*subject_.reference, view, receivers_.triangle, raster,
+                                        {reference_rt::TruthMethod::exact, 0});
+        const auto points = reference_rt::receiver_points(triangles, view, receivers_.triangle);
+        raw_ = std::make_unique<RawEmbreePass>(triangles, view, truth, points);
+        benchmark::DoNotOptimize(raw_->run());
+        embree_s += seconds_of([&] { benchmark::DoNotOptimize(raw_->run()); });
+    }
+
+    const analysis::SweepCatalogue& catalogue_;
+    Subject& subject_;
+    scene::ReceiverLayers receivers_;
+    std::unique_ptr<RawEmbreePass> raw_;
+    std::set<std::string> texel_rays_;
+};
+
+void sweep_against_floor(benchmark::State& state, bool is_whole)
+{
+    const scene::SweepSpace space = make_space(is_whole);
+    const analysis::SweepCatalogue catalogue{space, false, "bench"};
+    const auto& requests = catalogue.requests();
+    const auto plan = analysis::make_plan(requests, analysis::camera_slots(requests));
+    const fs::path folder =
+        fs::temp_directory_path() / ("gnomon_sweep_bench." + std::to_string(::getpid()));
+    double floor_s = 0;
+    double gl_s = 0;
+    double sweep_s = 0;
+    for (auto _ : state) {
+        {
+            Subject subject{catalogue.job(0)};
+            Floor floor{catalogue, subject};
+            floor.run(plan);
+            floor_s += floor.gl_s + floor.embree_s;
+            gl_s += floor.gl_s;
+        }
+        fs::remove_all(folder);
+        cli::SweepRunOptions options;
+        options.folder = folder;
+        options.is_quiet = true;
+        const double now_s = seconds_of(
+            [&] { benchmark::DoNotOptimize(cli::run_sweep_command(space, options).done); });
+        sweep_s += now_s;
+        state.SetIterationTime(now_s);
+    }
+    fs::remove_all(folder);
+    const auto runs = static_cast<double>(state.iterations());
+    const auto configurations = static_cast<double>(space.size());
+    state.counters["ratio"] = sweep_s / floor_s;
+    state.counters["floor_s"] = floor_s / runs;
+    state.counters["floor_gl_s"] = gl_s / runs;
+    state.counters["us_each"] = 1e6 * sweep_s / runs / configurations;
+    state.counters["maps"] = static_cast<double>(plan.counts(requests).shadow_maps);
+    state.counters["lookups"] = static_cast<double>(plan.counts(requests).lookup_passes);
+}
+
+BENCHMARK_CAPTURE(sweep_against_floor, columns_32000, false)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(sweep_against_floor, columns_200000, true)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(1);
+
+} // namespace
+} // namespace gnomon::benchmarks
+
+BENCHMARK_MAIN();

@@ -1,0 +1,55 @@
+#include "example_comparison.hpp"
+#include "example_run.hpp"
+
+#include "csv_table.hpp"
+#include "scene/job_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace gnomon::reports {
+namespace {
+
+/// The columns that the document's section describes, in its order; its row "…" is the job's keys.
+std::vector<std::string> documented_columns(const std::string& section)
+{
+    std::ifstream document{GNOMON_CSV_SCHEMA_DOCUMENT};
+    std::vector<std::string> columns;
+    bool is_inside = false;
+    for (std::string line; std::getline(document, line);) {
+        if (line.starts_with("## ")) {
+            is_inside = line == "## " + section;
+        } else if (is_inside && line.starts_with("| `")) {
+            columns.push_back(line.substr(3, line.find('`', 3) - 3));
+        } else if (is_inside && line.starts_with("| … |")) {
+            for (const scene::JobKey& key : scene::job_keys()) {
+                columns.push_back(key.name);
+            }
+        }
+    }
+    return columns;
+}
+
+TEST(CsvSchemaDocument, DescribesEveryColumnInItsOrder)
+{
+    const TemporaryFolder folder;
+    ExampleRun{1, 1}.compute(folder.path());
+    for (const char* const file : {"results.csv", "error_vs_z.csv", "bias_curves.csv"}) {
+        EXPECT_EQ(documented_columns(file), read_csv(folder / file).columns) << file;
+    }
+}
+
+TEST(CsvSchemaDocument, SpeaksOfTheSchemaThatIsWritten)
+{
+    const TemporaryFolder folder;
+    ExampleRun{1, 1}.compute(folder.path());
+    EXPECT_EQ(read_csv(folder / "results.csv").rows.at(0).at("schema"), "1");
+    EXPECT_NE(read_text(GNOMON_CSV_SCHEMA_DOCUMENT).find("a `schema`, which is 1"),
+              std::string::npos);
+}
+
+} // namespace
+} // namespace gnomon::reports

@@ -1,0 +1,105 @@
+#include "reports/run/run_status.hpp"
+
+#include "example_comparison.hpp"
+#include "example_run.hpp"
+#include "scene/error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::reports {
+namespace {
+
+using nlohmann::json;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+const ExampleRun example{4, 2, 2};
+
+/// A run of shard 2 with one failed and two missing configurations.
+void make_incomplete(const std::filesystem::path& folder)
+{
+    std::filesystem::create_directories(folder);
+    RunStore store{folder, RunStore::Access::write};
+    store.plan(example.description(2), example.configurations());
+    store.record_failure(std::vector<std::uint64_t>{7}, "light.obj: no such file");
+    analysis::FinishedCurve half = example.curve(3);
+    half.rows.pop_back();
+    store.record(half);
+}
+
+TEST(RunStatus, ListsWhatFailedAndWhatIsMissing)
+{
+    const TemporaryFolder folder;
+    make_incomplete(folder / "it's");
+    const std::string text = run_status_text(read_run_status(folder / "it's", 1));
+    EXPECT_THAT(text,
+                HasSubstr(": 1 of 4 configurations done, 1 failed, 2 missing, shard 2 of 2\n"));
+    EXPECT_THAT(text, HasSubstr("\nfailed\n  7  case noon  shadow_map.resolution = 259  "
+                                "bias.constant = 1.0100000054080738e-06: light.obj: no such"));
+    EXPECT_THAT(text, HasSubstr("\nmissing\n  2  case noon  shadow_map.resolution = 257"));
+    EXPECT_THAT(text, HasSubstr("  and 1 more\n"));
+    EXPECT_THAT(text, HasSubstr("resume with\n  gnomon sweep job.toml --out '"));
+    EXPECT_THAT(text, EndsWith("/it'\\''s' --shard 2/2 --retry failed\n"));
+}
+
+TEST(RunStatus, IsShortWhenAllIsDone)
+{
+    const TemporaryFolder folder;
+    example.compute(folder.path(), 1);
+    const RunStatus status = read_run_status(folder.path(), 20);
+    EXPECT_TRUE(status.is_complete());
+    EXPECT_EQ(run_status_text(status), folder.path().string() +
+                                           ": 4 of 4 configurations done, 0 failed, 0 missing, "
+                                           "shard 1 of 2\n");
+}
+
+TEST(RunStatus, SaysTheSameInJson)
+{
+    const TemporaryFolder folder;
+    make_incomplete(folder.path());
+    const json object = json::parse(run_status_json(read_run_status(folder.path(), 20)));
+    EXPECT_EQ(object.at("schema"), 1);
+    EXPECT_EQ(object.at("complete"), false);
+    EXPECT_EQ(object.at("done"), 1);
+    EXPECT_EQ(object.at("failed"), 1);
+    EXPECT_EQ(object.at("missing"), 2);
+    EXPECT_EQ(object.at("shard"), "2/2");
+    EXPECT_EQ(object.at("sweep_size"), 8);
+    EXPECT_EQ(object.at("environment").at("embree"), "Embree 3.13.5");
+    EXPECT_EQ(object.at("failed_configurations").at(0).at("ordinal"), 7);
+    EXPECT_EQ(object.at("failed_configurations").at(0).at("message"), "light.obj: no such file");
+    const json& missing = object.at("missing_configurations").at(1);
+    EXPECT_EQ(missing.at("ordinal"), 3);
+    EXPECT_EQ(missing.at("case"), "noon");
+    EXPECT_EQ(missing.at("axes").at("shadow_map.resolution"), "257");
+    EXPECT_THAT(object.at("resume").get<std::string>(), StartsWith("gnomon sweep job.toml --out "));
+}
+
+TEST(RunStatus, RefusesAFolderWithoutARun)
+{
+    const TemporaryFolder folder;
+    EXPECT_THROW((void)read_run_status(folder.path(), 20), scene::InputError);
+    {
+        const RunStore unplanned{folder.path(), RunStore::Access::write};
+    }
+    EXPECT_THROW((void)read_run_status(folder.path(), 20), scene::InputError);
+}
+
+TEST(RunStatus, LeavesTheCommandOutWhereItIsNotKnown)
+{
+    const TemporaryFolder folder;
+    RunDescription description = example.description();
+    description.command.clear();
+    RunStore{folder.path(), RunStore::Access::write}.plan(description, example.configurations());
+    EXPECT_THAT(run_status_text(read_run_status(folder.path(), 0)), Not(HasSubstr("resume")));
+}
+
+} // namespace
+} // namespace gnomon::reports
