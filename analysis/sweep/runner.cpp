@@ -210,7 +210,7 @@ public:
 private:
     void do_step(const SweepStep& step)
     {
-        if (!task_ || task_curve_ != step.curve) {
+        if (task_curve_ != step.curve) {
             task_ = hooks_.task(step.curve);
             task_curve_ = step.curve;
         }
@@ -238,7 +238,7 @@ private:
     /// The step's view without constant bias: one that is none fails its own row, not the stages.
     [[nodiscard]] scene::View stage_view() const
     {
-        scene::Job job = task_->job;
+        scene::Job job = task_.job;
         job.bias.constant = 0;
         job.bias.constant_m.reset();
         return view_of(job);
@@ -261,9 +261,9 @@ private:
         subjects_.assign(plan_.slots, {});
         ++counts_.scenes;
         scene_ = make<ReadScene>([&] {
-            const OpenScene open = hooks_.open_scene(task_->job);
+            const OpenScene open = hooks_.open_scene(task_.job);
             return std::make_shared<ReadScene>(
-                ReadScene{open, summarise_scene(task_->job.scene, open.file->scene)});
+                ReadScene{open, summarise_scene(task_.job.scene, open.file->scene)});
         });
     }
 
@@ -295,7 +295,7 @@ private:
     {
         ++counts_.shadow_maps;
         map_ = make<bool>([&] {
-            renderers().draw_shadow_map(task_->job, stage_view());
+            renderers().draw_shadow_map(task_.job, stage_view());
             return std::make_shared<bool>(true);
         });
     }
@@ -319,7 +319,7 @@ private:
     SweepLookup look_up_unbiased()
     {
         SweepLookup lookup;
-        lookup.job = task_->job;
+        lookup.job = task_.job;
         lookup.view = stage_view();
         scene::View view = lookup.view;
         view.bias = {.constant = 0, .slope = 0, .normal_texels = view.bias.normal_texels};
@@ -337,20 +337,20 @@ private:
     /// Whether every bias is looked up and compared by itself.
     [[nodiscard]] bool is_compared() const
     {
-        return hooks_.keep_pixels || task_->job.lookup.filter == scene::Filter::hardware;
+        return hooks_.keep_pixels || task_.job.lookup.filter == scene::Filter::hardware;
     }
 
     void answer(std::size_t slot)
     {
         ++counts_.curves;
-        counts_.configurations += task_->rows.size();
+        counts_.configurations += task_.rows.size();
         if (is_compared()) {
-            return answer_by_comparison(slot, task_->rows.at(0));
+            return answer_by_comparison(slot, task_.rows.at(0));
         }
-        background_.add([this, task = std::move(*task_), lookup = lookup_]() mutable {
+        background_.add([this, task = std::move(task_), lookup = lookup_]() mutable {
             answer_by_curve(task, lookup);
         });
-        task_.reset();
+        task_curve_.reset();
     }
 
     /// Called by the background. Only the work is a stage: what the hooks throw ends the sweep.
@@ -387,8 +387,8 @@ private:
         if (hooks_.keep_pixels) {
             hooks_.keep_pixels(row.ordinal, comparison);
         }
-        teller_.finished(finish_compared(comparison, task_->id, row.ordinal,
-                                         own_constant_bias(task_->job, comparison.view.frustum)));
+        teller_.finished(finish_compared(comparison, task_.id, row.ordinal,
+                                         own_constant_bias(task_.job, comparison.view.frustum)));
     }
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
@@ -399,7 +399,7 @@ private:
         const auto scene = need(scene_);
         select(slot);
         Comparison comparison;
-        comparison.job = task_->job;
+        comparison.job = task_.job;
         comparison.job.bias = row.bias;
         comparison.view = view_of(comparison.job);
         comparison.scene = scene->summary;
@@ -418,8 +418,8 @@ private:
     const SweepHooks& hooks_;
     Teller teller_{hooks_};
     PlanCounts counts_;
-    std::optional<SweepTask> task_; ///< of the step
-    std::size_t task_curve_ = 0;
+    SweepTask task_;                        ///< of the step
+    std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
     Made<ReadScene> scene_;
     std::vector<Made<scene::ReceiverLayers>> receivers_; ///< by slot
     std::vector<Made<SweepSubject>> subjects_;           ///< by slot

@@ -1,0 +1,179 @@
+#pragma once
+
+#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/runner.hpp"
+#include "scene/job_source.hpp"
+#include "sweep_world.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::analysis {
+
+template <typename Value>
+std::string text_of(const std::optional<Value>& value)
+{
+    return value ? fmt::format("{}", *value) : "none";
+}
+
+inline std::string text_of(const std::optional<Quantiles>& value)
+{
+    return value ? fmt::format("{} {} {} {} {}", value->count, value->min, value->median,
+                               value->p95, value->max)
+                 : "none";
+}
+
+/// Everything that a row says; equal texts are equal results, bit by bit.
+inline std::string text_of(const ConfigurationResult& result)
+{
+    const Metrics& metrics = result.metrics;
+    return fmt::format("{} | {} | {} {} {} {} {} {} | {} | {} | {} | {}", metrics.pixels.by_class,
+                       metrics.pixels.by_reason, metrics.false_shadow, metrics.false_lit,
+                       text_of(metrics.false_shadow_rate), text_of(metrics.false_lit_rate),
+                       text_of(metrics.error_rate), text_of(metrics.mean_abs_error),
+                       result.causes ? fmt::format("{}", result.causes->by_cause) : "none",
+                       result.causes ? fmt::format("{}", result.causes->by_label) : "none",
+                       text_of(result.peter_panning.metres), text_of(result.peter_panning.texels));
+}
+
+inline std::string text_of(const std::vector<ErrorBin>& bins)
+{
+    std::string text;
+    for (const ErrorBin& bin : bins) {
+        text += fmt::format("[{} {}: {} {} {} {} | {} | {}]", bin.lower, bin.upper, bin.counts.lit,
+                            bin.counts.blocked, bin.counts.false_shadow, bin.counts.false_lit,
+                            text_of(bin.needed_bias), text_of(bin.map_error_m));
+    }
+    return text;
+}
+
+/// A sweep of the fake world, and what it told.
+class FakeSweep {
+public:
+    SweepWorld world;
+    SweepHooks hooks;
+    scene::SweepSpace space;
+    std::map<std::uint64_t, std::string> done;   ///< results by ordinal
+    std::map<std::uint64_t, std::string> failed; ///< messages by ordinal
+    std::map<std::string, CurveResult> curves;   ///< by their id
+    std::vector<std::uint64_t> kept;
+    PlanCounts planned;
+    std::size_t slots = 2;
+
+    explicit FakeSweep(const std::vector<std::string>& axes,
+                       const std::vector<scene::Override>& overrides = {},
+                       const std::vector<scene::CaseLayer>& cases = {})
+        : space{source(overrides, cases), axes}
+    {
+        hooks.open_scene = [this](const scene::Job&) {
+            return OpenScene{&world.file(), &world.renderers()};
+        };
+        hooks.record = [this](const FinishedCurve& finished) {
+            for (const FinishedCurve::Row& row : finished.rows) {
+                EXPECT_TRUE(done.emplace(row.ordinal, text_of(row.result)).second) << row.ordinal;
+            }
+            EXPECT_FALSE(finished.rows.empty());
+            curves.insert_or_assign(finished.curve.id, finished.curve);
+        };
+        hooks.record_failure = [this](std::span<const std::uint64_t> ordinals,
+                                      const std::string& message) {
+            for (const std::uint64_t ordinal : ordinals) {
+                EXPECT_TRUE(failed.emplace(ordinal, message).second) << ordinal << " failed twice";
+            }
+        };
+        hooks.should_stop = [] { return false; };
+    }
+
+    void keep_pixels()
+    {
+        hooks.keep_pixels = [this](std::uint64_t ordinal, const Comparison& comparison) {
+            EXPECT_EQ(scene::resolved_keys(comparison.job),
+                      scene::resolved_keys(space.job(space.at(ordinal))));
+            kept.push_back(ordinal);
+        };
+    }
+
+    PlanCounts run()
+    {
+        const SweepCatalogue catalogue{space, static_cast<bool>(hooks.keep_pixels), "1.0"};
+        const auto& requests = catalogue.requests();
+        const SweepPlan plan = make_plan(requests, slots);
+        planned = plan.counts(requests);
+        hooks.task = [&](std::size_t curve) { return catalogue.task(curve, "hash"); };
+        return run_sweep(plan, hooks);
+    }
+
+    /// What `compare` says of the configuration, in a world of its own.
+    [[nodiscard]] Comparison compared(std::uint64_t ordinal) const
+    {
+        const SweepWorld other;
+        Comparison comparison =
+            compare(space.job(space.at(ordinal)), other.file(), other.renderers());
+        comparison.triangles = &world.file().scene;
+        return comparison;
+    }
+    [[nodiscard]] std::size_t calls(std::string_view stage) const
+    {
+        return static_cast<std::size_t>(
+            std::count(world.calls.begin(), world.calls.end(), std::string{stage}));
+    }
+
+private:
+    static scene::JobSource source(const std::vector<scene::Override>& overrides,
+                                   const std::vector<scene::CaseLayer>& cases)
+    {
+        scene::JobSource source = scene::builtin_job_source("wall", overrides);
+        for (const scene::Setting& setting :
+             scene::layer_from_overrides({{"camera.target", "[0, 0, 0]"},
+                                          {"camera.up", "[0, 0, 1]"},
+                                          {"light.direction", "[0, -1, 0]"},
+                                          {"image.width", "9"},
+                                          {"image.height", "7"},
+                                          {"shadow_map.near", "-2"},
+                                          {"shadow_map.resolution", "6"},
+                                          {"bias.constant", "0"}})) {
+            source.file.push_back(setting);
+        }
+        source.cases = cases;
+        if (cases.empty()) {
+            source.file.push_back(scene::layer_from_overrides({{"camera.eye", "[0, 5, 0]"}})[0]);
+        }
+        return source;
+    }
+};
+
+inline scene::CaseLayer case_of(const std::string& name, const std::vector<scene::Override>& keys)
+{
+    return {name, scene::layer_from_overrides(keys)};
+}
+
+inline const std::vector<scene::CaseLayer> two_cameras{
+    case_of("left", {{"camera.eye", "[1, 5, 0]"}}),
+    case_of("right", {{"camera.eye", "[2, 6, 0]"}})};
+
+inline std::string result_text(const Comparison& comparison)
+{
+    return text_of(ConfigurationResult{comparison.metrics, comparison.diagnosis->causes.counts,
+                                       comparison.diagnosis->peter_panning});
+}
+
+/// Every row is what a comparison of its own gives.
+inline void expect_compared(const FakeSweep& sweep)
+{
+    EXPECT_EQ(sweep.done.size() + sweep.failed.size(), sweep.space.size());
+    for (const auto& [ordinal, text] : sweep.done) {
+        EXPECT_EQ(text, result_text(sweep.compared(ordinal))) << "ordinal " << ordinal;
+    }
+}
+
+} // namespace gnomon::analysis
