@@ -136,7 +136,7 @@ inline std::vector<std::string> with(std::vector<std::string> words,
 /// Runs a sweep that must succeed.
 inline Ending swept(const std::vector<std::string>& arguments, const Start& start = {})
 {
-    const Ending ending = gnomon(arguments, start);
+    Ending ending = gnomon(arguments, start);
     EXPECT_EQ(ending.exit_code, 0) << ending.command << "\n" << ending.err;
     return ending;
 }

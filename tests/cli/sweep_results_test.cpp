@@ -79,7 +79,7 @@ void expect_row_compares(const std::map<std::string, std::string>& row, const Js
             EXPECT_EQ(cell, "") << column << " is a key that the job leaves out";
         }
     }
-    EXPECT_EQ(row.at("scene_hash"), compared.at("scene").at("hash"));
+    EXPECT_EQ(row.at("scene_hash"), compared.at("scene").at("hash").get<std::string>());
     EXPECT_GT(found, 80U) << "columns were compared";
 }
 
