@@ -45,7 +45,7 @@ struct Tally {
         const double error = std::abs(static_cast<double>(verdict) - static_cast<double>(truth));
         const double scored_error = scene::is_scored(pixel_class) & is_verdict ? error : 0.0;
         absolute_error += scored_error;
-        wrong_taps += static_cast<std::uint64_t>(scored_error * taps + 0.5);
+        wrong_taps += static_cast<std::uint64_t>(std::llrint(scored_error * taps));
     }
 
     void add(const Tally& other)
