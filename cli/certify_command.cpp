@@ -1,5 +1,6 @@
 #include "cli/certify_command.hpp"
 
+#include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
 #include "cli/standard_output.hpp"
 #include "reference_rt/certificate.hpp"
@@ -26,7 +27,6 @@ namespace {
 using nlohmann::ordered_json;
 using reference_rt::Certificate;
 
-constexpr int refuted_exit_code = 1;
 
 struct CertifyOptions {
     std::string aov_path;
@@ -171,7 +171,7 @@ void certify(const CertifyOptions& options)
     print(options.json ? certificate_json(options, certificate)
                        : certificate_text(options, certificate));
     if (!certificate.is_certified()) {
-        throw CLI::RuntimeError{refuted_exit_code};
+        throw CLI::RuntimeError{exit_codes::negative};
     }
 }
 

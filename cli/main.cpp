@@ -2,6 +2,7 @@
 #include "cli/compare_command.hpp"
 #include "cli/completion.hpp"
 #include "cli/doctor_command.hpp"
+#include "cli/exit_codes.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/process.hpp"
 #include "cli/simple_commands.hpp"
@@ -23,7 +24,7 @@
 
 namespace {
 
-enum ExitCode : int { done = 0, bad_input = 2, environment_failed = 4 };
+namespace exit_codes = gnomon::cli::exit_codes;
 
 /// One line on stderr: messages of libraries may hold more.
 void complain(std::string message)
@@ -77,7 +78,7 @@ int run(CLI::App& program, int argc, char** argv)
 {
     try {
         program.parse(argc, argv);
-        return done;
+        return exit_codes::done;
     } catch (const CLI::RuntimeError& error) {
         return error.get_exit_code();
     } catch (const CLI::Success& request) {
@@ -87,7 +88,7 @@ int run(CLI::App& program, int argc, char** argv)
         return code;
     } catch (const CLI::ParseError& error) {
         complain(usage_error(program, error));
-        return bad_input;
+        return exit_codes::bad_input;
     }
 }
 
@@ -104,16 +105,16 @@ int main(int argc, char** argv)
         return run(program, argc, argv);
     } catch (const gnomon::scene::InputError& error) {
         complain(error.what());
-        return bad_input;
+        return exit_codes::bad_input;
     } catch (const gnomon::scene::EnvironmentError& error) {
         complain(error.what());
-        return environment_failed;
+        return exit_codes::environment_failed;
     } catch (const std::bad_alloc&) {
         complain("out of memory: use a smaller scene, image or map");
-        return environment_failed;
+        return exit_codes::environment_failed;
     } catch (const std::exception& error) {
         complain(std::string{"internal error: "} + error.what() +
                  ": report it with the command and the output of `gnomon doctor`");
-        return environment_failed;
+        return exit_codes::environment_failed;
     }
 }

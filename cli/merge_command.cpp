@@ -1,5 +1,6 @@
 #include "cli/merge_command.hpp"
 
+#include "cli/exit_codes.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/run/merge.hpp"
 #include "reports/run/run_lock.hpp"
@@ -13,7 +14,6 @@
 namespace gnomon::cli {
 namespace {
 
-constexpr int incomplete_exit_code = 5;
 
 struct MergeOptions {
     std::string out;
@@ -32,7 +32,7 @@ void merge(const MergeOptions& options)
     const reports::RunStatus status = reports::read_run_status(options.out, most_rows);
     print(reports::run_status_text(status));
     if (!status.is_complete()) {
-        throw CLI::RuntimeError{incomplete_exit_code};
+        throw CLI::RuntimeError{exit_codes::incomplete};
     }
 }
 

@@ -1,5 +1,6 @@
 #include "cli/status_command.hpp"
 
+#include "cli/exit_codes.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/run/run_status.hpp"
 
@@ -11,7 +12,6 @@
 namespace gnomon::cli {
 namespace {
 
-constexpr int incomplete_exit_code = 5;
 
 struct StatusOptions {
     std::string run;
@@ -26,7 +26,7 @@ void show_status(const StatusOptions& options)
         options.run, options.all ? std::numeric_limits<std::uint64_t>::max() : some_rows);
     print(options.json ? reports::run_status_json(status) : reports::run_status_text(status));
     if (!status.is_complete()) {
-        throw CLI::RuntimeError{incomplete_exit_code};
+        throw CLI::RuntimeError{exit_codes::incomplete};
     }
 }
 

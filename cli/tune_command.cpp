@@ -2,6 +2,7 @@
 
 #include "analysis/tune.hpp"
 #include "cli/comparison_session.hpp"
+#include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/text.hpp"
@@ -18,8 +19,6 @@
 
 namespace gnomon::cli {
 namespace {
-
-constexpr int no_setting_exit_code = 1;
 
 struct TuneOptions {
     JobOptions job;
@@ -64,7 +63,7 @@ void tune(const TuneOptions& options)
         analysis::tune(job, session.file(), session.renderers(), limits, report_progress);
     print(options.json ? reports::tune_json(result, limits) : reports::tune_text(result, limits));
     if (!result.meets_limits) {
-        throw CLI::RuntimeError{no_setting_exit_code};
+        throw CLI::RuntimeError{exit_codes::negative};
     }
 }
 

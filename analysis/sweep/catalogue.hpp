@@ -27,6 +27,8 @@ public:
     /// @param keeps_every_bias  each configuration is a request of its own, to keep its pixels.
     /// @param version           of the program: part of every id.
     SweepCatalogue(const scene::SweepSpace& space, bool keeps_every_bias, std::string version);
+    SweepCatalogue(const scene::SweepSpace&& space, bool keeps_every_bias,
+                   std::string version) = delete;
 
     /// One for each bias curve, in the order of their first configurations.
     [[nodiscard]] const std::vector<CurveRequest>& requests() const { return requests_; }
