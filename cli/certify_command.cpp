@@ -27,7 +27,6 @@ namespace {
 using nlohmann::ordered_json;
 using reference_rt::Certificate;
 
-
 struct CertifyOptions {
     std::string aov_path;
     JobOptions job;

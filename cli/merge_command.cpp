@@ -14,7 +14,6 @@
 namespace gnomon::cli {
 namespace {
 
-
 struct MergeOptions {
     std::string out;
     std::vector<std::string> runs;

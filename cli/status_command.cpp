@@ -12,7 +12,6 @@
 namespace gnomon::cli {
 namespace {
 
-
 struct StatusOptions {
     std::string run;
     bool json = false;
