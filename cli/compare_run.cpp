@@ -3,7 +3,11 @@
 #include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/lookup_answers.hpp"
 #include "cli/kept_pixels.hpp"
+#include "scene/error.hpp"
+#include "scene/job_toml.hpp"
 #include "scene/sweep_space.hpp"
+
+#include <fmt/format.h>
 
 #include <utility>
 #include <vector>
@@ -15,6 +19,11 @@ CompareRun::CompareRun(std::filesystem::path folder)
       lock_{folder_},
       store_{folder_, reports::RunStore::Access::write}
 {
+    if (store_.description().size > 1) {
+        throw scene::InputError(fmt::format(
+            "--out {}: holds a sweep, whose plan this would replace: name another folder",
+            scene::one_line(folder_.string())));
+    }
 }
 
 void CompareRun::record(scene::JobSource source, std::string_view case_name,

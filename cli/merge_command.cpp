@@ -3,6 +3,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/run/merge.hpp"
+#include "reports/run/pixels.hpp"
 #include "reports/run/run_lock.hpp"
 #include "reports/run/run_status.hpp"
 
@@ -28,6 +29,9 @@ void merge(const MergeOptions& options)
     reports::merge_runs(options.out, runs,
                         options.allow_mixed ? reports::Environments::several
                                             : reports::Environments::one);
+    for (const std::filesystem::path& run : runs) {
+        reports::take_pixels(options.out, run);
+    }
     const reports::RunStatus status = reports::read_run_status(options.out, most_rows);
     print(reports::run_status_text(status));
     if (!status.is_complete()) {

@@ -37,8 +37,9 @@ std::string clock_text(double seconds)
 
 } // namespace
 
-Progress::Progress(std::uint64_t total, bool is_quiet)
+Progress::Progress(std::uint64_t total, std::uint64_t known, bool is_quiet)
     : total_{total},
+      known_{known},
       is_quiet_{is_quiet},
       is_terminal_{::isatty(STDERR_FILENO) == 1}
 {
@@ -70,7 +71,8 @@ std::string Progress::line() const
 {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
     const std::uint64_t told = done_ + failed_;
-    std::string text = fmt::format("{}/{} done", reports::grouped(done_), reports::grouped(total_));
+    std::string text = fmt::format("{}/{} done", reports::grouped(known_ + done_),
+                                   reports::grouped(known_ + total_));
     if (failed_ > 0) {
         text += fmt::format(", {} failed", reports::grouped(failed_));
     }

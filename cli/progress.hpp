@@ -12,7 +12,8 @@ namespace gnomon::cli {
 class Progress {
 public:
     /// @param total  configurations to compute.
-    Progress(std::uint64_t total, bool is_quiet);
+    /// @param known  configurations that were computed before.
+    Progress(std::uint64_t total, std::uint64_t known, bool is_quiet);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     /// Ends the live line.
@@ -27,6 +28,7 @@ private:
     [[nodiscard]] std::string line() const;
 
     std::uint64_t total_;
+    std::uint64_t known_;
     bool is_quiet_;
     bool is_terminal_;
     std::mutex mutex_;

@@ -68,6 +68,19 @@ bool keeps_pixels(const SweepOptions& options, std::uint64_t configurations)
            (!options.keeps_no_pixels && configurations <= few_configurations);
 }
 
+/// The options that decide what is kept and computed where: whoever resumes needs them again.
+std::string flags_text(const SweepOptions& options)
+{
+    std::string text;
+    text += options.keeps_pixels ? " --keep-pixels" : "";
+    text += options.keeps_no_pixels ? " --no-keep-pixels" : "";
+    text += options.allows_mixed ? " --allow-mixed" : "";
+    text += options.session.device ? fmt::format(" --device {}", *options.session.device) : "";
+    text +=
+        options.session.threads > 0 ? fmt::format(" --threads {}", options.session.threads) : "";
+    return text;
+}
+
 void print_plan(const SweepOptions& options, const scene::SweepSpace& space, bool keeps)
 {
     const analysis::SweepCatalogue catalogue{space, keeps, GNOMON_VERSION};
@@ -77,6 +90,7 @@ void print_plan(const SweepOptions& options, const scene::SweepSpace& space, boo
     summary.configurations = space.size();
     for (const analysis::Refusal& refusal : catalogue.refusals()) {
         summary.refused += refusal.ordinals.size();
+        summary.first_refusal = catalogue.refusals().front().message;
     }
     summary.counts = plan.counts(requests);
     summary.estimated_seconds = analysis::estimate_seconds(plan, requests);
@@ -96,9 +110,9 @@ std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcom
                         outcome.counts.configurations > 0 ? counts_text(outcome.counts)
                                                           : "nothing was left to do");
     if (outcome.retired > 0) {
-        text += fmt::format("  {} results of an earlier sweep stay in results.sqlite and are not "
-                            "in the CSV files\n",
-                            reports::grouped(outcome.retired));
+        text +=
+            fmt::format("  {} of an earlier sweep stay in results.sqlite, not in the CSV files\n",
+                        reports::counted(outcome.retired, "result"));
     }
     return text;
 }
@@ -119,6 +133,7 @@ void sweep(const SweepOptions& options)
     const scene::SweepSpace space{read_job_source(options.job), options.axes,
                                   options.job.case_name};
     const bool keeps = keeps_pixels(options, space.size());
+    const reports::Shard shard = read_shard(options.shard);
     if (options.is_dry_run) {
         return print_plan(options, space, keeps);
     }
@@ -128,13 +143,13 @@ void sweep(const SweepOptions& options)
     }
     SweepRunOptions run;
     run.folder = options.folder;
-    run.shard = read_shard(options.shard);
+    run.shard = shard;
     run.keeps_pixels = keeps;
     run.retries_failed = !options.retry.empty();
     run.is_quiet = options.is_quiet;
     run.allows_mixed = options.allows_mixed;
     run.job_text = job_text(options.job);
-    run.command = command_text("sweep", options.job, options.axes);
+    run.command = command_text("sweep", options.job, options.axes) + flags_text(options);
     run.session = options.session;
     const SweepOutcome outcome = run_sweep_command(space, run);
     print(outcome_text(options, outcome));

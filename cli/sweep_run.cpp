@@ -10,6 +10,7 @@
 #include "cli/sweep_text.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
+#include "reports/run/pixels.hpp"
 #include "reports/run/run_lock.hpp"
 #include "scene/error.hpp"
 
@@ -179,13 +180,28 @@ private:
         return description;
     }
 
+    /// What was not computed yet, and what was but without its pixels, where they are kept.
+    [[nodiscard]] std::vector<std::uint64_t> missing_ordinals() const
+    {
+        std::vector<std::uint64_t> missing = store_.ordinals(RunState::planned);
+        if (options_.keeps_pixels) {
+            for (const std::uint64_t ordinal : store_.ordinals(RunState::done)) {
+                if (!fs::exists(reports::pixels_path(options_.folder, ids_.at(ordinal)))) {
+                    missing.push_back(ordinal);
+                }
+            }
+            std::sort(missing.begin(), missing.end());
+        }
+        return missing;
+    }
+
     /// Keeps of requests and refusals what is still to be done here.
     void select_missing()
     {
         if (options_.retries_failed) {
             store_.reset_failed();
         }
-        const Ordinals missing{store_.ordinals(RunState::planned)};
+        const Ordinals missing{missing_ordinals()};
         for (Refusal& refusal : refusals_) {
             refusal.ordinals = missing.common(refusal.ordinals);
         }
@@ -209,7 +225,7 @@ private:
         for (const Refusal& refusal : refusals_) {
             total += refusal.ordinals.size();
         }
-        Progress progress{total, options_.is_quiet};
+        Progress progress{total, outcome_.configurations - total, options_.is_quiet};
         for (const Refusal& refusal : refusals_) {
             store_.record_failure(refusal.ordinals, refusal.message);
             progress.add(0, refusal.ordinals.size());

@@ -69,14 +69,14 @@ std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summar
     std::string text = fmt::format(
         "{}: {}\n", reports::counted(summary.configurations, "configuration"), axes_text(space));
     if (summary.refused > 0) {
-        text += fmt::format("  {} of them fail: their keys do not go together\n",
-                            reports::grouped(summary.refused));
+        text += fmt::format("  {} of them will fail, the first as {}\n",
+                            reports::grouped(summary.refused), summary.first_refusal);
     }
     text += fmt::format("  {}\n", counts_text(summary.counts));
-    text += fmt::format("  roughly {} on two cores with software GL, and {:.1f} GiB of memory "
+    text += fmt::format("  roughly {} on two cores with software GL, and {} MiB of memory "
                         "beside the scene\n",
                         duration_text(summary.estimated_seconds),
-                        static_cast<double>(summary.estimated_bytes) / (1U << 30U));
+                        reports::grouped((summary.estimated_bytes >> 20U) + 1));
     return text;
 }
 
@@ -86,6 +86,7 @@ std::string plan_json(const SweepSummary& summary)
     const nlohmann::ordered_json json{{"schema", 1},
                                       {"configurations", summary.configurations},
                                       {"refused", summary.refused},
+                                      {"first_refusal", summary.first_refusal},
                                       {"plan",
                                        {{"configurations", counts.configurations},
                                         {"scenes", counts.scenes},

@@ -12,6 +12,7 @@ namespace gnomon::cli {
 struct SweepSummary {
     std::uint64_t configurations = 0; ///< of the whole sweep
     std::uint64_t refused = 0;        ///< of them, because their keys do not go together
+    std::string first_refusal;        ///< what it says; empty if none is refused
     analysis::PlanCounts counts;      ///< of the work at hand
     double estimated_seconds = 0;
     std::uint64_t estimated_bytes = 0;

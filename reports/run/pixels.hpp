@@ -11,4 +11,9 @@ namespace gnomon::reports {
 [[nodiscard]] std::filesystem::path pixels_path(const std::filesystem::path& folder,
                                                 std::string_view id);
 
+/// Takes over the kept layers of another run that this one lacks; links them where the file system
+/// can.
+/// @throws scene::EnvironmentError  if they cannot be written.
+void take_pixels(const std::filesystem::path& folder, const std::filesystem::path& other);
+
 } // namespace gnomon::reports

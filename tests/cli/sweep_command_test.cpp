@@ -42,6 +42,37 @@ TEST(Sweep, IsNotDoneAgain)
     EXPECT_THAT(more.out, HasSubstr("2 bias curves"));
 }
 
+TEST(Sweep, MakesUpForPixelsThatWereNotKept)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights);
+    const path run = folder.path() / "run";
+    swept(sweep(job, run, {"--no-keep-pixels"}));
+    EXPECT_FALSE(std::filesystem::exists(run / "pixels"));
+    const RunCsv first{run};
+    swept(sweep(job, run, {"--keep-pixels"}));
+    EXPECT_EQ(entry_count(run / "pixels"), 2U);
+    expect_same(RunCsv{run}, first);
+    const Json status = Json::parse(gnomon({"status", run, "--json"}).out);
+    EXPECT_THAT(status.at("resume").get<std::string>(), HasSubstr(" --keep-pixels"));
+}
+
+TEST(Sweep, IsNotReplacedByAComparison)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights);
+    const path run = folder.path() / "run";
+    swept(sweep(job, run));
+    const Ending ending = gnomon({"compare", job, "--case", "sun", "--out", run});
+    EXPECT_EQ(ending.exit_code, 2);
+    EXPECT_THAT(ending.err, HasSubstr("holds a sweep, whose plan this would replace"));
+    const path single = folder.path() / "single";
+    swept({"compare", job, "--case", "sun", "--out", single});
+    swept({"compare", job, "--case", "sun", "--out", single});
+    EXPECT_EQ(csv_rows(single / "results.csv").size(), 1U);
+    EXPECT_EQ(entry_count(single / "pixels"), 1U);
+}
+
 TEST(Sweep, RecordsWhatFails)
 {
     const TemporaryFolder folder;
@@ -132,7 +163,7 @@ TEST(SweepDryRun, CountsTheWorkAndWritesNothing)
                            "  1 scene, 2 truths, 4 receiver passes, 12 shadow maps, 12 lookup "
                            "passes, 12 bias curves\n"
                            "  roughly "));
-    EXPECT_THAT(text.out, AllOf(HasSubstr(" s on two cores"), HasSubstr(" GiB of memory")));
+    EXPECT_THAT(text.out, AllOf(HasSubstr(" s on two cores"), HasSubstr(" MiB of memory")));
     const Ending json = gnomon(with(arguments, {"--json"}));
     expect_done(json);
     const Json plan = Json::parse(json.out);
@@ -159,7 +190,9 @@ TEST(SweepDryRun, CountsWhatIsRefused)
                                   "--axis", "shadow_map.far=4,9"});
     expect_done(ending);
     EXPECT_THAT(ending.out, StartsWith("8 configurations: "));
-    EXPECT_THAT(ending.out, HasSubstr("  2 of them fail: their keys do not go together\n"));
+    EXPECT_THAT(ending.out,
+                HasSubstr("  2 of them will fail, the first as [sweep] shadow_map.near = 5: "
+                          "must be less than shadow_map.far ([sweep] shadow_map.far = 4)\n"));
 }
 
 TEST(SweepDryRun, NeedsNeitherGlNorTheScene)
