@@ -17,7 +17,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 
 namespace gnomon::analysis {
 
@@ -245,10 +244,10 @@ private:
 class TapCounter {
 public:
     TapCounter(const scene::Image<PixelClass>& classes, const scene::LookupLayers& lookup,
-               PcfTaps taps, const LookupRule& rule, std::span<const float> biases)
+               const PcfTaps& taps, const LookupRule& rule, std::span<const float> biases)
         : classes_{classes},
           lookup_{lookup},
-          taps_{std::move(taps)},
+          taps_{taps},
           rule_{rule},
           biases_{biases}
     {
