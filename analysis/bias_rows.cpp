@@ -25,6 +25,8 @@ using scene::PixelClass;
 namespace {
 
 constexpr std::size_t pixels_per_task = std::size_t{1} << 16U;
+/// Every task counts for all of them: this bounds the memory.
+constexpr std::size_t biases_at_once = 4096;
 
 void require_ascending(std::span<const float> biases, std::string_view function)
 {
@@ -325,14 +327,17 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, std::span<const flo
         inputs.causes.size() != size) {
         throw std::invalid_argument("count_rows: inputs: the images differ in size");
     }
-    if (biases.empty()) {
-        return {};
+    std::vector<BiasRow> rows;
+    for (std::size_t first = 0; first < biases.size(); first += biases_at_once) {
+        const auto part = biases.subspan(first, std::min(biases_at_once, biases.size() - first));
+        const RowCounter counter{inputs, part};
+        const Changes changes =
+            sum_over_pixels(inputs.classes.pixel_count(), Changes{part.size()},
+                            [&](std::size_t pixel, Changes& sum) { counter.count(pixel, sum); });
+        const std::vector<BiasRow> counted = changes.rows();
+        rows.insert(rows.end(), counted.begin(), counted.end());
     }
-    const RowCounter counter{inputs, biases};
-    const Changes changes =
-        sum_over_pixels(inputs.classes.pixel_count(), Changes{biases.size()},
-                        [&](std::size_t pixel, Changes& sum) { counter.count(pixel, sum); });
-    return changes.rows();
+    return rows;
 }
 
 std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& classes,

@@ -6,10 +6,10 @@
 #include "cli/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
-#include "cli/shell_text.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/sweep_run.hpp"
 #include "cli/sweep_text.hpp"
+#include "reports/shell_text.hpp"
 #include "reports/text.hpp"
 #include "scene/error.hpp"
 
@@ -160,7 +160,8 @@ void sweep(const SweepOptions& options)
         fmt::print(stderr,
                    "gnomon: {} failed; `gnomon status {}` says why, --retry failed tries "
                    "again\n",
-                   reports::counted(outcome.failed, "configuration"), shell_text({options.folder}));
+                   reports::counted(outcome.failed, "configuration"),
+                   reports::shell_text({options.folder}));
     } else if (code == exit_codes::environment_failed) {
         fmt::print(stderr,
                    "gnomon: {} pixels mismatch: GL's triangle is neither a first hit nor explained "

@@ -3,14 +3,13 @@
 #include "analysis/critical_bias.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/sweep/background.hpp"
-#include "analysis/sweep/lookup_answers.hpp"
+#include "analysis/sweep/lookup_work.hpp"
+#include "analysis/sweep/made.hpp"
 #include "scene/error.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -19,107 +18,6 @@ namespace gnomon::analysis {
 namespace {
 
 using Kind = SweepStep::Kind;
-
-/// What a stage made, or why it could not.
-template <typename Value>
-struct Made {
-    std::shared_ptr<Value> value;
-    std::string error; ///< empty: `value` is there
-};
-
-/// Why work that needs a result cannot be done; thrown with the words of whatever failed first.
-struct StageFailed : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-template <typename Value>
-std::shared_ptr<Value> need(const Made<Value>& made)
-{
-    if (!made.value) {
-        throw StageFailed{made.error.empty() ? "an earlier stage did not run" : made.error};
-    }
-    return made.value;
-}
-
-/// Runs a stage; what concerns the configuration alone becomes its result.
-template <typename Value, typename Stage>
-Made<Value> make(const Stage& stage)
-{
-    try {
-        return {stage(), {}};
-    } catch (const StageFailed& error) {
-        return {nullptr, error.what()};
-    } catch (const scene::InputError& error) {
-        return {nullptr, error.what()};
-    } catch (const scene::EnvironmentError& error) {
-        return {nullptr, error.what()};
-    }
-}
-
-/// A scene in both renderers' hands, and what results say of it.
-struct ReadScene {
-    OpenScene open;
-    SceneSummary summary;
-};
-
-/// The exact sides of the cameras that are kept side by side, the last of each: maps that differ in
-/// depth format only come one after the other.
-class ExactSides {
-public:
-    template <typename Make>
-    std::shared_ptr<ExactSide> find(std::size_t slot, const std::string& key, const Make& make)
-    {
-        sides_.resize(std::max(sides_.size(), slot + 1));
-        auto& [known, side] = sides_[slot];
-        if (side == nullptr || known != key) {
-            side.reset(); // before the next one takes memory
-            side = make();
-            known = key;
-        }
-        return side;
-    }
-    void forget() { sides_.clear(); }
-
-private:
-    std::vector<std::pair<std::string, std::shared_ptr<ExactSide>>> sides_;
-};
-
-/// The answers of one lookup, made by the background when they are first needed.
-class LookupWork {
-public:
-    LookupWork(const ReadScene& scene, std::shared_ptr<SweepSubject> subject, std::size_t slot,
-               ExactSides& sides, SweepLookup lookup)
-        : scene_{scene},
-          subject_{std::move(subject)},
-          slot_{slot},
-          sides_{sides},
-          lookup_{std::move(lookup)}
-    {
-    }
-
-    [[nodiscard]] const scene::LightFrustum& frustum() const { return frustum_; }
-
-    [[nodiscard]] FinishedCurve answer(const CurveQuestion& question)
-    {
-        if (!answers_) {
-            auto side = sides_.find(slot_, stage_keys(lookup_.job).exact, [&] {
-                return std::make_shared<ExactSide>(scene_.open.file->scene, subject_, lookup_.job,
-                                                   lookup_.view, *scene_.open.renderers);
-            });
-            answers_ = std::make_unique<LookupAnswers>(std::move(side), std::move(lookup_));
-        }
-        return answers_->answer(question);
-    }
-
-private:
-    const ReadScene& scene_;
-    std::shared_ptr<SweepSubject> subject_;
-    std::size_t slot_;
-    ExactSides& sides_;
-    SweepLookup lookup_;
-    scene::LightFrustum frustum_ = lookup_.view.frustum;
-    std::unique_ptr<LookupAnswers> answers_;
-};
 
 /// Tells of finished and failed configurations, one at a time.
 class Teller {

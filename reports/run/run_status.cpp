@@ -1,35 +1,18 @@
 #include "reports/run/run_status.hpp"
 
 #include "reports/json_values.hpp"
+#include "reports/shell_text.hpp"
 #include "reports/text.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string_view>
 
 namespace gnomon::reports {
 
 namespace {
-
-/// A word as a shell reads it.
-std::string shell_word(const std::string& word)
-{
-    const auto is_safe = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               std::string_view{"_-./+:@%="}.find(c) != std::string_view::npos;
-    };
-    if (!word.empty() && std::all_of(word.begin(), word.end(), is_safe)) {
-        return word;
-    }
-    std::string quoted = "'";
-    for (const char c : word) {
-        quoted += c == '\'' ? std::string{"'\\''"} : std::string{c};
-    }
-    return quoted + '\'';
-}
 
 /// Which part of a divided sweep the run is.
 std::string part_text(const Shard& shard)
@@ -113,7 +96,7 @@ std::string resuming_command(const RunStatus& status)
         return {};
     }
     std::string command =
-        fmt::format("{} --out {}", description.command, shell_word(status.folder.string()));
+        fmt::format("{} --out {}", description.command, shell_text({status.folder.string()}));
     if (description.shard.count > 1) {
         command += fmt::format(" --shard {}/{}", description.shard.index, description.shard.count);
     }

@@ -1,8 +1,8 @@
-#include "cli/shell_text.hpp"
+#include "reports/shell_text.hpp"
 
 #include <string_view>
 
-namespace gnomon::cli {
+namespace gnomon::reports {
 namespace {
 
 constexpr std::string_view plain_characters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -33,4 +33,4 @@ std::string shell_text(const std::vector<std::string>& words)
     return text;
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::reports
