@@ -104,6 +104,10 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
         timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
 
     timed(seconds.analysis, [&] { measure_comparison(result, renderers); });
+    if (result.diagnosis && !result.diagnosis->biases) {
+        result.reruns = timed(seconds.analysis,
+                              [&] { return rerun_biases(job, view, result.truth, renderers); });
+    }
     return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/bias_reruns.hpp"
 #include "analysis/diagnosis.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/renderers.hpp"
@@ -57,8 +58,9 @@ struct Comparison {
     scene::LookupLayers lookup;
     scene::TruthLayers truth;
     Metrics metrics;
-    std::optional<Diagnosis> diagnosis;                ///< empty: not asked for
-    std::vector<Advice> advice;                        ///< empty: not asked for
+    std::optional<Diagnosis> diagnosis; ///< empty: not asked for
+    std::vector<BiasRerun> reruns;      ///< for `hardware`, which has no bias curve; else empty
+    std::vector<Advice> advice;         ///< empty: not asked for
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
 
     std::string truth_method;
@@ -72,7 +74,9 @@ struct Comparison {
 /// @throws std::invalid_argument  if its layers are not of the image's size.
 void measure_comparison(Comparison& comparison, const Renderers& renderers);
 
-/// Resolves the job's view, runs both renderers over it and measures the difference.
+/// Resolves the job's view, runs both renderers over it and measures the difference; where the
+/// filter has no bias curve, and a diagnosis is asked for, GL's lookup is run again with other
+/// biases.
 ///
 /// `seconds.bvh` stays 0, and `seconds.scene` covers only what happens in here: whoever read the
 /// scene and built the hierarchy adds that time.

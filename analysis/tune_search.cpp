@@ -1,6 +1,6 @@
 #include "analysis/tune_search.hpp"
 
-#include "analysis/metrics.hpp"
+#include "analysis/bias_reruns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,16 +37,6 @@ bool meets(const TunedSetting& setting, const TuneLimits& limits)
 
 /// Where biases are looked for: a recommendation does not push surfaces towards the light.
 constexpr BiasInterval usable_biases{0.0F, 1.0F};
-
-/// Biases for lookups that have no curve: 0, and four a decade.
-std::vector<float> rendered_biases()
-{
-    std::vector<float> biases{0.0F};
-    for (int i = 0; i <= 24; ++i) {
-        biases.push_back(static_cast<float>(1e-6 * std::pow(10.0, i / 4.0)));
-    }
-    return biases;
-}
 
 } // namespace
 
@@ -104,17 +94,14 @@ void BiasSearch::search_by_rendering(const TuneLimits& limits, TunedSetting& set
     scene::View view = view_;
     view.bias.slope = static_cast<float>(setting.slope);
     bool is_first = true;
-    for (const float bias : rendered_biases()) {
-        view.bias.constant = bias;
-        const Metrics metrics =
-            measure(truth_, renderers_.look_up(job_, view), equal_taps(job_.lookup.filter));
+    for (const BiasRerun& rerun : rerun_biases(job_, view, truth_, renderers_)) {
         TunedSetting tried = setting;
-        tried.constant = bias;
-        tried.interval = {bias, bias};
-        tried.errors = {metrics.false_shadow, metrics.false_lit};
-        tried.false_shadow_rate = metrics.false_shadow_rate;
-        tried.false_lit_rate = metrics.false_lit_rate;
-        tried.error_rate = metrics.error_rate;
+        tried.constant = rerun.bias;
+        tried.interval = {rerun.bias, rerun.bias};
+        tried.errors = rerun.errors;
+        tried.false_shadow_rate = rerun.false_shadow_rate;
+        tried.false_lit_rate = rerun.false_lit_rate;
+        tried.error_rate = rerun.error_rate;
         tried.meets_limits = meets(tried, limits);
         const bool is_better = tried.meets_limits != setting.meets_limits
                                    ? tried.meets_limits

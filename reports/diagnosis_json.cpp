@@ -126,6 +126,20 @@ Json by_object(const std::vector<analysis::ObjectErrors>& objects)
     return json;
 }
 
+Json reruns(const std::vector<analysis::BiasRerun>& reruns)
+{
+    Json json = Json::array();
+    for (const analysis::BiasRerun& rerun : reruns) {
+        json.push_back({{"bias", rerun.bias},
+                        {"false_shadow", rerun.errors.false_shadow},
+                        {"false_lit", rerun.errors.false_lit},
+                        {"false_shadow_rate", number_or_null(rerun.false_shadow_rate)},
+                        {"false_lit_rate", number_or_null(rerun.false_lit_rate)},
+                        {"error_rate", number_or_null(rerun.error_rate)}});
+    }
+    return json;
+}
+
 Json advice(const std::vector<analysis::Advice>& changes)
 {
     Json json = Json::array();
@@ -150,6 +164,8 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
         json["peter_panning_gap_texels"] = lengths(std::nullopt);
         json["peter_panning_gap_pixels"] = nullptr;
         json["bias_curve"] = nullptr;
+        json["bias_source"] = nullptr;
+        json["bias_reruns"] = nullptr;
         return;
     }
     const analysis::CauseCounts& counts = diagnosis->causes.counts;
@@ -160,6 +176,8 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
     const auto& gaps = diagnosis->peter_panning.metres;
     json["peter_panning_gap_pixels"] = gaps ? gaps->count : 0;
     json["bias_curve"] = diagnosis->biases ? bias_curve(*diagnosis->biases) : Json(nullptr);
+    json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
+    json["bias_reruns"] = comparison.reruns.empty() ? Json(nullptr) : reruns(comparison.reruns);
     json["slope_curves"] = diagnosis->biases ? slope_answers(*diagnosis->biases) : Json(nullptr);
     json["by_light_distance_m"] = bins(diagnosis->by_distance);
     json["by_receiver_angle_rad"] = bins(diagnosis->by_angle);

@@ -165,6 +165,23 @@ std::string best_bias(const analysis::Comparison& comparison, const analysis::Bi
                        best.recommended(), grouped(best.errors.total()), grouped(now));
 }
 
+/// Of the biases that GL was run again with, the one with the fewest errors.
+std::string best_rerun(const analysis::Comparison& comparison)
+{
+    const auto best = std::ranges::min_element(
+        comparison.reruns, {}, [](const auto& rerun) { return rerun.errors.total(); });
+    const std::string reruns =
+        fmt::format("The driver's own filter has no bias curve, so GL was run again with {} "
+                    "constant biases",
+                    comparison.reruns.size());
+    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    if (best->errors.total() >= now) {
+        return fmt::format("{}: none has fewer errors.", reruns);
+    }
+    return fmt::format("{}: of those, bias.constant = {} has the fewest errors: {} in place of {}.",
+                       reruns, best->bias, grouped(best->errors.total()), grouped(now));
+}
+
 /// Slope and normal offset are biases too, which no constant one makes up for.
 std::string other_biases(const scene::Bias& bias)
 {
@@ -210,9 +227,8 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     if (const auto& biases = comparison.diagnosis->biases) {
         append(sentences, against_limits(comparison.view.bias.constant, biases->bounds));
         append(sentences, best_bias(comparison, *biases));
-    } else {
-        append(sentences, "The driver's own filter has no bias curve: --advise and `gnomon tune` "
-                          "run GL again.");
+    } else if (!comparison.reruns.empty()) {
+        append(sentences, best_rerun(comparison));
     }
     return sentences;
 }

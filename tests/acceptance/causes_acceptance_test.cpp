@@ -211,18 +211,33 @@ TEST(Repair, OfPrecisionIsAFloatFormat)
     expect_repaired(repaired(before, Cause::precision, after), 1000);
 }
 
-TEST(Repair, OfResolutionIsAFinerMap)
+/// Cumulative: the format's precision is repaired too.
+void expect_repaired_by_resolution(int resolution)
 {
-    GNOMON_REQUIRE_GL();
     const TiltedPlaneSetting plane{45, 256, "d24", 0};
     const scene::Job job = tilted_plane_job(plane, 0);
     const Compared scene{job};
-    const TiltedPlaneSetting finer{45, 8192, "d32f", 0};
+    const TiltedPlaneSetting finer{45, resolution, "d32f", 0};
     const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).frustum;
     const double bias = 1.02 * closed_form_bias(finer, frustum);
     expect_repaired(repaired(scene(tilted_plane_job(plane, bias)), Cause::resolution,
                              scene.without_diagnosis(tilted_plane_job(finer, bias))),
                     1000);
+}
+
+TEST(Repair, OfResolutionIsAFinerMap)
+{
+    GNOMON_REQUIRE_GL();
+    expect_repaired_by_resolution(8192);
+}
+
+TEST(Repair, OfResolutionIsTheFinestMap)
+{
+    GNOMON_REQUIRE_GL();
+    if (std::getenv("GNOMON_FULL_TESTS") == nullptr) {
+        GTEST_SKIP() << "a map of 1 GiB: GNOMON_FULL_TESTS is not set";
+    }
+    expect_repaired_by_resolution(16384);
 }
 
 TEST(Repair, OfCoverageIsTheWholeScene)

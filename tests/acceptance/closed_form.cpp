@@ -25,16 +25,20 @@ scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias)
         .job;
 }
 
-double closed_form_bias(const TiltedPlaneSetting& setting, const scene::LightFrustum& frustum)
+double half_texel_slope(const TiltedPlaneSetting& setting, const scene::LightFrustum& frustum)
 {
     const double slope = std::tan(setting.angle_deg * std::numbers::pi / 180);
     const double roll_rad = setting.roll_deg * std::numbers::pi / 180;
     const double texel_m = frustum.texel_width_m(1, setting.resolution);
     const double per_texel = slope * texel_m / frustum.range_m();
+    return 0.5 * per_texel * (std::abs(std::cos(roll_rad)) + std::abs(std::sin(roll_rad)));
+}
+
+double closed_form_bias(const TiltedPlaneSetting& setting, const scene::LightFrustum& frustum)
+{
     const auto format = scene::depth_format_from_name(setting.format).value();
     const double rounding = format.is_float() ? 0x1p-25 : 0.5 / (std::ldexp(1.0, format.bits) - 1);
-    return 0.5 * per_texel * (std::abs(std::cos(roll_rad)) + std::abs(std::sin(roll_rad))) +
-           rounding + 4 * 0x1p-24;
+    return half_texel_slope(setting, frustum) + rounding + 4 * 0x1p-24;
 }
 
 } // namespace gnomon::tests

@@ -19,8 +19,12 @@ struct TiltedPlaneSetting {
 [[nodiscard]] std::string text(const TiltedPlaneSetting& setting);
 [[nodiscard]] scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias);
 
-/// ½(|∂d/∂u| + |∂d/∂v|) per texel, plus what the format may round up: half a code, or half an ulp
-/// of a float32 below 1; plus the roundings of r and d, a few times 2^-24.
+/// ½(|∂d/∂u| + |∂d/∂v|) per texel: what a plane's depth varies around the centre of a texel.
+[[nodiscard]] double half_texel_slope(const TiltedPlaneSetting& setting,
+                                      const scene::LightFrustum& frustum);
+
+/// `half_texel_slope`, plus what the format may round away: half a code, or half an ulp of a
+/// float32 below 1; plus the roundings of r and d, a few times 2^-24.
 [[nodiscard]] double closed_form_bias(const TiltedPlaneSetting& setting,
                                       const scene::LightFrustum& frustum);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 /// What `tune` promises, GL keeps.
 namespace gnomon::tests {
@@ -36,7 +37,7 @@ void expect_promise_kept(const scene::Job& job, const TuneLimits& limits, int gr
     const Compared compared{job};
     const auto result = analysis::tune(job, compared.file(), compared.renderers(), limits, {});
     const analysis::TunedSetting& best = result.best();
-    const std::string label = job.scene.builtin;
+    const std::string label = job.scene.builtin + job.scene.file.string();
     EXPECT_EQ(result.measured.metrics.false_shadow, best.errors.false_shadow) << label;
     EXPECT_EQ(result.measured.metrics.false_lit, best.errors.false_lit) << label;
     if (result.meets_limits) {
@@ -97,6 +98,24 @@ TEST(Tune, PromisesAreKeptOnEveryBuiltin)
     }
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
         expect_promise_kept(small_job(builtin.name), {0.01, 0.02, 2048}, 1);
+    }
+}
+
+TEST(Tune, PromisesAreKeptOnSharedScenes)
+{
+    GNOMON_REQUIRE_GL();
+    const char* const folder = std::getenv("GNOMON_SHARED_SCENES");
+    if (std::getenv("GNOMON_FULL_TESTS") == nullptr || folder == nullptr) {
+        GTEST_SKIP() << "long: GNOMON_FULL_TESTS or GNOMON_SHARED_SCENES is not set";
+    }
+    for (const char* const mesh : {"bunny.obj", "nefertiti.obj", "suzanne.obj"}) {
+        scene::Job job = small_job("sphere-plane");
+        job.scene = {};
+        job.scene.file = std::filesystem::path{folder} / mesh;
+        job.scene.ground = true;
+        job.camera.reset();
+        job.light = {};
+        expect_promise_kept(job, {0.01, 0.02, 2048}, 1);
     }
 }
 

@@ -165,6 +165,27 @@ Result compare_with_layers(std::vector<std::string> arguments)
     return result;
 }
 
+TEST(ComparisonJson, HasWhatGlMeasuredAgainWhereAFilterHasNoCurve)
+{
+    const std::vector<std::string> job{"--builtin", "columns", "--set", "lookup.filter=hardware"};
+    const Json result = compare(small(job));
+    EXPECT_TRUE(result.at("bias_curve").is_null());
+    EXPECT_EQ(result.at("bias_source"), "rerun");
+    const Json& reruns = result.at("bias_reruns");
+    ASSERT_EQ(reruns.size(), 26U);
+    for (const std::size_t i : {0U, 9U, 17U, 25U}) {
+        std::vector<std::string> biased = job;
+        biased.insert(biased.end(), {"--set", "bias.constant=" + reruns.at(i).at("bias").dump()});
+        const Json alone = compare(small(biased));
+        for (const char* const name : {"false_shadow", "false_lit", "false_shadow_rate"}) {
+            EXPECT_EQ(reruns.at(i).at(name), alone.at(name)) << reruns.at(i);
+        }
+    }
+    const Json nearest = compare(small({"--builtin", "columns"}));
+    EXPECT_EQ(nearest.at("bias_source"), "curve");
+    EXPECT_TRUE(nearest.at("bias_reruns").is_null());
+}
+
 TEST(Determinism, TheSameJobGivesTheSameBytesOnAnyNumberOfThreads)
 {
     for (const char* const builtin : {"columns", "sphere-cube"}) {

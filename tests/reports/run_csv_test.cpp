@@ -111,9 +111,9 @@ json member(const json& object, const std::string& column)
 bool is_of_the_sweep(const std::string& column)
 {
     const auto& keys = scene::job_keys();
-    const std::vector<std::string> own{"schema",     "ordinal",   "id",       "curve",
-                                       "case",       "status",    "message",  "scene_hash",
-                                       "map_near_m", "map_far_m", "map_bytes"};
+    const std::vector<std::string> own{"schema",     "ordinal",   "id",        "curve",
+                                       "case",       "status",    "message",   "scene_hash",
+                                       "map_near_m", "map_far_m", "map_bytes", "bias_source"};
     return std::find(own.begin(), own.end(), column) != own.end() ||
            std::any_of(keys.begin(), keys.end(),
                        [&](const scene::JobKey& key) { return key.name == column; });
