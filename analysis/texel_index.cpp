@@ -31,16 +31,14 @@ void TexelIndex::frame(std::span<const Texel> texels)
 
 void TexelIndex::mark(std::span<const Texel> texels)
 {
-    Block empty;
-    empty.fill(none);
     for (const Texel& texel : texels) {
         std::uint32_t& block = block_at_[cell_of(texel)];
         if (block == none) {
             block = static_cast<std::uint32_t>(blocks_.size());
-            blocks_.push_back(empty);
+            blocks_.emplace_back();
             origins_.push_back({texel.x - texel.x % side, texel.y - texel.y % side});
         }
-        blocks_[block][place_of(texel)] = 0;
+        blocks_[block].places |= std::uint64_t{1} << place_of(texel);
     }
 }
 
@@ -53,11 +51,10 @@ void TexelIndex::number()
         }
     }
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
-        for (std::size_t place = 0; place < step.size(); ++place) {
-            if (blocks_[b][place] != none) {
-                blocks_[b][place] = static_cast<std::uint32_t>(texels_.size());
-                texels_.push_back({origins_[b].x + step[place].x, origins_[b].y + step[place].y});
-            }
+        blocks_[b].first = static_cast<std::uint32_t>(texels_.size());
+        for (std::uint64_t rest = blocks_[b].places; rest != 0; rest &= rest - 1) {
+            const Texel& within = step[static_cast<std::size_t>(std::countr_zero(rest))];
+            texels_.push_back({origins_[b].x + within.x, origins_[b].y + within.y});
         }
     }
 }

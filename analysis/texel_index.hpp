@@ -3,6 +3,7 @@
 #include "scene/exact_light.hpp"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,14 +23,20 @@ public:
     /// Precondition: the texel is in the set.
     [[nodiscard]] std::size_t operator[](const scene::Texel& texel) const
     {
-        return blocks_[block_at_[cell_of(texel)]][place_of(texel)];
+        const Block& block = blocks_[block_at_[cell_of(texel)]];
+        const std::uint64_t before = (std::uint64_t{1} << place_of(texel)) - 1;
+        return block.first + static_cast<std::size_t>(std::popcount(block.places & before));
     }
 
 private:
     static constexpr int side_bits = 3;
     static constexpr int side = 1 << side_bits;
     static constexpr std::uint32_t none = 0xFFFFFFFF;
-    using Block = std::array<std::uint32_t, std::size_t{side} * side>; ///< numbers, by place
+    /// Sparse sets touch as many blocks as they have texels, so a block is small.
+    struct Block {
+        std::uint64_t places = 0; ///< those of its texels: bits
+        std::uint32_t first = 0;  ///< number of its first texel
+    };
 
     [[nodiscard]] std::size_t cell_of(const scene::Texel& texel) const
     {

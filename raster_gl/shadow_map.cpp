@@ -160,22 +160,33 @@ scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& 
 
 scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map)
 {
+    // In bands, for the largest maps fill a quarter of a gigabyte and more.
     const int resolution = map.resolution_texels;
-    const Texture copy = make_texture(GL_R32F, resolution, resolution);
+    const int band_rows = std::min(resolution, 256);
+    const Texture copy = make_texture(GL_R32F, resolution, band_rows);
     const Framebuffer target = make_framebuffer();
     const VertexArray no_attributes = make_vertex_array();
     const Program program = make_program({"fullscreen.vert", "map_depths.frag", {}, nullptr});
     glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, copy.name(), 0);
     glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-    glViewport(0, 0, resolution, resolution);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glUseProgram(program.name());
     glBindSampler(0, 0);
     glBindTextureUnit(0, map.depth.name());
     glBindVertexArray(no_attributes.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    auto depths = read_texture<float>(copy, {resolution, resolution}, GL_RED, GL_FLOAT);
+    scene::Image<float> depths{{resolution, resolution}};
+    for (int first_row = 0; first_row < resolution; first_row += band_rows) {
+        const int rows = std::min(band_rows, resolution - first_row);
+        glViewport(0, 0, resolution, rows);
+        set_uniform(program, "first_row", static_cast<std::uint32_t>(first_row));
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        // Turned over, a short last band's rows are the last ones, and the map's top comes first.
+        const auto band = read_texture<float>(copy, {resolution, band_rows}, GL_RED, GL_FLOAT);
+        std::copy_n(band.data() + std::ptrdiff_t{band_rows - rows} * resolution,
+                    std::ptrdiff_t{rows} * resolution,
+                    depths.data() + std::ptrdiff_t{resolution - first_row - rows} * resolution);
+    }
     context.check("reading the map's depths");
     return depths;
 }

@@ -1,8 +1,9 @@
 // The map's depths as a shader sees them: reading a depth texture back can give other bits.
 layout(binding = 0) uniform sampler2D map;
+uniform uint first_row; // of the band that is drawn
 layout(location = 0) out float depth;
 
 void main()
 {
-    depth = texelFetch(map, ivec2(gl_FragCoord.xy), 0).r;
+    depth = texelFetch(map, ivec2(gl_FragCoord.xy) + ivec2(0, int(first_row)), 0).r;
 }
