@@ -11,7 +11,7 @@ GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleS
     : context_{context},
       box_{triangles.bounds()},
       scene_{context, triangles},
-      shadow_map_pass_{context},
+      shadow_map_pass_{context, raster_gl::UnormCodes::dropped},
       lookup_pass_{context}
 {
     select_receivers(0);

@@ -26,7 +26,7 @@ void clear(const Framebuffer& target, const ShadowMap& map)
 {
     const float far_depth = map.reversed ? 0.0F : 1.0F;
     glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_depth);
-    if (map.format.kind == Kind::unorm) {
+    if (map.code.name() != 0) {
         const std::array<GLuint, 4> code{map.reversed ? 0U : largest_code(map.format)};
         const std::array<GLfloat, 4> z{far_depth};
         glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, code.data());
@@ -54,8 +54,9 @@ std::uint32_t narrow_code(std::uint32_t widened, double scale)
 
 } // namespace
 
-ShadowMapPass::ShadowMapPass(const Context& context)
+ShadowMapPass::ShadowMapPass(const Context& context, UnormCodes codes)
     : context_{context},
+      codes_{codes},
       depth_only_{make_program({"shadow_map.vert", {}, {}, nullptr})},
       unorm_{make_program({"shadow_map.vert", "shadow_map_unorm.frag", {}, nullptr})}
 {
@@ -79,7 +80,7 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
     map_.depth = make_texture(internal_format(settings.depth_format), size, size);
     require_format(map_.depth, settings.depth_format);
     glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, map_.depth.name(), 0);
-    if (settings.depth_format.kind == Kind::unorm) {
+    if (settings.depth_format.kind == Kind::unorm && codes_ == UnormCodes::kept) {
         map_.code = make_texture(GL_R32UI, size, size);
         map_.unquantised_z = make_texture(GL_R32F, size, size);
         glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, map_.code.name(), 0);
@@ -124,6 +125,9 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::Light
 
 scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map)
 {
+    if (map.format.kind == Kind::unorm && map.code.name() == 0) {
+        throw std::invalid_argument("read_codes: map: its codes were dropped");
+    }
     const scene::ImageSize size{map.resolution_texels, map.resolution_texels};
     const auto read = [&] {
         switch (map.format.kind) {
@@ -149,8 +153,9 @@ scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& 
 
 scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map)
 {
-    if (map.format.kind != Kind::unorm) {
-        throw std::invalid_argument("read_unquantised_z: only u-formats keep their z");
+    if (map.unquantised_z.name() == 0) {
+        throw std::invalid_argument("read_unquantised_z: map: only u-formats keep their z, where "
+                                    "they keep their codes");
     }
     auto z = read_texture<float>(map.unquantised_z, {map.resolution_texels, map.resolution_texels},
                                  GL_RED, GL_FLOAT);

@@ -14,12 +14,16 @@ namespace gnomon::raster_gl {
 /// A rendered shadow map; its textures belong to the pass that rendered it.
 struct ShadowMap {
     Texture depth;         ///< depth texture: what lookups sample
-    Texture code;          ///< u-formats: R32UI, the n-bit code
-    Texture unquantised_z; ///< u-formats: R32F, the z that the shader quantised
+    Texture code;          ///< u-formats, where codes are kept: R32UI, the n-bit code
+    Texture unquantised_z; ///< u-formats, where codes are kept: R32F, the z before it was quantised
     scene::DepthFormat format;
     int resolution_texels = 0;
     bool reversed = false;
 };
+
+/// Whether u-formats keep their codes, and the z that they were made from, beside the depths that
+/// lookups need: twice as many bytes again.
+enum class UnormCodes : std::uint8_t { dropped, kept };
 
 /// Draws the casters from the light, depth only.
 ///
@@ -27,7 +31,7 @@ struct ShadowMap {
 /// that loops over them outermost allocates each once.
 class ShadowMapPass {
 public:
-    explicit ShadowMapPass(const Context& context);
+    explicit ShadowMapPass(const Context& context, UnormCodes codes = UnormCodes::kept);
 
     /// @throws scene::InputError        if the driver substitutes the format or lacks the size.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
@@ -38,6 +42,7 @@ private:
     void allocate(const scene::ShadowMapSettings& settings);
 
     const Context& context_;
+    UnormCodes codes_;
     Program depth_only_;
     Program unorm_;
     Framebuffer target_;
@@ -45,10 +50,12 @@ private:
 };
 
 /// The stored codes, top left first: d16, d24, d32 and u-formats as integers, d32f as float bits.
+/// @throws std::invalid_argument  for a u-format whose codes were dropped.
 [[nodiscard]] scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map);
 
 /// u-formats: the float32 z that the shader quantised, top left first.
-/// @throws std::invalid_argument  for GL's own formats, which keep no such z.
+/// @throws std::invalid_argument  for GL's own formats, which keep no such z, and where it was
+///                                dropped.
 [[nodiscard]] scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map);
 
 /// The depths as shaders see them, top left first. Reading a depth texture as floats gives other

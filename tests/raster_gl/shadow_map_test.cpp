@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -56,6 +58,20 @@ TEST(ShadowMap, UnormTexelsAreTheExactlyRoundedCodeOfTheirZ)
             }
         }
     }
+}
+
+TEST(ShadowMap, HasTheSameDepthsWhereCodesAreDropped)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"columns", {{"shadow_map.depth_format", "u12"}, {"shadow_map.resolution", "300"}}};
+    c.draw_shadow_map();
+    const auto kept = read_shader_depths(*tests::shared_context(), *c.map);
+    ShadowMapPass pass{*tests::shared_context(), UnormCodes::dropped};
+    const ShadowMap& map = pass.render(c.gpu, c.view.frustum, c.job.shadow_map);
+    const auto dropped = read_shader_depths(*tests::shared_context(), map);
+    EXPECT_TRUE(std::equal(kept.begin(), kept.end(), dropped.begin(), dropped.end()));
+    EXPECT_THROW((void)read_codes(*tests::shared_context(), map), std::invalid_argument);
+    EXPECT_THROW((void)read_unquantised_z(*tests::shared_context(), map), std::invalid_argument);
 }
 
 TEST(ShadowMap, ShaderDepthsAreTheCodesNormalised)
