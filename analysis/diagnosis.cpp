@@ -66,8 +66,9 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
                                 : scene::Image<float>{};
     const LookupRule rule = lookup_rule(job, view);
     const scene::LookupLayers deciding =
-        has_curve ? deciding_samples(layers.lookup, layers.lookup.texels, map_depths, rule)
-                  : scene::LookupLayers{};
+        has_curve
+            ? deciding_samples({layers.lookup.samples}, layers.lookup.texels, map_depths, rule)
+            : scene::LookupLayers{};
     const scene::LookupLayers unbiased =
         look_up_unbiased(job, view, layers.lookup, deciding, renderers);
     const auto light = renderers.make_exact_light(job, view, layers.receivers);

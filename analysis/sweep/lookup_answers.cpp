@@ -78,7 +78,8 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactSide> exact, SweepLookup looku
 scene::LookupLayers LookupAnswers::make_deciding() const
 {
     return equal_taps(rule_.filter) > 1
-               ? deciding_samples(lookup_.layers, lookup_.layers.texels, lookup_.map_depths, rule_)
+               ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
+                                  lookup_.map_depths, rule_)
                : scene::LookupLayers{};
 }
 

@@ -192,10 +192,23 @@ private:
     void draw_shadow_map()
     {
         ++counts_.shadow_maps;
+        if (is_large_map() && task_.job.lookup.filter != scene::Filter::nearest) {
+            forget_lookup(); // it holds the depths of the map before
+        }
         map_ = make<bool>([&] {
             renderers().draw_shadow_map(task_.job, stage_view());
             return std::make_shared<bool>(true);
         });
+    }
+
+    [[nodiscard]] bool is_large_map() const
+    {
+        return task_.job.shadow_map.resolution_texels > 4096;
+    }
+    void forget_lookup()
+    {
+        lookup_ = {};
+        background_.finish();
     }
 
     void look_up(std::size_t slot)
@@ -203,6 +216,9 @@ private:
         ++counts_.lookup_passes;
         if (is_compared()) {
             return; // each bias by itself, when it is answered
+        }
+        if (is_large_map()) {
+            forget_lookup(); // one at a time: beside such a map memory is short
         }
         lookup_ = make<LookupWork>([&] {
             static_cast<void>(need(map_));
