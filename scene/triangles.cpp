@@ -207,6 +207,8 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
 
 TriangleScene SceneBuilder::take()
 {
+    scene_.vertices.shrink_to_fit(); // they grew by doubling
+    scene_.triangles.shrink_to_fit();
     return std::exchange(scene_, {});
 }
 
