@@ -23,8 +23,6 @@ namespace gnomon::testing {
 
 namespace {
 
-constexpr double longest_s = 60;
-
 /// A file in memory that a process writes to.
 class Capture {
 public:
@@ -114,7 +112,7 @@ void redirect_stdout(const Start& start, int captured)
 }
 
 /// Waits at most `longest_s`, then kills the process and its children.
-void wait_for(pid_t child, Ending& ending)
+void wait_for(pid_t child, double longest_s, Ending& ending)
 {
     const auto begin = std::chrono::steady_clock::now();
     int status = 0;
@@ -152,7 +150,7 @@ Ending run(const std::vector<std::string>& command, const Start& start)
     if (start.while_running) {
         start.while_running(child);
     }
-    wait_for(child, ending);
+    wait_for(child, start.longest_s, ending);
     ending.out = out.text();
     ending.err = err.text();
     return ending;
