@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace gnomon::raster_gl {
@@ -92,6 +93,18 @@ void GpuScene::draw_casters() const
     glBindVertexArray(layout_.name());
     for (const scene::TriangleRange& range : casters_) {
         draw_range(range);
+    }
+}
+
+void GpuScene::draw_casters_in_parts() const
+{
+    constexpr std::uint32_t part = 32768;
+    glBindVertexArray(layout_.name());
+    for (const scene::TriangleRange& range : casters_) {
+        for (std::uint32_t first = 0; first < range.count; first += part) {
+            draw_range({range.first + first, std::min(part, range.count - first)});
+            glFinish();
+        }
     }
 }
 

@@ -17,6 +17,9 @@ public:
 
     /// Draws the casting triangles with the current program.
     void draw_casters() const;
+    /// The same, some thousands at a time, each waited for: what a software renderer binned and the
+    /// targets that it keeps for it stay few.
+    void draw_casters_in_parts() const;
     /// Draws the receiving triangles; sets `program`'s uniform first_triangle for every range, so
     /// that first_triangle + gl_PrimitiveID is the triangle's index in the scene.
     void draw_receivers(const Program& program) const;

@@ -52,6 +52,59 @@ std::uint32_t narrow_code(std::uint32_t widened, double scale)
     return static_cast<std::uint32_t>(std::llround(widened * scale));
 }
 
+/// Copies depths, as shaders see them, into a band of rows.
+class DepthCopy {
+public:
+    DepthCopy(int width_texels, int rows)
+        : copy_{make_texture(GL_R32F, width_texels, rows)},
+          size_{width_texels, rows}
+    {
+        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, copy_.name(), 0);
+        glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+        glDisable(GL_DEPTH_TEST);
+        glDisable(GL_CULL_FACE);
+        glUseProgram(program_.name());
+        glBindSampler(0, 0);
+        glBindVertexArray(no_attributes_.name());
+    }
+
+    /// @param rows  at most those of the band, which keeps what it holds in the others.
+    void draw(const Texture& depths, int first_row, int rows) const
+    {
+        glBindTextureUnit(0, depths.name());
+        glViewport(0, 0, size_.width_px, rows);
+        set_uniform(program_, "first_row", static_cast<std::uint32_t>(first_row));
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    /// The band, its last row first.
+    [[nodiscard]] scene::Image<float> read() const
+    {
+        return read_texture<float>(copy_, size_, GL_RED, GL_FLOAT);
+    }
+
+private:
+    Texture copy_;
+    scene::ImageSize size_;
+    Framebuffer target_ = make_framebuffer();
+    VertexArray no_attributes_ = make_vertex_array();
+    Program program_ = make_program({"fullscreen.vert", "map_depths.frag", {}, nullptr});
+};
+
+/// Maps that fill a quarter of a gigabyte and more.
+bool is_large(int resolution_texels)
+{
+    return resolution_texels > 4096;
+}
+
+/// Copies one pixel. Drivers keep a deleted texture until a draw samples another one in its place.
+void let_go_of_deleted_textures()
+{
+    const Texture pixel = make_texture(GL_R32F, 1, 1);
+    const DepthCopy copy{1, 1};
+    copy.draw(pixel, 0, 1);
+    glFinish();
+}
+
 } // namespace
 
 ShadowMapPass::ShadowMapPass(const Context& context, UnormCodes codes)
@@ -77,6 +130,9 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
     }
     map_ = {}; // the old textures go before the new ones come
     target_ = make_framebuffer();
+    if (is_large(size)) {
+        let_go_of_deleted_textures();
+    }
     map_.depth = make_texture(internal_format(settings.depth_format), size, size);
     require_format(map_.depth, settings.depth_format);
     glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, map_.depth.name(), 0);
@@ -117,7 +173,11 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::Light
         set_uniform(program, "largest_code", largest_code(map_.format));
     }
     glUseProgram(program.name());
-    scene.draw_casters();
+    if (is_large(map_.resolution_texels)) {
+        scene.draw_casters_in_parts();
+    } else {
+        scene.draw_casters();
+    }
     glFinish();
     context_.check("rendering the shadow map");
     return map_;
@@ -165,29 +225,16 @@ scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& 
 
 scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map)
 {
-    // In bands, for the largest maps fill a quarter of a gigabyte and more.
+    // In bands, so that a large map is not there a third time.
     const int resolution = map.resolution_texels;
     const int band_rows = std::min(resolution, 256);
-    const Texture copy = make_texture(GL_R32F, resolution, band_rows);
-    const Framebuffer target = make_framebuffer();
-    const VertexArray no_attributes = make_vertex_array();
-    const Program program = make_program({"fullscreen.vert", "map_depths.frag", {}, nullptr});
-    glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, copy.name(), 0);
-    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glUseProgram(program.name());
-    glBindSampler(0, 0);
-    glBindTextureUnit(0, map.depth.name());
-    glBindVertexArray(no_attributes.name());
+    const DepthCopy copy{resolution, band_rows};
     scene::Image<float> depths{{resolution, resolution}};
     for (int first_row = 0; first_row < resolution; first_row += band_rows) {
         const int rows = std::min(band_rows, resolution - first_row);
-        glViewport(0, 0, resolution, rows);
-        set_uniform(program, "first_row", static_cast<std::uint32_t>(first_row));
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        copy.draw(map.depth, first_row, rows);
         // Turned over, a short last band's rows are the last ones, and the map's top comes first.
-        const auto band = read_texture<float>(copy, {resolution, band_rows}, GL_RED, GL_FLOAT);
+        const auto band = copy.read();
         std::copy_n(band.data() + std::ptrdiff_t{band_rows - rows} * resolution,
                     std::ptrdiff_t{rows} * resolution,
                     depths.data() + std::ptrdiff_t{resolution - first_row - rows} * resolution);
