@@ -10,7 +10,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 
 namespace gnomon::cli {
 namespace {
@@ -101,7 +100,7 @@ void Progress::tell(bool is_forced)
     const std::string text = line();
     if (is_terminal_) {
         const std::size_t columns = terminal_columns();
-        fmt::print(stderr, "\r\x1b[K{}", std::string_view{text}.substr(0, columns));
+        fmt::print(stderr, "\r\x1b[K{}", reports::first_columns(text, columns));
     } else {
         fmt::print(stderr, "gnomon sweep: {}\n", text);
     }

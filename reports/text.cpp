@@ -7,6 +7,15 @@
 
 namespace gnomon::reports {
 
+namespace {
+
+bool starts_code_point(char c)
+{
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+}
+
+} // namespace
+
 std::string grouped(std::uint64_t count)
 {
     const std::string digits = std::to_string(count);
@@ -40,10 +49,18 @@ std::string percent(std::optional<double> fraction)
 
 std::size_t text_columns(std::string_view text)
 {
-    const auto starts_code_point = [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-    };
     return static_cast<std::size_t>(std::ranges::count_if(text, starts_code_point));
+}
+
+std::string_view first_columns(std::string_view text, std::size_t columns)
+{
+    std::size_t end = 0;
+    for (std::size_t taken = 0; end < text.size(); ++end) {
+        if (starts_code_point(text[end]) && taken++ == columns) {
+            break;
+        }
+    }
+    return text.substr(0, end);
 }
 
 std::string pad_right(std::string_view text, std::size_t columns)

@@ -17,6 +17,9 @@ namespace gnomon::reports {
 /// Width of a UTF-8 text in code points.
 [[nodiscard]] std::size_t text_columns(std::string_view text);
 
+/// The first code points of a UTF-8 text, whole ones, at most so many.
+[[nodiscard]] std::string_view first_columns(std::string_view text, std::size_t columns);
+
 /// The text followed, or preceded, by blanks up to `columns`.
 [[nodiscard]] std::string pad_right(std::string_view text, std::size_t columns);
 [[nodiscard]] std::string pad_left(std::string_view text, std::size_t columns);

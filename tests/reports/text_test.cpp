@@ -47,6 +47,16 @@ TEST(Pad, CountsCodePointsNotBytes)
     EXPECT_EQ(pad_left("long", 3), "long");
 }
 
+TEST(FirstColumns, CutsBetweenCodePoints)
+{
+    EXPECT_EQ(first_columns("θ = 3", 1), "θ");
+    EXPECT_EQ(first_columns("aθb", 2), "aθ");
+    EXPECT_EQ(first_columns("aθ", 2), "aθ");
+    EXPECT_EQ(first_columns("aθ", 9), "aθ");
+    EXPECT_EQ(first_columns("θ", 0), "");
+    EXPECT_EQ(first_columns("", 3), "");
+}
+
 TEST(Counted, TakesThePlural)
 {
     EXPECT_EQ(counted(1, "triangle"), "1 triangle");
