@@ -1,7 +1,6 @@
 #include "reference_rt/light_depth.hpp"
 
 #include "reference_rt/terms.hpp"
-#include "reference_rt/wide.hpp"
 
 #include <cmath>
 
@@ -13,13 +12,19 @@ using scene::Vec4d;
 
 namespace {
 
+/// δ row·(P, 1)
+template <typename Field, typename Number>
+Number scaled_row(Field /*field*/, const Vec4d& row, const Ray& ray,
+                  const PlaneHit<Number, Number>& plane)
+{
+    const auto axis = vector<Field>(Vec3d{row});
+    return plane.delta * (dot(axis, vector<Field>(ray.origin)) + Field::number(row.w)) +
+           plane.nu * dot(axis, vector<Field>(ray.direction));
+}
 /// |δ| row·(P, 1)
 Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, Dyadic>& plane)
 {
-    const Ray& ray = hit.ray();
-    const auto axis = vector<ExactField>(Vec3d{row});
-    const Dyadic value = plane.delta * (dot(axis, vector<ExactField>(ray.origin)) + Dyadic{row.w}) +
-                         plane.nu * dot(axis, vector<ExactField>(ray.direction));
+    const Dyadic value = scaled_row(ExactField{}, row, hit.ray(), plane);
     return hit.delta_sign > 0 ? value : Dyadic{} - value;
 }
 
@@ -72,6 +77,14 @@ Fraction LightDepth::exactly_at(const Receiver& hit) const
     const Dyadic z = scaled_row(rows_.z, hit, plane);
     const Dyadic w = scaled_row(rows_.w, hit, plane);
     return is_reversed() ? Fraction{z, w} : Fraction{z + w, w + w};
+}
+
+Wide LightDepth::widely_at(const Receiver& hit) const
+{
+    const auto plane = plane_hit(WideField{}, hit);
+    const Wide z = scaled_row(WideField{}, rows_.z, hit.ray(), plane);
+    const Wide w = scaled_row(WideField{}, rows_.w, hit.ray(), plane);
+    return is_reversed() ? z / w : (z + w) / (w + w);
 }
 
 bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit, const Bounded& depth) const

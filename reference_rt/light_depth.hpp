@@ -4,6 +4,7 @@
 #include "reference_rt/dyadic.hpp"
 #include "reference_rt/predicates.hpp"
 #include "reference_rt/texel_rays.hpp"
+#include "reference_rt/wide.hpp"
 #include "scene/camera.hpp"
 #include "scene/light_frustum.hpp"
 
@@ -61,6 +62,9 @@ public:
     /// The same point's depth, exactly. The denominator has the sign of W·H: 0 in the light's
     /// camera plane. Precondition: δ is not 0.
     [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
+
+    /// The same in twice double's precision. Precondition: the hit is tame.
+    [[nodiscard]] Wide widely_at(const Receiver& hit) const;
 
     /// True when the point is in front of the light and its depth in [0, 1].
     /// @param depth  of the point, as `at` gives it.
