@@ -1,6 +1,7 @@
 #include "analysis/bias_answers.hpp"
 
 #include "analysis/critical_bias.hpp"
+#include "analysis/pixel_runs.hpp"
 #include "analysis/slope_curves.hpp"
 
 #include <algorithm>
@@ -39,9 +40,11 @@ scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& cla
                                       const scene::Image<PixelCause>& pixels)
 {
     scene::Image<std::uint8_t> flags{classes.size()};
-    for (std::size_t i = 0; i < flags.pixel_count(); ++i) {
-        flags[i] = is_acne_if_shadowed(pixels[i], classes[i]) ? 1 : 0;
-    }
+    for_each_run(flags.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            flags[i] = is_acne_if_shadowed(pixels[i], classes[i]) ? 1 : 0;
+        }
+    });
     return flags;
 }
 

@@ -26,19 +26,56 @@ struct KeyedPixel {
     std::size_t pixel;
 };
 
-/// Blocked pixels in ascending order of critical bias.
-std::vector<KeyedPixel> sorted_blocked(const scene::Image<float>& criticals,
-                                       const scene::Image<PixelClass>& classes)
-{
-    std::vector<KeyedPixel> pixels;
-    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
-        if (classes[i] == PixelClass::blocked) {
-            pixels.push_back({sort_key(criticals[i]), i});
-        }
+/// Blocked pixels in ascending order of critical bias, sorted as far as they are asked for.
+class AscendingBlocked {
+public:
+    /// @param sorted  the critical biases of the blocked pixels, ascending. All must outlive it.
+    AscendingBlocked(const scene::Image<float>& criticals, const scene::Image<PixelClass>& classes,
+                     std::span<const float> sorted)
+        : criticals_{criticals},
+          classes_{classes},
+          sorted_{sorted}
+    {
     }
-    radix_sort(pixels, [](const KeyedPixel& pixel) { return pixel.key; });
-    return pixels;
-}
+
+    [[nodiscard]] std::span<const float> criticals() const { return sorted_; }
+    /// Those of the ranks from `first` to before `last`; valid until the next call.
+    [[nodiscard]] std::span<const std::size_t> pixels(std::size_t first, std::size_t last)
+    {
+        if (first < window_first_ || last > window_first_ + window_.size()) {
+            sort_window(first, std::min(std::max(last, first + least_sorted), sorted_.size()));
+        }
+        return std::span{window_}.subspan(first - window_first_, last - first);
+    }
+
+private:
+    static constexpr std::size_t least_sorted = 16384; ///< ranks; each window looks at every pixel
+
+    /// Sorts the pixels from these ranks, and all that are equal to the first and the last.
+    void sort_window(std::size_t first, std::size_t last)
+    {
+        const float lowest = sorted_[first];
+        const float highest = sorted_[last - 1];
+        std::vector<KeyedPixel> keyed;
+        for (std::size_t i = 0; i < criticals_.pixel_count(); ++i) {
+            if (classes_[i] == PixelClass::blocked && criticals_[i] >= lowest &&
+                criticals_[i] <= highest) {
+                keyed.push_back({sort_key(criticals_[i]), i});
+            }
+        }
+        radix_sort(keyed, [](const KeyedPixel& pixel) { return pixel.key; });
+        window_.resize(keyed.size());
+        std::ranges::transform(keyed, window_.begin(), &KeyedPixel::pixel);
+        window_first_ =
+            static_cast<std::size_t>(std::ranges::lower_bound(sorted_, lowest) - sorted_.begin());
+    }
+
+    const scene::Image<float>& criticals_;
+    const scene::Image<PixelClass>& classes_;
+    std::span<const float> sorted_;
+    std::size_t window_first_ = 0; ///< rank
+    std::vector<std::size_t> window_;
+};
 
 /// Critical biases of the lit pixels that are acne where they are shadowed, ascending.
 std::vector<float> acne_criticals(const scene::Image<float>& criticals,
@@ -73,8 +110,8 @@ float largest_keeping(std::span<const float> criticals, std::uint64_t allowed)
 /// Walks the blocked pixels upwards and keeps the critical biases of those that are not forgiven.
 class Unforgiven {
 public:
-    Unforgiven(const std::vector<KeyedPixel>& pixels, const ForgiveGaps& forgive)
-        : pixels_{pixels},
+    Unforgiven(AscendingBlocked& blocked, const ForgiveGaps& forgive)
+        : blocked_{blocked},
           forgive_{forgive}
     {
     }
@@ -85,12 +122,10 @@ public:
     {
         const auto from = std::lower_bound(found_.begin(), found_.end(), least);
         std::vector<float> result{from, found_.end()};
-        const auto skipped = std::partition_point(
-            pixels_.begin() + static_cast<std::ptrdiff_t>(next_), pixels_.end(),
-            [&](const KeyedPixel& pixel) { return value_of_key(pixel.key) < least; });
-        next_ = static_cast<std::size_t>(skipped - pixels_.begin());
-        while (result.size() < count && next_ < pixels_.size() &&
-               value_of_key(pixels_[next_].key) != infinity) {
+        const auto criticals = blocked_.criticals();
+        const auto skipped = std::ranges::lower_bound(criticals.subspan(next_), least);
+        next_ += static_cast<std::size_t>(skipped - criticals.subspan(next_).begin());
+        while (result.size() < count && next_ < criticals.size() && criticals[next_] != infinity) {
             take_piece(count - result.size(), result);
         }
         found_ = result;
@@ -100,12 +135,10 @@ public:
 private:
     void take_piece(std::uint64_t wanted, std::vector<float>& result)
     {
+        const auto criticals = blocked_.criticals();
         const std::size_t size = std::min<std::size_t>(
-            std::max<std::size_t>(wanted, smallest_piece), pixels_.size() - next_);
-        std::vector<std::size_t> piece(size);
-        for (std::size_t i = 0; i < size; ++i) {
-            piece[i] = pixels_[next_ + i].pixel;
-        }
+            std::max<std::size_t>(wanted, smallest_piece), criticals.size() - next_);
+        const auto piece = blocked_.pixels(next_, next_ + size);
         const std::vector<std::uint8_t> forgiven =
             forgive_ ? forgive_(piece) : std::vector<std::uint8_t>(size, 0);
         if (forgiven.size() != size) {
@@ -114,13 +147,13 @@ private:
         }
         for (std::size_t i = 0; i < size; ++i) {
             if (forgiven[i] == 0) {
-                result.push_back(value_of_key(pixels_[next_ + i].key));
+                result.push_back(criticals[next_ + i] + 0.0F);
             }
         }
         next_ += size;
     }
 
-    const std::vector<KeyedPixel>& pixels_;
+    AscendingBlocked& blocked_;
     const ForgiveGaps& forgive_;
     std::size_t next_ = 0;
     std::vector<float> found_;
@@ -151,8 +184,8 @@ BiasBounds find_bias_bounds(const BiasCurve& curve, const scene::Image<float>& c
 {
     require_same_sizes(criticals.size(), classes.size(), acne_if_shadowed.size());
     const std::vector<float> acne = acne_criticals(criticals, classes, acne_if_shadowed);
-    const std::vector<KeyedPixel> blocked = sorted_blocked(criticals, classes);
     const std::vector<float>& all = curve.blocked();
+    AscendingBlocked blocked{criticals, classes, all};
     const std::uint64_t scored = curve.scored();
     const float above_zero = next_bias(0.0F);
 

@@ -1,12 +1,13 @@
 #include "analysis/bias_rows.hpp"
 
+#include "analysis/bias_index.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/pcf_taps.hpp"
+#include "analysis/pixel_runs.hpp"
 #include "analysis/radix_sort.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <array>
@@ -24,8 +25,7 @@ using scene::PixelClass;
 
 namespace {
 
-constexpr std::size_t pixels_per_task = std::size_t{1} << 16U;
-/// Every task counts for all of them: this bounds the memory.
+/// Every thread counts for all of them: this bounds the memory.
 constexpr std::size_t biases_at_once = 4096;
 
 void require_ascending(std::span<const float> biases, std::string_view function)
@@ -39,35 +39,33 @@ void require_ascending(std::span<const float> biases, std::string_view function)
 /// integers: the same in whatever order.
 class Changes {
 public:
-    explicit Changes(std::size_t biases) : changes_(biases + 1) {}
+    explicit Changes(std::size_t biases) : stride_{biases + 1}, changes_(cells * stride_) {}
 
     /// Counts a pixel of this truth that is wrong at the biases [first, last).
     void add(std::size_t first, std::size_t last, PixelClass truth, Cause cause, Label label)
     {
         if (first < last) {
-            const std::size_t cell = cell_of(truth, cause, label);
-            ++changes_[first][cell];
-            --changes_[last][cell];
+            std::int64_t* const changes = of_cell(cell_of(truth, cause, label));
+            ++changes[first];
+            --changes[last];
         }
     }
 
     void add(const Changes& other)
     {
-        for (std::size_t i = 0; i < changes_.size(); ++i) {
-            for (std::size_t j = 0; j < changes_[i].size(); ++j) {
-                changes_[i][j] += other.changes_[i][j];
-            }
-        }
+        std::transform(changes_.begin(), changes_.end(), other.changes_.begin(), changes_.begin(),
+                       std::plus<>{});
     }
 
     [[nodiscard]] std::vector<BiasRow> rows() const
     {
-        std::vector<BiasRow> rows(changes_.size() - 1);
-        std::array<std::int64_t, cells> counts{};
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            for (std::size_t j = 0; j < cells; ++j) {
-                counts[j] += changes_[i][j];
-                add_cell(rows[i], j, static_cast<std::uint64_t>(counts[j]));
+        std::vector<BiasRow> rows(stride_ - 1);
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const std::int64_t* const changes = changes_.data() + cell * stride_;
+            std::int64_t count = 0;
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                count += changes[i];
+                add_cell(rows[i], cell, static_cast<std::uint64_t>(count));
             }
         }
         return rows;
@@ -77,6 +75,7 @@ private:
     static constexpr std::size_t labels = label_names.size();
     static constexpr std::size_t cells = 2 * cause_names.size() * labels;
 
+    std::int64_t* of_cell(std::size_t cell) { return changes_.data() + cell * stride_; }
     static std::size_t cell_of(PixelClass truth, Cause cause, Label label)
     {
         const std::size_t side = truth == PixelClass::blocked ? 1 : 0;
@@ -90,69 +89,84 @@ private:
         (cell < cells / 2 ? row.errors.false_shadow : row.errors.false_lit) += count;
     }
 
-    std::vector<std::array<std::int64_t, cells>> changes_;
+    std::size_t stride_;
+    std::vector<std::int64_t> changes_; ///< by cell, then bias: few cells are in use
 };
 
-/// Counts pixels at every bias at once: each changes its verdict at its critical bias, and its
-/// cause at the bias with which exact depths repair it.
+/// Counts the pixels that are wrong without bias at every bias at once: each changes its verdict at
+/// its critical bias, and a lit one its cause at the bias with which exact depths repair it.
 class RowCounter {
 public:
     RowCounter(const BiasRowInputs& inputs, std::span<const float> biases)
         : inputs_{inputs},
-          biases_{biases}
+          biases_{biases},
+          index_{biases}
     {
     }
 
     void count(std::size_t pixel, Changes& changes) const
     {
-        const PixelClass truth = inputs_.classes[pixel];
         const PixelCause& why = inputs_.causes[pixel];
+        if (why.unbiased == Cause::none) {
+            return;
+        }
+        const PixelClass truth = inputs_.classes[pixel];
         if (truth == PixelClass::lit) {
             count_lit(pixel, why, changes);
         } else if (truth == PixelClass::blocked) {
-            const std::size_t first = first_lit(inputs_.critical_bias[pixel]);
-            const Cause cause = cause_of(why, truth, 0);
-            changes.add(first, biases_.size(), truth, cause, label_of(why, truth, cause));
+            const std::size_t first = index_.first_from(inputs_.critical_bias[pixel]);
+            add(first, biases_.size(), truth, why, why.unbiased, changes);
         }
     }
 
 private:
     void count_lit(std::size_t pixel, const PixelCause& why, Changes& changes) const
     {
-        const std::size_t last = first_lit(inputs_.critical_bias[pixel]);
+        const std::size_t last = index_.first_from(inputs_.critical_bias[pixel]);
         if (last == 0) {
             return;
         }
         const float slope_term = inputs_.rule.slope * inputs_.deciding.samples[pixel].tan_theta;
-        const auto cause_at = [&](float bias) {
-            return cause_of(why, PixelClass::lit, bias + slope_term);
-        };
-        // The only change from one bias to a larger one is that exact depths come to suffice.
-        const Cause smallest = cause_at(biases_.front());
-        std::size_t middle = 0;
-        if (smallest != Cause::bias && smallest != Cause::precision) {
-            const auto wrong = biases_.first(last);
-            middle = static_cast<std::size_t>(
-                std::partition_point(wrong.begin(), wrong.end(),
-                                     [&](float bias) { return cause_at(bias) == smallest; }) -
-                wrong.begin());
-            changes.add(0, middle, PixelClass::lit, smallest,
-                        label_of(why, PixelClass::lit, smallest));
-        }
-        const Cause later = smallest == Cause::bias ? Cause::bias : Cause::precision;
-        changes.add(middle, last, PixelClass::lit, later, label_of(why, PixelClass::lit, later));
+        const std::size_t middle =
+            std::min(last, first_repaired(why.exact_critical_bias, slope_term));
+        add(0, middle, PixelClass::lit, why, why.unbiased, changes);
+        add(middle, last, PixelClass::lit, why, Cause::precision, changes);
     }
 
-    /// Index of the first bias with which the pixel is lit.
-    [[nodiscard]] std::size_t first_lit(float critical) const
+    static void add(std::size_t first, std::size_t last, PixelClass truth, const PixelCause& why,
+                    Cause cause, Changes& changes)
     {
-        return static_cast<std::size_t>(std::lower_bound(biases_.begin(), biases_.end(), critical) -
-                                        biases_.begin());
+        changes.add(first, last, truth, cause, label_of(why, truth, cause));
+    }
+
+    /// Index of the first bias that with the slope's part is not below `exact_critical`.
+    [[nodiscard]] std::size_t first_repaired(float exact_critical, float slope_term) const
+    {
+        if (slope_term == 0) {
+            return index_.first_from(exact_critical);
+        }
+        const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
+            return !(bias + slope_term >= exact_critical);
+        });
+        return static_cast<std::size_t>(first - biases_.begin());
     }
 
     const BiasRowInputs& inputs_;
     std::span<const float> biases_;
+    BiasIndex index_;
 };
+
+/// Adds those that only a bias makes wrong: all of the curve's that are not in the row yet.
+void add_wrong_by_bias(BiasRow& row, const ErrorCounts& all)
+{
+    const auto add = [&](Label label, std::uint64_t count) {
+        row.causes.by_cause[static_cast<std::size_t>(Cause::bias)] += count;
+        row.causes.by_label[static_cast<std::size_t>(label)] += count;
+    };
+    add(Label::overshadow, all.false_shadow - row.errors.false_shadow);
+    add(Label::peter_panning, all.false_lit - row.errors.false_lit);
+    row.errors = all;
+}
 
 /// Order statistics of a growing set of values that are all known in advance: a Fenwick tree over
 /// their ranks. Source: P. M. Fenwick, "A new data structure for cumulative frequency tables",
@@ -303,23 +317,24 @@ private:
 template <typename Sum, typename Count>
 Sum sum_over_pixels(std::size_t pixels, const Sum& zero, const Count& count)
 {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>{0, pixels, pixels_per_task}, zero,
-        [&](const tbb::blocked_range<std::size_t>& part, Sum sum) {
-            for (std::size_t i = part.begin(); i != part.end(); ++i) {
-                count(i, sum);
-            }
-            return sum;
-        },
-        [](Sum a, const Sum& b) {
-            a.add(b);
-            return a;
-        });
+    tbb::enumerable_thread_specific<Sum> parts{zero};
+    for_each_run(pixels, [&](std::size_t first, std::size_t last) {
+        Sum& part = parts.local();
+        for (std::size_t i = first; i != last; ++i) {
+            count(i, part);
+        }
+    });
+    Sum sum = zero;
+    for (const Sum& part : parts) {
+        sum.add(part);
+    }
+    return sum;
 }
 
 } // namespace
 
-std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, std::span<const float> biases)
+std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& curve,
+                                std::span<const float> biases)
 {
     require_ascending(biases, "count_rows");
     const scene::ImageSize size = inputs.classes.size();
@@ -336,6 +351,9 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, std::span<const flo
                             [&](std::size_t pixel, Changes& sum) { counter.count(pixel, sum); });
         const std::vector<BiasRow> counted = changes.rows();
         rows.insert(rows.end(), counted.begin(), counted.end());
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        add_wrong_by_bias(rows[i], curve.at(biases[i]));
     }
     return rows;
 }

@@ -31,9 +31,11 @@ struct BiasRowInputs {
 
 /// The counts at each bias, from one pass over the pixels: those that GL's own run with that bias
 /// would give.
+/// @param curve   Of the inputs' critical biases and classes.
 /// @param biases  Ascending, 0 or normal.
-/// @throws std::invalid_argument  if the images differ in size or the biases do not ascend.
-[[nodiscard]] std::vector<BiasRow> count_rows(const BiasRowInputs& inputs,
+/// @throws std::invalid_argument  if the images differ in size, the biases do not ascend, or one is
+///                                neither 0 nor normal.
+[[nodiscard]] std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& curve,
                                               std::span<const float> biases);
 
 /// Σ |verdict − truth| over the scored pixels at each bias, in units of one of a pcfK lookup's K²

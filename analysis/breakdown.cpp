@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -33,9 +34,9 @@ void count_pixel(PartCounts& counts, PixelClass pixel_class, bool is_lit)
 
 void require_bins(std::string_view function, int bins)
 {
-    if (bins < 1 || bins >= Binning::no_bin) {
+    if (bins < 1 || bins > Binning::most_bins) {
         throw std::invalid_argument(
-            fmt::format("{}: bins: {} is not from 1 to {}", function, bins, Binning::no_bin - 1));
+            fmt::format("{}: bins: {} is not from 1 to {}", function, bins, Binning::most_bins));
     }
 }
 
@@ -91,88 +92,87 @@ std::uint8_t bin_of(const Binning& binning, double value)
 template <typename ValueOf>
 void fill(Binning& binning, const scene::Image<PixelClass>& classes, const ValueOf& value_of)
 {
-    binning.bin = scene::Image<std::uint8_t>{classes.size(), Binning::no_bin};
+    constexpr std::uint8_t no_bin = 255;
+    scene::Image<std::uint8_t> bin{classes.size(), no_bin};
     for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             if (scene::is_scored(classes[i])) {
-                binning.bin[i] = bin_of(binning, value_of(i));
+                bin[i] = bin_of(binning, value_of(i));
             }
         }
     });
+    std::array<std::size_t, no_bin + std::size_t{1}> next{}; // where each bin's next pixel goes
+    for (const std::uint8_t each : bin) {
+        ++next[each];
+    }
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    binning.image = classes.size();
+    binning.pixels.resize(next[no_bin]);
+    for (std::size_t i = 0; i < bin.pixel_count(); ++i) {
+        if (bin[i] != no_bin) {
+            binning.pixels[next[bin[i]]++] = static_cast<std::uint32_t>(i);
+        }
+    }
+    binning.ends.assign(next.begin(), next.begin() + binning.bins);
 }
 
-/// Values gathered by bin, in the order of the pixels.
-class Gathered {
-public:
-    /// @param has  whether a pixel has a value.
-    template <typename Has, typename ValueOf>
-    Gathered(const Binning& binning, const Has& has, const ValueOf& value_of)
-        : ends_(static_cast<std::size_t>(binning.bins) + 1)
-    {
-        const std::size_t pixels = binning.bin.pixel_count();
-        for (std::size_t i = 0; i < pixels; ++i) {
-            if (has(i)) {
-                ++ends_[binning.bin[i] + std::size_t{1}];
-            }
-        }
-        std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
-        values_.resize(ends_.back());
-        std::vector<std::size_t> next{ends_.begin(), ends_.end() - 1};
-        for (std::size_t i = 0; i < pixels; ++i) {
-            if (has(i)) {
-                values_[next[binning.bin[i]]++] = value_of(i);
-            }
-        }
-    }
-
-    [[nodiscard]] std::optional<Quantiles> quantiles(std::size_t bin)
-    {
-        return find_quantiles(std::span{values_}.subspan(ends_[bin], ends_[bin + 1] - ends_[bin]));
-    }
-
-private:
-    std::vector<std::size_t> ends_; ///< where each bin's values begin, and the last one's end
-    std::vector<float> values_;
+/// What a bin's pixels are measured by.
+struct BinValues {
+    std::vector<float> lit; ///< critical biases
+    std::vector<float> blocked;
+    std::vector<float> map_error_m;
 };
 
-/// The bins without their counts.
-std::vector<ErrorBin> spreads(const Binning& binning, const BreakdownInputs& inputs)
+BinValues gather(const Binning& binning, std::size_t bin, const BreakdownInputs& inputs)
 {
-    Gathered needed{binning, [&](std::size_t i) { return inputs.classes[i] == PixelClass::lit; },
-                    [&](std::size_t i) { return inputs.criticals[i]; }};
-    Gathered map_errors_m{binning,
-                          [&](std::size_t i) {
-                              return !inputs.map_error_m.empty() &&
-                                     scene::is_scored(inputs.classes[i]);
-                          },
-                          [&](std::size_t i) { return inputs.map_error_m[i]; }};
-    std::vector<ErrorBin> bins(static_cast<std::size_t>(binning.bins));
-    tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t i) {
-        bins[i] = {binning.edge(static_cast<int>(i)),
-                   binning.edge(static_cast<int>(i) + 1),
-                   {},
-                   needed.quantiles(i),
-                   map_errors_m.quantiles(i)};
-    });
-    return bins;
+    const auto pixels = binning.pixels_of(bin);
+    // Without branches: every value is written to both lists, and stays where the list then grows.
+    BinValues values{
+        std::vector<float>(pixels.size() + 1), std::vector<float>(pixels.size() + 1), {}};
+    std::size_t lit = 0;
+    std::size_t blocked = 0;
+    for (const std::uint32_t i : pixels) {
+        values.lit[lit] = inputs.criticals[i];
+        values.blocked[blocked] = inputs.criticals[i];
+        const std::size_t is_lit = inputs.classes[i] == PixelClass::lit ? 1 : 0;
+        lit += is_lit;
+        blocked += 1 - is_lit;
+    }
+    values.lit.resize(lit);
+    values.blocked.resize(blocked);
+    if (!inputs.map_error_m.empty()) {
+        values.map_error_m.resize(pixels.size());
+        std::ranges::transform(pixels, values.map_error_m.begin(),
+                               [&](std::uint32_t i) { return inputs.map_error_m[i]; });
+    }
+    return values;
 }
 
-template <typename IsLit>
-void count_bins(const Binning& binning, const scene::Image<PixelClass>& classes,
-                const IsLit& is_lit, std::vector<ErrorBin>& bins)
+PartCounts count_at(const BinValues& values, float bias)
 {
-    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (binning.bin[i] != Binning::no_bin) {
-            count_pixel(bins[binning.bin[i]].counts, classes[i], is_lit(i));
-        }
-    }
+    const auto is_lit = [&](float critical) { return critical <= bias; };
+    const auto count = [&](const std::vector<float>& criticals) {
+        return static_cast<std::uint64_t>(std::ranges::count_if(criticals, is_lit));
+    };
+    return {values.lit.size(), values.blocked.size(), values.lit.size() - count(values.lit),
+            count(values.blocked)};
+}
+
+/// The bin without its counts; reorders the values.
+ErrorBin measure_spread(const Binning& binning, std::size_t bin, BinValues& values)
+{
+    return {binning.edge(static_cast<int>(bin)),
+            binning.edge(static_cast<int>(bin) + 1),
+            {},
+            find_quantiles(std::span{values.lit}),
+            find_quantiles(std::span{values.map_error_m})};
 }
 
 void require_inputs(const Binning& binning, const BreakdownInputs& inputs)
 {
     const scene::ImageSize size = inputs.classes.size();
     for (const scene::ImageSize other :
-         {binning.bin.size(), inputs.lookup.samples.size(), inputs.criticals.size(),
+         {binning.image, inputs.lookup.samples.size(), inputs.criticals.size(),
           inputs.map_error_m.empty() ? size : inputs.map_error_m.size()}) {
         require_size("errors_by_bin", other, size);
     }
@@ -233,23 +233,31 @@ std::vector<std::vector<ErrorBin>>
 errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases)
 {
     require_inputs(binning, inputs);
-    const std::vector<ErrorBin> empty = spreads(binning, inputs);
-    std::vector<std::vector<ErrorBin>> result;
-    for (const float bias : biases) {
-        count_bins(
-            binning, inputs.classes, [&](std::size_t i) { return inputs.criticals[i] <= bias; },
-            result.emplace_back(empty));
-    }
+    const auto bins = static_cast<std::size_t>(binning.bins);
+    std::vector<std::vector<ErrorBin>> result(biases.size(), std::vector<ErrorBin>(bins));
+    tbb::parallel_for(std::size_t{0}, bins, [&](std::size_t bin) {
+        BinValues values = gather(binning, bin, inputs);
+        const ErrorBin spread = measure_spread(binning, bin, values);
+        for (std::size_t i = 0; i < biases.size(); ++i) {
+            result[i][bin] = spread;
+            result[i][bin].counts = count_at(values, biases[i]);
+        }
+    });
     return result;
 }
 
 std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInputs& inputs)
 {
     require_inputs(binning, inputs);
-    std::vector<ErrorBin> bins = spreads(binning, inputs);
-    count_bins(
-        binning, inputs.classes,
-        [&](std::size_t i) { return scene::is_lit(inputs.lookup.samples[i].verdict); }, bins);
+    std::vector<ErrorBin> bins(static_cast<std::size_t>(binning.bins));
+    tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t bin) {
+        BinValues values = gather(binning, bin, inputs);
+        bins[bin] = measure_spread(binning, bin, values);
+        for (const std::uint32_t i : binning.pixels_of(bin)) {
+            count_pixel(bins[bin].counts, inputs.classes[i],
+                        scene::is_lit(inputs.lookup.samples[i].verdict));
+        }
+    });
     return bins;
 }
 

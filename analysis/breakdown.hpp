@@ -44,13 +44,21 @@ struct ErrorBin {
     std::optional<Quantiles> map_error_m; ///< of the scored pixels that have one, signed [m]
 };
 
-/// Bins of equal width, and which of them each scored pixel falls into.
+/// Bins of equal width, and which scored pixels fall into each.
 struct Binning {
     double lower = 0;
     double upper = 0;
     int bins = 0;
-    scene::Image<std::uint8_t> bin; ///< `no_bin` where the pixel is not scored
-    static constexpr std::uint8_t no_bin = 255;
+    scene::ImageSize image;
+    std::vector<std::uint32_t> pixels; ///< those of the first bin, of the second, …
+    std::vector<std::size_t> ends;     ///< of each bin's pixels
+    static constexpr int most_bins = 254;
+
+    [[nodiscard]] std::span<const std::uint32_t> pixels_of(std::size_t bin) const
+    {
+        const std::size_t first = bin == 0 ? 0 : ends[bin - 1];
+        return std::span{pixels}.subspan(first, ends[bin] - first);
+    }
 
     /// The i-th bin's lower edge.
     [[nodiscard]] double edge(int i) const;

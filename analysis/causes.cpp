@@ -93,8 +93,8 @@ private:
                 }
             }
         }
-        const TracedLookups traced_lit{std::move(lit), inputs_.light};
-        const TracedLookups traced_blocked{std::move(blocked), inputs_.light};
+        const TracedLookups traced_lit{std::move(lit), inputs_.light, inputs_.known_hits};
+        const TracedLookups traced_blocked{std::move(blocked), inputs_.light, inputs_.known_hits};
         explain_lit(traced_lit);
         explain_blocked(traced_blocked);
         remember(traced_lit);

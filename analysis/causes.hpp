@@ -2,6 +2,7 @@
 
 #include "analysis/cause.hpp"
 #include "analysis/tap_rules.hpp"
+#include "analysis/texel_hits.hpp"
 #include "scene/exact_light.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
@@ -46,6 +47,7 @@ struct CauseInputs {
     const scene::LookupLayers& unbiased;   ///< the lookup at the receiver itself, all biases zero
     const scene::Image<float>& map_depths; ///< as shaders see them; empty for `nearest`
     const scene::ExactLight& light;
+    const TexelHits* known_hits = nullptr; ///< of the light's texels, not to be traced again
 
     [[nodiscard]] TapRules rules() const { return {lookup, resolution_texels, reversed}; }
     /// The depth that GL stored in a texel that the pixel's lookup reads.

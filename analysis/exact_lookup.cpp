@@ -212,16 +212,29 @@ private:
     bool clamps_;
 };
 
+std::vector<scene::Texel> unknown_texels(std::span<const Tap> taps, const TexelHits* known)
+{
+    std::vector<scene::Texel> texels = texels_of(taps);
+    if (known != nullptr) {
+        std::erase_if(texels, [&](const scene::Texel& texel) { return known->find(texel); });
+    }
+    return texels;
+}
+
 } // namespace
 
-TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light)
+TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light,
+                             const TexelHits* known)
     : lookups_{std::move(lookups)},
-      texels_{light, texels_of(lookups_.taps), scene::HitDetail::bounded},
+      texels_{light, unknown_texels(lookups_.taps, known), scene::HitDetail::bounded},
       hits_(lookups_.taps.size())
 {
     tbb::parallel_for(std::size_t{0}, hits_.size(), [&](std::size_t i) {
         const Tap& tap = lookups_.taps[i];
-        hits_[i] = tap.is_inside ? &texels_[tap.texel] : nullptr;
+        if (tap.is_inside) {
+            const scene::TexelHit* const hit = known == nullptr ? nullptr : known->find(tap.texel);
+            hits_[i] = hit == nullptr ? &texels_[tap.texel] : hit;
+        }
     });
 }
 

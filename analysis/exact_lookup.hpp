@@ -26,7 +26,9 @@ struct Lookups {
 /// Lookups, and what the light sees through the texel of each tap.
 class TracedLookups {
 public:
-    TracedLookups(Lookups lookups, const scene::ExactLight& light);
+    /// @param known  hits that need not be traced again; may be null, and must outlive the lookups.
+    TracedLookups(Lookups lookups, const scene::ExactLight& light,
+                  const TexelHits* known = nullptr);
     TracedLookups(const TracedLookups&) = delete; // `hits_` points into `texels_`
     TracedLookups& operator=(const TracedLookups&) = delete;
 

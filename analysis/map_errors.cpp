@@ -25,7 +25,7 @@ std::vector<CentreHits::Seen> seen_texels(const CauseInputs& inputs)
     std::vector<CentreHits::Seen> seen;
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
-            seen.push_back({i, texel_at(inputs.unbiased.texels[i])});
+            seen.push_back({i, texel_at(inputs.unbiased.texels[i]), 0});
         }
     }
     return seen;
@@ -56,6 +56,11 @@ CentreHits::CentreHits(const CauseInputs& inputs)
     : seen_{seen_texels(inputs)},
       hits_{inputs.light, texels_of(seen_), scene::HitDetail::placed}
 {
+    for_each_run(seen_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            seen_[i].hit = static_cast<std::uint32_t>(hits_.number_of(seen_[i].texel));
+        }
+    });
 }
 
 scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHits& hits,

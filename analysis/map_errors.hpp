@@ -7,6 +7,7 @@
 #include "scene/light_frustum.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -21,9 +22,14 @@ public:
     struct Seen {
         std::size_t pixel = 0;
         scene::Texel texel;
+        std::uint32_t hit = 0; ///< its number
     };
     [[nodiscard]] const std::vector<Seen>& seen() const { return seen_; }
-    [[nodiscard]] const scene::TexelHit& hit(const Seen& seen) const { return hits_[seen.texel]; }
+    [[nodiscard]] const TexelHits& hits() const { return hits_; }
+    [[nodiscard]] const scene::TexelHit& hit(const Seen& seen) const
+    {
+        return hits_.by_number(seen.hit);
+    }
 
 private:
     std::vector<Seen> seen_; ///< by pixel

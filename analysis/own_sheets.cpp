@@ -79,7 +79,7 @@ TracedLookups trace_lookups(const CauseInputs& inputs, std::span<const std::size
     for (const std::size_t pixel : pixels) {
         footprint.append_taps(inputs.unbiased.texels[pixel], lookups.taps);
     }
-    return {std::move(lookups), inputs.light};
+    return {std::move(lookups), inputs.light, inputs.known_hits};
 }
 
 std::vector<std::size_t> detached_pixels(const CauseInputs& inputs,

@@ -1,9 +1,73 @@
 #include "analysis/quantiles.hpp"
 
+#include "analysis/radix_sort.hpp"
+
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace gnomon::analysis {
+
+namespace {
+
+/// Finds values by their rank among many: counting them by the leading bits of their distance from
+/// the smallest leaves few candidates for each rank.
+class Ranks {
+public:
+    /// @param values  finite; at least one.
+    explicit Ranks(std::span<const float> values) : values_{values}
+    {
+        std::uint32_t largest = 0;
+        for (const float value : values) {
+            smallest_ = std::min(smallest_, sort_key(value));
+            largest = std::max(largest, sort_key(value));
+        }
+        shift_ = std::max(static_cast<int>(std::bit_width(largest - smallest_)) - cell_bits, 0);
+        for (const float value : values) {
+            ++counts_[cell_of(value)];
+        }
+        min = value_of_key(smallest_);
+        max = value_of_key(largest);
+    }
+
+    float min = 0;
+    float max = 0;
+
+    /// @param rank  from 1.
+    [[nodiscard]] float at(std::size_t rank) const
+    {
+        std::size_t cell = 0;
+        std::size_t before = 0;
+        while (before + counts_[cell] < rank) {
+            before += counts_[cell++];
+        }
+        std::vector<float> candidates;
+        candidates.reserve(counts_[cell]);
+        std::ranges::copy_if(values_, std::back_inserter(candidates),
+                             [&](float value) { return cell_of(value) == cell; });
+        const auto nth = candidates.begin() + static_cast<std::ptrdiff_t>(rank - before - 1);
+        std::ranges::nth_element(candidates, nth);
+        return *nth;
+    }
+
+private:
+    static constexpr int cell_bits = 12;
+
+    [[nodiscard]] std::size_t cell_of(float value) const
+    {
+        return (sort_key(value) - smallest_) >> static_cast<unsigned>(shift_);
+    }
+
+    std::span<const float> values_;
+    std::uint32_t smallest_ = std::numeric_limits<std::uint32_t>::max();
+    int shift_ = 0;
+    std::array<std::uint32_t, std::size_t{1} << cell_bits> counts_{};
+};
+
+} // namespace
 
 std::optional<Quantiles> find_quantiles(std::span<float> values)
 {
@@ -13,15 +77,11 @@ std::optional<Quantiles> find_quantiles(std::span<float> values)
     if (finite.empty()) {
         return std::nullopt;
     }
+    const Ranks ranks{finite};
     const std::size_t count = finite.size();
-    const auto p95 = finite.begin() + static_cast<std::ptrdiff_t>(quantile_rank(count, 95) - 1);
-    const auto median = finite.begin() + static_cast<std::ptrdiff_t>(quantile_rank(count, 50) - 1);
-    std::nth_element(finite.begin(), p95, finite.end());
-    const float max = *std::max_element(p95, finite.end());
-    std::nth_element(finite.begin(), median, p95 + 1);
-    const float min = *std::min_element(finite.begin(), median + 1);
     // Which of two equal zeros stands at a rank is chance: −0 becomes 0.
-    return Quantiles{count, min + 0.0F, *median + 0.0F, *p95 + 0.0F, max + 0.0F};
+    return Quantiles{count, ranks.min + 0.0F, ranks.at(quantile_rank(count, 50)) + 0.0F,
+                     ranks.at(quantile_rank(count, 95)) + 0.0F, ranks.max + 0.0F};
 }
 
 std::optional<Quantiles> find_quantiles(std::vector<float>&& values)

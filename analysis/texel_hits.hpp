@@ -16,6 +16,17 @@ public:
     TexelHits(const scene::ExactLight& light, std::span<const scene::Texel> texels,
               scene::HitDetail detail);
 
+    /// The texel's place among the hits. Precondition: it was among those given.
+    [[nodiscard]] std::size_t number_of(const scene::Texel& texel) const { return index_[texel]; }
+    [[nodiscard]] const scene::TexelHit& by_number(std::size_t number) const
+    {
+        return hits_[number];
+    }
+    /// Null if the texel was not among those given.
+    [[nodiscard]] const scene::TexelHit* find(const scene::Texel& texel) const
+    {
+        return index_.has(texel) ? &hits_[index_[texel]] : nullptr;
+    }
     /// Precondition: the texel was among those given.
     [[nodiscard]] const scene::TexelHit& operator[](const scene::Texel& texel) const
     {

@@ -20,6 +20,18 @@ public:
 
     /// The set, by number.
     [[nodiscard]] const std::vector<scene::Texel>& texels() const { return texels_; }
+    /// Whether the texel is in the set.
+    [[nodiscard]] bool has(const scene::Texel& texel) const
+    {
+        const int column = (texel.x >> side_bits) - first_column_;
+        const int row = (texel.y >> side_bits) - first_row_;
+        if (column < 0 || row < 0 || static_cast<std::size_t>(column) >= columns_) {
+            return false;
+        }
+        const std::size_t cell = cell_of(texel);
+        return cell < block_at_.size() && block_at_[cell] != none &&
+               blocks_[block_at_[cell]][place_of(texel)] != none;
+    }
     /// Precondition: the texel is in the set.
     [[nodiscard]] std::size_t operator[](const scene::Texel& texel) const
     {

@@ -3,23 +3,31 @@
 #include "analysis/sweep/plan.hpp"
 #include "cli/sweep_run.hpp"
 #include "raw_embree.hpp"
+#include "scene/job_file.hpp"
 #include "scene/job_source.hpp"
 #include "scene/sweep_space.hpp"
 #include "subject.hpp"
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 /// A whole sweep, database and CSV files included, against its floor in the same run: its GL passes
 /// with the readbacks that they need, textures allocated before, and one raw Embree pass for each
-/// truth and for each distinct set of texel-centre rays.
+/// truth and for each distinct set of texel-centre rays. And against the program, run once for each
+/// of a few of its configurations.
 namespace gnomon::benchmarks {
 namespace {
 
@@ -120,6 +128,51 @@ private:
     std::set<std::string> texel_rays_;
 };
 
+/// Runs a program to its end, its output thrown away.
+/// @throws std::runtime_error  if it cannot be run, or fails.
+void run_program(std::vector<std::string> words)
+{
+    std::vector<char*> arguments;
+    for (std::string& word : words) {
+        arguments.push_back(word.data());
+    }
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    const int error =
+        ::posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    int status = 0;
+    if (error != 0 || ::waitpid(child, &status, 0) != child || status != 0) {
+        throw std::runtime_error{fmt::format("sweep_bench: {} {} failed", words[0], words[1])};
+    }
+}
+
+/// Mean wall time of `gnomon compare --json` over some of the sweep's configurations [s].
+double compare_s(const scene::SweepSpace& space)
+{
+    constexpr std::uint64_t runs = 5;
+    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "gnomon";
+    double sum_s = 0;
+    for (std::uint64_t i = 0; i < runs; ++i) {
+        const scene::Job job = space.job(space.at(i * (space.size() - 1) / (runs - 1)));
+        std::vector<std::string> words{program.string(), "compare", "--json", "--builtin",
+                                       job.scene.builtin};
+        for (const auto& [key, value] : scene::resolved_keys(job)) {
+            if (!key.starts_with("scene.")) {
+                words.emplace_back("--set");
+                words.push_back(key);
+                words.back() += '=';
+                words.back() += value;
+            }
+        }
+        sum_s += seconds_of([&] { run_program(words); });
+    }
+    return sum_s / runs;
+}
+
 void sweep_against_floor(benchmark::State& state, bool is_whole)
 {
     const scene::SweepSpace space = make_space(is_whole);
@@ -155,6 +208,9 @@ void sweep_against_floor(benchmark::State& state, bool is_whole)
     state.counters["floor_s"] = floor_s / runs;
     state.counters["floor_gl_s"] = gl_s / runs;
     state.counters["us_each"] = 1e6 * sweep_s / runs / configurations;
+    state.counters["compare_s"] = compare_s(space);
+    state.counters["faster_than_compare"] =
+        state.counters["compare_s"] / (sweep_s / runs / configurations);
     state.counters["maps"] = static_cast<double>(plan.counts(requests).shadow_maps);
     state.counters["lookups"] = static_cast<double>(plan.counts(requests).lookup_passes);
 }

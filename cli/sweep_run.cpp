@@ -129,35 +129,21 @@ private:
         const auto& requests = catalogue_.requests();
         const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
         const auto shards = analysis::divide(whole, requests, options_.shard.count);
-        // One request's configurations in memory at a time: all of them may be too many.
-        std::vector<Configuration> described;
-        std::size_t next_request = 0;
-        const auto keep = [&](std::uint32_t shard) {
-            return [&, shard](const Configuration& configuration) {
-                described.push_back(configuration);
-                described.back().shard = shard;
+        const auto show = [&](const reports::VisitConfiguration& visit) {
+            const auto keep_id = [&](const Configuration& configuration) {
+                if (options_.keeps_pixels) {
+                    ids_.emplace(configuration.ordinal, configuration.id);
+                }
+                visit(configuration);
             };
+            for (const Refusal& refusal : catalogue_.refusals()) {
+                catalogue_.describe(refusal, keep_id);
+            }
+            for (std::size_t i = 0; i < requests.size(); ++i) {
+                catalogue_.describe(i, hashes_[i], keep_id, shards[i]);
+            }
         };
-        for (const Refusal& refusal : catalogue_.refusals()) {
-            catalogue_.describe(refusal, keep(1));
-        }
-        const reports::NextConfiguration next = [&]() -> std::optional<Configuration> {
-            if (described.empty() && next_request < requests.size()) {
-                catalogue_.describe(next_request, hashes_[next_request],
-                                    keep(shards[next_request]));
-                ++next_request;
-            }
-            if (described.empty()) {
-                return std::nullopt;
-            }
-            Configuration configuration = std::move(described.back());
-            described.pop_back();
-            if (options_.keeps_pixels) {
-                ids_.emplace(configuration.ordinal, configuration.id);
-            }
-            return configuration;
-        };
-        const auto outcome = store_.plan(description(), next,
+        const auto outcome = store_.plan(description(), show,
                                          options_.allows_mixed ? reports::Environments::several
                                                                : reports::Environments::one);
         outcome_.configurations = outcome.done + outcome.failed + outcome.planned;

@@ -29,18 +29,29 @@ Bounded known_depth(const scene::ExactTap& tap)
     return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
 }
 
-/// What a bias must make up for: r − d, or reversed d − r. `depth_of` bounds a tap's.
-template <typename Taps, std::size_t n, typename DepthOf>
-Bounded bounded_excess(const Bounded& receiver, const Taps& taps,
-                       const std::array<double, n>& weights, bool is_reversed,
-                       const DepthOf& depth_of)
+/// What a bias must make up for: r − d, or reversed d − r.
+template <std::size_t n>
+Bounded bounded_excess(const Bounded& receiver, const std::array<scene::ExactTap, n>& taps,
+                       const std::array<double, n>& weights, bool is_reversed)
 {
     Bounded excess = receiver;
     for (std::size_t i = 0; i < n; ++i) {
-        const Bounded depth = depth_of(taps[i]);
+        const Bounded depth = known_depth(taps[i]);
         excess = excess - (weights[i] == 1 ? depth : Bounded{weights[i], 0} * depth);
     }
     return is_reversed ? Bounded{-excess.value, excess.error} : excess;
+}
+/// The same in twice double's precision.
+template <std::size_t n>
+Wide sharp_excess(const DepthTerm& receiver, const std::array<DepthTerm, n>& taps,
+                  const std::array<double, n>& weights, bool is_reversed)
+{
+    Wide excess = receiver.sharp();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Wide depth = taps[i].sharp();
+        excess = excess - (weights[i] == 1 ? depth : WideField::number(weights[i]) * depth);
+    }
+    return is_reversed ? WideField::number(0) - excess : excess;
 }
 
 /// The bias where the whole interval asks for the same.
@@ -48,6 +59,26 @@ std::optional<float> certain_bias(const Bounded& excess)
 {
     const float bias = smallest_bias_from(excess.lower());
     return bias == smallest_bias_from(excess.upper()) ? std::optional{bias} : std::nullopt;
+}
+
+/// The bias where the sum of both parts, within their error, leaves no doubt.
+std::optional<float> certain_bias(const Wide& excess)
+{
+    const Bounded rounded = excess.rounded();
+    const float bias = smallest_bias_from(rounded.lower());
+    const float next = smallest_bias_from(rounded.upper());
+    if (bias == next) {
+        return bias;
+    }
+    if (!(rounded.error <= 0x1p-50 * std::abs(rounded.value))) {
+        return std::nullopt;
+    }
+    // Between two floats there are many doubles: `bias` is the only one within the error.
+    const Bounded beyond = (excess - WideField::number(bias)).rounded();
+    if (beyond.is_certainly_positive()) {
+        return next;
+    }
+    return beyond.is_certainly_negative() ? std::optional{bias} : std::nullopt;
 }
 
 /// The exact difference that a bias must make up for.
@@ -91,10 +122,13 @@ float smallest_bias_from(double x)
     return static_cast<double>(nearest) < x ? std::nextafter(nearest, infinity) : nearest;
 }
 
-Bounded DepthTerm::sharp() const
+Wide DepthTerm::sharp() const
 {
-    return hit_ == nullptr ? bounded_
-                           : depth_->at(depth_->along(hit_->ray()), sharp_parameter_of(*hit_));
+    if (hit_ == nullptr) {
+        return {bounded_.value, 0, bounded_.error};
+    }
+    return hit_->is_tame() ? depth_->widely_at(*hit_)
+                           : Wide{0, 0, std::numeric_limits<double>::infinity()};
 }
 
 Fraction DepthTerm::exact() const
@@ -119,8 +153,8 @@ template <std::size_t n>
 float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
                          const std::array<double, n>& weights) const
 {
-    const auto bias = certain_bias(
-        bounded_excess(receiver.bounded(), taps, weights, depth_.is_reversed(), known_depth));
+    const auto bias =
+        certain_bias(bounded_excess(receiver.bounded(), taps, weights, depth_.is_reversed()));
     return bias ? *bias : find_exactly(receiver, taps, weights);
 }
 
@@ -144,9 +178,7 @@ float CriticalBias::find_exactly(const DepthTerm& receiver,
         }
     }
     const bool is_reversed = depth_.is_reversed();
-    const auto sharp = [](const DepthTerm& term) { return term.sharp(); };
-    if (const auto bias =
-            certain_bias(bounded_excess(receiver.sharp(), terms, weights, is_reversed, sharp))) {
+    if (const auto bias = certain_bias(sharp_excess(receiver, terms, weights, is_reversed))) {
         return *bias;
     }
     return smallest_bias_of(exact_excess(receiver, terms, weights, is_reversed));

@@ -28,8 +28,8 @@ public:
     }
 
     [[nodiscard]] Bounded bounded() const { return bounded_; }
-    /// Bounded more closely, at a cost.
-    [[nodiscard]] Bounded sharp() const;
+    /// Bounded far more closely, at a cost; not at all where the hit is not tame.
+    [[nodiscard]] Wide sharp() const;
     [[nodiscard]] Fraction exact() const;
     /// The same, limited to [0, 1].
     [[nodiscard]] DepthTerm clamped() const;

@@ -4,6 +4,7 @@
 #include "reference_rt/dyadic.hpp"
 #include "reference_rt/predicates.hpp"
 #include "reference_rt/texel_rays.hpp"
+#include "reference_rt/wide.hpp"
 #include "scene/camera.hpp"
 #include "scene/light_frustum.hpp"
 
@@ -42,8 +43,7 @@ public:
     [[nodiscard]] const ClipRows& rows() const { return rows_; }
     [[nodiscard]] bool is_reversed() const { return frustum_.reversed; }
 
-    [[nodiscard]] ClipLine along(const scene::Ray& ray) const;
-    /// The same to within the roundings of plain sums.
+    /// To within the roundings of plain sums.
     [[nodiscard]] ClipLine plainly_along(const scene::Ray& ray) const
     {
         return {plain_row_at(rows_.z, ray.origin, 1), plain_row_at(rows_.z, ray.direction, 0),
@@ -62,6 +62,9 @@ public:
     /// camera plane. Precondition: δ is not 0.
     [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
 
+    /// The same in twice double's precision. Precondition: the hit is tame.
+    [[nodiscard]] Wide widely_at(const Receiver& hit) const;
+
     /// True when the point is in front of the light and its depth in [0, 1].
     /// @param depth  of the point, as `at` gives it.
     [[nodiscard]] bool is_in_range(const ClipLine& line, const Receiver& hit,
@@ -72,12 +75,24 @@ public:
         Bounded depth;
         double zeta_m = 0;
     };
-    [[nodiscard]] Place place(const Receiver& hit) const;
+    /// What places of hits with one facet and rays of one origin have in common.
+    struct PlaceMemory {
+        std::uint32_t triangle = scene::no_triangle;
+        scene::Vec3d origin{};
+        Vec3<Wide> normal{}; ///< n
+        Wide nu;             ///< n·(a − E)
+        Bounded z_start, w_start;
+        Bounded zeta_start; ///< ζ of the origin
+    };
+    /// @param memory  of this light and one scene; kept up to date.
+    [[nodiscard]] Place place(const Receiver& hit, PlaceMemory& memory) const;
 
 private:
     /// True where the facet's plane certainly has one depth: it faces a directional light.
     [[nodiscard]] bool is_level(const Facet& facet) const;
-    [[nodiscard]] double zeta_m(const Receiver& hit, const Bounded& t) const;
+    void remember(const Receiver& hit, PlaceMemory& memory) const;
+    [[nodiscard]] double zeta_m(const Receiver& hit, const Bounded& t,
+                                const Bounded& zeta_start) const;
 
     const scene::LightFrustum& frustum_;
     ClipRows rows_;
@@ -90,7 +105,5 @@ private:
 {
     return {hit.t, hit.t_error};
 }
-/// The same to within a few roundings, wherever twice the precision is enough for that.
-[[nodiscard]] Bounded sharp_parameter_of(const Receiver& hit);
 
 } // namespace gnomon::reference_rt

@@ -1,9 +1,12 @@
 #include "reference_rt/predicates.hpp"
 
 #include "reference_rt/terms.hpp"
+#include "reference_rt/wide.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace gnomon::reference_rt {
 
@@ -26,6 +29,54 @@ Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
     return is_coplanar(receiver, s, counts) ? 0 : receiver.delta_sign * exact_sign(counts, formula);
 }
 
+/// The double that `Dyadic::quotient` gives for the exact numbers, where twice double's precision
+/// proves it.
+std::optional<double> certain_quotient(const Wide& numerator, const Wide& denominator)
+{
+    const Wide quotient = numerator / denominator;
+    // That function cuts off what is below 2^-61 of the quotient, and then rounds.
+    const double reach = quotient.error + 0x1p-60 * std::abs(quotient.high);
+    const bool is_certain = quotient.high + (quotient.low + reach) == quotient.high &&
+                            quotient.high + (quotient.low - reach) == quotient.high;
+    return is_certain ? std::optional{quotient.high} : std::nullopt;
+}
+
+/// a − b, where it is a double.
+std::optional<double> exact_difference(double a, double b)
+{
+    const Wide difference = exact_sum(a, -b);
+    return difference.low == 0 ? std::optional{difference.high + 0.0} : std::nullopt; // never −0
+}
+
+/// P − origin, where it takes no integers to know what those would give.
+std::optional<Vec3d> certain_offset(const Receiver& receiver, const Vec3d& origin)
+{
+    if (!receiver.is_tame()) {
+        return std::nullopt;
+    }
+    const Ray& ray = receiver.ray();
+    const auto [delta, nu] = plane_hit(WideField{}, receiver);
+    const auto& normal = receiver.facet->normal;
+    const std::array<bool, 3> is_across{normal.x.permanent == 0, normal.y.permanent == 0,
+                                        normal.z.permanent == 0};
+    Vec3d offset{0.0};
+    for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        // All of a plane that faces an axis has one coordinate there.
+        const bool is_level = is_across[(axis + 1) % 3] && is_across[(axis + 2) % 3];
+        const auto part =
+            is_level ? exact_difference(receiver.corners()[0][k], origin[k])
+                     : certain_quotient(delta * WideField::difference(ray.origin[k], origin[k]) +
+                                            nu * WideField::number(ray.direction[k]),
+                                        delta);
+        if (!part) {
+            return std::nullopt;
+        }
+        offset[k] = *part;
+    }
+    return offset;
+}
+
 } // namespace
 
 Sign Receiver::exact_delta_sign(SignCounts& counts) const
@@ -35,6 +86,9 @@ Sign Receiver::exact_delta_sign(SignCounts& counts) const
 
 Vec3d exact_offset(const Receiver& receiver, const Vec3d& origin)
 {
+    if (const auto offset = certain_offset(receiver, origin)) {
+        return *offset;
+    }
     const Ray& ray = receiver.ray();
     const auto [delta, nu] = plane_hit(ExactField{}, receiver);
     const auto offset =

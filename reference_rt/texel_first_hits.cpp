@@ -125,7 +125,7 @@ public:
         }
         const Facet facet = facet_of(kept.triangle);
         const Receiver hit{facet, rays_[lane], counts_};
-        const auto [depth, zeta_m] = setting_.depth.place(hit);
+        const auto [depth, zeta_m] = setting_.depth.place(hit, place_memory_);
         return {kept.triangle, depth.value, zeta_m, depth.error};
     }
 
@@ -236,6 +236,7 @@ private:
     std::vector<CameraStandIn> stand_ins_;
     PacketOf<KeptHit> nearest_;
     std::vector<EdgeContact> edges_;
+    LightDepth::PlaceMemory place_memory_;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "reference_rt/bounded.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace gnomon::reference_rt {
 
@@ -53,6 +54,23 @@ inline constexpr double wide_roundoff = 8 * unit_roundoff * unit_roundoff;
     return joined(product, rest,
                   1.01 * (std::abs(a.high) * b.error + (std::abs(b.high) + b.error) * a.error) +
                       wide_roundoff * std::abs(product));
+}
+
+/// Nothing is known of a quotient whose divisor may be 0.
+[[nodiscard]] inline Wide operator/(const Wide& a, const Wide& b)
+{
+    const double start = a.high / b.high;
+    const Wide rest = a - Wide{start, 0, 0} * b;
+    const Wide quotient = joined(start, rest.high / b.high, 0);
+    const double smallest = std::abs(b.high) - (std::abs(b.low) + b.error);
+    if (!(smallest > 0)) {
+        return {quotient.high, quotient.low, std::numeric_limits<double>::infinity()};
+    }
+    // |a'/b' − q| = |a' − qb'|/|b'|, and what is known of that remainder bounds it; the factor pays
+    // for the roundings here, the summand for underflow.
+    const Bounded remainder = (a - quotient * b).rounded();
+    return {quotient.high, quotient.low,
+            1.01 * ((std::abs(remainder.value) + remainder.error) / smallest) + 0x1p-1000};
 }
 
 /// Arithmetic in twice double's precision, for the formulas of arithmetic.hpp.

@@ -15,8 +15,8 @@ namespace gnomon::analysis {
 /// bounded.
 class Background {
 public:
-    /// @param most_waiting  pieces that may wait while one is done; >= 1.
-    explicit Background(std::size_t most_waiting) : most_waiting_{most_waiting}
+    /// @param most_pieces  that it holds, the one that is being done included; >= 1.
+    explicit Background(std::size_t most_pieces) : most_pieces_{most_pieces}
     {
         thread_ = std::thread{[this] { work(); }};
     }
@@ -37,7 +37,8 @@ public:
     void add(std::function<void()> piece)
     {
         std::unique_lock lock{mutex_};
-        changed_.wait(lock, [&] { return waiting_.size() < most_waiting_ || error_; });
+        changed_.wait(
+            lock, [&] { return waiting_.size() + (is_busy_ ? 1 : 0) < most_pieces_ || error_; });
         rethrow();
         waiting_.push_back(std::move(piece));
         changed_.notify_all();
@@ -88,7 +89,7 @@ private:
         }
     }
 
-    std::size_t most_waiting_;
+    std::size_t most_pieces_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::function<void()>> waiting_;

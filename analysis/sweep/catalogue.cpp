@@ -125,14 +125,15 @@ SweepTask SweepCatalogue::task(std::size_t request, std::string_view scene_hash)
     return task;
 }
 
-void SweepCatalogue::describe(std::size_t request, std::string_view scene_hash,
-                              const Visit& visit) const
+void SweepCatalogue::describe(std::size_t request, std::string_view scene_hash, const Visit& visit,
+                              std::uint32_t shard) const
 {
     const auto& ordinals = requests_[request].ordinals;
     scene::Job job = this->job(request);
     Configuration configuration;
     configuration.parameters = scene::resolved_keys(job);
     configuration.scene_hash = scene_hash;
+    configuration.shard = shard;
     configuration.curve = curve_of(version_, scene_hash, job, configuration.parameters);
     configuration.case_name = space_.case_name(space_.at(ordinals.front()));
     for (const std::uint64_t ordinal : ordinals) {

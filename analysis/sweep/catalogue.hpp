@@ -42,7 +42,9 @@ public:
 
     using Visit = std::function<void(const Configuration&)>;
     /// Says who the request's configurations are.
-    void describe(std::size_t request, std::string_view scene_hash, const Visit& visit) const;
+    /// @param shard  that computes them.
+    void describe(std::size_t request, std::string_view scene_hash, const Visit& visit,
+                  std::uint32_t shard = 1) const;
     /// Says who the refused ones are: by their number, case and axes alone.
     void describe(const Refusal& refusal, const Visit& visit) const;
 

@@ -2,27 +2,48 @@
 
 #include "analysis/own_sheets.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace gnomon::analysis {
+
+std::shared_ptr<const Binning> SweepSubject::distances(const scene::LightFrustum& frustum,
+                                                       const ReceiverGeometry& geometry)
+{
+    if (distances_ == nullptr || distances_from_ != frustum.origin ||
+        distances_along_ != frustum.forward) {
+        distances_ = std::make_shared<const Binning>(
+            bin_by_distance(truth.pixel_class, light_distances_m(truth.pixel_class, geometry)));
+        distances_from_ = frustum.origin;
+        distances_along_ = frustum.forward;
+    }
+    return distances_;
+}
 
 ExactSide::ExactSide(const scene::TriangleScene& triangles, std::shared_ptr<SweepSubject> subject,
                      const scene::Job& job, const scene::View& view, const Renderers& renderers)
     : subject_{std::move(subject)},
       view_{view},
+      resolution_texels_{job.shadow_map.resolution_texels},
       geometry_{triangles, view_, subject_->receivers.triangle},
       light_{renderers.make_exact_light(job, view_, subject_->receivers)},
-      distances_{bin_by_distance(subject_->truth.pixel_class,
-                                 light_distances_m(subject_->truth.pixel_class, geometry_))},
+      distances_{subject_->distances(view_.frustum, geometry_)},
       remembers_{job.lookup.filter == scene::Filter::nearest},
       causes_{view.image},
-      detaches_{view.image, not_asked}
+      detaches_{view.image, not_asked},
+      pixel_gaps_{view.image, unknown_gap}
 {
+}
+
+CauseInputs ExactSide::with_known_hits(CauseInputs inputs)
+{
+    inputs.known_hits = &centre_hits(inputs).hits();
+    return inputs;
 }
 
 scene::Image<PixelCause> ExactSide::causes(const CauseInputs& inputs)
 {
-    return find_causes(inputs, remembers_ ? &causes_ : nullptr);
+    return find_causes(with_known_hits(inputs), remembers_ ? &causes_ : nullptr);
 }
 
 const CentreHits& ExactSide::centre_hits(const CauseInputs& inputs)
@@ -37,7 +58,7 @@ std::vector<std::size_t> ExactSide::detached(const CauseInputs& inputs,
                                              std::span<const std::size_t> pixels)
 {
     if (!remembers_) {
-        return detached_pixels(inputs, pixels);
+        return detached_pixels(with_known_hits(inputs), pixels);
     }
     std::vector<std::size_t> asked;
     for (const std::size_t pixel : pixels) {
@@ -46,7 +67,7 @@ std::vector<std::size_t> ExactSide::detached(const CauseInputs& inputs,
             asked.push_back(pixel);
         }
     }
-    for (const std::size_t pixel : detached_pixels(inputs, asked)) {
+    for (const std::size_t pixel : detached_pixels(with_known_hits(inputs), asked)) {
         detaches_[pixel] = 1;
     }
     std::vector<std::size_t> detached;
@@ -56,6 +77,27 @@ std::vector<std::size_t> ExactSide::detached(const CauseInputs& inputs,
         }
     }
     return detached;
+}
+
+std::vector<PixelGap> ExactSide::pixel_gaps(std::span<const std::size_t> pixels)
+{
+    std::vector<std::size_t> asked;
+    for (const std::size_t pixel : pixels) {
+        if (std::isnan(pixel_gaps_[pixel].metres)) {
+            asked.push_back(pixel);
+        }
+    }
+    gaps().find(*light_, asked);
+    const auto found = gaps_of_pixels(gaps(), asked, geometry_, view_.frustum, resolution_texels_);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        pixel_gaps_[asked[i]] = found[i];
+    }
+    std::vector<PixelGap> result;
+    result.reserve(pixels.size());
+    for (const std::size_t pixel : pixels) {
+        result.push_back(pixel_gaps_[pixel]);
+    }
+    return result;
 }
 
 } // namespace gnomon::analysis

@@ -3,6 +3,7 @@
 #include "analysis/blocker_gaps.hpp"
 #include "analysis/breakdown.hpp"
 #include "analysis/causes.hpp"
+#include "analysis/gaps.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/receiver_geometry.hpp"
@@ -12,6 +13,7 @@
 #include "scene/layers.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,6 +29,16 @@ struct SweepSubject {
     scene::TruthLayers truth;
     ClassCounts classes;
     BlockerGaps gaps;
+
+    /// The scored receivers by light distance; found anew only where that is counted otherwise than
+    /// the last time.
+    [[nodiscard]] std::shared_ptr<const Binning> distances(const scene::LightFrustum& frustum,
+                                                           const ReceiverGeometry& geometry);
+
+private:
+    std::shared_ptr<const Binning> distances_;
+    scene::Vec3d distances_from_{}; ///< ζ is 0 there
+    scene::Vec3d distances_along_{};
 };
 
 /// What exact rays say of a subject's lookups in maps that differ in nothing but the depth format:
@@ -43,8 +55,10 @@ public:
     [[nodiscard]] const scene::ExactLight& light() const { return *light_; }
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
     /// The scored receivers by light distance.
-    [[nodiscard]] const Binning& distances() const { return distances_; }
+    [[nodiscard]] const Binning& distances() const { return *distances_; }
     [[nodiscard]] BlockerGaps& gaps() { return subject_->gaps; }
+    /// The gaps of these blocked pixels, in the order of the pixels.
+    [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels);
 
     [[nodiscard]] scene::Image<PixelCause> causes(const CauseInputs& inputs);
     [[nodiscard]] const CentreHits& centre_hits(const CauseInputs& inputs);
@@ -54,17 +68,23 @@ public:
 
 private:
     static constexpr std::uint8_t not_asked = 2;
+    static constexpr PixelGap unknown_gap{std::numeric_limits<float>::quiet_NaN(), 0};
+
+    /// The same, with what the side knows of texels.
+    [[nodiscard]] CauseInputs with_known_hits(CauseInputs inputs);
 
     std::shared_ptr<SweepSubject> subject_;
     scene::View view_;
+    int resolution_texels_;
     ReceiverGeometry geometry_;
     std::unique_ptr<scene::ExactLight> light_;
-    Binning distances_;
+    std::shared_ptr<const Binning> distances_;
     std::optional<CentreHits> centre_hits_;
     /// Only with a single tap what is found does not depend on the stored depths.
     bool remembers_;
     CauseMemory causes_;
     scene::Image<std::uint8_t> detaches_; ///< 1 yes, 0 no, or `not_asked`
+    scene::Image<PixelGap> pixel_gaps_;   ///< or `unknown_gap`
 };
 
 } // namespace gnomon::analysis

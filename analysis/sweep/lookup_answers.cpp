@@ -106,10 +106,7 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
         }
     }
     panning = exact_->detached(cause_inputs(), panning);
-    exact_->gaps().find(exact_->light(), panning);
-    const auto lengths =
-        gaps_of_pixels(exact_->gaps(), panning, exact_->geometry(), lookup_.view.frustum,
-                       lookup_.job.shadow_map.resolution_texels);
+    const auto lengths = exact_->pixel_gaps(panning);
     std::vector<PanningGap> gaps;
     gaps.reserve(panning.size());
     for (std::size_t i = 0; i < panning.size(); ++i) {
@@ -119,14 +116,15 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
 }
 
 void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<float>& critical,
-                             const LookupRule& rule, FinishedCurve& finished)
+                             const BiasCurve& curve, const LookupRule& rule,
+                             FinishedCurve& finished)
 {
     const std::vector<float> biases = ascending_biases(question);
     if (biases.empty()) {
         return;
     }
     const int taps = equal_taps(rule.filter);
-    const auto counts = count_rows({classes(), deciding(), critical, causes_, rule}, biases);
+    const auto counts = count_rows({classes(), deciding(), critical, causes_, rule}, curve, biases);
     const auto wrong_taps =
         taps > 1 ? count_wrong_taps(classes(), lookup_.layers, lookup_.map_depths, rule, biases)
                  : std::vector<std::uint64_t>{};
@@ -163,7 +161,7 @@ FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
                                             exact_->distances(),
                                             {classes(), deciding(), critical, map_error_m_},
                                             question.job_bias});
-    add_rows(question, critical, rule, finished);
+    add_rows(question, critical, curve, rule, finished);
     return finished;
 }
 

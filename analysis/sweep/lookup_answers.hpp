@@ -60,7 +60,7 @@ private:
     [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
                                                        float largest_bias);
     void add_rows(const CurveQuestion& question, const scene::Image<float>& critical,
-                  const LookupRule& rule, FinishedCurve& finished);
+                  const BiasCurve& curve, const LookupRule& rule, FinishedCurve& finished);
 
     std::shared_ptr<ExactSide> exact_;
     SweepLookup lookup_;

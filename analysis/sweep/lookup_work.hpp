@@ -6,7 +6,6 @@
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -22,13 +21,14 @@ struct ReadScene {
 };
 
 /// The exact sides of the cameras that are kept side by side, the last of each: maps that differ in
-/// depth format only come one after the other.
+/// depth format only come one after the other. Several threads may find sides, each of other slots.
 class ExactSides {
 public:
+    explicit ExactSides(std::size_t slots) : sides_(slots) {}
+
     template <typename Make>
     std::shared_ptr<ExactSide> find(std::size_t slot, const std::string& key, const Make& make)
     {
-        sides_.resize(std::max(sides_.size(), slot + 1));
         auto& [known, side] = sides_[slot];
         if (side == nullptr || known != key) {
             side.reset(); // before the next one takes memory
@@ -37,7 +37,6 @@ public:
         }
         return side;
     }
-    void forget() { sides_.clear(); }
 
 private:
     std::vector<std::pair<std::string, std::shared_ptr<ExactSide>>> sides_;

@@ -7,6 +7,7 @@
 #include "analysis/sweep/made.hpp"
 #include "scene/error.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -89,8 +90,14 @@ public:
         : plan_{plan},
           hooks_{hooks},
           receivers_(plan.slots),
-          subjects_(plan.slots)
+          subjects_(plan.slots),
+          sides_(plan.slots)
     {
+        // What one camera's lookups say is kept for the next: their curves are answered in turn.
+        const std::size_t lanes = std::min<std::size_t>(cameras(plan), most_lookups);
+        for (std::size_t i = 0; i < lanes; ++i) {
+            lanes_.push_back(std::make_unique<Background>(most_lookups / lanes));
+        }
     }
 
     PlanCounts run()
@@ -101,11 +108,30 @@ public:
             }
             do_step(step);
         }
-        background_.finish();
+        finish_lanes();
         return counts_;
     }
 
 private:
+    /// Lookups that wait for their answers or get them: they bound the memory.
+    static constexpr std::size_t most_lookups = 2;
+
+    /// Cameras that the plan keeps side by side.
+    static std::size_t cameras(const SweepPlan& plan)
+    {
+        std::size_t cameras = 1;
+        for (const SweepStep& step : plan.steps) {
+            cameras = std::max(cameras, step.slot + 1);
+        }
+        return cameras;
+    }
+    void finish_lanes()
+    {
+        for (const auto& lane : lanes_) {
+            lane->finish();
+        }
+    }
+
     void do_step(const SweepStep& step)
     {
         if (task_curve_ != step.curve) {
@@ -151,9 +177,9 @@ private:
 
     void read_scene()
     {
-        background_.finish(); // what it works on refers to the scene before
+        finish_lanes(); // what they work on refers to the scene before
         lookup_ = {};
-        sides_.forget();
+        sides_ = ExactSides{plan_.slots};
         map_ = {};
         receivers_.assign(plan_.slots, {});
         subjects_.assign(plan_.slots, {});
@@ -261,13 +287,14 @@ private:
         if (is_compared()) {
             return answer_by_comparison(slot, task_.rows.at(0));
         }
-        background_.add([this, task = std::move(task_), lookup = lookup_]() mutable {
-            answer_by_curve(task, lookup);
-        });
+        lanes_[slot % lanes_.size()]->add(
+            [this, task = std::move(task_), lookup = lookup_]() mutable {
+                answer_by_curve(task, lookup);
+            });
         task_curve_.reset();
     }
 
-    /// Called by the background. Only the work is a stage: what the hooks throw ends the sweep.
+    /// Called by a lane. Only the work is a stage: what the hooks throw ends the sweep.
     void answer_by_curve(SweepTask& task, const Made<LookupWork>& lookup)
     {
         std::vector<RefusedRow> refused;
@@ -338,9 +365,9 @@ private:
     std::vector<Made<scene::ReceiverLayers>> receivers_; ///< by slot
     std::vector<Made<SweepSubject>> subjects_;           ///< by slot
     Made<bool> map_;
-    ExactSides sides_; ///< the background's
+    ExactSides sides_; ///< the lanes'
     Made<LookupWork> lookup_;
-    Background background_{1}; ///< last: it works on the others
+    std::vector<std::unique_ptr<Background>> lanes_; ///< last: they work on the others
 };
 
 } // namespace

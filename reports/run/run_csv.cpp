@@ -4,8 +4,12 @@
 #include "reports/run/csv_text.hpp"
 
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +34,27 @@ void append_cell(std::string& out, const sqlite::ValueView& value)
     }
 }
 
+/// Appends the statement's rows, as far as it has any.
+/// @param most_bytes  where to stop, after a whole row.
+/// @return  False after the last row.
+bool append_rows(std::string& out, Statement& statement, std::size_t most_bytes)
+{
+    const int columns = statement.column_count();
+    while (out.size() < most_bytes) {
+        if (!statement.step()) {
+            return false;
+        }
+        for (int i = 0; i < columns; ++i) {
+            if (i > 0) {
+                out += ',';
+            }
+            append_cell(out, statement.value(i));
+        }
+        out += '\n';
+    }
+    return true;
+}
+
 /// A CSV file that is written row by row, and appears when it is whole.
 class CsvFile {
 public:
@@ -46,19 +71,16 @@ public:
 
     void write_rows(Statement& statement)
     {
-        const int columns = statement.column_count();
-        while (statement.step()) {
-            for (int i = 0; i < columns; ++i) {
-                if (i > 0) {
-                    pending_ += ',';
-                }
-                append_cell(pending_, statement.value(i));
-            }
-            pending_ += '\n';
-            if (pending_.size() >= block_bytes) {
-                flush();
-            }
+        while (append_rows(pending_, statement, block_bytes)) {
+            flush();
         }
+    }
+
+    /// Whole rows, after those that were written before.
+    void write_text(std::string_view rows)
+    {
+        flush();
+        file_.write(rows);
     }
 
     void commit()
@@ -94,6 +116,65 @@ std::vector<std::string> exported_curves(const Database& database)
     return ids;
 }
 
+/// Reads a range of the results, on a connection of its own.
+class ResultsReader {
+public:
+    explicit ResultsReader(const std::filesystem::path& path)
+        : database_{path, Database::Access::read},
+          rows_{database_, "SELECT * FROM results WHERE ordinal >= ? AND ordinal < ?"
+                           " ORDER BY ordinal"}
+    {
+    }
+
+    [[nodiscard]] std::string text(std::int64_t first, std::int64_t last)
+    {
+        std::string text;
+        rows_.bind(1, first).bind(2, last);
+        append_rows(text, rows_, std::numeric_limits<std::size_t>::max());
+        return text;
+    }
+
+private:
+    Database database_;
+    Statement rows_;
+};
+
+/// Writes the results by ordinal; several threads read and format them. Nobody writes to the
+/// database meanwhile, so that all of them see the same.
+void write_results(const Database& database, const std::filesystem::path& path)
+{
+    constexpr std::int64_t rows_at_once = 512;
+    constexpr std::size_t texts_at_once = 16;
+    CsvFile file{path};
+    file.write_header(Statement{database, "SELECT * FROM results"});
+    const std::int64_t end = database.integer("SELECT max(ordinal) + 1 FROM part");
+    tbb::enumerable_thread_specific<std::unique_ptr<ResultsReader>> readers;
+    std::int64_t next = 0;
+    const auto take = [&](tbb::flow_control& control) {
+        const std::int64_t first = next;
+        next += rows_at_once;
+        if (first >= end) {
+            control.stop();
+        }
+        return first;
+    };
+    const auto read = [&](std::int64_t first) {
+        auto& reader = readers.local();
+        if (!reader) {
+            reader = std::make_unique<ResultsReader>(database.path());
+        }
+        return reader->text(first, first + rows_at_once);
+    };
+    const auto write = [&](const std::string& rows) { file.write_text(rows); };
+    using tbb::filter_mode;
+    tbb::parallel_pipeline(
+        texts_at_once,
+        tbb::make_filter<void, std::int64_t>(filter_mode::serial_in_order, take) &
+            tbb::make_filter<std::int64_t, std::string>(filter_mode::parallel, read) &
+            tbb::make_filter<std::string, void>(filter_mode::serial_in_order, write));
+    file.commit();
+}
+
 /// Writes the rows of each curve.
 /// @param query  with the curve's id as its parameter.
 void write_curves(const Database& database, const std::vector<std::string>& curves,
@@ -115,11 +196,7 @@ void write_run_csv(const Database& database, const std::filesystem::path& folder
 {
     Transaction moment{database, Transaction::Kind::read};
     const std::vector<std::string> curves = exported_curves(database);
-    CsvFile results{folder / "results.csv"};
-    Statement rows{database, "SELECT * FROM results ORDER BY ordinal"};
-    results.write_header(rows);
-    results.write_rows(rows);
-    results.commit();
+    write_results(database, folder / "results.csv");
     // "job_bias" before "best_bias".
     write_curves(database, curves,
                  "SELECT * FROM error_vs_z WHERE curve = ? ORDER BY \"at\" DESC, lower_m",

@@ -7,12 +7,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace gnomon::reports {
 
@@ -40,7 +41,7 @@ public:
           find_{database, "SELECT number FROM configurations WHERE id = ?"},
           insert_{database, insertion()},
           find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
-          insert_curve_{database, "INSERT INTO curves (id) VALUES (?) RETURNING number"},
+          insert_curve_{database, "INSERT INTO curves (id) VALUES (?)"},
           plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?)"}
     {
         const auto& columns = job_columns();
@@ -76,24 +77,53 @@ private:
             values += ", ?";
         }
         return fmt::format("INSERT INTO configurations (id, curve, scene_hash{}, status)"
-                           " VALUES (?, ?, ?{}, 'planned') RETURNING number",
+                           " VALUES (?, ?, ?{}, 'planned')",
                            names, values);
     }
 
     std::int64_t insert(const Configuration& configuration)
     {
-        insert_.clear()
-            .bind(1, std::string_view{configuration.id})
+        if (!has_keys_of(configuration)) {
+            insert_.clear();
+            bound_.clear();
+        }
+        insert_.bind(1, std::string_view{configuration.id})
             .bind(2, curve_number(configuration.curve))
             .bind(3, std::string_view{configuration.scene_hash});
-        for (const auto& [key, toml] : configuration.parameters) {
-            const auto parameter = parameters_.find(key);
-            if (parameter == parameters_.end()) {
-                throw std::invalid_argument(fmt::format("RunStore::plan: no job key {}", key));
-            }
-            insert_.bind(parameter->second, job_cell(toml));
+        for (std::size_t i = 0; i < configuration.parameters.size(); ++i) {
+            bind_parameter(i, configuration.parameters[i]);
         }
-        return finished(insert_);
+        insert_.run();
+        return database_->last_inserted();
+    }
+
+    using Parameter = std::pair<std::string, std::string>;
+
+    /// Whether it names the keys of the configuration before.
+    [[nodiscard]] bool has_keys_of(const Configuration& configuration) const
+    {
+        return std::ranges::equal(bound_, configuration.parameters, {}, &Parameter::first,
+                                  &Parameter::first);
+    }
+
+    /// Binds the i-th parameter, if it is not bound already: from one configuration to the next
+    /// little changes.
+    void bind_parameter(std::size_t i, const Parameter& parameter)
+    {
+        if (i < bound_.size() && bound_[i].second == parameter.second) {
+            return;
+        }
+        const auto column = parameters_.find(parameter.first);
+        if (column == parameters_.end()) {
+            throw std::invalid_argument(
+                fmt::format("RunStore::plan: no job key {}", parameter.first));
+        }
+        insert_.bind(column->second, job_cell(parameter.second));
+        if (i < bound_.size()) {
+            bound_[i] = parameter;
+        } else {
+            bound_.push_back(parameter);
+        }
     }
 
     std::int64_t curve_number(const std::string& id)
@@ -101,13 +131,15 @@ private:
         const auto [entry, is_new] = curves_.try_emplace(id);
         if (is_new) {
             const auto known = find_curve_.bind(1, std::string_view{id}).first();
-            entry->second = known ? *known : finished(insert_curve_.bind(1, std::string_view{id}));
+            entry->second = known ? *known : insert_curve(id);
         }
         return entry->second;
     }
-
-    /// The number that an insertion returns; it always does.
-    static std::int64_t finished(Statement& insertion) { return insertion.first().value_or(0); }
+    std::int64_t insert_curve(const std::string& id)
+    {
+        insert_curve_.bind(1, std::string_view{id}).run();
+        return database_->last_inserted();
+    }
 
     const Database* database_;
     Statement find_;
@@ -116,19 +148,9 @@ private:
     Statement insert_curve_;
     Statement plan_;
     std::unordered_map<std::string_view, int> parameters_; ///< of `insert_`, by key
+    std::vector<Parameter> bound_;                         ///< to `insert_`
     std::unordered_map<std::string, std::int64_t> curves_; ///< numbers by id
 };
-
-/// False if there is none left.
-bool add_next(Planner& planner, const NextConfiguration& next)
-{
-    const std::optional<Configuration> configuration = next();
-    if (!configuration.has_value()) {
-        return false;
-    }
-    planner.add(configuration.value());
-    return true;
-}
 
 void require_valid(const Shard& shard)
 {
@@ -222,7 +244,7 @@ void write_description(const Database& database, const RunDescription& descripti
 }
 
 PlanOutcome write_plan(const Database& database, const RunDescription& description,
-                       const NextConfiguration& next, Environments environments)
+                       const ShowConfigurations& show, Environments environments)
 {
     require_valid(description.shard);
     Transaction transaction{database};
@@ -232,8 +254,7 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     write_description(database, description);
     database.run("DELETE FROM plan");
     Planner planner{database};
-    while (add_next(planner, next)) {
-    }
+    show([&](const Configuration& configuration) { planner.add(configuration); });
     database.run("DELETE FROM configurations WHERE status = 'planned'"
                  " AND number NOT IN (SELECT configuration FROM plan)");
     const PlanOutcome result = read_outcome(database);

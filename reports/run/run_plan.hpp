@@ -9,7 +9,7 @@ namespace gnomon::reports {
 
 /// `RunStore::plan`, in one transaction.
 PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& description,
-                       const NextConfiguration& next, Environments environments);
+                       const ShowConfigurations& show, Environments environments);
 
 /// How the plan's configurations stand.
 [[nodiscard]] PlanOutcome read_outcome(const sqlite::Database& database);

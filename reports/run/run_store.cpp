@@ -110,17 +110,16 @@ PlanOutcome RunStore::plan(const RunDescription& description,
                            std::span<const analysis::Configuration> configurations,
                            Environments environments)
 {
-    std::size_t i = 0;
-    const auto next = [&]() -> std::optional<analysis::Configuration> {
-        return i < configurations.size() ? std::optional{configurations[i++]} : std::nullopt;
+    const auto show = [&](const VisitConfiguration& visit) {
+        std::for_each(configurations.begin(), configurations.end(), visit);
     };
-    return plan(description, next, environments);
+    return plan(description, show, environments);
 }
 
-PlanOutcome RunStore::plan(const RunDescription& description, const NextConfiguration& next,
+PlanOutcome RunStore::plan(const RunDescription& description, const ShowConfigurations& show,
                            Environments environments)
 {
-    const PlanOutcome outcome = write_plan(parts_->database, description, next, environments);
+    const PlanOutcome outcome = write_plan(parts_->database, description, show, environments);
     parts_->environment = environment_number(parts_->database);
     return outcome;
 }

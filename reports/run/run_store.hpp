@@ -59,8 +59,9 @@ struct PlanOutcome {
     std::uint64_t retired = 0; ///< results in the database that the plan does not ask for
 };
 
-/// Makes the configurations of a plan, one a call; empty after the last.
-using NextConfiguration = std::function<std::optional<analysis::Configuration>()>;
+using VisitConfiguration = std::function<void(const analysis::Configuration&)>;
+/// Shows the configurations of a plan one by one: all of them may be too many for the memory.
+using ShowConfigurations = std::function<void(const VisitConfiguration& visit)>;
 
 /// How many environments the results of one run may come from.
 enum class Environments : std::uint8_t { one, several };
@@ -104,7 +105,7 @@ public:
                      std::span<const analysis::Configuration> configurations,
                      Environments environments = Environments::one);
     /// The same for a plan that does not fit into memory.
-    PlanOutcome plan(const RunDescription& description, const NextConfiguration& next,
+    PlanOutcome plan(const RunDescription& description, const ShowConfigurations& show,
                      Environments environments = Environments::one);
 
     /// What was planned; its environment is that of the last plan.

@@ -260,6 +260,11 @@ std::int64_t Database::changes() const
     return sqlite3_changes64(handle());
 }
 
+std::int64_t Database::last_inserted() const
+{
+    return sqlite3_last_insert_rowid(handle());
+}
+
 bool Database::has(std::string_view name) const
 {
     Statement search{*this, "SELECT 1 FROM sqlite_schema WHERE name = ?"};

@@ -83,6 +83,8 @@ public:
     [[nodiscard]] std::int64_t integer(const std::string& sql) const;
     /// Rows that the last statement changed.
     [[nodiscard]] std::int64_t changes() const;
+    /// The rowid of the row that was inserted last.
+    [[nodiscard]] std::int64_t last_inserted() const;
     /// Whether that table or view is there.
     [[nodiscard]] bool has(std::string_view name) const;
     /// Adds another file, read only, whose tables are `name.TABLE`.

@@ -31,11 +31,11 @@ TEST(Background, WorksInOrder)
 
 TEST(Background, TakesOnlySoManyPiecesOn)
 {
-    constexpr std::size_t most_waiting = 2;
+    constexpr std::size_t most_pieces = 3;
     std::atomic<int> added{0};
     std::atomic<int> begun{0};
     std::atomic<bool> may_go{false};
-    Background background{most_waiting};
+    Background background{most_pieces};
     std::thread giver{[&] {
         for (int i = 0; i < 10; ++i) {
             background.add([&] {

@@ -46,7 +46,7 @@ struct Subject {
     [[nodiscard]] std::vector<BiasRow> rows(const std::vector<float>& biases) const
     {
         const auto critical = critical_biases(deciding, rule);
-        return count_rows({classes, deciding, critical, causes, rule}, biases);
+        return count_rows({classes, deciding, critical, causes, rule}, {critical, classes}, biases);
     }
 };
 
@@ -235,19 +235,20 @@ TEST(BiasRows, RejectImagesOfDifferentSizes)
     const Subject other{{1, 2}};
     const scene::Image<float> critical{{2, 1}};
     const scene::Image<float> turned{{1, 2}};
+    const BiasCurve curve{critical, subject.classes};
     const std::vector<float> biases{0.0F};
-    EXPECT_THROW(
-        (void)count_rows({other.classes, subject.deciding, critical, subject.causes, {}}, biases),
-        std::invalid_argument);
-    EXPECT_THROW(
-        (void)count_rows({subject.classes, other.deciding, critical, subject.causes, {}}, biases),
-        std::invalid_argument);
-    EXPECT_THROW(
-        (void)count_rows({subject.classes, subject.deciding, turned, subject.causes, {}}, biases),
-        std::invalid_argument);
-    EXPECT_THROW(
-        (void)count_rows({subject.classes, subject.deciding, critical, other.causes, {}}, biases),
-        std::invalid_argument);
+    EXPECT_THROW((void)count_rows({other.classes, subject.deciding, critical, subject.causes, {}},
+                                  curve, biases),
+                 std::invalid_argument);
+    EXPECT_THROW((void)count_rows({subject.classes, other.deciding, critical, subject.causes, {}},
+                                  curve, biases),
+                 std::invalid_argument);
+    EXPECT_THROW((void)count_rows({subject.classes, subject.deciding, turned, subject.causes, {}},
+                                  curve, biases),
+                 std::invalid_argument);
+    EXPECT_THROW((void)count_rows({subject.classes, subject.deciding, critical, other.causes, {}},
+                                  curve, biases),
+                 std::invalid_argument);
 }
 
 /// A pcfK lookup of some pixels in a small map.

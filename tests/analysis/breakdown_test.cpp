@@ -38,6 +38,29 @@ TEST(Quantiles, LeaveOutWhatIsNotFinite)
     EXPECT_FALSE(find_quantiles(std::vector<float>{}).has_value());
 }
 
+TEST(Quantiles, AreThoseOfTheSortedValuesWhateverTheirSpread)
+{
+    constexpr unsigned seed = 11;
+    std::mt19937 random{seed};
+    for (int run = 0; run < 300; ++run) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", run " << run);
+        const unsigned spread = static_cast<unsigned>(run) % 60; // octaves
+        std::vector<float> values(1 + random() % 3000);
+        for (float& value : values) {
+            const auto mantissa = static_cast<float>(static_cast<int>(random() % 2001) - 1000);
+            value = std::ldexp(mantissa, static_cast<int>(random() % (spread + 1)) -
+                                             static_cast<int>(spread));
+        }
+        std::vector<float> sorted = values;
+        std::ranges::sort(sorted);
+        const auto nth = [&](std::size_t percent) {
+            return sorted[quantile_rank(sorted.size(), percent) - 1];
+        };
+        EXPECT_EQ(find_quantiles(std::move(values)),
+                  (Quantiles{sorted.size(), sorted.front(), nth(50), nth(95), sorted.back()}));
+    }
+}
+
 struct Pixel {
     PixelClass pixel_class = lit;
     float verdict = 0;

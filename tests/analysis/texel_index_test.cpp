@@ -48,7 +48,13 @@ TEST(TexelIndex, KnowsEveryTexelOnceWhateverTheirOrder)
         }
         const TexelIndex index{texels};
         EXPECT_EQ(index.texels().size(), distinct.size());
+        for (int i = 0; i < 500; ++i) {
+            const Texel texel{x(random), y(random)};
+            EXPECT_EQ(index.has(texel), distinct.contains({texel.x, texel.y}))
+                << texel.x << ", " << texel.y;
+        }
         for (const Texel& texel : texels) {
+            ASSERT_TRUE(index.has(texel));
             ASSERT_LT(index[texel], index.texels().size());
             ASSERT_EQ(index.texels()[index[texel]], texel);
         }

@@ -101,6 +101,35 @@ TEST(Wide, IsAFewRoundingsFromTheExactSum)
     EXPECT_EQ(WideField::difference(1, 0x1p-70).low, -0x1p-70);
 }
 
+TEST(Wide, QuotientsHoldTheirBounds)
+{
+    constexpr unsigned seed = 8;
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random{seed};
+    for (int i = 0; i < 20'000; ++i) {
+        const Triple a = random_triple(random) * random_triple(random) - random_triple(random);
+        const Triple b = random_triple(random) * random_triple(random) - random_triple(random);
+        const Wide quotient = a.wide / b.wide;
+        if (!std::isfinite(quotient.error)) {
+            continue;
+        }
+        const Rational exact = a.exact / b.exact;
+        EXPECT_LE(abs(exact - Rational{quotient.high} - Rational{quotient.low}),
+                  Rational{quotient.error})
+            << "case " << i;
+        // The operands lose 2^-103 of terms below 2^40, of which a quotient by |b| makes 2^-63/|b|
+        // and |q| times that.
+        EXPECT_LE(quotient.error, (1 + std::abs(quotient.high)) * 0x1p-58 / std::abs(b.wide.high))
+            << "case " << i;
+    }
+}
+
+TEST(Wide, KnowsNothingOfAQuotientByWhatMayBeZero)
+{
+    EXPECT_FALSE(std::isfinite((Wide{1, 0, 0} / Wide{1, 0, 1}).error));
+    EXPECT_FALSE(std::isfinite((Wide{0, 0, 0} / Wide{0, 0, 0}).error));
+}
+
 TEST(CompensatedDot, RoundsOnceHoweverItCancels)
 {
     constexpr unsigned seed = 7;

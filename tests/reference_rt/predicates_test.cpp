@@ -1,8 +1,12 @@
 #include "reference_rt/predicates.hpp"
+#include "reference_rt/terms.hpp"
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdint>
 #include <deque>
+#include <random>
 
 namespace gnomon::reference_rt {
 namespace {
@@ -183,6 +187,40 @@ TEST(Meets, IsClosedAtEdgesAndCorners)
     EXPECT_TRUE(is_met({0, 0, 0}, {0, 0, -1}));
     EXPECT_FALSE(is_met({0.5, 0.75, 0}, {0, 0, -1}));
     EXPECT_FALSE(is_met({0, 0, -2}, {1, 0, 0})); // in its plane
+}
+
+TEST(ExactOffset, IsBitForBitWhatIntegersGive)
+{
+    constexpr unsigned seed = 13;
+    std::mt19937 random{seed};
+    std::uniform_real_distribution<float> place{-8, 8};
+    const auto point = [&] { return Vec3d{place(random), place(random), place(random)}; };
+    for (int run = 0; run < 20'000; ++run) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", run " << run);
+        Corners corners{point(), point(), point()};
+        const int level = run % 4; // the axis that the plane faces; 3: none
+        if (level < 3) {
+            corners[1][level] = corners[0][level];
+            corners[2][level] = corners[0][level];
+        }
+        const Facet facet{0, corners};
+        const CameraRay ray{{point(), point()}};
+        SignCounts counts;
+        const Receiver receiver{facet, ray, counts};
+        if (receiver.delta_sign == 0) {
+            continue;
+        }
+        const Vec3d origin = run % 3 == 0 ? Vec3d{0.0} : point();
+        const auto [delta, nu] = plane_hit(ExactField{}, receiver);
+        const Vec3d offset = exact_offset(receiver, origin);
+        for (int k = 0; k < 3; ++k) {
+            const Dyadic part = delta * ExactField::difference(ray.ray.origin[k], origin[k]) +
+                                nu * ExactField::number(ray.ray.direction[k]);
+            EXPECT_EQ(std::bit_cast<std::uint64_t>(offset[k]),
+                      std::bit_cast<std::uint64_t>(Dyadic::quotient(part, delta)))
+                << "axis " << k;
+        }
+    }
 }
 
 } // namespace
