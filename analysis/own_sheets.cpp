@@ -33,22 +33,28 @@ private:
     TapRules rules_;
 };
 
-} // namespace
+/// Weights of a lookup's taps.
+struct ShadowShares {
+    double own = 0;    ///< of those that shadow without bias and see the receiver's own sheet
+    double others = 0; ///< of those that shadow and do not
+    double all = 0;
+};
 
-std::vector<bool> sees_own_sheets(const CauseInputs& inputs, const TracedLookups& lookups)
+std::vector<ShadowShares> shadow_shares(const CauseInputs& inputs, const TracedLookups& lookups)
 {
     const StoredTaps stored{inputs};
     std::vector<scene::SheetQuery> queries;
     std::vector<std::size_t> lookup_of;
     std::vector<double> weights;
-    std::vector<double> balance(lookups.size()); // own sheet's weight less the others'
+    std::vector<ShadowShares> shares(lookups.size());
     for (std::size_t i = 0; i < lookups.size(); ++i) {
         for (std::size_t t = 0; t < lookups.taps_of(i).size(); ++t) {
             const Tap& tap = lookups.taps_of(i)[t];
+            shares[i].all += tap.weight;
             if (!stored.shadows(lookups.pixel(i), tap)) {
                 continue;
             }
-            balance[i] -= tap.weight;
+            shares[i].others += tap.weight;
             const scene::TexelHit* hit = lookups.hits_of(i)[t];
             if (hit != nullptr && hit->triangle != scene::no_triangle) {
                 queries.push_back({lookups.pixel(i), tap.texel, hit->triangle});
@@ -58,16 +64,22 @@ std::vector<bool> sees_own_sheets(const CauseInputs& inputs, const TracedLookups
         }
     }
     const auto own = inputs.light.are_own_sheets(queries);
-    std::vector<bool> has_own(lookups.size());
     for (std::size_t q = 0; q < queries.size(); ++q) {
         if (own[q] != 0) {
-            balance[lookup_of[q]] += 2 * weights[q];
-            has_own[lookup_of[q]] = true;
+            shares[lookup_of[q]].own += weights[q];
+            shares[lookup_of[q]].others -= weights[q];
         }
     }
-    std::vector<bool> sees(lookups.size());
-    for (std::size_t i = 0; i < sees.size(); ++i) {
-        sees[i] = has_own[i] && balance[i] >= 0;
+    return shares;
+}
+
+} // namespace
+
+std::vector<bool> sees_own_sheets(const CauseInputs& inputs, const TracedLookups& lookups)
+{
+    std::vector<bool> sees;
+    for (const ShadowShares& shares : shadow_shares(inputs, lookups)) {
+        sees.push_back(shares.own > 0 && shares.own >= shares.others);
     }
     return sees;
 }
@@ -85,10 +97,15 @@ TracedLookups trace_lookups(const CauseInputs& inputs, std::span<const std::size
 std::vector<std::size_t> detached_pixels(const CauseInputs& inputs,
                                          std::span<const std::size_t> pixels)
 {
-    const auto sees_own = sees_own_sheets(inputs, trace_lookups(inputs, pixels));
+    // Interpolated depths have one comparison, of which a share says nothing.
+    const bool is_one_comparison = inputs.lookup.filter == Filter::linear;
+    const auto shares = shadow_shares(inputs, trace_lookups(inputs, pixels));
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        if (!sees_own[i]) {
+        const ShadowShares& share = shares[i];
+        const bool is_detached = is_one_comparison ? share.own == 0 || share.own < share.others
+                                                   : share.others > 0.5 * share.all;
+        if (is_detached) {
             result.push_back(pixels[i]);
         }
     }

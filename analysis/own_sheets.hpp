@@ -17,8 +17,10 @@ namespace gnomon::analysis {
 [[nodiscard]] TracedLookups trace_lookups(const CauseInputs& inputs,
                                           std::span<const std::size_t> pixels);
 
-/// Of these blocked pixels those that the map without bias shadows by another surface than the
-/// receiver's own: only their shadows can be detached, where the others had nothing attached.
+/// Of these blocked pixels those that the map without bias shadows by other surfaces than the
+/// receiver's own: only their shadows can be detached, where the others had nothing attached. A
+/// filter's verdict is theirs if their taps, by weight, are enough for it; `linear` has one
+/// comparison, which is theirs unless `sees_own_sheets`.
 [[nodiscard]] std::vector<std::size_t> detached_pixels(const CauseInputs& inputs,
                                                        std::span<const std::size_t> pixels);
 

@@ -30,7 +30,7 @@ public:
         }
         const std::size_t cell = cell_of(texel);
         return cell < block_at_.size() && block_at_[cell] != none &&
-               blocks_[block_at_[cell]][place_of(texel)] != none;
+               (blocks_[block_at_[cell]].places >> place_of(texel) & 1U) != 0;
     }
     /// Precondition: the texel is in the set.
     [[nodiscard]] std::size_t operator[](const scene::Texel& texel) const

@@ -1,5 +1,6 @@
 #include "analysis/tune.hpp"
 
+#include "analysis/metrics.hpp"
 #include "analysis/slope_curves.hpp"
 #include "analysis/tune_search.hpp"
 #include "scene/error.hpp"
@@ -118,6 +119,7 @@ public:
         }
         const View view = scene::resolve_view(job_, file_.scene, file_.defaults);
         truth_ = renderers_.find_truth(view, renderers_.draw_receivers(view));
+        require_scored_pixels();
         TuneResult result;
         for (const scene::ShadowMapSettings& map : tried) {
             const bool is_larger = !result.considered.empty() &&
@@ -132,6 +134,14 @@ public:
     }
 
 private:
+    void require_scored_pixels() const
+    {
+        if (count_classes(truth_).scored() == 0) {
+            throw scene::InputError("camera: nothing that it sees faces the light, so that no "
+                                    "pixel is scored; aim it at lit or shadowed surfaces");
+        }
+    }
+
     void try_map(const scene::ShadowMapSettings& map, TuneResult& result)
     {
         Job job = job_;
@@ -188,8 +198,8 @@ bool is_better(const TunedSetting& a, const TunedSetting& b)
     if (a.meets_limits != b.meets_limits) {
         return a.meets_limits;
     }
-    return std::tuple{a.errors.total(), -a.interval.width()} <
-           std::tuple{b.errors.total(), -b.interval.width()};
+    return std::tuple{a.errors.total(), map_bytes(a.map), -a.interval.width()} <
+           std::tuple{b.errors.total(), map_bytes(b.map), -b.interval.width()};
 }
 
 Job tuned_job(const Job& job, const TunedSetting& setting)

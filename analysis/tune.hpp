@@ -36,8 +36,9 @@ struct TunedSetting {
     bool meets_limits = false;
 };
 
-/// Whether a is to be recommended rather than b, of as many bytes: it meets the limits, has fewer
-/// errors, or a wider interval of best biases.
+/// Whether a is to be recommended rather than b: it meets the limits, has fewer errors, a smaller
+/// map, or a wider interval of best biases. Of settings that meet the limits only those of as many
+/// bytes are compared.
 [[nodiscard]] bool is_better(const TunedSetting& a, const TunedSetting& b);
 
 struct TuneResult {
@@ -61,7 +62,8 @@ struct TuneResult {
 /// which has none, GL is run again at logarithmically spaced biases.
 /// @param file      The scene; must outlive the result, which points to its triangles.
 /// @param progress  told of each setting considered; may be empty.
-/// @throws scene::InputError  as `compare` does, or if no resolution is left to try.
+/// @throws scene::InputError  as `compare` does, or if no resolution is left to try or no pixel is
+///                            scored.
 [[nodiscard]] TuneResult tune(const scene::Job& job, const scene::SceneFile& file,
                               const Renderers& renderers, const TuneLimits& limits,
                               const std::function<void(const TunedSetting&)>& progress);

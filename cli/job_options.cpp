@@ -7,6 +7,14 @@
 namespace gnomon::cli {
 namespace {
 
+/// Without blanks around it: "bias.constant = 0.01" may be pasted from a job file.
+std::string trimmed(const std::string& text)
+{
+    const std::size_t first = text.find_first_not_of(' ');
+    return first == std::string::npos ? ""
+                                      : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
 std::vector<scene::Override> overrides(const std::vector<std::string>& settings)
 {
     std::vector<scene::Override> result;
@@ -16,7 +24,7 @@ std::vector<scene::Override> overrides(const std::vector<std::string>& settings)
             throw scene::InputError(fmt::format(
                 "--set {}: write KEY=VALUE, e.g. --set shadow_map.resolution=2048", setting));
         }
-        result.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+        result.push_back({trimmed(setting.substr(0, equals)), trimmed(setting.substr(equals + 1))});
     }
     return result;
 }

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -74,11 +75,41 @@ std::string causes(const analysis::Comparison& comparison)
     text += named_counts("called", analysis::label_names, diagnosis.causes.counts.by_label, wrong);
     const auto& [gap, gap_texels] = diagnosis.peter_panning;
     if (gap && gap_texels) {
-        text += setting_line("", fmt::format("peter-panning gap: median {:.4g} m, 95 % {:.4g} m, "
-                                             "largest {:.4g} m ({:.3g} texels)",
-                                             gap->median, gap->p95, gap->max, gap_texels->max));
+        text += setting_line(
+            "", fmt::format("peter-panning gap of {}: median {:.4g} m, 95 % {:.4g} m, largest "
+                            "{:.4g} m ({:.3g} texels)",
+                            counted(gap->count, "pixel"), gap->median, gap->p95, gap->max,
+                            gap_texels->max));
     }
     return text + by_object(diagnosis.by_object);
+}
+
+/// A limit that need not exist.
+std::string limit(float bias, std::string_view none)
+{
+    return std::isfinite(bias) ? fmt::format("{:.4g}", bias) : std::string{none};
+}
+
+std::string constant_bias(const analysis::Comparison& comparison)
+{
+    if (!comparison.diagnosis || !comparison.diagnosis->biases) {
+        return "";
+    }
+    const analysis::BiasAnswers& answers = *comparison.diagnosis->biases;
+    const analysis::BiasLimits& strict = answers.bounds.strict;
+    const analysis::BiasLimits& lenient = answers.bounds.allowances[1];
+    std::string text = "\n";
+    text += setting_line("constant bias", fmt::format("fewest errors ({}) from {} to {}",
+                                                      grouped(answers.best.errors.total()),
+                                                      limit(answers.best.interval.lo, "any"),
+                                                      limit(answers.best.interval.hi, "any")));
+    text += setting_line("", fmt::format("no acne from {}, no peter-panning up to {}",
+                                         limit(strict.acne_free, "-"),
+                                         limit(strict.panning_free, "-")));
+    text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
+                                         limit(lenient.acne_free, "-"),
+                                         limit(lenient.panning_free, "-")));
+    return text;
 }
 
 /// "bias.constant = 0.002, shadow_map.resolution = 2048" and what was measured with it.
@@ -103,7 +134,7 @@ std::string advice(const analysis::Comparison& comparison)
 
 std::string diagnosis_table(const analysis::Comparison& comparison)
 {
-    return causes(comparison) + advice(comparison);
+    return causes(comparison) + constant_bias(comparison) + advice(comparison);
 }
 
 std::string findings_text(const analysis::Comparison& comparison)

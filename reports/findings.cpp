@@ -3,9 +3,11 @@
 #include "reports/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gnomon::reports {
 
@@ -52,18 +54,18 @@ std::string_view words(Cause cause)
     return "";
 }
 
-/// What of the map usually reduces the errors of a cause; empty for the bias, which is not the
-/// map's.
-std::string_view remedy(Cause cause)
+/// What of the map to look at for a cause; empty for the bias, which is not the map's.
+std::string_view to_try(Cause cause)
 {
     switch (cause) {
     case Cause::precision:
-        return "A format with more bits, or near and far closer together, are the remedy.";
+        return "For precision, try a format with more bits, or near and far closer together";
     case Cause::resolution:
-        return "More texels on what the camera sees, by a larger map or a tighter fit, are the "
-               "remedy.";
+        return "For resolution, try more texels on what the camera sees: a larger map or a tighter "
+               "fit";
     case Cause::coverage:
-        return "Look at near, far, the frustum and culling: the light's camera misses casters.";
+        return "For coverage, look at near, far, the frustum and culling: the light's camera "
+               "misses casters";
     case Cause::bias:
     case Cause::none:
         break;
@@ -119,7 +121,7 @@ std::string why_none_serves(const analysis::BiasLimits& limits)
     }
     if (limits.panning_free < 0) {
         return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
-                           "least {:.3g}, and even 0 leaves more false light, at edges and leaks.",
+                           "least {:.3g}, and even 0 leaves more false light.",
                            limits.acne_free);
     }
     return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
@@ -131,15 +133,18 @@ std::string why_none_serves(const analysis::BiasLimits& limits)
 std::string against_limits(float bias, const analysis::BiasBounds& bounds)
 {
     const analysis::BiasLimits& limits = bounds.allowances[one_in_a_thousand];
-    const float needed = limits.acne_free;
-    const float allowed = limits.panning_free_beyond_zero;
-    if (std::isfinite(allowed) && allowed > 0 && bias > allowed) {
-        return fmt::format("The constant bias {:.3g} is {} what peter-panning allows here "
-                           "({:.3g}, for at most 0.1 % of wrong pixels).",
-                           bias, times(double{bias} / double{allowed}), allowed);
-    }
     if (bounds.no_constant_bias_serves) {
         return why_none_serves(limits);
+    }
+    const float needed = limits.acne_free;
+    // Edges and leaks alone may be too many, and no bias brought those about.
+    const bool counts_all = limits.panning_free > 0;
+    const float allowed = counts_all ? limits.panning_free : limits.panning_free_beyond_zero;
+    if (std::isfinite(allowed) && allowed > 0 && bias > allowed) {
+        return fmt::format("The constant bias {:.3g} is {} what peter-panning allows here "
+                           "({:.3g}, for at most 0.1 % of wrong pixels{}).",
+                           bias, times(double{bias} / double{allowed}), allowed,
+                           counts_all ? "" : " beside those that are false lit without bias");
     }
     if (std::isfinite(needed) && needed > 0 && bias < needed) {
         return fmt::format("Against acne the constant bias should be at least {:.3g} (for at most "
@@ -152,45 +157,84 @@ std::string against_limits(float bias, const analysis::BiasBounds& bounds)
 /// The biases that are worth recommending.
 constexpr analysis::BiasInterval usable_biases{0.0F, 1.0F};
 
+/// The change with the fewest errors, of those that were measured.
+struct Change {
+    std::string who; ///< whose result it is
+    std::string keys;
+    analysis::ErrorCounts errors;
+};
+
 /// What the best constant bias would do: the curve knows it exactly.
-std::string best_bias(const analysis::Comparison& comparison, const analysis::BiasAnswers& answers)
+Change best_bias(const analysis::BiasAnswers& answers)
 {
-    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
     const analysis::BestBiases best = find_best_biases(answers.curve, usable_biases);
-    if (best.errors.total() >= now) {
-        return "No other constant bias has fewer errors.";
-    }
-    return fmt::format("With slope and offset as they are, bias.constant = {} has the fewest "
-                       "errors: {} in place of {}.",
-                       best.recommended(), grouped(best.errors.total()), grouped(now));
+    return {"With slope and offset as they are",
+            fmt::format("bias.constant = {}", best.recommended()), best.errors};
 }
 
-/// Of the biases that GL was run again with, the one with the fewest errors.
-std::string best_rerun(const analysis::Comparison& comparison)
+/// Of the biases that GL was run again with.
+Change best_rerun(const std::vector<analysis::BiasRerun>& reruns)
 {
     const auto best = std::ranges::min_element(
-        comparison.reruns, {}, [](const auto& rerun) { return rerun.errors.total(); });
-    const std::string reruns =
-        fmt::format("The driver's own filter has no bias curve, so GL was run again with {} "
-                    "constant biases",
-                    comparison.reruns.size());
-    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
-    if (best->errors.total() >= now) {
-        return fmt::format("{}: none has fewer errors.", reruns);
+        reruns, {}, [](const auto& rerun) { return rerun.errors.total(); });
+    return {fmt::format("The driver's own filter has no bias curve, so GL was run again with {} "
+                        "constant biases: of those",
+                        reruns.size()),
+            fmt::format("bias.constant = {}", best->bias), best->errors};
+}
+
+Change best_advice(const std::vector<analysis::Advice>& advice)
+{
+    const auto best = std::ranges::min_element(
+        advice, {}, [](const auto& change) { return change.errors.total(); });
+    return {fmt::format("Of {} measured", counted(advice.size(), "change")),
+            fmt::format("{}", fmt::join(best->keys, ", ")), best->errors};
+}
+
+/// The best change that is known; nothing where a diagnosis has no such answers.
+std::optional<Change> best_change(const analysis::Comparison& comparison)
+{
+    if (!comparison.advice.empty()) {
+        return best_advice(comparison.advice);
     }
-    return fmt::format("{}: of those, bias.constant = {} has the fewest errors: {} in place of {}.",
-                       reruns, best->bias, grouped(best->errors.total()), grouped(now));
+    if (const auto& biases = comparison.diagnosis->biases) {
+        return best_bias(*biases);
+    }
+    return comparison.reruns.empty() ? std::nullopt : std::optional{best_rerun(comparison.reruns)};
+}
+
+std::string in_words(const Change& change, std::uint64_t now)
+{
+    if (change.errors.total() >= now) {
+        return fmt::format("{}, none has fewer errors.", change.who);
+    }
+    return fmt::format("{}, {} has the fewest errors: {} in place of {}.", change.who, change.keys,
+                       grouped(change.errors.total()), grouped(now));
 }
 
 /// Slope and normal offset are biases too, which no constant one makes up for.
 std::string other_biases(const scene::Bias& bias)
 {
-    if (bias.slope == 0 && bias.normal_texels == 0) {
-        return "";
+    std::vector<std::string> others;
+    if (bias.slope != 0) {
+        others.push_back(fmt::format("a slope bias of {:.3g}", bias.slope));
     }
-    return fmt::format("It is slope {:.3g} and normal offset {:.3g} texels as well: --advise tries "
-                       "without.",
-                       bias.slope, bias.normal_texels);
+    if (bias.normal_texels != 0) {
+        others.push_back(fmt::format("a normal offset of {:.3g} texels", bias.normal_texels));
+    }
+    return others.empty() ? "" : fmt::format("There is {} as well", fmt::join(others, " and "));
+}
+
+Cause main_cause(const analysis::Comparison& comparison)
+{
+    return most<Cause>(comparison.diagnosis->causes.counts.by_cause);
+}
+
+/// What to look at for the main cause, without its full stop.
+std::string what_to_try(const analysis::Comparison& comparison)
+{
+    const Cause cause = main_cause(comparison);
+    return cause == Cause::bias ? other_biases(comparison.view.bias) : std::string{to_try(cause)};
 }
 
 void append(std::vector<std::string>& sentences, std::string sentence)
@@ -210,25 +254,31 @@ std::vector<std::string> errors_in_words(const analysis::Comparison& comparison)
     const analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
     std::vector<std::string> sentences{what_is_wrong(comparison.metrics, counts)};
     if (comparison.metrics.false_shadow + comparison.metrics.false_lit > 0) {
-        const auto cause = most<Cause>(counts.by_cause);
-        append(sentences, cause == Cause::bias ? other_biases(comparison.view.bias)
-                                               : std::string{remedy(cause)});
+        const std::string hint = what_to_try(comparison);
+        append(sentences, hint.empty() ? hint : hint + ".");
     }
     return sentences;
 }
 
 std::vector<std::string> findings(const analysis::Comparison& comparison)
 {
-    std::vector<std::string> sentences = errors_in_words(comparison);
-    if (!comparison.diagnosis ||
-        comparison.metrics.false_shadow + comparison.metrics.false_lit == 0) {
-        return sentences;
+    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    if (!comparison.diagnosis || now == 0) {
+        return errors_in_words(comparison);
     }
+    std::vector<std::string> sentences{
+        what_is_wrong(comparison.metrics, comparison.diagnosis->causes.counts)};
     if (const auto& biases = comparison.diagnosis->biases) {
         append(sentences, against_limits(comparison.view.bias.constant, biases->bounds));
-        append(sentences, best_bias(comparison, *biases));
-    } else if (!comparison.reruns.empty()) {
-        append(sentences, best_rerun(comparison));
+    }
+    const auto change = best_change(comparison);
+    const bool helps = change && change->errors.total() < now;
+    if (change && (helps || sentences.size() < 2)) {
+        append(sentences, in_words(*change, now));
+    }
+    const std::string hint = what_to_try(comparison);
+    if (sentences.size() < 3 && comparison.advice.empty() && !hint.empty()) {
+        append(sentences, fmt::format("{}; --advise measures it.", hint));
     }
     return sentences;
 }

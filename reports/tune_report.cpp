@@ -107,10 +107,13 @@ std::string verdict(const TuneResult& result, const TuneLimits& limits)
                     "blocked ones",
                     percent(limits.max_false_shadow_rate), percent(limits.max_false_lit_rate));
     if (result.meets_limits) {
-        return fmt::format("The smallest map that meets the limits ({}):\n", asked);
+        return fmt::format(
+            "The smallest of these maps that meets the limits ({}); its keys, in place "
+            "of the job's own:\n",
+            asked);
     }
     return fmt::format("No setting up to {0}x{0} meets the limits ({1}); the one with the fewest "
-                       "errors:\n",
+                       "errors; its keys, in place of the job's own:\n",
                        limits.max_resolution_texels, asked);
 }
 

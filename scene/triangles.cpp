@@ -111,6 +111,19 @@ void clear_role(TriangleScene& scene, bool Object::*role, std::span<const std::s
     }
 }
 
+/// The name, numbered from 2 where objects have it.
+std::string free_name(const TriangleScene& scene, const std::string& wanted)
+{
+    const auto is_taken = [&](const std::string& name) {
+        return std::ranges::find(scene.objects, name, &Object::name) != scene.objects.end();
+    };
+    std::string name = wanted;
+    for (int number = 2; is_taken(name); ++number) {
+        name = fmt::format("{}.{}", wanted, number);
+    }
+    return name;
+}
+
 } // namespace
 
 double Box::diagonal_m() const
@@ -232,7 +245,8 @@ void add_ground(TriangleScene& scene)
     for (const Corner& corner : ground.triangles) {
         scene.triangles.push_back({corner[0] + offset, corner[1] + offset, corner[2] + offset});
     }
-    scene.objects.push_back({"ground", first, static_cast<std::uint32_t>(ground.triangles.size())});
+    scene.objects.push_back(
+        {free_name(scene, "ground"), first, static_cast<std::uint32_t>(ground.triangles.size())});
 }
 
 void set_roles(TriangleScene& scene, std::span<const std::string> no_cast,

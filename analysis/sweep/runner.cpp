@@ -218,23 +218,21 @@ private:
     void draw_shadow_map()
     {
         ++counts_.shadow_maps;
-        if (is_large_map() && task_.job.lookup.filter != scene::Filter::nearest) {
-            forget_lookup(); // it holds the depths of the map before
-        }
+        make_room_for_depths();
         map_ = make<bool>([&] {
             renderers().draw_shadow_map(task_.job, stage_view());
             return std::make_shared<bool>(true);
         });
     }
 
-    [[nodiscard]] bool is_large_map() const
+    /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
+    void make_room_for_depths()
     {
-        return task_.job.shadow_map.resolution_texels > 4096;
-    }
-    void forget_lookup()
-    {
-        lookup_ = {};
-        background_.finish();
+        if (task_.job.lookup.filter != scene::Filter::nearest &&
+            task_.job.shadow_map.resolution_texels > 4096) {
+            lookup_ = {};
+            finish_lanes();
+        }
     }
 
     void look_up(std::size_t slot)
@@ -243,9 +241,7 @@ private:
         if (is_compared()) {
             return; // each bias by itself, when it is answered
         }
-        if (is_large_map()) {
-            forget_lookup(); // one at a time: beside such a map memory is short
-        }
+        make_room_for_depths();
         lookup_ = make<LookupWork>([&] {
             static_cast<void>(need(map_));
             static_cast<void>(need(receivers_[slot]));

@@ -62,6 +62,13 @@ TEST(TuneCommand, RendersTheBiasesOfHardwareFilters)
     EXPECT_TRUE(Json::parse(ending.out).at("meets_limits").get<bool>());
 }
 
+TEST(TuneCommand, RefusesACameraThatSeesNothingToScore)
+{
+    expect_refused(tune({"--builtin", "wall", "--set", "camera.target=[0,99,0]", "--set",
+                         "camera.eye=[0,50,0.1]", "--max-resolution", "256"}),
+                   2, "no pixel is scored; aim it");
+}
+
 TEST(TuneCommand, RefusesSharesAndSizesThatAreNone)
 {
     expect_refused(tune({"--builtin", "wall", "--max-false-shadow", "much"}), 2,

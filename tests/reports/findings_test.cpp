@@ -69,11 +69,11 @@ TEST(Findings, NameWhatAcneNeedsAndWhatTheBestBiasGives)
     analysis::Comparison comparison = comparison_of(1, 0);
     set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
     const auto sentences = findings(comparison);
-    ASSERT_EQ(sentences.size(), 4U);
+    ASSERT_EQ(sentences.size(), 3U);
     EXPECT_THAT(sentences[0], HasSubstr("100 % of the errors are acne, and 100 % are due to the "
                                         "map's resolution"));
-    EXPECT_THAT(sentences[2], HasSubstr("at least 0.25"));
-    EXPECT_THAT(sentences[3], HasSubstr("bias.constant = 0.375 has the fewest errors: 0 in place "
+    EXPECT_THAT(sentences[1], HasSubstr("at least 0.25"));
+    EXPECT_THAT(sentences[2], HasSubstr("bias.constant = 0.375 has the fewest errors: 0 in place "
                                         "of 1"));
 }
 
@@ -84,9 +84,46 @@ TEST(Findings, SetTheBiasAgainstWhatPanningAllows)
     comparison.view.bias.constant = 0.75F;
     comparison.view.bias.slope = 0.125F;
     const auto sentences = findings(comparison);
-    ASSERT_EQ(sentences.size(), 4U);
-    EXPECT_THAT(sentences[1], HasSubstr("slope 0.125"));
-    EXPECT_THAT(sentences[2], HasSubstr("is 1.5 times what peter-panning allows here (0.5"));
+    ASSERT_EQ(sentences.size(), 3U);
+    EXPECT_THAT(sentences[1], HasSubstr("is 1.5 times what peter-panning allows here (0.5"));
+    EXPECT_THAT(sentences[2], HasSubstr("has the fewest errors: 0 in place of 100"));
+    EXPECT_THAT(errors_in_words(comparison)[1], HasSubstr("a slope bias of 0.125 as well"));
+}
+
+TEST(Findings, SayThatNoConstantBiasServesWhateverTheJobs)
+{
+    for (const float bias : {0.0F, 0.3F, 0.75F}) {
+        analysis::Comparison comparison = comparison_of(50, 50);
+        set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+        comparison.view.bias.constant = bias;
+        analysis::BiasBounds& bounds = comparison.diagnosis->biases->bounds;
+        bounds.no_constant_bias_serves = true;
+        bounds.allowances[1].acne_free = 0.25F;
+        bounds.allowances[1].panning_free = 0.125F;
+        const auto sentences = findings(comparison);
+        ASSERT_GE(sentences.size(), 2U);
+        EXPECT_EQ(sentences[1], "No constant bias keeps both kinds of errors below 0.1 %: acne "
+                                "needs at least 0.25, and false light allows at most 0.125.");
+    }
+}
+
+TEST(Findings, NameTheBestOfTheMeasuredChangesAndPromiseNoOther)
+{
+    analysis::Comparison comparison = comparison_of(10, 0);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+    comparison.diagnosis->biases.reset();
+    const auto without = findings(comparison);
+    ASSERT_EQ(without.size(), 2U);
+    EXPECT_THAT(without[1], HasSubstr("--advise measures it"));
+    comparison.advice = {{{"shadow_map.resolution = 2048"}, {9, 0}, 0.045},
+                         {{"shadow_map.cull = \"none\"", "bias.constant = 0.5"}, {2, 1}, 0.015}};
+    const auto with = findings(comparison);
+    ASSERT_EQ(with.size(), 2U);
+    EXPECT_EQ(with[1], "Of 2 changes measured, shadow_map.cull = \"none\", bias.constant = 0.5 "
+                       "has the fewest errors: 3 in place of 10.");
+    comparison.advice.pop_back();
+    comparison.advice[0].errors = {11, 0};
+    EXPECT_EQ(findings(comparison)[1], "Of 1 change measured, none has fewer errors.");
 }
 
 TEST(ErrorsInWords, RecommendNoOtherBias)

@@ -115,6 +115,17 @@ TEST(SetRoles, NamesTheNearestObject)
         ThrowsMessage<InputError>(testing::AllOf(HasSubstr("no_cast"), HasSubstr("\"thing\""))));
 }
 
+TEST(Ground, IsNumberedWhereAnObjectHasItsName)
+{
+    auto scene = one_object({{0, 1, 0}, {1, 1, 0}, {0, 3, 0}}, {{0, 1, 2}});
+    scene.objects.front().name = "ground";
+    add_ground(scene);
+    EXPECT_EQ(scene.objects.back().name, "ground.2");
+    set_roles(scene, std::vector<std::string>{"ground.2"}, {});
+    EXPECT_TRUE(scene.objects.front().casts);
+    EXPECT_FALSE(scene.objects.back().casts);
+}
+
 TEST(Ground, LiesUnderTheBoxAndFacesUp)
 {
     auto scene = one_object({{0, 1, 0}, {1, 1, 0}, {0, 3, 0}}, {{0, 1, 2}});
