@@ -45,10 +45,8 @@ void include_extremes(MeasuredDepthError& error, const DepthErrorRow& row)
 
 } // namespace
 
-DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& coding,
-                              const scene::DepthSample& sample)
+DepthErrorRow formula_row(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
 {
-    const double zeta_m = sample.zeta_m;
     const StoredDepth formula = stored_depth(mapping, coding, zeta_m);
     DepthErrorRow row;
     row.zeta_m = zeta_m;
@@ -56,6 +54,14 @@ DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& co
     row.formula_code = formula.code;
     row.formula_error_m = formula.error_m;
     row.envelope_m = error_envelope_m(mapping, coding, zeta_m);
+    return row;
+}
+
+DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& coding,
+                              const scene::DepthSample& sample)
+{
+    const double zeta_m = sample.zeta_m;
+    DepthErrorRow row = formula_row(mapping, coding, zeta_m);
     row.code = sample.texel.code;
     row.error_m = mapping.zeta_error_m(zeta_m, coding.depth(row.code) - row.depth);
     row.stored_zeta_m = zeta_m + row.error_m;

@@ -25,6 +25,11 @@ struct DepthErrorRow {
     TexelClass texel_class = TexelClass::nearest_code;
 };
 
+/// The formula's part of a row.
+/// @param zeta_m  [near, far]
+[[nodiscard]] DepthErrorRow formula_row(const DepthMapping& mapping, const DepthCoding& coding,
+                                        double zeta_m);
+
 /// @param mapping  that the sample was drawn with.
 [[nodiscard]] DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& coding,
                                             const scene::DepthSample& sample);
