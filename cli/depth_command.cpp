@@ -35,7 +35,7 @@ struct DepthOptions {
     std::string projection = "perspective";
     bool reversed = false;
     std::string clip;
-    int samples = 1024;
+    int samples = 4096;
     double tilt_deg = 0;
     double offset_m = 0;
     bool theory_only = false;

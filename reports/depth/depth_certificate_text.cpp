@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::reports {
@@ -30,6 +31,20 @@ std::string line(const std::string& name, std::string_view triangles,
         certificate.rms_residual_codes);
 }
 
+std::string units_text(const std::vector<OffsetUnitLine>& units)
+{
+    const auto [least, most] = std::ranges::minmax(units, {}, &OffsetUnitLine::r);
+    constexpr double measured_to = 1.01;
+    if (most.r <= measured_to * least.r) {
+        return fmt::format("  2^{:.2f} at every depth", std::log2(most.r));
+    }
+    std::string text;
+    for (const OffsetUnitLine& unit : units) {
+        text += fmt::format("  2^{:.2f} at {:.2f}", std::log2(unit.r), unit.depth);
+    }
+    return text;
+}
+
 } // namespace
 
 std::string certificate_text(const std::vector<CertifiedFormat>& formats)
@@ -43,14 +58,9 @@ std::string certificate_text(const std::vector<CertifiedFormat>& formats)
     }
     text += "\npolygon offset: one unit r in window depth, and at which depth\n";
     for (const CertifiedFormat& format : formats) {
-        if (format.offset_units.empty()) {
-            continue;
+        if (!format.offset_units.empty()) {
+            text += fmt::format("{:<8}{}\n", format.name, units_text(format.offset_units));
         }
-        text += fmt::format("{:<8}", format.name);
-        for (const OffsetUnitLine& unit : format.offset_units) {
-            text += fmt::format("  2^{:.2f} at {:.2f}", std::log2(unit.r), unit.depth);
-        }
-        text += "\n";
     }
     return text;
 }

@@ -105,8 +105,8 @@ Axes make_axes(const DepthStudy& study, std::span<const DepthErrorRow> rows)
     const double low_m = std::max(smallest_m / 50, largest_m * 1e-6);
     const bool is_log = mapping.near_m() > 0 && mapping.far_m() > 100 * mapping.near_m();
     return {Axis{mapping.near_m(), mapping.far_m(), left_px, right_px, is_log},
-            Axis{std::pow(10, std::floor(std::log10(low_m))),
-                 std::pow(10, std::ceil(std::log10(largest_m * 1.05))), bottom_px, top_px, true}};
+            Axis{std::pow(10, std::floor(std::log10(low_m))), 1.8 * largest_m, bottom_px, top_px,
+                 true}};
 }
 
 void add_frame(Drawing& drawing, const Axes& axes)

@@ -3,6 +3,7 @@
 #include "analysis/depth/depth_error.hpp"
 #include "analysis/depth/depth_plan.hpp"
 #include "analysis/depth/measured_error.hpp"
+#include "analysis/depth/transform_error.hpp"
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/raster_planes.hpp"
 #include "scene/error.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -128,6 +130,30 @@ TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
                 if (format == "d24" || format == "d32" || format == "d32f") {
                     EXPECT_GT(error.max_excess_m, 0) << where; // shown, never hidden
                 }
+            }
+        }
+    }
+}
+
+TEST(DepthMeasurement, TransformsErrorStaysBelowTheTheorysBound)
+{
+    GNOMON_REQUIRE_GL();
+    for (const bool reversed : {false, true}) {
+        for (const double offset_m : {0.0, 100.0, 500.0}) {
+            DepthPlaneSettings settings;
+            settings.range = {Projection::perspective, 0.1, 100, reversed,
+                              reversed ? ClipRange::zero_to_one : ClipRange::minus_one_to_one};
+            settings.count = 1 << 13;
+            settings.offset_m = offset_m;
+            const DepthMapping mapping{settings.range};
+            for (const DepthErrorRow& row : measured(settings, "d32f").rows) {
+                // The camera looks along an axis: S has the camera's and the vertex's coordinate.
+                const double row_sum_m = offset_m + std::abs(offset_m - row.zeta_m);
+                ASSERT_LE(std::abs(row.transform_error_m),
+                          analysis::transform_error_m(mapping,
+                                                      analysis::TransformOrder::premultiplied,
+                                                      row.zeta_m, std::max(row_sum_m, row.zeta_m)))
+                    << "offset " << offset_m << " zeta " << row.zeta_m;
             }
         }
     }
