@@ -6,7 +6,6 @@
 #include "analysis/depth/transform_error.hpp"
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/raster_planes.hpp"
-#include "scene/error.hpp"
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
@@ -74,13 +73,14 @@ TEST(DepthMeasurement, OfD16IsTheSawtooth)
     const MeasuredDepthError error = measured(seed_planes(count), "d16");
     EXPECT_EQ(error.missing, 0U);
     ASSERT_EQ(error.rows.size(), std::size_t{count});
-    EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U);
+    // In the format's bound: one of the two nearest codes of the plane that GL drew.
+    EXPECT_EQ(error.certificate.count(TexelClass::nearest_code) +
+                  error.certificate.count(TexelClass::within_format),
+              std::size_t{count});
     std::size_t same = 0;
     for (const DepthErrorRow& row : error.rows) {
         same += row.code == row.formula_code ? 1 : 0;
-        // In the format's bound, either of the two nearest codes, of the depth that GL computed.
         ASSERT_LE(std::abs(row.error_m), row.model_m) << row.zeta_m;
-        ASSERT_NE(row.texel_class, TexelClass::outside) << row.zeta_m;
     }
     // Float32 evaluation moves d by some 2^-23, 1/128 code, on either side of each tie.
     EXPECT_GT(same, count * 95U / 100);
@@ -119,7 +119,7 @@ TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
     for (const std::string& format : supported_formats()) {
         for (const double tilt_deg : {0.0, 60.0}) {
             for (const double offset_m : {0.0, 100.0}) {
-                DepthPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 20 : 1 << 14);
+                DepthPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 14);
                 settings.tilt_rad = glm::radians(tilt_deg);
                 settings.offset_m = offset_m;
                 const MeasuredDepthError error = measured(settings, format);
@@ -251,22 +251,6 @@ TEST(DepthMeasurement, HoldsAMillionPlanesInOneDraw)
     const MeasuredDepthError error = measured(seed_planes(1 << 20), "d24");
     EXPECT_EQ(error.rows.size() + error.missing, std::size_t{1 << 20});
     EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U);
-}
-
-TEST(DepthPlanes, RefuseWhatCannotBeMeasured)
-{
-    const auto refused = [](auto change) {
-        DepthPlaneSettings settings = seed_planes(64);
-        change(settings);
-        EXPECT_THROW((void)scene::make_depth_planes(settings), scene::InputError);
-    };
-    refused([](auto& s) { s.count = 0; });
-    refused([](auto& s) { s.count = (1 << 22) + 1; });
-    refused([](auto& s) { s.tilt_rad = -0.1; });
-    refused([](auto& s) { s.tilt_rad = 1.5; });
-    refused([](auto& s) { s.tilt_rad = std::nan(""); });
-    refused([](auto& s) { s.offset_m = INFINITY; });
-    refused([](auto& s) { s.offset_m = 1e12; });
 }
 
 } // namespace
