@@ -7,7 +7,6 @@
 #include "scene/depth_planes.hpp"
 
 #include <numbers>
-#include <string>
 
 namespace gnomon::cli {
 
@@ -38,16 +37,19 @@ struct Drawn {
 };
 
 /// GL's own formats as far as the driver has them, and three of the shader's.
-std::vector<std::string> certified_names(const raster_gl::Context& context)
+std::vector<scene::DepthFormat> certified_formats(const raster_gl::Context& context)
 {
-    std::vector<std::string> names;
-    for (const auto& format : raster_gl::query_depth_formats(context)) {
-        if (format.supported) {
-            names.push_back(format.name);
+    std::vector<scene::DepthFormat> formats;
+    for (const auto& support : raster_gl::query_depth_formats(context)) {
+        const auto format = scene::depth_format_from_name(support.name);
+        if (support.supported && format) {
+            formats.push_back(*format);
         }
     }
-    names.insert(names.end(), {"u8", "u16", "u24"});
-    return names;
+    for (const int bits : {8, 16, 24}) {
+        formats.push_back({scene::DepthFormat::Kind::unorm, bits});
+    }
+    return formats;
 }
 
 } // namespace
@@ -58,14 +60,13 @@ std::vector<reports::CertifiedFormat> certify_driver_depth(const raster_gl::Cont
     Drawn large{context, 16, 45};        // 128 texels wide
     Drawn small{context, 128 * 128, 45}; // 3 texels wide, most of them far from the map's origin
     std::vector<reports::CertifiedFormat> certified;
-    for (const std::string& name : certified_names(context)) {
-        const auto format = scene::depth_format_from_name(name).value();
+    for (const scene::DepthFormat format : certified_formats(context)) {
         const auto coding = analysis::DepthCoding::of(format);
         auto texels = steep.raster.read_all(format);
         const auto more = large.raster.read_all(format);
         texels.insert(texels.end(), more.begin(), more.end());
         reports::CertifiedFormat& result = certified.emplace_back();
-        result.name = name;
+        result.name = scene::depth_format_name(format);
         result.large = analysis::certify_texels(coding, texels);
         result.small = analysis::certify_texels(coding, small.raster.read_all(format));
         if (format.kind != scene::DepthFormat::Kind::unorm) {
