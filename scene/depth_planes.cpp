@@ -44,7 +44,9 @@ Vec2d view_position(const DepthPlanes& planes, const Vec2d& texels)
 Vec2d tile_corner(const DepthPlanes& planes, std::size_t sample)
 {
     const auto across = static_cast<std::size_t>(tiles_across(planes));
-    return Vec2d{static_cast<double>(sample % across), static_cast<double>(sample / across)} *
+    const std::size_t column = sample % across;
+    const std::size_t row = sample / across;
+    return Vec2d{static_cast<double>(column), static_cast<double>(row)} *
            static_cast<double>(planes.tile_texels);
 }
 
