@@ -1,6 +1,7 @@
 #include "analysis/map_errors.hpp"
 
 #include "analysis/bias_units.hpp"
+#include "analysis/depth/depth_mapping.hpp"
 #include "analysis/footprint.hpp"
 #include "analysis/pixel_runs.hpp"
 
@@ -45,11 +46,7 @@ std::vector<scene::Texel> texels_of(const std::vector<CentreHits::Seen>& seen)
 
 double zeta_of_depth_m(const scene::LightFrustum& frustum, double depth)
 {
-    const double from_near = frustum.reversed ? 1 - depth : depth;
-    if (frustum.projection == scene::Projection::orthographic) {
-        return frustum.near_m + from_near * frustum.range_m();
-    }
-    return 1 / (1 / frustum.near_m - (1 / frustum.near_m - 1 / frustum.far_m) * from_near);
+    return DepthMapping{frustum.depth_range()}.zeta_m(depth);
 }
 
 CentreHits::CentreHits(const CauseInputs& inputs)

@@ -1,11 +1,14 @@
 #include "cli/doctor_command.hpp"
 
+#include "cli/depth_certificate.hpp"
 #include "cli/memory.hpp"
 #include "cli/standard_output.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/depth_formats.hpp"
 #include "reference_rt/truth.hpp"
 #include "reports/canvas.hpp"
+#include "reports/depth/depth_certificate_text.hpp"
+#include "reports/depth/depth_json.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -28,28 +31,32 @@ struct Findings {
     std::vector<raster_gl::DeviceInfo> devices;
     std::optional<raster_gl::GlFacts> gl;
     std::vector<raster_gl::FormatSupport> formats;
+    std::vector<reports::CertifiedFormat> certificate; ///< empty if it was not asked for
     std::string embree;
     std::uint64_t available_memory_bytes = 0;
     unsigned cores = 0;
     std::vector<std::string> problems;
 };
 
-void look_at_gl(Findings& findings, std::optional<int> device)
+void look_at_gl(Findings& findings, std::optional<int> device, bool certifies_depth)
 {
     try {
         findings.devices = raster_gl::list_devices();
         const raster_gl::Context context{device};
         findings.gl = context.facts();
         findings.formats = raster_gl::query_depth_formats(context);
+        if (certifies_depth) {
+            findings.certificate = certify_driver_depth(context);
+        }
     } catch (const scene::EnvironmentError& error) {
         findings.problems.emplace_back(error.what());
     }
 }
 
-Findings look(std::optional<int> device)
+Findings look(std::optional<int> device, bool certifies_depth)
 {
     Findings findings;
-    look_at_gl(findings, device);
+    look_at_gl(findings, device, certifies_depth);
     findings.embree = reference_rt::embree_version();
     findings.available_memory_bytes = available_memory_bytes();
     findings.cores = std::thread::hardware_concurrency();
@@ -59,6 +66,21 @@ Findings look(std::optional<int> device)
             "install fonts-dejavu-core)");
     }
     return findings;
+}
+
+Json certificate_json(const std::vector<reports::CertifiedFormat>& formats)
+{
+    Json json = Json::object();
+    for (const reports::CertifiedFormat& format : formats) {
+        Json units = Json::array();
+        for (const auto& [depth, r] : format.offset_units) {
+            units.push_back({{"depth", depth}, {"r", r}});
+        }
+        json[format.name] = {{"large", reports::certificate_json(format.large)},
+                             {"small", reports::certificate_json(format.small)},
+                             {"offset_units", units}};
+    }
+    return json;
 }
 
 Json to_json(const Findings& findings)
@@ -83,6 +105,9 @@ Json to_json(const Findings& findings)
     json["depth_formats"] = Json::object();
     for (const auto& format : findings.formats) {
         json["depth_formats"][format.name] = format.supported;
+    }
+    if (!findings.certificate.empty()) {
+        json["depth_certificate"] = certificate_json(findings.certificate);
     }
     json["embree"] = findings.embree;
     json["cores"] = findings.cores;
@@ -123,6 +148,9 @@ std::string to_text(const Findings& findings)
     for (const std::string& problem : findings.problems) {
         text += row("missing", problem);
     }
+    if (!findings.certificate.empty()) {
+        text += reports::certificate_text(findings.certificate) + "\n";
+    }
     return text + (findings.problems.empty() ? "Everything that Gnomon needs is here.\n" : "");
 }
 
@@ -132,16 +160,21 @@ void add_doctor_command(CLI::App& program)
 {
     struct Options {
         bool json = false;
+        bool depth = false;
         std::optional<int> device;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand(
         "doctor", "Say what GL, Embree and drivers are here, what is missing, and how to get it");
     command->add_flag("--json", options->json, "Print it as JSON");
+    command->add_flag(
+        "--depth", options->depth,
+        "Certify the driver's depths: stored codes against exact planes, and the unit "
+        "of polygon offset (docs/depth_precision.md)");
     command->add_option("--device", options->device, "Look at this EGL device");
     command->footer("Exit status: 0 if GL and Embree work, 4 if not.");
     command->callback([options] {
-        const Findings findings = look(options->device);
+        const Findings findings = look(options->device, options->depth);
         print(options->json ? to_json(findings).dump(2) + "\n" : to_text(findings));
         if (!findings.gl) {
             throw CLI::RuntimeError(4);

@@ -1,6 +1,7 @@
 #include "cli/certify_command.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/completion.hpp"
+#include "cli/depth_command.hpp"
 #include "cli/doctor_command.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/merge_command.hpp"
@@ -56,6 +57,7 @@ void describe(CLI::App& program)
     gnomon::cli::add_sweep_command(program);
     gnomon::cli::add_merge_command(program);
     gnomon::cli::add_status_command(program);
+    gnomon::cli::add_depth_command(program);
     gnomon::cli::add_scenes_command(program);
     gnomon::cli::add_init_command(program);
     gnomon::cli::add_doctor_command(program);

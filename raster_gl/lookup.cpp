@@ -121,6 +121,10 @@ void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
     if (!(receivers.size == view.image)) {
         throw std::invalid_argument("LookupPass::render: receivers are not of the view's size");
     }
+    const bool zero_to_one = view.frustum.clip_range == scene::ClipRange::zero_to_one;
+    if (zero_to_one != view.frustum.reversed) {
+        throw std::invalid_argument("LookupPass::render: only reversed depth looks up in [0, 1]");
+    }
     allocate(view.image);
     const bool spot = view.light.type == scene::LightType::spot;
     const Program& lookup = program({settings.filter, settings.outside, map.reversed, spot});

@@ -162,7 +162,9 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::Light
     const Program& program = unorm ? unorm_ : depth_only_;
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     glViewport(0, 0, map_.resolution_texels, map_.resolution_texels);
-    glClipControl(GL_LOWER_LEFT, frustum.reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    glClipControl(GL_LOWER_LEFT, frustum.clip_range == scene::ClipRange::zero_to_one
+                                     ? GL_ZERO_TO_ONE
+                                     : GL_NEGATIVE_ONE_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(frustum.reversed ? GL_GREATER : GL_LESS);

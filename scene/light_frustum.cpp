@@ -129,18 +129,15 @@ void set_depth_range(LightFrustum& frustum, const FrustumSettings& settings, dou
     }
 }
 
-/// Row of clip depth as a linear function of ζ: {factor, offset}.
-Vec2d depth_row(const LightFrustum& f)
+Vec3d camera_position(const LightSettings& settings, const Light& light, const Box& box)
 {
-    const double range_m = f.far_m - f.near_m;
-    if (f.projection == Projection::perspective) {
-        return f.reversed
-                   ? Vec2d{-f.near_m / range_m, f.near_m * f.far_m / range_m}
-                   : Vec2d{(f.far_m + f.near_m) / range_m, -2.0 * f.far_m * f.near_m / range_m};
+    if (light.type == LightType::spot) {
+        return light.position;
     }
-    return f.reversed ? Vec2d{-1.0 / range_m, f.far_m / range_m}
-                      : Vec2d{2.0 / range_m, -(f.far_m + f.near_m) / range_m};
+    return settings.position ? rounded_to_float32(*settings.position) : box.centre();
 }
+
+} // namespace
 
 void compose_matrix(LightFrustum& f)
 {
@@ -151,22 +148,12 @@ void compose_matrix(LightFrustum& f)
     const auto side = [&](const Vec3d& axis, double low, double high) {
         return (2.0 * affine(axis) - (high + low) * w) / (high - low);
     };
-    const Vec2d depth = depth_row(f);
+    const Vec2d depth = clip_depth_row(f.depth_range());
     const Vec4d z = depth.x * zeta + Vec4d{0, 0, 0, depth.y};
     f.light_clip_from_world_exact = glm::transpose(
         Mat4d{side(f.right, f.left, f.right_side), side(f.up, f.bottom, f.top), z, w});
     f.light_clip_from_world = Mat4f{f.light_clip_from_world_exact};
 }
-
-Vec3d camera_position(const LightSettings& settings, const Light& light, const Box& box)
-{
-    if (light.type == LightType::spot) {
-        return light.position;
-    }
-    return settings.position ? rounded_to_float32(*settings.position) : box.centre();
-}
-
-} // namespace
 
 double LightFrustum::zeta_m(const Vec3d& point) const
 {
@@ -188,6 +175,8 @@ LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSetti
     frustum.projection =
         light.type == LightType::spot ? Projection::perspective : Projection::orthographic;
     frustum.reversed = settings.reversed;
+    frustum.clip_range = settings.clip_range.value_or(
+        settings.reversed ? ClipRange::zero_to_one : ClipRange::minus_one_to_one);
     frustum.origin = camera_position(light_settings, light, box);
     set_axes(frustum, light.direction, settings.roll_deg);
 

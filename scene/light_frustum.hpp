@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/camera.hpp"
+#include "scene/depth_range.hpp"
 #include "scene/light.hpp"
 #include "scene/triangles.hpp"
 #include "scene/vec.hpp"
@@ -14,12 +15,13 @@ enum class Fit : std::uint8_t { scene, camera, fixed };
 /// The part of `[shadow_map]` that decides the light's camera.
 struct FrustumSettings {
     Fit fit = Fit::scene;
-    double half_extent_m = 20;     ///< fit = fixed, directional; > 0
-    std::optional<double> fov_deg; ///< fit = fixed, spot; (0, 180); default: the cone
-    double roll_deg = 0;           ///< turns the texel grid about the light's axis
-    std::optional<double> near_m;  ///< empty: auto
-    std::optional<double> far_m;   ///< empty: auto
-    bool reversed = false;         ///< clip range [0, 1] with near at 1, far at 0
+    double half_extent_m = 20;           ///< fit = fixed, directional; > 0
+    std::optional<double> fov_deg;       ///< fit = fixed, spot; (0, 180); default: the cone
+    double roll_deg = 0;                 ///< turns the texel grid about the light's axis
+    std::optional<double> near_m;        ///< empty: auto
+    std::optional<double> far_m;         ///< empty: auto
+    bool reversed = false;               ///< near at depth 1, far at 0
+    std::optional<ClipRange> clip_range; ///< empty: [0, 1] if reversed, else [−1, 1]
 };
 
 /// The light's camera: what the shadow map sees.
@@ -37,6 +39,7 @@ struct LightFrustum {
     double near_m = 0.1;
     double far_m = 100;
     bool reversed = false;
+    ClipRange clip_range = ClipRange::minus_one_to_one;
     Mat4d light_clip_from_world_exact{1}; ///< composed in double
     Mat4f light_clip_from_world{1};       ///< rounded once: this one is GL's, and exact input
 
@@ -46,7 +49,14 @@ struct LightFrustum {
     [[nodiscard]] double texel_width_m(double zeta_m, int resolution_texels) const;
     /// Metres along the axis that one depth unit spans; constant for orthographic frusta.
     [[nodiscard]] double range_m() const { return far_m - near_m; }
+    [[nodiscard]] DepthRange depth_range() const
+    {
+        return {projection, near_m, far_m, reversed, clip_range};
+    }
 };
+
+/// Composes both matrices from the other members, in double, and rounds once.
+void compose_matrix(LightFrustum& frustum);
 
 /// Fits the light's camera.
 ///

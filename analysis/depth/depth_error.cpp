@@ -1,0 +1,94 @@
+#include "analysis/depth/depth_error.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace gnomon::analysis {
+
+namespace {
+
+bool passes_float_ndc(const DepthMapping& mapping, const DepthCoding& coding)
+{
+    return coding.is_float() && mapping.range().clip_range == scene::ClipRange::minus_one_to_one;
+}
+
+std::uint32_t code_of(const DepthMapping& mapping, const DepthCoding& coding, double depth)
+{
+    if (passes_float_ndc(mapping, coding)) {
+        const auto z_ndc = static_cast<float>(2 * depth - 1);
+        return std::bit_cast<std::uint32_t>(std::clamp(0.5F * z_ndc + 0.5F, 0.0F, 1.0F));
+    }
+    return coding.nearest_code(depth);
+}
+
+/// The largest envelope of float32: Δ is constant between powers of two of d (and of z_ndc), and
+/// ζ² grows, so it is attained at one of them or at an end.
+double largest_float_error_m(const DepthMapping& mapping, const DepthCoding& coding)
+{
+    double largest_m = 0;
+    const auto include = [&](double depth) {
+        const double zeta_m = std::clamp(mapping.zeta_m(depth), mapping.near_m(), mapping.far_m());
+        largest_m = std::max(largest_m, error_envelope_m(mapping, coding, zeta_m));
+    };
+    include(0);
+    constexpr int smallest_exponent = -149;
+    for (int exponent = 0; exponent >= smallest_exponent; --exponent) {
+        const double power = std::ldexp(1.0, exponent);
+        include(power);
+        include(0.5 + 0.5 * power);
+        include(0.5 - 0.5 * power);
+    }
+    return largest_m;
+}
+
+} // namespace
+
+StoredDepth stored_depth(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
+{
+    const double exact = mapping.depth(zeta_m);
+    StoredDepth stored;
+    stored.code = code_of(mapping, coding, exact);
+    stored.depth = coding.depth(stored.code);
+    stored.error_m = mapping.zeta_error_m(zeta_m, stored.depth - exact);
+    stored.zeta_m = zeta_m + stored.error_m;
+    return stored;
+}
+
+double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
+{
+    const double depth = mapping.depth(zeta_m);
+    const double half_step = coding.half_step(depth);
+    if (!passes_float_ndc(mapping, coding)) {
+        return half_step;
+    }
+    return half_step + 0.5 * std::min(half_float32_step(2 * depth - 1), 0x1p-25);
+}
+
+double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m,
+                        double codes)
+{
+    return mapping.largest_zeta_error_m(zeta_m, codes * depth_tolerance(mapping, coding, zeta_m));
+}
+
+double largest_error_m(const DepthMapping& mapping, const DepthCoding& coding)
+{
+    if (coding.is_float()) {
+        return largest_float_error_m(mapping, coding);
+    }
+    const double far_m = mapping.far_m();
+    const double before_far = coding.half_step(1);
+    return -mapping.zeta_error_m(far_m, mapping.range().reversed ? before_far : -before_far);
+}
+
+double exact_distance_m(const DepthMapping& mapping, const DepthCoding& coding, std::uint32_t code)
+{
+    return mapping.zeta_m(coding.depth(code));
+}
+
+double smooth_float_envelope_m(const DepthMapping& mapping, double zeta_m)
+{
+    return 0x1p-24 * mapping.depth(zeta_m) * mapping.slope_m(zeta_m);
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "scene/depth_range.hpp"
+
+namespace gnomon::analysis {
+
+/// The exact map between the distance ζ from the camera's plane and window depth in [0, 1].
+///
+///     perspective    d = f(ζ − n)/(ζ(f − n)),  1/ζ = 1/n − A·d,  A = 1/n − 1/f
+///     reversed       d = n(f − ζ)/(ζ(f − n)),  1/ζ = 1/f + A·d
+///     orthographic   d = (ζ − n)/(f − n), reversed (f − ζ)/(f − n)
+///
+/// Source: docs/depth_precision.md#depth-of-a-distance.
+class DepthMapping {
+public:
+    /// @throws std::domain_error  unless near < far, both finite, and 0 < near for a perspective.
+    explicit DepthMapping(const scene::DepthRange& range);
+
+    [[nodiscard]] const scene::DepthRange& range() const { return range_; }
+    [[nodiscard]] double near_m() const { return range_.near_m; }
+    [[nodiscard]] double far_m() const { return range_.far_m; }
+    [[nodiscard]] bool is_perspective() const
+    {
+        return range_.projection == scene::Projection::perspective;
+    }
+
+    /// Window depth of a distance; in [0, 1] for ζ in [near, far].
+    [[nodiscard]] double depth(double zeta_m) const;
+    /// The distance that a window depth stands for [m].
+    [[nodiscard]] double zeta_m(double depth) const;
+    /// |dζ/dd| at ζ [m]: Aζ² for a perspective, far − near for an orthographic projection.
+    [[nodiscard]] double slope_m(double zeta_m) const;
+    /// How far a signed depth error moves the distance [m]: AΔζ²/(1 − AΔζ), exactly; Δ(f − n) for
+    /// an orthographic projection; infinite where the depth stands for no distance any more.
+    [[nodiscard]] double zeta_error_m(double zeta_m, double depth_error) const;
+    /// The same, for the sign of the depth error with which |ζ' − ζ| is larger.
+    [[nodiscard]] double largest_zeta_error_m(double zeta_m, double depth_error) const;
+
+private:
+    scene::DepthRange range_;
+    double depth_per_inverse_m_; ///< A [1/m]
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "analysis/depth/depth_coding.hpp"
+#include "analysis/depth/depth_mapping.hpp"
+#include "analysis/depth/measured_error.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What the formulas say of a frustum and a format.
+struct DepthTheory {
+    double max_error_m = 0;
+    double envelope_at_near_m = 0;
+    double envelope_at_far_m = 0;
+    double step_at_near_m = 0;
+    double step_at_far_m = 0;
+    double half_of_codes_within_m = 0; ///< distance up to which half of the codes are spent
+    double code_share_within_1m = 0;   ///< of the camera's plane
+    std::optional<double> distance_of_1m_step_m;
+    double float_limit_m = 0;                    ///< D32F is finer than D24 on one side of it only
+    double separate_transform_at_far_m = 0;      ///< bound, view then projection
+    double premultiplied_transform_at_far_m = 0; ///< bound, one matrix
+};
+
+/// @param offset_m  the camera stands at (offset, offset, offset) and looks along an axis.
+[[nodiscard]] DepthTheory depth_theory(const DepthMapping& mapping, const DepthCoding& coding,
+                                       double offset_m);
+
+/// Theory of a frustum and a format, and what GL stored.
+struct DepthStudy {
+    DepthMapping mapping;
+    DepthCoding coding;
+    std::string format; ///< "d16", or "27-bit unorm" for what GL has not
+    double tilt_rad = 0;
+    double offset_m = 0;
+    DepthTheory theory;
+    std::optional<MeasuredDepthError> measured;
+    std::string not_measured_because; ///< "" if it was
+};
+
+/// What the formula makes of distances spread evenly from near to far: rows without GL's part.
+/// @param count  at least 2
+[[nodiscard]] std::vector<DepthErrorRow> formula_rows(const DepthMapping& mapping,
+                                                      const DepthCoding& coding, std::size_t count);
+
+} // namespace gnomon::analysis

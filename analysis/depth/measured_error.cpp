@@ -1,0 +1,100 @@
+#include "analysis/depth/measured_error.hpp"
+
+#include "analysis/depth/depth_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+namespace {
+
+void add_moments(MeasuredDepthError& error)
+{
+    const auto count = static_cast<double>(error.rows.size());
+    double sum_m = 0;
+    double squares_m2 = 0;
+    for (const DepthErrorRow& row : error.rows) {
+        sum_m += row.error_m;
+        squares_m2 += row.error_m * row.error_m;
+    }
+    error.mean_error_m = sum_m / count;
+    error.rms_error_m = std::sqrt(squares_m2 / count);
+    double deviations_m2 = 0;
+    for (const DepthErrorRow& row : error.rows) {
+        const double deviation_m = row.error_m - error.mean_error_m;
+        deviations_m2 += deviation_m * deviation_m;
+    }
+    error.standard_deviation_m = std::sqrt(deviations_m2 / count);
+}
+
+void include_extremes(MeasuredDepthError& error, const DepthErrorRow& row)
+{
+    const double magnitude_m = std::abs(row.error_m);
+    if (magnitude_m > error.max_error_m) {
+        error.max_error_m = magnitude_m;
+        error.max_error_zeta_m = row.zeta_m;
+    }
+    error.max_excess_m = std::max(error.max_excess_m, magnitude_m - row.envelope_m);
+    error.max_transform_error_m =
+        std::max(error.max_transform_error_m, std::abs(row.transform_error_m));
+    error.max_share_of_model = std::max(error.max_share_of_model, magnitude_m / row.model_m);
+}
+
+} // namespace
+
+DepthErrorRow formula_row(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
+{
+    const StoredDepth formula = stored_depth(mapping, coding, zeta_m);
+    DepthErrorRow row;
+    row.zeta_m = zeta_m;
+    row.depth = mapping.depth(zeta_m);
+    row.formula_code = formula.code;
+    row.formula_error_m = formula.error_m;
+    row.envelope_m = error_envelope_m(mapping, coding, zeta_m);
+    return row;
+}
+
+DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& coding,
+                              const scene::DepthSample& sample)
+{
+    const double zeta_m = sample.zeta_m;
+    DepthErrorRow row = formula_row(mapping, coding, zeta_m);
+    row.code = sample.texel.code;
+    row.error_m = mapping.zeta_error_m(zeta_m, coding.depth(row.code) - row.depth);
+    row.stored_zeta_m = zeta_m + row.error_m;
+    const double transform = sample.texel.plane_depth - row.depth;
+    row.transform_error_m = mapping.zeta_error_m(zeta_m, transform);
+    const double either_code = 2 * coding.half_step(sample.texel.plane_depth);
+    row.model_m = mapping.largest_zeta_error_m(zeta_m, std::abs(transform) +
+                                                           sample.texel.driver_bound + either_code);
+    row.texel_class = classify_texel(coding, sample.texel);
+    return row;
+}
+
+MeasuredDepthError measured_depth_error(const DepthMapping& mapping,
+                                        const scene::DepthMeasurement& measurement)
+{
+    if (measurement.samples.empty()) {
+        throw std::invalid_argument("measured_depth_error: no sample");
+    }
+    const DepthCoding coding = DepthCoding::of(measurement.format);
+    MeasuredDepthError error;
+    error.missing = measurement.missing;
+    error.max_excess_m = -std::numeric_limits<double>::infinity();
+    std::vector<scene::TexelDepth> texels;
+    error.rows.reserve(measurement.samples.size());
+    texels.reserve(measurement.samples.size());
+    for (const scene::DepthSample& sample : measurement.samples) {
+        error.rows.push_back(depth_error_row(mapping, coding, sample));
+        include_extremes(error, error.rows.back());
+        texels.push_back(sample.texel);
+    }
+    add_moments(error);
+    error.certificate = certify_texels(coding, texels);
+    return error;
+}
+
+} // namespace gnomon::analysis

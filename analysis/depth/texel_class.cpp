@@ -1,0 +1,113 @@
+#include "analysis/depth/texel_class.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::analysis {
+
+namespace {
+
+/// Codes of the depths next below and above, both the same if the depth has a code.
+struct CodePair {
+    std::uint32_t lower = 0;
+    std::uint32_t upper = 0;
+
+    [[nodiscard]] bool holds(std::uint32_t code) const { return lower <= code && code <= upper; }
+};
+
+std::uint32_t floor_code(const DepthCoding& coding, double depth)
+{
+    const double clamped = std::clamp(depth, 0.0, 1.0);
+    if (!coding.is_float()) {
+        return static_cast<std::uint32_t>(std::floor(clamped * coding.largest_code()));
+    }
+    const std::uint32_t code = coding.nearest_code(clamped);
+    return coding.depth(code) > clamped ? code - 1 : code; // the bits of floats >= 0 are in order
+}
+
+std::uint32_t ceil_code(const DepthCoding& coding, double depth)
+{
+    const double clamped = std::clamp(depth, 0.0, 1.0);
+    if (!coding.is_float()) {
+        return static_cast<std::uint32_t>(std::ceil(clamped * coding.largest_code()));
+    }
+    const std::uint32_t code = coding.nearest_code(clamped);
+    return coding.depth(code) < clamped ? code + 1 : code;
+}
+
+std::size_t bin_of(double magnitude_codes)
+{
+    constexpr std::size_t last = std::tuple_size_v<decltype(DepthCertificate::histogram)> - 1;
+    std::size_t bin = 0;
+    while (bin < last && magnitude_codes > histogram_end_codes(bin)) {
+        ++bin;
+    }
+    return bin;
+}
+
+} // namespace
+
+std::string_view texel_class_name(TexelClass texel_class)
+{
+    constexpr std::array<std::string_view, texel_class_count> names{"nearest_code", "within_format",
+                                                                    "within_model", "outside"};
+    return names.at(static_cast<std::size_t>(texel_class));
+}
+
+double residual_codes(const DepthCoding& coding, const scene::TexelDepth& texel)
+{
+    return (coding.depth(texel.code) - texel.plane_depth) /
+           (2 * coding.half_step(texel.plane_depth));
+}
+
+TexelClass classify_texel(const DepthCoding& coding, const scene::TexelDepth& texel)
+{
+    const double exact = texel.plane_depth;
+    const auto pair = [&](double lower, double upper) {
+        return CodePair{floor_code(coding, lower), ceil_code(coding, upper)};
+    };
+    const CodePair format = pair(exact, exact);
+    if (format.holds(texel.code)) {
+        const std::uint32_t other = texel.code == format.lower ? format.upper : format.lower;
+        const bool is_nearest =
+            std::abs(coding.depth(texel.code) - exact) <= std::abs(coding.depth(other) - exact);
+        return is_nearest ? TexelClass::nearest_code : TexelClass::within_format;
+    }
+    return pair(exact - texel.driver_bound, exact + texel.driver_bound).holds(texel.code)
+               ? TexelClass::within_model
+               : TexelClass::outside;
+}
+
+double histogram_end_codes(std::size_t bin)
+{
+    constexpr std::size_t last = std::tuple_size_v<decltype(DepthCertificate::histogram)> - 1;
+    return bin < last ? std::ldexp(0.5, static_cast<int>(bin))
+                      : std::numeric_limits<double>::infinity();
+}
+
+DepthCertificate certify_texels(const DepthCoding& coding,
+                                std::span<const scene::TexelDepth> texels)
+{
+    DepthCertificate certificate;
+    certificate.texels = texels.size();
+    double squares = 0;
+    for (const scene::TexelDepth& texel : texels) {
+        const double magnitude = std::abs(residual_codes(coding, texel));
+        const double step = 2 * coding.half_step(texel.plane_depth);
+        ++certificate.counts.at(static_cast<std::size_t>(classify_texel(coding, texel)));
+        ++certificate.histogram.at(bin_of(magnitude));
+        squares += magnitude * magnitude;
+        certificate.largest_residual_codes =
+            std::max(certificate.largest_residual_codes, magnitude);
+        certificate.largest_share_of_bound = std::max(
+            certificate.largest_share_of_bound, magnitude * step / (texel.driver_bound + step));
+    }
+    if (!texels.empty()) {
+        certificate.rms_residual_codes = std::sqrt(squares / static_cast<double>(texels.size()));
+    }
+    return certificate;
+}
+
+} // namespace gnomon::analysis

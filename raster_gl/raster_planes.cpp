@@ -1,0 +1,116 @@
+#include "raster_gl/raster_planes.hpp"
+
+#include "raster_gl/clip_positions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon::raster_gl {
+
+namespace {
+
+using scene::Vec2d;
+
+/// Centre of a texel counted from the map's top left, in the window [px].
+Vec2d centre_px(int resolution_texels, int x, int y)
+{
+    return {x + 0.5, resolution_texels - 1 - y + 0.5};
+}
+
+} // namespace
+
+RasterPlanes::RasterPlanes(const Context& context, const scene::DepthPlanes& planes)
+    : context_{context},
+      planes_{planes},
+      gpu_{context, planes.triangles},
+      pass_{context},
+      subpixel_bits_{context.facts().subpixel_bits}
+{
+    const auto clip = capture_clip_positions(context, gpu_, planes.frustum.light_clip_from_world);
+    raster_.reserve(planes.triangles.triangles.size());
+    for (const auto& [a, b, c] : planes.triangles.triangles) {
+        raster_.emplace_back(std::array{clip.at(a), clip.at(b), clip.at(c)},
+                             planes.resolution_texels, planes.frustum.clip_range);
+    }
+}
+
+const ShadowMap& RasterPlanes::draw(scene::DepthFormat format)
+{
+    scene::ShadowMapSettings settings;
+    settings.resolution_texels = planes_.resolution_texels;
+    settings.depth_format = format;
+    return pass_.render(gpu_, planes_.frustum, settings);
+}
+
+bool RasterPlanes::surely_covers(const scene::RasterPlane& plane, const Vec2d& at) const
+{
+    // Corners are snapped to sub-pixels: edges move by less than one.
+    return plane.is_whole() && plane.inside_px(at) > std::ldexp(1.0, -subpixel_bits_);
+}
+
+scene::DepthMeasurement RasterPlanes::measure(scene::DepthFormat format)
+{
+    const ShadowMap& map = draw(format);
+    const auto codes = read_codes(context_, map);
+    const bool has_z = format.kind == scene::DepthFormat::Kind::unorm;
+    const auto z = has_z ? read_unquantised_z(context_, map) : scene::Image<float>{};
+    scene::DepthMeasurement measurement;
+    measurement.format = format;
+    measurement.samples.reserve(raster_.size());
+    for (std::size_t i = 0; i < raster_.size(); ++i) {
+        const auto [x, y] = planes_.texel(i);
+        const Vec2d at = centre_px(planes_.resolution_texels, x, y);
+        if (!surely_covers(raster_[i], at)) {
+            ++measurement.missing;
+            continue;
+        }
+        scene::DepthSample sample{
+            planes_.zeta_m(i),
+            {raster_[i].depth(at), raster_[i].driver_bound(at, subpixel_bits_), codes(x, y)}};
+        if (has_z) {
+            sample.shader_depth = z(x, y);
+        }
+        measurement.samples.push_back(sample);
+    }
+    // Rounding the vertices can exchange planes that are less than a float32 step apart.
+    std::ranges::stable_sort(measurement.samples, {}, &scene::DepthSample::zeta_m);
+    return measurement;
+}
+
+std::vector<scene::TexelDepth> RasterPlanes::read_all(scene::DepthFormat format)
+{
+    const auto codes = read_codes(context_, draw(format));
+    std::vector<scene::TexelDepth> texels;
+    for (const scene::RasterPlane& plane : raster_) {
+        if (plane.is_whole()) {
+            include_triangle(plane, codes, texels);
+        }
+    }
+    return texels;
+}
+
+void RasterPlanes::include_triangle(const scene::RasterPlane& plane,
+                                    const scene::Image<std::uint32_t>& codes,
+                                    std::vector<scene::TexelDepth>& texels) const
+{
+    const int last = planes_.resolution_texels - 1;
+    const auto& corners = plane.window().position_px;
+    const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+    const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+    const auto clamped = [&](double px) {
+        return static_cast<int>(std::clamp(px, 0.0, static_cast<double>(last)));
+    };
+    for (int row = clamped(low), top = clamped(high); row <= top; ++row) {
+        for (int x = clamped(left), end = clamped(right); x <= end; ++x) {
+            const int y = last - row;
+            const Vec2d at = centre_px(planes_.resolution_texels, x, y);
+            if (surely_covers(plane, at)) {
+                texels.push_back(
+                    {plane.depth(at), plane.driver_bound(at, subpixel_bits_), codes(x, y)});
+            }
+        }
+    }
+}
+
+} // namespace gnomon::raster_gl

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "raster_gl/context.hpp"
+#include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/shadow_map.hpp"
+#include "scene/depth_planes.hpp"
+#include "scene/depth_sample.hpp"
+#include "scene/raster_plane.hpp"
+
+#include <vector>
+
+namespace gnomon::raster_gl {
+
+/// Draws depth planes and says what GL stored of them, beside the exact depths.
+class RasterPlanes {
+public:
+    /// @param context, planes  must outlive it.
+    /// @throws scene::EnvironmentError  if GL fails.
+    RasterPlanes(const Context& context, const scene::DepthPlanes& planes);
+
+    /// Draws them in one map and reads one texel of each plane.
+    /// @throws scene::InputError  if the driver lacks the format or the map's size.
+    [[nodiscard]] scene::DepthMeasurement measure(scene::DepthFormat format);
+    /// Draws them in one map and reads every texel whose centre a triangle covers with certainty.
+    /// @throws scene::InputError  if the driver lacks the format or the map's size.
+    [[nodiscard]] std::vector<scene::TexelDepth> read_all(scene::DepthFormat format);
+
+private:
+    void include_triangle(const scene::RasterPlane& plane, const scene::Image<std::uint32_t>& codes,
+                          std::vector<scene::TexelDepth>& texels) const;
+    [[nodiscard]] bool surely_covers(const scene::RasterPlane& plane, const scene::Vec2d& at) const;
+    const ShadowMap& draw(scene::DepthFormat format);
+
+    const Context& context_;
+    const scene::DepthPlanes& planes_;
+    GpuScene gpu_;
+    ShadowMapPass pass_;
+    std::vector<scene::RasterPlane> raster_; ///< by triangle
+    int subpixel_bits_;
+};
+
+} // namespace gnomon::raster_gl

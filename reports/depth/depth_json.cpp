@@ -1,0 +1,125 @@
+#include "reports/depth/depth_json.hpp"
+
+#include "reports/depth/depth_names.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::DepthErrorRow;
+using analysis::DepthStudy;
+using analysis::DepthTheory;
+using analysis::MeasuredDepthError;
+
+Json frustum_json(const scene::DepthRange& range)
+{
+    return {{"projection", projection_name(range.projection)},
+            {"near_m", range.near_m},
+            {"far_m", range.far_m},
+            {"reversed", range.reversed},
+            {"clip_range", clip_range_name(range.clip_range)}};
+}
+
+Json theory_json(const DepthTheory& theory)
+{
+    return {{"max_error_m", theory.max_error_m},
+            {"envelope_at_near_m", theory.envelope_at_near_m},
+            {"envelope_at_far_m", theory.envelope_at_far_m},
+            {"step_at_near_m", theory.step_at_near_m},
+            {"step_at_far_m", theory.step_at_far_m},
+            {"codes_per_metre_at_near", 1 / theory.step_at_near_m},
+            {"codes_per_metre_at_far", 1 / theory.step_at_far_m},
+            {"half_of_codes_within_m", theory.half_of_codes_within_m},
+            {"code_share_within_1m", theory.code_share_within_1m},
+            {"distance_of_1m_step_m", number_or_null(theory.distance_of_1m_step_m)},
+            {"float_limit_m", theory.float_limit_m},
+            {"transform_error_at_far_m",
+             {{"view_then_projection", theory.separate_transform_at_far_m},
+              {"premultiplied", theory.premultiplied_transform_at_far_m}}}};
+}
+
+Json measured_json(const MeasuredDepthError& measured)
+{
+    return {{"samples", measured.rows.size()},
+            {"missing", measured.missing},
+            {"max_error_m", measured.max_error_m},
+            {"max_error_at_m", measured.max_error_zeta_m},
+            {"rms_error_m", measured.rms_error_m},
+            {"mean_error_m", measured.mean_error_m},
+            {"standard_deviation_m", measured.standard_deviation_m},
+            {"max_excess_m", measured.max_excess_m},
+            {"max_transform_error_m", measured.max_transform_error_m},
+            {"max_share_of_model", measured.max_share_of_model},
+            {"certificate", certificate_json(measured.certificate)}};
+}
+
+Json sample_json(const DepthErrorRow& row, bool is_measured)
+{
+    Json json{{"zeta_m", row.zeta_m},
+              {"depth", row.depth},
+              {"envelope_m", row.envelope_m},
+              {"formula_code", row.formula_code},
+              {"formula_error_m", row.formula_error_m}};
+    if (is_measured) {
+        json["code"] = row.code;
+        json["stored_zeta_m"] = row.stored_zeta_m;
+        json["error_m"] = row.error_m;
+        json["transform_error_m"] = row.transform_error_m;
+        json["model_m"] = row.model_m;
+        json["class"] = analysis::texel_class_name(row.texel_class);
+    }
+    return json;
+}
+
+} // namespace
+
+Json certificate_json(const analysis::DepthCertificate& certificate)
+{
+    Json json{{"texels", certificate.texels}};
+    for (std::size_t i = 0; i < analysis::texel_class_count; ++i) {
+        json[std::string{analysis::texel_class_name(static_cast<analysis::TexelClass>(i))}] =
+            certificate.counts.at(i);
+    }
+    json["largest_residual_codes"] = certificate.largest_residual_codes;
+    json["rms_residual_codes"] = certificate.rms_residual_codes;
+    json["largest_share_of_bound"] = certificate.largest_share_of_bound;
+    json["histogram"] = Json::array();
+    for (std::size_t bin = 0; bin < certificate.histogram.size(); ++bin) {
+        const double end = analysis::histogram_end_codes(bin);
+        json["histogram"].push_back({{"up_to_codes", std::isfinite(end) ? Json(end) : Json()},
+                                     {"texels", certificate.histogram.at(bin)}});
+    }
+    return json;
+}
+
+Json depth_summary_json(const DepthStudy& study)
+{
+    Json json{{"format", study.format},
+              {"bits", study.coding.bits()},
+              {"float", study.coding.is_float()},
+              {"frustum", frustum_json(study.mapping.range())},
+              {"theory", theory_json(study.theory)}};
+    json["measured"] = study.measured ? measured_json(*study.measured) : Json();
+    json["not_measured_because"] = study.measured ? Json() : Json(study.not_measured_because);
+    return json;
+}
+
+std::string depth_json(const DepthStudy& study, std::span<const DepthErrorRow> rows,
+                       const std::string& gl_renderer, const std::string& gl_version)
+{
+    Json json{{"schema", 1}};
+    json.update(depth_summary_json(study));
+    json["tilt_deg"] = study.tilt_rad * 180 / std::numbers::pi;
+    json["offset_m"] = study.offset_m;
+    json["environment"] = {{"gl_renderer", gl_renderer}, {"gl_version", gl_version}};
+    json["samples"] = Json::array();
+    for (const DepthErrorRow& row : rows) {
+        json["samples"].push_back(sample_json(row, study.measured.has_value()));
+    }
+    return json.dump(2) + "\n";
+}
+
+} // namespace gnomon::reports

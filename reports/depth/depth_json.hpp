@@ -1,0 +1,25 @@
+#pragma once
+
+#include "analysis/depth/depth_study.hpp"
+#include "analysis/depth/texel_class.hpp"
+#include "reports/json_values.hpp"
+
+#include <span>
+#include <string>
+
+namespace gnomon::reports {
+
+/// A study as one JSON object; docs/depth_precision.md names its members.
+/// @param rows  the samples to write: measured ones, or the formula's.
+/// @param gl_renderer, gl_version  empty if nothing was measured.
+[[nodiscard]] std::string depth_json(const analysis::DepthStudy& study,
+                                     std::span<const analysis::DepthErrorRow> rows,
+                                     const std::string& gl_renderer, const std::string& gl_version);
+
+/// Theory and measurement without samples.
+[[nodiscard]] Json depth_summary_json(const analysis::DepthStudy& study);
+
+/// Counts by class, residuals and histogram of a certificate.
+[[nodiscard]] Json certificate_json(const analysis::DepthCertificate& certificate);
+
+} // namespace gnomon::reports

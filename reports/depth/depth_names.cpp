@@ -1,0 +1,30 @@
+#include "reports/depth/depth_names.hpp"
+
+#include <fmt/format.h>
+
+namespace gnomon::reports {
+
+std::string_view projection_name(scene::Projection projection)
+{
+    return projection == scene::Projection::perspective ? "perspective" : "orthographic";
+}
+
+std::string_view clip_range_name(scene::ClipRange range)
+{
+    return range == scene::ClipRange::zero_to_one ? "zero_to_one" : "minus_one_to_one";
+}
+
+std::string range_text(const scene::DepthRange& range)
+{
+    return fmt::format("{}, near {:g} m, far {:g} m, clip {}{}", projection_name(range.projection),
+                       range.near_m, range.far_m,
+                       range.clip_range == scene::ClipRange::zero_to_one ? "[0, 1]" : "[-1, 1]",
+                       range.reversed ? ", reversed" : "");
+}
+
+std::string metres(double length_m)
+{
+    return fmt::format("{:.4g} m", length_m);
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene/depth_range.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace gnomon::reports {
+
+/// "perspective", "orthographic".
+[[nodiscard]] std::string_view projection_name(scene::Projection projection);
+/// "minus_one_to_one", "zero_to_one": as in options and JSON.
+[[nodiscard]] std::string_view clip_range_name(scene::ClipRange range);
+/// "perspective, near 4 m, far 50 m, clip [-1, 1]", with "reversed" where it is.
+[[nodiscard]] std::string range_text(const scene::DepthRange& range);
+/// A length with four digits: "0.004387 m".
+[[nodiscard]] std::string metres(double length_m);
+
+} // namespace gnomon::reports

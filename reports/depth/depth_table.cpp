@@ -1,0 +1,142 @@
+#include "reports/depth/depth_table.hpp"
+
+#include "reports/depth/depth_names.hpp"
+#include "reports/table_lines.hpp"
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::DepthErrorRow;
+using analysis::DepthStudy;
+using analysis::DepthTheory;
+using analysis::MeasuredDepthError;
+
+std::string view_text(const DepthStudy& study)
+{
+    const std::string place =
+        study.offset_m == 0
+            ? std::string{"at the origin"}
+            : fmt::format("{:g} m from the origin on each axis", std::abs(study.offset_m));
+    return fmt::format("camera {}, planes tilted by {:g} deg", place,
+                       study.tilt_rad * 180 / std::numbers::pi);
+}
+
+std::string theory_text(const DepthStudy& study)
+{
+    const DepthTheory& t = study.theory;
+    std::string text = "theory\n";
+    text += setting_line("largest error", metres(t.max_error_m));
+    text +=
+        setting_line("envelope", fmt::format("{} at near, {} at far", metres(t.envelope_at_near_m),
+                                             metres(t.envelope_at_far_m)));
+    text += setting_line("code step", fmt::format("{} at near, {} at far", metres(t.step_at_near_m),
+                                                  metres(t.step_at_far_m)));
+    text += setting_line("codes", fmt::format("half of them within {}, {} within 1 m",
+                                              metres(t.half_of_codes_within_m),
+                                              percent(t.code_share_within_1m)));
+    if (t.distance_of_1m_step_m) {
+        text += setting_line("1 m steps", fmt::format("at {}", metres(*t.distance_of_1m_step_m)));
+    }
+    text += setting_line("transform", fmt::format("at most {} at far, by one matrix {}",
+                                                  metres(t.separate_transform_at_far_m),
+                                                  metres(t.premultiplied_transform_at_far_m)));
+    return text;
+}
+
+std::string measured_text(const MeasuredDepthError& m)
+{
+    std::string text = fmt::format(
+        "\nmeasured on {} planes{}\n", grouped(m.rows.size()),
+        m.missing == 0 ? "" : fmt::format(", {} clipped or moved away", grouped(m.missing)));
+    text += setting_line("largest error", fmt::format("{} at {}", metres(m.max_error_m),
+                                                      metres(m.max_error_zeta_m)));
+    text +=
+        setting_line("rms error", fmt::format("{}, standard deviation {}", metres(m.rms_error_m),
+                                              metres(m.standard_deviation_m)));
+    text += setting_line("excess",
+                         m.max_excess_m > 0
+                             ? fmt::format("up to {} above the envelope", metres(m.max_excess_m))
+                             : std::string{"none: no sample leaves the envelope"});
+    text += setting_line(
+        "transform", fmt::format("up to {}, part of the errors", metres(m.max_transform_error_m)));
+    text += setting_line(
+        "driver model", fmt::format("errors reach {} of its bound", percent(m.max_share_of_model)));
+    text += setting_line("texels", classes_text(m.certificate));
+    return text;
+}
+
+/// At most this many rows, evenly spread, the first and the last among them.
+constexpr std::size_t shown_rows = 9;
+
+std::string code_text(const analysis::DepthCoding& coding, std::uint32_t code)
+{
+    return coding.is_float() ? fmt::format("{:#010x}", code) : grouped(code);
+}
+
+std::string rows_text(const DepthStudy& study, std::span<const DepthErrorRow> rows)
+{
+    const bool is_measured = study.measured.has_value();
+    std::string text = fmt::format("\n{:>10}{:>13}{:>16}{:>15}{:>14}", "z [m]", "exact depth",
+                                   "formula's code", "error [m]", "envelope [m]");
+    text += is_measured
+                ? fmt::format("{:>16}{:>16}{:>13}\n", "GL's code", "GL's z [m]", "error [m]")
+                : std::string{"\n"};
+    const std::size_t count = std::min(shown_rows, rows.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const DepthErrorRow& row = rows[count == 1 ? 0 : i * (rows.size() - 1) / (count - 1)];
+        text += fmt::format("{:>10.5g}{:>13.8f}{:>16}{:>15.3g}{:>14.3g}", row.zeta_m, row.depth,
+                            code_text(study.coding, row.formula_code), row.formula_error_m,
+                            row.envelope_m);
+        text += is_measured
+                    ? fmt::format("{:>16}{:>16.8g}{:>13.3g}\n", code_text(study.coding, row.code),
+                                  row.stored_zeta_m, row.error_m)
+                    : std::string{"\n"};
+    }
+    return text;
+}
+
+} // namespace
+
+std::string classes_text(const analysis::DepthCertificate& certificate)
+{
+    constexpr std::array<std::string_view, analysis::texel_class_count> words{
+        "nearest code", "within the format", "within the driver model", "OUTSIDE the driver model"};
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (const std::size_t count = certificate.counts.at(i); count > 0) {
+            const double share =
+                static_cast<double>(count) / static_cast<double>(certificate.texels);
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", percent(share), words.at(i));
+        }
+    }
+    return text;
+}
+
+std::string depth_table(const DepthStudy& study, std::span<const DepthErrorRow> rows,
+                        const std::string& gl_renderer)
+{
+    std::string text = setting_line("frustum", range_text(study.mapping.range()));
+    text += setting_line("format", fmt::format("{}, {} bits{}", study.format, study.coding.bits(),
+                                               study.coding.is_float() ? " float" : ""));
+    text += setting_line("planes", view_text(study));
+    text += study.measured ? setting_line("GL", gl_renderer)
+                           : setting_line("not measured", study.not_measured_because);
+    text += "\n";
+    text += theory_text(study);
+    if (study.measured) {
+        text += measured_text(*study.measured);
+    }
+    text += rows_text(study, rows);
+    return text;
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,88 @@
+#include "analysis/depth/code_density.hpp"
+
+#include "depth_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+namespace {
+
+using scene::ClipRange;
+using scene::Projection;
+using testing::seed_range;
+
+const DepthMapping tenth_to_ten_thousand{{Projection::perspective, 0.1, 10000, false, {}}};
+const DepthCoding d24 = DepthCoding::unorm(24);
+
+TEST(CodeDensity, OfD24FromATenthToTenThousandSpendsNineTenthsOnTheFirstMetre)
+{
+    const double share = code_share_within(tenth_to_ten_thousand, d24, 1);
+    EXPECT_GT(share, 0.9);
+    EXPECT_NEAR(share, 0.9000, 0.00005); // 90.00 %
+    EXPECT_NEAR(code_step_m(tenth_to_ten_thousand, d24, 1000), 0.596, 0.0005);
+    const auto metre_m = distance_of_step_m(tenth_to_ten_thousand, d24, 1);
+    ASSERT_TRUE(metre_m);
+    EXPECT_NEAR(*metre_m, 1295, 0.5);
+}
+
+TEST(CodeDensity, IsTheInverseOfTheStep)
+{
+    EXPECT_DOUBLE_EQ(codes_per_metre(tenth_to_ten_thousand, d24, 1000),
+                     1 / code_step_m(tenth_to_ten_thousand, d24, 1000));
+}
+
+TEST(CodeDensity, OfAnOrthographicProjectionIsConstant)
+{
+    const DepthMapping mapping{seed_range(Projection::orthographic)};
+    const DepthCoding coding = DepthCoding::unorm(16);
+    for (const double zeta_m : {4.0, 27.0, 50.0}) {
+        EXPECT_DOUBLE_EQ(codes_per_metre(mapping, coding, zeta_m), 65535 / 46.0);
+    }
+    EXPECT_DOUBLE_EQ(code_share_within(mapping, coding, 27), 0.5);
+    EXPECT_FALSE(distance_of_step_m(mapping, coding, 1));
+}
+
+TEST(CodeDensity, CountsCodesWithinADistanceFromNearToFar)
+{
+    for (const DepthMapping& mapping : testing::all_mappings()) {
+        for (const DepthCoding& coding : {d24, DepthCoding::float32()}) {
+            EXPECT_EQ(code_share_within(mapping, coding, 4), 0);
+            EXPECT_EQ(code_share_within(mapping, coding, 50), 1);
+            EXPECT_EQ(code_share_within(mapping, coding, 1000), 1);
+            const double share = code_share_within(mapping, coding, 20);
+            EXPECT_TRUE(share > 0 && share < 1) << share;
+        }
+    }
+}
+
+TEST(FloatLimit, IsWhereHalfOfTheDepthsEnd)
+{
+    const double expected_m = 2 * 4.0 * 50 / 54; // 2fn/(f + n), 7.41
+    for (const bool reversed : {false, true}) {
+        const DepthMapping mapping{
+            seed_range(Projection::perspective, reversed, ClipRange::zero_to_one)};
+        EXPECT_DOUBLE_EQ(float_limit_m(mapping), expected_m);
+        const double finer_m = reversed ? expected_m * 1.001 : expected_m / 1.001;
+        const double equal_m = reversed ? expected_m / 1.001 : expected_m * 1.001;
+        EXPECT_LT(code_step_m(mapping, DepthCoding::float32(), finer_m),
+                  0.51 * code_step_m(mapping, d24, finer_m));
+        // 2^-24 against 1/(2^24 − 1).
+        EXPECT_NEAR(code_step_m(mapping, DepthCoding::float32(), equal_m) /
+                        code_step_m(mapping, d24, equal_m),
+                    1, 1e-7);
+    }
+    EXPECT_DOUBLE_EQ(float_limit_m(DepthMapping{seed_range(Projection::orthographic)}), 27);
+}
+
+TEST(FloatLimit, RejectsWidthsThatNeverReachAFloat)
+{
+    const DepthMapping mapping{seed_range()};
+    EXPECT_THROW((void)float_limit_m(mapping, 23), std::domain_error);
+    EXPECT_THROW((void)float_limit_m(mapping, 33), std::domain_error);
+}
+
+} // namespace
+} // namespace gnomon::analysis

@@ -1,0 +1,198 @@
+#include "child_process.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+
+namespace gnomon::testing {
+namespace {
+
+using Json = nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+Json depth_json(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), "depth");
+    arguments.emplace_back("--json");
+    const Ending ending = gnomon(arguments);
+    expect_done(ending);
+    return Json::parse(ending.out);
+}
+
+std::string content(const std::filesystem::path& path)
+{
+    std::ifstream file{path, std::ios::binary};
+    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
+}
+
+const std::vector<std::string> no_gl{"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
+
+TEST(DepthCommand, HasTheFormulasLargestErrorOfTheLesson)
+{
+    const Json json = depth_json({"--near", "4", "--far", "50", "--bits", "8", "--theory-only"});
+    EXPECT_NEAR(json.at("theory").at("max_error_m").get<double>(), 1.10259, 5e-6);
+    EXPECT_NEAR(json.at("theory").at("envelope_at_far_m").get<double>(), 1.1535, 5e-5);
+    EXPECT_TRUE(json.at("measured").is_null());
+    EXPECT_EQ(json.at("not_measured_because"), "--theory-only");
+}
+
+TEST(DepthCommand, MeasuresBesideTheFormula)
+{
+    const Json json = depth_json({"--near", "4", "--far", "50", "--bits", "16", "--projection",
+                                  "perspective", "--samples", "5000"});
+    EXPECT_EQ(json.at("format"), "d16");
+    const Json& measured = json.at("measured");
+    EXPECT_EQ(measured.at("samples"), 5000);
+    EXPECT_EQ(json.at("samples").size(), 5000U);
+    EXPECT_EQ(measured.at("certificate").at("outside"), 0);
+    // The last tooth has 200 samples: the largest lies within 1 % of its tip.
+    const double theory_m = json.at("theory").at("max_error_m").get<double>();
+    EXPECT_NEAR(measured.at("max_error_m").get<double>(), theory_m, 0.05 * theory_m);
+    EXPECT_GT(measured.at("rms_error_m").get<double>(), 0);
+    for (const Json& sample : json.at("samples")) {
+        const double error_m = sample.at("error_m").get<double>();
+        ASSERT_LE(std::abs(error_m), sample.at("model_m").get<double>()) << sample;
+        // Two numbers near 50 with 16 digits.
+        ASSERT_NEAR(sample.at("stored_zeta_m").get<double>() - sample.at("zeta_m").get<double>(),
+                    error_m, 1e-13);
+    }
+}
+
+TEST(DepthCommand, KnowsEveryFormatAndWidth)
+{
+    for (const char* format : {"d16", "d24", "d32f", "u8", "u13", "u24"}) {
+        EXPECT_EQ(depth_json({"--format", format, "--samples", "16"}).at("format"), format);
+    }
+    EXPECT_EQ(depth_json({"--bits", "12", "--samples", "16"}).at("format"), "u12");
+    for (const char* bits : {"25", "28", "31"}) {
+        const Json json = depth_json({"--bits", bits, "--samples", "16"});
+        EXPECT_TRUE(json.at("measured").is_null()) << bits;
+        EXPECT_EQ(json.at("samples").size(), 16U);
+    }
+}
+
+TEST(DepthCommand, TakesReversalClipTiltAndOffset)
+{
+    const Json json = depth_json({"--format", "d32f", "--reversed", "--tilt-deg", "30", "--offset",
+                                  "100", "--projection", "orthographic", "--samples", "64"});
+    EXPECT_EQ(json.at("frustum").at("clip_range"), "zero_to_one");
+    EXPECT_EQ(json.at("frustum").at("reversed"), true);
+    EXPECT_EQ(json.at("offset_m"), 100);
+    EXPECT_NEAR(json.at("tilt_deg").get<double>(), 30, 1e-12);
+    const Json other = depth_json({"--clip", "zero_to_one", "--samples", "64"});
+    EXPECT_EQ(other.at("frustum").at("clip_range"), "zero_to_one");
+    EXPECT_EQ(other.at("frustum").at("reversed"), false);
+}
+
+TEST(DepthCommand, WritesCsvToAFileOrToStandardOutput)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path() / "depth.csv";
+    const Ending printed = gnomon({"depth", "--samples", "8", "--csv"});
+    expect_done(printed);
+    EXPECT_THAT(printed.out, StartsWith("zeta_m,depth,envelope_m,"));
+    EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 9);
+    expect_done(gnomon({"depth", "--samples", "8", "--csv", path}));
+    EXPECT_EQ(content(path), printed.out);
+}
+
+TEST(DepthCommand, DrawsSvgAndPng)
+{
+    const TemporaryFolder folder;
+    for (const char* name : {"plot.svg", "plot.png"}) {
+        const std::string path = folder.path() / name;
+        expect_done(gnomon({"depth", "--bits", "8", "--samples", "64", "--plot", path}));
+        EXPECT_GT(std::filesystem::file_size(path), 10000U) << name;
+    }
+    const std::string svg = content(folder.path() / "plot.svg");
+    EXPECT_THAT(svg, HasSubstr("|error of z| [m]"));
+    EXPECT_THAT(svg, HasSubstr("Depth error of u8"));
+}
+
+TEST(DepthCommand, PlansANearPlane)
+{
+    const Json json = depth_json({"--plan", "--max-error-m", "0.01", "--far", "200"});
+    ASSERT_EQ(json.at("answers").size(), 4U);
+    for (const Json& answer : json.at("answers")) {
+        EXPECT_EQ(answer.at("meets_target"), true);
+        // The answer, measured.
+        std::vector<std::string> arguments{
+            "--near",   answer.at("near_m").dump(), "--far",     "200",
+            "--format", answer.at("format"),        "--samples", "4096"};
+        if (answer.at("reversed").get<bool>()) {
+            arguments.emplace_back("--reversed");
+        }
+        EXPECT_LE(depth_json(arguments).at("measured").at("max_error_m").get<double>(), 0.01)
+            << answer;
+    }
+}
+
+TEST(DepthCommand, ComparesAllFormats)
+{
+    const Json json = depth_json({"--compare", "--samples", "64"});
+    EXPECT_EQ(json.at("formats").size(), 22U);
+    const Ending text = gnomon({"depth", "--compare", "--theory-only"});
+    expect_done(text);
+    EXPECT_THAT(text.out, HasSubstr("d32f reversed"));
+}
+
+TEST(DepthCommand, NeedsGlOnlyToMeasure)
+{
+    Start start;
+    start.environment = no_gl;
+    expect_refused(gnomon({"depth", "--bits", "16"}, start), 4, "no OpenGL 4.5 context");
+    expect_done(gnomon({"depth", "--bits", "16", "--theory-only"}, start));
+    expect_done(gnomon({"depth", "--bits", "27"}, start));
+    expect_done(gnomon({"depth", "--plan", "--max-error-m", "0.1", "--far", "10"}, start));
+}
+
+TEST(DepthCommand, RefusesWhatMakesNoSense)
+{
+    const auto refused = [](std::vector<std::string> arguments, const std::string& text) {
+        arguments.insert(arguments.begin(), "depth");
+        expect_refused(gnomon(arguments), 2, text);
+    };
+    refused({"--near", "5", "--far", "4"}, "near must be below far");
+    refused({"--near", "0"}, "above 0");
+    refused({"--near", "nan"}, "near must be below far");
+    refused({"--far", "1e16"}, "near must be below far");
+    refused({"--bits", "7"}, "8 to 32");
+    refused({"--format", "d17"}, "no such format");
+    refused({"--format", "d24", "--bits", "24"}, "excludes");
+    refused({"--projection", "fisheye"}, "--projection");
+    refused({"--samples", "1"}, "--samples 1");
+    refused({"--samples", "10000000"}, "samples = 10000000");
+    refused({"--tilt-deg", "85"}, "tilt");
+    refused({"--offset", "1e12"}, "offset");
+    refused({"--plan"}, "--max-error-m and --far");
+    refused({"--plan", "--max-error-m", "-1", "--far", "9"}, "above 0");
+    refused({"--max-error-m", "1"}, "needs --plan");
+    refused({"--compare", "--bits", "16"}, "leave out");
+    refused({"--json", "--csv"}, "name a file");
+    refused({"--plot", "x.jpg"}, ".svg or .png");
+}
+
+TEST(Doctor, CertifiesDepth)
+{
+    const Ending ending = gnomon({"doctor", "--depth", "--json"});
+    expect_done(ending);
+    const Json json = Json::parse(ending.out);
+    for (const auto& [name, format] : json.at("depth_certificate").items()) {
+        for (const char* triangles : {"large", "small"}) {
+            const Json& certificate = format.at(triangles);
+            EXPECT_EQ(certificate.at("outside"), 0) << name << " " << triangles;
+            EXPECT_GT(certificate.at("texels"), 10000) << name << " " << triangles;
+        }
+        if (name.starts_with("d")) {
+            EXPECT_EQ(format.at("offset_units").size(), 6U) << name;
+        }
+    }
+    EXPECT_THAT(gnomon({"doctor", "--depth"}).out, HasSubstr("polygon offset"));
+    EXPECT_FALSE(Json::parse(gnomon({"doctor", "--json"}).out).contains("depth_certificate"));
+}
+
+} // namespace
+} // namespace gnomon::testing

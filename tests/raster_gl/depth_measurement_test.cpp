@@ -1,0 +1,257 @@
+#include "gl_case.hpp"
+
+#include "analysis/depth/depth_error.hpp"
+#include "analysis/depth/depth_plan.hpp"
+#include "analysis/depth/measured_error.hpp"
+#include "analysis/depth/transform_error.hpp"
+#include "raster_gl/depth_formats.hpp"
+#include "raster_gl/raster_planes.hpp"
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+/// Depths that GL stored of planes whose distance is known, against the formulas.
+namespace gnomon::raster_gl {
+namespace {
+
+using analysis::DepthCoding;
+using analysis::DepthErrorRow;
+using analysis::DepthMapping;
+using analysis::MeasuredDepthError;
+using analysis::TexelClass;
+using scene::ClipRange;
+using scene::DepthFormat;
+using scene::DepthPlaneSettings;
+using scene::Projection;
+
+DepthFormat format_of(const std::string& name)
+{
+    return scene::depth_format_from_name(name).value();
+}
+
+/// The textbook lesson's frustum.
+DepthPlaneSettings seed_planes(int count)
+{
+    DepthPlaneSettings settings;
+    settings.range = {Projection::perspective, 4, 50, false, {}};
+    settings.count = count;
+    return settings;
+}
+
+MeasuredDepthError measured(const DepthPlaneSettings& settings, const std::string& format)
+{
+    const scene::DepthPlanes planes = scene::make_depth_planes(settings);
+    RasterPlanes raster{*tests::shared_context(), planes};
+    return analysis::measured_depth_error(DepthMapping{settings.range},
+                                          raster.measure(format_of(format)));
+}
+
+std::vector<std::string> supported_formats()
+{
+    std::vector<std::string> names;
+    for (const FormatSupport& format : query_depth_formats(*tests::shared_context())) {
+        if (format.supported) {
+            names.push_back(format.name);
+        }
+    }
+    return names;
+}
+
+bool runs_full_tests()
+{
+    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
+}
+
+TEST(DepthMeasurement, OfD16IsTheSawtooth)
+{
+    GNOMON_REQUIRE_GL();
+    constexpr int count = 1 << 16;
+    const MeasuredDepthError error = measured(seed_planes(count), "d16");
+    EXPECT_EQ(error.missing, 0U);
+    ASSERT_EQ(error.rows.size(), std::size_t{count});
+    // In the format's bound: one of the two nearest codes of the plane that GL drew.
+    EXPECT_EQ(error.certificate.count(TexelClass::nearest_code) +
+                  error.certificate.count(TexelClass::within_format),
+              std::size_t{count});
+    std::size_t same = 0;
+    for (const DepthErrorRow& row : error.rows) {
+        same += row.code == row.formula_code ? 1 : 0;
+        ASSERT_LE(std::abs(row.error_m), row.model_m) << row.zeta_m;
+    }
+    // Float32 evaluation moves d by some 2^-23, 1/128 code, on either side of each tie.
+    EXPECT_GT(same, count * 95U / 100);
+    EXPECT_NEAR(error.max_error_m, 4.3866e-3, 0.02 * 4.3866e-3);
+}
+
+TEST(DepthMeasurement, OfD16IsZeroAtTheDistancesOfItsCodes)
+{
+    GNOMON_REQUIRE_GL();
+    // The last metre has 44 codes of 8.8 mm: at 2^18 samples, a code every 50 or so.
+    DepthPlaneSettings settings = seed_planes(1 << 18);
+    const MeasuredDepthError error = measured(settings, "d16");
+    const DepthMapping mapping{settings.range};
+    const DepthCoding coding = DepthCoding::unorm(16);
+    const double spacing_m = 46.0 / ((1 << 18) - 1);
+    std::size_t zeros = 0;
+    for (std::size_t i = 1; i < error.rows.size(); ++i) {
+        const DepthErrorRow& before = error.rows[i - 1];
+        const DepthErrorRow& after = error.rows[i];
+        const bool crosses = before.code == after.code && before.error_m >= 0 && after.error_m < 0;
+        if (!crosses || before.zeta_m < 20) { // nearer, a tooth has fewer than 8 samples
+            continue;
+        }
+        const double zero_m = analysis::exact_distance_m(mapping, coding, before.code);
+        ASSERT_GE(zero_m, before.zeta_m - spacing_m);
+        ASSERT_LE(zero_m, after.zeta_m + spacing_m);
+        ++zeros;
+    }
+    // Codes between 20 and 50 m: 65535·(d(50) − d(20)) = 8548.
+    EXPECT_NEAR(static_cast<double>(zeros), 8548, 10);
+}
+
+TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
+{
+    GNOMON_REQUIRE_GL();
+    for (const std::string& format : supported_formats()) {
+        for (const double tilt_deg : {0.0, 60.0}) {
+            for (const double offset_m : {0.0, 100.0}) {
+                DepthPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 14);
+                settings.tilt_rad = glm::radians(tilt_deg);
+                settings.offset_m = offset_m;
+                const MeasuredDepthError error = measured(settings, format);
+                const auto where = fmt::format("{} tilt {} offset {}", format, tilt_deg, offset_m);
+                EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U) << where;
+                EXPECT_LE(error.max_share_of_model, 1) << where;
+                EXPECT_LT(error.missing, error.rows.size() / 100) << where;
+                if (format == "d24" || format == "d32" || format == "d32f") {
+                    EXPECT_GT(error.max_excess_m, 0) << where; // shown, never hidden
+                }
+            }
+        }
+    }
+}
+
+TEST(DepthMeasurement, TransformsErrorStaysBelowTheTheorysBound)
+{
+    GNOMON_REQUIRE_GL();
+    for (const bool reversed : {false, true}) {
+        for (const double offset_m : {0.0, 100.0, 500.0}) {
+            DepthPlaneSettings settings;
+            settings.range = {Projection::perspective, 0.1, 100, reversed,
+                              reversed ? ClipRange::zero_to_one : ClipRange::minus_one_to_one};
+            settings.count = 1 << 13;
+            settings.offset_m = offset_m;
+            const DepthMapping mapping{settings.range};
+            for (const DepthErrorRow& row : measured(settings, "d32f").rows) {
+                // The camera looks along an axis: S has the camera's and the vertex's coordinate.
+                const double row_sum_m = offset_m + std::abs(offset_m - row.zeta_m);
+                ASSERT_LE(std::abs(row.transform_error_m),
+                          analysis::transform_error_m(mapping,
+                                                      analysis::TransformOrder::premultiplied,
+                                                      row.zeta_m, std::max(row_sum_m, row.zeta_m)))
+                    << "offset " << offset_m << " zeta " << row.zeta_m;
+            }
+        }
+    }
+}
+
+TEST(DepthMeasurement, WorksReversedAndInEitherClipRange)
+{
+    GNOMON_REQUIRE_GL();
+    for (const auto projection : {Projection::perspective, Projection::orthographic}) {
+        for (const bool reversed : {false, true}) {
+            for (const auto clip : {ClipRange::minus_one_to_one, ClipRange::zero_to_one}) {
+                for (const char* format : {"d16", "d32f", "u12"}) {
+                    DepthPlaneSettings settings = seed_planes(1 << 12);
+                    settings.range = {projection, 4, 50, reversed, clip};
+                    const MeasuredDepthError error = measured(settings, format);
+                    const auto where = fmt::format(
+                        "{} {} reversed {} clip {}", format,
+                        projection == Projection::perspective ? "perspective" : "orthographic",
+                        reversed, static_cast<int>(clip));
+                    EXPECT_EQ(error.rows.size(), std::size_t{1 << 12}) << where;
+                    EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U) << where;
+                    EXPECT_LE(error.max_share_of_model, 1) << where;
+                }
+            }
+        }
+    }
+}
+
+TEST(DepthMeasurement, OfReversedFloatStaysBelowFarTimesTwoToMinus26AndTheTransformsError)
+{
+    GNOMON_REQUIRE_GL();
+    DepthPlaneSettings settings = seed_planes(1 << 18);
+    settings.range = {Projection::perspective, 4, 50, true, ClipRange::zero_to_one};
+    const MeasuredDepthError error = measured(settings, "d32f");
+    for (const DepthErrorRow& row : error.rows) {
+        // Storing: f·2^-26 = 7.45e-7 m. Transform and division, stated by the theory for a camera
+        // at the origin.
+        const double bound_m = 50 * 0x1p-26 +
+                               analysis::gl_error_bound_m(DepthMapping{settings.range},
+                                                          DepthCoding::float32(), row.zeta_m) -
+                               row.envelope_m;
+        ASSERT_LE(std::abs(row.error_m), bound_m) << row.zeta_m;
+    }
+    settings.range.clip_range = ClipRange::minus_one_to_one;
+    settings.range.reversed = false;
+    // What reversed depth in [0, 1] is for: standard float depth of the same planes.
+    EXPECT_LT(error.max_error_m, 0.25 * measured(settings, "d32f").max_error_m);
+}
+
+TEST(DepthMeasurement, OfAnOrthographicD16SpreadsEvenlyOverACode)
+{
+    GNOMON_REQUIRE_GL();
+    DepthPlaneSettings settings = seed_planes(1 << 16);
+    settings.range.projection = Projection::orthographic;
+    const MeasuredDepthError error = measured(settings, "d16");
+    const double step_m = 46.0 / 65535;
+    // 2^16 samples give the deviation to some 0.2 %; float32 evaluation adds 1/128 of a step.
+    EXPECT_NEAR(error.standard_deviation_m, step_m / std::sqrt(12.0),
+                0.02 * step_m / std::sqrt(12.0));
+    EXPECT_LE(error.max_error_m, step_m);
+    EXPECT_LT(std::abs(error.mean_error_m), 0.02 * step_m);
+}
+
+TEST(DepthMeasurement, AnswersOfThePlanHold)
+{
+    GNOMON_REQUIRE_GL();
+    for (const double max_error_m : {0.01, 0.1}) {
+        for (const auto projection : {Projection::perspective, Projection::orthographic}) {
+            for (const auto& answer : analysis::plan_depth({projection, max_error_m, 200, {}})) {
+                if (!answer.near_m) {
+                    continue;
+                }
+                DepthPlaneSettings settings;
+                settings.range = answer.format.range(projection, *answer.near_m, 200);
+                settings.count = 1 << 14;
+                const MeasuredDepthError error = measured(settings, answer.format.name);
+                EXPECT_LE(error.max_error_m, max_error_m)
+                    << answer.format.name << " near " << *answer.near_m;
+                EXPECT_LE(error.max_error_m, answer.error_at_far_m) << answer.format.name;
+                if (answer.format.name == "d16" && projection == Projection::perspective) {
+                    // Either code is allowed, the nearest is stored: half of it must be there.
+                    EXPECT_GE(error.max_error_m, 0.45 * max_error_m);
+                }
+            }
+        }
+    }
+}
+
+TEST(DepthMeasurement, HoldsAMillionPlanesInOneDraw)
+{
+    GNOMON_REQUIRE_GL();
+    if (!runs_full_tests()) {
+        GTEST_SKIP() << "long: GNOMON_FULL_TESTS is not set";
+    }
+    const MeasuredDepthError error = measured(seed_planes(1 << 20), "d24");
+    EXPECT_EQ(error.rows.size() + error.missing, std::size_t{1 << 20});
+    EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U);
+}
+
+} // namespace
+} // namespace gnomon::raster_gl
