@@ -42,6 +42,8 @@ struct ErrorBin {
     PartCounts counts;
     std::optional<Quantiles> needed_bias; ///< of the lit pixels' finite critical biases
     std::optional<Quantiles> map_error_m; ///< of the scored pixels that have one, signed [m]
+    /// By distance: what storing depths alone may do to `map_error_m` at `upper` [m].
+    std::optional<double> envelope_m;
 };
 
 /// Bins of equal width, and which scored pixels fall into each.

@@ -2,6 +2,7 @@
 
 #include "analysis/blocker_gaps.hpp"
 #include "analysis/critical_bias.hpp"
+#include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/own_sheets.hpp"
 #include "analysis/receiver_geometry.hpp"
@@ -39,7 +40,8 @@ std::vector<std::size_t> pixels_of(const CauseLayers& causes, Label label)
 }
 
 /// Errors by distance, angle and object, at the job's bias.
-void break_down(const ComparedLayers& layers, Diagnosis& diagnosis)
+void break_down(const ComparedLayers& layers, const scene::LightFrustum& frustum,
+                scene::DepthFormat format, Diagnosis& diagnosis)
 {
     const auto& classes = layers.truth.pixel_class;
     const scene::Image<float> no_criticals{diagnosis.biases ? scene::ImageSize{0, 0}
@@ -49,6 +51,7 @@ void break_down(const ComparedLayers& layers, Diagnosis& diagnosis)
                                  diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
                                  diagnosis.map_error_m};
     diagnosis.by_distance = errors_by_bin(bin_by_distance(classes, diagnosis.zeta_m), inputs);
+    add_envelopes(diagnosis.by_distance, frustum, format);
     diagnosis.by_angle = errors_by_bin(bin_by_angle(classes, layers.lookup), inputs);
     diagnosis.by_object =
         errors_by_object(classes, layers.lookup, layers.receivers.triangle, layers.triangles);
@@ -92,7 +95,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     }
     diagnosis.map_error_m =
         map_depth_errors_m(inputs, CentreHits{inputs}, view.frustum, job.shadow_map.depth_format);
-    break_down(layers, diagnosis);
+    break_down(layers, view.frustum, job.shadow_map.depth_format, diagnosis);
     return diagnosis;
 }
 

@@ -110,6 +110,7 @@ Json bins(const std::vector<analysis::ErrorBin>& bins)
         entry.update(part(bin.counts));
         entry["needed_bias"] = quantiles(bin.needed_bias);
         entry["map_error_m"] = quantiles(bin.map_error_m);
+        entry["envelope_m"] = number_or_null(bin.envelope_m);
         json.push_back(std::move(entry));
     }
     return json;

@@ -1,6 +1,7 @@
 #include "analysis/sweep/lookup_answers.hpp"
 
 #include "analysis/bias_answers.hpp"
+#include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/tune.hpp"
 
@@ -46,6 +47,9 @@ CurveResult describe(std::string id, const DescribedCurve& described)
     result.points = sample_curve(described.curve);
     const std::array<float, 2> biases{described.job_bias, described.best.recommended()};
     auto profiles = errors_by_bin(described.distances, described.inputs, biases);
+    for (std::vector<ErrorBin>& profile : profiles) {
+        add_envelopes(profile, described.view.frustum, described.job.shadow_map.depth_format);
+    }
     result.by_distance = {{At::job_bias, biases[0], std::move(profiles[0])},
                           {At::best_bias, biases[1], std::move(profiles[1])}};
     return result;

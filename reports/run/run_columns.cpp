@@ -299,6 +299,8 @@ const std::vector<RunColumn<ErrorBin>>& bin_columns()
              [](const ErrorBin& bin) { return count(bin.counts.false_lit); }}};
         add_quantile_columns(all, "needed_bias", &ErrorBin::needed_bias);
         add_quantile_columns(all, "map_error_m", &ErrorBin::map_error_m);
+        all.push_back(
+            {"envelope_m", real_type, [](const ErrorBin& bin) { return number(bin.envelope_m); }});
         return all;
     }();
     return columns;

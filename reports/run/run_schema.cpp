@@ -113,15 +113,15 @@ std::string rates(std::string_view counts, std::string_view pixels)
 std::string error_vs_z_view()
 {
     std::string counts;
-    std::string quantiles;
+    std::string depths; // from the first quantile on
     for (const auto& column : bin_columns()) {
-        const bool is_quantile = column.name.find('.') != std::string::npos;
-        (is_quantile ? quantiles : counts) += fmt::format(", b.{}", sql_name(column.name));
+        const bool is_count = depths.empty() && column.name.find('.') == std::string::npos;
+        (is_count ? counts : depths) += fmt::format(", b.{}", sql_name(column.name));
     }
     return fmt::format("CREATE VIEW error_vs_z AS SELECT v.id AS curve, b.\"at\" AS \"at\","
                        " b.bias AS bias{}, {}{}"
                        " FROM curve_bins b JOIN curves v ON v.number = b.curve",
-                       counts, rates("b", "b"), quantiles);
+                       counts, rates("b", "b"), depths);
 }
 
 std::string bias_curves_view()

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "analysis/breakdown.hpp"
+#include "scene/job.hpp"
+#include "scene/light_frustum.hpp"
+
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Sets the formula's envelope beside the map errors of bins by light distance: `error_envelope_m`
+/// at each bin's upper edge, at the nearest distance between near and far where that lies outside.
+/// Source: docs/depth_precision.md#envelope.
+void add_envelopes(std::vector<ErrorBin>& by_distance, const scene::LightFrustum& frustum,
+                   scene::DepthFormat format);
+
+} // namespace gnomon::analysis
