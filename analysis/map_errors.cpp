@@ -44,11 +44,6 @@ std::vector<scene::Texel> texels_of(const std::vector<CentreHits::Seen>& seen)
 
 } // namespace
 
-double zeta_of_depth_m(const scene::LightFrustum& frustum, double depth)
-{
-    return DepthMapping{frustum.depth_range()}.zeta_m(depth);
-}
-
 CentreHits::CentreHits(const CauseInputs& inputs)
     : seen_{seen_texels(inputs)},
       hits_{inputs.light, texels_of(seen_), scene::HitDetail::placed}
@@ -64,6 +59,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
                                        const scene::LightFrustum& frustum,
                                        scene::DepthFormat format)
 {
+    const DepthMapping mapping{frustum.depth_range()};
     const float farthest = inputs.rules().farthest_depth();
     scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
                                  std::numeric_limits<float>::quiet_NaN()};
@@ -77,7 +73,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
                                                              depth_step(format, farthest);
             if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
                 errors_m[seen[i].pixel] =
-                    static_cast<float>(zeta_of_depth_m(frustum, double{stored}) - hit.zeta_m);
+                    static_cast<float>(mapping.zeta_m(double{stored}) - hit.zeta_m);
             }
         }
     });

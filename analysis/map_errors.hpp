@@ -47,8 +47,4 @@ private:
                                                      const scene::LightFrustum& frustum,
                                                      scene::DepthFormat format);
 
-/// The light distance that a depth stands for [m]: ζ = near + d·(far − near) for a directional
-/// light, 1/ζ = 1/near − (1/near − 1/far)·d for a spot; reversed depths count from far.
-[[nodiscard]] double zeta_of_depth_m(const scene::LightFrustum& frustum, double depth);
-
 } // namespace gnomon::analysis

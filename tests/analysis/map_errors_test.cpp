@@ -23,21 +23,6 @@ scene::LightFrustum frustum_of(scene::Projection projection, bool reversed)
     return frustum;
 }
 
-TEST(ZetaOfDepth, RunsFromNearToFar)
-{
-    for (const auto projection :
-         {scene::Projection::orthographic, scene::Projection::perspective}) {
-        EXPECT_EQ(zeta_of_depth_m(frustum_of(projection, false), 0), 2);
-        EXPECT_DOUBLE_EQ(zeta_of_depth_m(frustum_of(projection, false), 1), 10);
-        EXPECT_DOUBLE_EQ(zeta_of_depth_m(frustum_of(projection, true), 0), 10);
-        EXPECT_EQ(zeta_of_depth_m(frustum_of(projection, true), 1), 2);
-    }
-    EXPECT_EQ(zeta_of_depth_m(frustum_of(scene::Projection::orthographic, false), 0.25), 4);
-    // 1/ζ = 1/2 − (1/2 − 1/10)/2 = 3/10
-    EXPECT_DOUBLE_EQ(zeta_of_depth_m(frustum_of(scene::Projection::perspective, false), 0.5),
-                     10.0 / 3);
-}
-
 /// Four pixels looked up in one row of an 8×8 map: hit, missed by GL, rounded to far, not scored.
 struct Row {
     scene::TruthLayers truth;
