@@ -13,13 +13,11 @@ namespace {
 
 using scene::PixelClass;
 
-scene::LightFrustum frustum_of(scene::Projection projection, bool reversed)
+scene::LightFrustum orthographic_frustum()
 {
     scene::LightFrustum frustum;
-    frustum.projection = projection;
     frustum.near_m = 2;
     frustum.far_m = 10;
-    frustum.reversed = reversed;
     return frustum;
 }
 
@@ -55,8 +53,7 @@ struct Row {
                                  lookup,
                                  no_depths,
                                  light};
-        return map_depth_errors_m(inputs, CentreHits{inputs},
-                                  frustum_of(scene::Projection::orthographic, false),
+        return map_depth_errors_m(inputs, CentreHits{inputs}, orthographic_frustum(),
                                   {scene::DepthFormat::Kind::unorm, 8});
     }
 };
