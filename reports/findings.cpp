@@ -192,13 +192,14 @@ Change best_advice(const std::vector<analysis::Advice>& advice)
 }
 
 /// The best change that is known; nothing where a diagnosis has no such answers.
-std::optional<Change> best_change(const analysis::Comparison& comparison)
+std::optional<Change> best_change(const analysis::Comparison& comparison,
+                                  const analysis::Diagnosis& diagnosis)
 {
     if (!comparison.advice.empty()) {
         return best_advice(comparison.advice);
     }
-    if (const auto& biases = comparison.diagnosis->biases) {
-        return best_bias(*biases);
+    if (diagnosis.biases) {
+        return best_bias(*diagnosis.biases);
     }
     return comparison.reruns.empty() ? std::nullopt : std::optional{best_rerun(comparison.reruns)};
 }
@@ -225,16 +226,11 @@ std::string other_biases(const scene::Bias& bias)
     return others.empty() ? "" : fmt::format("There is {} as well", fmt::join(others, " and "));
 }
 
-Cause main_cause(const analysis::Comparison& comparison)
-{
-    return most<Cause>(comparison.diagnosis->causes.counts.by_cause);
-}
-
 /// What to look at for the main cause, without its full stop.
-std::string what_to_try(const analysis::Comparison& comparison)
+std::string what_to_try(const scene::Bias& bias, const analysis::CauseCounts& counts)
 {
-    const Cause cause = main_cause(comparison);
-    return cause == Cause::bias ? other_biases(comparison.view.bias) : std::string{to_try(cause)};
+    const auto cause = most<Cause>(counts.by_cause);
+    return cause == Cause::bias ? other_biases(bias) : std::string{to_try(cause)};
 }
 
 void append(std::vector<std::string>& sentences, std::string sentence)
@@ -254,7 +250,7 @@ std::vector<std::string> errors_in_words(const analysis::Comparison& comparison)
     const analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
     std::vector<std::string> sentences{what_is_wrong(comparison.metrics, counts)};
     if (comparison.metrics.false_shadow + comparison.metrics.false_lit > 0) {
-        const std::string hint = what_to_try(comparison);
+        const std::string hint = what_to_try(comparison.view.bias, counts);
         append(sentences, hint.empty() ? hint : hint + ".");
     }
     return sentences;
@@ -266,17 +262,18 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     if (!comparison.diagnosis || now == 0) {
         return errors_in_words(comparison);
     }
-    std::vector<std::string> sentences{
-        what_is_wrong(comparison.metrics, comparison.diagnosis->causes.counts)};
-    if (const auto& biases = comparison.diagnosis->biases) {
-        append(sentences, against_limits(comparison.view.bias.constant, biases->bounds));
+    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
+    const analysis::CauseCounts& counts = diagnosis.causes.counts;
+    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, counts)};
+    if (diagnosis.biases) {
+        append(sentences, against_limits(comparison.view.bias.constant, diagnosis.biases->bounds));
     }
-    const auto change = best_change(comparison);
+    const auto change = best_change(comparison, diagnosis);
     const bool helps = change && change->errors.total() < now;
     if (change && (helps || sentences.size() < 2)) {
         append(sentences, in_words(*change, now));
     }
-    const std::string hint = what_to_try(comparison);
+    const std::string hint = what_to_try(comparison.view.bias, counts);
     if (sentences.size() < 3 && comparison.advice.empty() && !hint.empty()) {
         append(sentences, fmt::format("{}; --advise measures it.", hint));
     }
