@@ -63,13 +63,13 @@ def draw(tables):
     figure = style.new_figure(
         "Error of a stored depth against distance",
         f"{curves[0]['frustum']}; ideal storage, nearest of 2ⁿ evenly spaced codes",
-        6.6 if zoomed else 4.4,
+        6.8 if zoomed else 4.6,
     )
-    grid = style.lay_out(figure, top_in=0.80, right_in=0.95, nrows=2 if zoomed else 1, ncols=1,
+    grid = style.lay_out(figure, top_in=0.98, right_in=0.95, nrows=2 if zoomed else 1, ncols=1,
                          height_ratios=(1.75, 1) if zoomed else None, hspace=0.42)
     _draw_all(figure.add_subplot(grid[0]), curves)
     if zoomed:
-        row = grid[1].subgridspec(1, len(zoomed), wspace=0.42)
+        row = grid[1].subgridspec(1, len(zoomed), wspace=0.45)
         for column, (curve, colour) in enumerate(zoomed):
             _draw_last_teeth(figure.add_subplot(row[column]), curve, colour)
     return figure
@@ -90,7 +90,7 @@ def _draw_all(axes, curves):
                       annotation_clip=False)
     axes.plot([], [], color=style.GREY, label="envelope (formula)")
     axes.plot([], [], color=style.GREY, linewidth=0.9, label="sawtooth")
-    axes.plot([], [], ".", color=style.GREY, markersize=4, label="sawtooth, too fine to draw: samples")
+    axes.plot([], [], ".", color=style.GREY, markersize=4, label="samples of a finer sawtooth")
     axes.set_yscale("log")
     zeta, envelope = curves[0]["envelope"]
     axes.set_xlim(zeta[0], zeta[-1])

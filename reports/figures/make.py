@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws a figure from CSV files that Gnomon wrote; docs/depth_precision.md#figures shows them all."""
+"""Draws a figure from CSV files that Gnomon wrote; docs/depth_precision.md#figures shows them."""
 
 import argparse
 import sys

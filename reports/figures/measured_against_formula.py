@@ -1,5 +1,7 @@
 """GL's stored depths against the formula: errors within the envelope, and what is left over."""
 
+import numpy
+
 import style
 import tables as csv_tables
 
@@ -31,51 +33,40 @@ def draw(tables):
     curves = data(tables)
     figure = style.new_figure(
         "Depth as GL stores it, against the formula",
-        f"{curves[0]['frustum']}; {len(curves[0]['zeta']):,} planes that face the camera",
+        f"{curves[0]['frustum']}; {len(curves[0]['zeta']):,} planes",
         6.0,
     )
-    grid = style.lay_out(figure, top_in=1.45, nrows=2, ncols=len(curves), hspace=0.12,
+    grid = style.lay_out(figure, top_in=1.35, nrows=2, ncols=len(curves), hspace=0.12,
                          wspace=0.28, height_ratios=(1.5, 1))
     for column, curve in enumerate(curves):
         errors = figure.add_subplot(grid[0, column])
         residuals = figure.add_subplot(grid[1, column], sharex=errors)
-        factor, unit = style.length_unit(curve["model"].max())
-        _draw_errors(errors, curve, factor)
-        _draw_residuals(residuals, curve, factor)
-        errors.set_ylabel(f"error of ζ [{unit}]")
-        residuals.set_ylabel(f"residual [{unit}]")
-    _add_legend(figure)
+        _draw_errors(errors, curve)
+        _draw_residuals(residuals, curve)
+    style.add_legend(figure, ncol=3)
     return figure
 
 
-def _draw_errors(axes, curve, factor):
+def _draw_errors(axes, curve):
     zeta = curve["zeta"]
-    axes.plot(zeta, factor * curve["error"], ".", color=style.BLUE, markersize=2, alpha=0.5,
-              label="GL's error (measured)")
-    for name, colour, dashes, label in (
-        ("envelope", style.VERMILION, "-", "envelope (formula)"),
-        ("model", style.BLACK, "--", "bound of the driver model"),
-    ):
-        axes.plot(zeta, factor * curve[name], dashes, color=colour, linewidth=1.5, label=label)
-        axes.plot(zeta, -factor * curve[name], dashes, color=colour, linewidth=1.5)
+    axes.plot(zeta, numpy.abs(curve["error"]), ".", color=style.BLUE, markersize=2.2, alpha=0.6,
+              label="GL's |error| (measured)")
+    axes.plot(zeta, curve["envelope"], color=style.VERMILION, label="envelope (formula)")
+    axes.plot(zeta, curve["model"], color=style.BLACK, linewidth=1,
+              label="bound of the driver model")
     axes.set_xlim(zeta[0], zeta[-1])
+    axes.set_yscale("log")
+    axes.set_ylim(curve["envelope"].min() / 20, 2 * curve["model"].max())
+    axes.set_ylabel("|error of ζ| [m]")
     axes.set_title(curve["name"])
     axes.tick_params(labelbottom=False)
 
 
-def _draw_residuals(axes, curve, factor):
-    axes.plot(curve["zeta"], factor * curve["residual"], ".", color=style.GREEN, markersize=2.5,
-              alpha=0.6, label="residual: measured − formula")
-    axes.plot(curve["zeta"], factor * curve["transform"], ".", color=style.ORANGE, markersize=2,
+def _draw_residuals(axes, curve):
+    factor, unit = style.length_unit(numpy.abs(curve["residual"]).max())
+    axes.plot(curve["zeta"], factor * curve["transform"], ".", color=style.ORANGE, markersize=2.2,
               alpha=0.6, label="vertex transform's share")
+    axes.plot(curve["zeta"], factor * curve["residual"], ".", color=style.GREEN, markersize=2.2,
+              alpha=0.7, label="residual: measured − formula")
+    axes.set_ylabel(f"residual [{unit}]")
     axes.set_xlabel("distance ζ [m]")
-
-
-def _add_legend(figure):
-    entries = {}
-    for axes in figure.axes:
-        for handle, label in zip(*axes.get_legend_handles_labels()):
-            entries.setdefault(label, handle)
-    height_in = figure.get_size_inches()[1]
-    figure.legend(entries.values(), entries.keys(), loc="upper center", ncol=3, markerscale=4,
-                  bbox_to_anchor=(0.5, 1 - 0.55 / height_in), handlelength=1.6)

@@ -32,7 +32,7 @@ def draw(tables):
     storage = csv_tables.storage_of(tables[0])
     figure = style.new_figure(
         "Reversed depth makes float32 precise far away",
-        f"{storage.frustum}; {len(curves[0]['zeta']):,} planes that face the camera",
+        f"{storage.frustum}; {len(curves[0]['zeta']):,} planes; lines: envelope, dots: |error|",
         4.6,
     )
     grid = style.lay_out(figure, top_in=1.15, nrows=1, ncols=2, wspace=0.08)
@@ -46,9 +46,7 @@ def draw(tables):
     formula.set_title("ideal storage (formula)")
     measured.set_title("as GL stored it (measured)")
     measured.tick_params(labelleft=False)
-    handles, names = formula.get_legend_handles_labels()
-    figure.legend(handles, names, loc="upper center", ncol=len(curves),
-                  bbox_to_anchor=(0.5, 1 - 0.55 / 4.6), handlelength=1.6, title=None)
+    style.add_legend(figure, ncol=len(curves))
     return figure
 
 
@@ -59,10 +57,11 @@ def _draw_panel(axes, curve, which, colour):
 
 def _set_axes(axes, curves):
     largest = max(max(curve["measured"].max(), curve["envelope"].max()) for curve in curves)
-    smallest = min(curve["envelope"].min() for curve in curves)
+    # The envelope of reversed floats ends at 0, where no logarithmic axis reaches.
+    smallest = min(curve["envelope"][0] for curve in curves)
     axes.set_xlim(curves[0]["zeta"][0], curves[0]["zeta"][-1])
     axes.set_yscale("log")
-    axes.set_ylim(smallest / 8, 2.5 * largest)
+    axes.set_ylim(smallest / 40, 2.5 * largest)
     axes.set_ylabel("|error of ζ| [m]")
     for panel in axes.figure.axes:
         panel.set_xlabel("distance ζ [m]")
@@ -74,4 +73,4 @@ def _mark_float_limit(axes, storage):
     axes.axvline(limit_m, color=style.GREY, linewidth=1, linestyle="--")
     axes.annotate(f"from {limit_m:.2f} m on float32\nis no finer than 24 bits", (limit_m, 0.03),
                   (5, 0), xycoords=("data", "axes fraction"), textcoords="offset points", size=9,
-                  color="#444444")
+                  color="#444444", bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5})

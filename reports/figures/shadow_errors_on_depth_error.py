@@ -9,7 +9,8 @@ TEXTS = ("curve", "at")
 COUNTS = ("lit", "blocked", "false_shadow", "false_lit")
 MAP_ERRORS = ("map_error_m.min", "map_error_m.median", "map_error_m.p95", "map_error_m.max")
 BINS = ("bias", "lower_m", "upper_m", *COUNTS, *MAP_ERRORS, "envelope_m")
-SETTING_TEXTS = ("curve", "scene.builtin", "shadow_map.depth_format", "lookup.filter")
+SETTING_TEXTS = ("curve", "scene.builtin", "scene.file", "shadow_map.depth_format",
+                 "lookup.filter")
 SETTINGS = ("shadow_map.resolution", "map_near_m", "map_far_m")
 
 # Neighbouring bins are united until they have as many pixels, so that one pixel moves a rate by
@@ -92,21 +93,24 @@ def draw(tables):
         shared = shared or rates
         _draw_rates(rates, curve)
         _draw_map_error(figure.add_subplot(grid[1, column], sharex=rates), curve)
-    _set_rate_axis(shared, curves)
-    _add_legend(figure)
+    _set_rate_axis(shared)
+    style.add_legend(figure, ncol=3)
     return figure
 
 
 def _title(curves):
-    return f"Shadow errors over the map's depth error: {curves[0]['settings']['scene.builtin']}"
+    settings = curves[0]["settings"]
+    scene = settings[["scene.builtin", "scene.file"]].dropna().iloc[0]
+    return f"Shadow errors over the map's depth error: {scene}"
 
 
 def _settings(curves):
     settings = curves[0]["settings"]
+    bias = f"{curves[0]['bias']:g}".replace("e-0", "e-")
     return (
         f"near {settings['map_near_m']:g} m, far {settings['map_far_m']:g} m;"
         f" {settings['shadow_map.resolution']:g}² map, filter {settings['lookup.filter']};"
-        f" constant bias {curves[0]['bias']:g} in depth units"
+        f" constant bias {bias} depth units"
     )
 
 
@@ -117,22 +121,16 @@ def _draw_rates(axes, curve):
     ):
         axes.stairs(100 * curve[name], curve["edges"], baseline=None, color=colour, linewidth=1.8,
                     label=label)
-    axes.set_title(f"{curve['name']}")
+    axes.set_title(curve["name"])
     axes.set_ylabel("wrong pixels [%]")
     axes.tick_params(labelbottom=False)
 
 
-def _set_rate_axis(axes, curves):
+def _set_rate_axis(axes):
     """Logarithmic beyond a hundredth of a percent, so that a rate of 0 has its place as well."""
-    largest = max(
-        numpy.nanmax(numpy.append(curve[name], 0))
-        for curve in curves for name in ("false_shadow_rate", "false_lit_rate")
-    )
     axes.set_yscale("symlog", linthresh=0.01, linscale=0.5)
-    axes.set_ylim(-0.002, max(1, 250 * largest))
-    axes.set_yticks([0, 0.01, 0.1, 1, 10, 100][: 4 + (largest > 0.004) + (largest > 0.4)],
-                    labels=["0", "0.01", "0.1", "1", "10", "100"][: 4 + (largest > 0.004)
-                                                                 + (largest > 0.4)])
+    axes.set_ylim(-0.002, 100)
+    axes.set_yticks([0, 0.01, 0.1, 1, 10, 100], labels=["0", "0.01", "0.1", "1", "10", "100"])
 
 
 def _draw_map_error(axes, curve):
@@ -149,13 +147,3 @@ def _draw_map_error(axes, curve):
     axes.set_xlim(curve["edges"][0], curve["edges"][-1])
     axes.set_xlabel("distance ζ from the light's plane [m]")
     axes.set_ylabel(f"depth error [{unit}]")
-
-
-def _add_legend(figure):
-    entries = {}
-    for axes in figure.axes:
-        for handle, label in zip(*axes.get_legend_handles_labels()):
-            entries.setdefault(label, handle)
-    height_in = figure.get_size_inches()[1]
-    figure.legend(entries.values(), entries.keys(), loc="upper center", ncol=3, handlelength=1.6,
-                  bbox_to_anchor=(0.5, 1 - 0.55 / height_in), columnspacing=1.4)

@@ -40,7 +40,10 @@ def read(path, columns, texts=()):
     Raises InputError where the file is missing, empty or lacks one of them.
     """
     try:
-        table = pandas.read_csv(path, dtype=dict.fromkeys(texts, str))
+        # The default parser of pandas is off by an ulp now and then.
+        table = pandas.read_csv(
+            path, dtype=dict.fromkeys(texts, str), float_precision="round_trip"
+        )
     except FileNotFoundError:
         raise InputError(f"{path}: no such file; docs/depth_precision.md says how to write it")
     except pandas.errors.EmptyDataError:
