@@ -10,14 +10,14 @@ read = csv_tables.read_formulas
 COLOURS = (style.VERMILION, style.ORANGE, style.GREEN, style.BLUE, style.PURPLE)
 SAMPLES_PER_TOOTH = 6
 TEETH_ACROSS = 150  # more of them than this across the axis run into each other
-LAST_TEETH = 8
+LAST_CODES = 8
 DOTS = 240
 
 
 def data(tables):
     """One series a table, by bits: envelope, teeth where they can be resolved, dots elsewhere.
 
-    `last_teeth` is the signed error just before far, or empty where the samples are too few.
+    `last_codes` is the signed error just before far, or empty where the samples are too few.
     All are pairs of arrays (ζ, error) in metres.
     """
     storages = csv_tables.common_frustum(tables)
@@ -40,8 +40,9 @@ def _series(table, storage):
     )
     first = len(zeta) if not is_resolved.any() else int(is_resolved.argmax())
     dots = numpy.arange(0, first, max(1, len(zeta) // DOTS))
-    last = zeta >= storage.far_m - LAST_TEETH * tooth[-1]
-    if last.sum() < LAST_TEETH * SAMPLES_PER_TOOTH:
+    code = table["formula_code"].to_numpy()
+    last = numpy.abs(code - code[-1]) < LAST_CODES
+    if last.sum() < LAST_CODES * SAMPLES_PER_TOOTH:
         last[:] = False
     return {
         "bits": storage.bits,
@@ -50,16 +51,18 @@ def _series(table, storage):
         "envelope": (zeta, envelope),
         "teeth": (zeta[first:], numpy.abs(error[first:])),
         "dots": (zeta[dots], numpy.abs(error[dots])),
-        "last_teeth": (zeta[last], error[last]),
+        "last_codes": (zeta[last], error[last]),
         "last_envelope": (zeta[last], envelope[last]),
     }
 
 
 def draw(tables):
-    """The full range on a logarithmic axis; below it the last teeth of each curve that has them."""
+    """The full range on a logarithmic axis; below it the last codes of each curve with samples
+    enough for them.
+    """
     curves = data(tables)
     zoomed = [(curve, colour) for curve, colour in zip(curves, _colours(curves))
-              if curve["last_teeth"][0].size > 0]
+              if curve["last_codes"][0].size > 0]
     figure = style.new_figure(
         "Error of a stored depth against distance",
         f"{curves[0]['frustum']}; ideal storage, nearest of 2ⁿ evenly spaced codes",
@@ -71,7 +74,7 @@ def draw(tables):
     if zoomed:
         row = grid[1].subgridspec(1, len(zoomed), wspace=0.45)
         for column, (curve, colour) in enumerate(zoomed):
-            _draw_last_teeth(figure.add_subplot(row[column]), curve, colour)
+            _draw_last_codes(figure.add_subplot(row[column]), curve, colour)
     return figure
 
 
@@ -101,8 +104,8 @@ def _draw_all(axes, curves):
                 handlelength=1.6)
 
 
-def _draw_last_teeth(axes, curve, colour):
-    zeta, error = curve["last_teeth"]
+def _draw_last_codes(axes, curve, colour):
+    zeta, error = curve["last_codes"]
     envelope = curve["last_envelope"][1]
     factor, unit = style.length_unit(envelope[-1])
     axes.plot(zeta, factor * error, color=colour, linewidth=1.1)
@@ -111,6 +114,6 @@ def _draw_last_teeth(axes, curve, colour):
     axes.set_xlim(zeta[0], zeta[-1])
     axes.locator_params(axis="x", nbins=3)
     axes.ticklabel_format(axis="x", useOffset=False)
-    axes.set_title(f"{curve['name']}: the last {LAST_TEETH} teeth", color=colour, size=10)
+    axes.set_title(f"{curve['name']}: the last {LAST_CODES} codes", color=colour, size=10)
     axes.set_xlabel("ζ [m]")
     axes.set_ylabel(f"error of ζ [{unit}]", labelpad=2)

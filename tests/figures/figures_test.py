@@ -77,7 +77,7 @@ class ErrorVsZ(unittest.TestCase):
 
     def test_teeth_are_drawn_where_six_samples_resolve_them(self):
         zeta, error = self.curves[0]["teeth"]
-        spacing = 46 / 159
+        spacing = 46 / 199
         all_zeta, envelope = self.curves[0]["envelope"]
         expected = all_zeta[2 * envelope >= 6 * spacing * (1 - 1e-9)]
         assert_array_equal(zeta, expected)
@@ -105,15 +105,16 @@ class ErrorVsZ(unittest.TestCase):
                          ["envelope (formula)", "sawtooth", "samples of a finer sawtooth"])
         self.assertEqual([text.get_text() for text in axes.texts], ["8 bits", "24 bits"])
 
-    def test_last_teeth_are_signed_and_only_those_resolved(self):
+    def test_last_codes_are_signed_and_only_those_resolved(self):
         self.assertEqual([axes.get_title() for axes in self.figure.axes[1:]],
-                         ["8 bits: the last 8 teeth"])
+                         ["8 bits: the last 8 codes"])
         axes = self.figure.axes[1]
         zeta, error = axes.get_lines()[0].get_data()
-        self.assertGreaterEqual(zeta[0], 50 - 16 * 1.15347)
+        # Half a code below the eighth from the end: 1/ζ = 1/4 - (1/4 - 1/50)(247.5/255).
+        self.assertAlmostEqual(zeta[0], 1 / (0.25 - 0.23 * 247.5 / 255), delta=46 / 199)
         assert_array_equal(error, column("formula8", "formula_error_m")[-len(zeta):])
         self.assertEqual(axes.get_ylabel(), "error of ζ [m]")
-        self.assertEqual(self.curves[1]["last_teeth"][0].size, 0)
+        self.assertEqual(self.curves[1]["last_codes"][0].size, 0)
 
     def test_refuses_floats_and_another_frustum(self):
         with self.assertRaisesRegex(tables.InputError, "d32f.csv: codes of a float"):
@@ -265,8 +266,8 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
         self.assertEqual(legend_labels(self.figure.legends[0]), [
             "false shadow, per lit pixel", "false lit, per blocked pixel",
             "map error, smallest to largest", "95 % are below", "median", "envelope (formula)"])
-        self.assertIn("near 4 m, far 50 m; 1024² map, filter linear; constant bias 4e-6 depth units",
-                      [text.get_text() for text in self.figure.texts])
+        self.assertIn("near 4 m, far 50 m; 1024² map, filter linear;"
+                      " constant bias 4e-6 depth units", [text.get_text() for text in self.figure.texts])
 
     def test_refuses_results_of_another_run(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -311,7 +312,8 @@ class CommandLine(unittest.TestCase):
                     written = []
                     for run in range(2):
                         output = self.folder / f"{name}{run}.{kind}"
-                        self.assertEqual(self.run_make(name, *paths(*inputs), "-o", output), (0, ""))
+                        ended = self.run_make(name, *paths(*inputs), "-o", output)
+                        self.assertEqual(ended, (0, ""))
                         written.append(output.read_bytes())
                     self.assertTrue(written[0].startswith(magic))
                     self.assertEqual(written[0], written[1])
