@@ -1,0 +1,132 @@
+"""The CSV files that Gnomon writes, and what they say about the storage they were made with."""
+
+from dataclasses import dataclass
+
+import numpy
+import pandas
+
+FORMULA_COLUMNS = ("zeta_m", "depth", "envelope_m", "formula_code", "formula_error_m")
+MEASURED_COLUMNS = ("error_m", "transform_error_m", "model_m")
+
+
+class InputError(Exception):
+    """Bad input, in one line: which file, what about it, and what to do."""
+
+
+@dataclass(frozen=True)
+class Storage:
+    """What stores the depths of a table of `gnomon depth`; bits is None for a float32."""
+
+    near_m: float
+    far_m: float
+    is_reversed: bool
+    bits: int | None
+
+    @property
+    def name(self):
+        """As in a legend: "16 bits", "float32 reversed"."""
+        kind = "float32" if self.bits is None else f"{self.bits} bits"
+        return f"{kind} reversed" if self.is_reversed else kind
+
+    @property
+    def frustum(self):
+        """As under a title."""
+        return f"perspective, near {self.near_m:g} m, far {self.far_m:g} m"
+
+
+def read(path, columns, texts=()):
+    """A table with numbers in `columns` (empty cells are NaN) and texts in `texts`.
+
+    Raises InputError where the file is missing, empty or lacks one of them.
+    """
+    try:
+        # The default parser of pandas is off by an ulp now and then.
+        table = pandas.read_csv(
+            path, dtype=dict.fromkeys(texts, str), float_precision="round_trip"
+        )
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file; docs/depth_precision.md says how to write it")
+    except pandas.errors.EmptyDataError:
+        raise InputError(f"{path}: the file is empty; write it again with gnomon")
+    except (OSError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise InputError(f"{path}: cannot be read as CSV: {reason}")
+    missing = [name for name in (*texts, *columns) if name not in table]
+    if missing:
+        raise InputError(f"{path}: no column {missing[0]}; see docs/csv_schema.md")
+    if table.empty:
+        raise InputError(f"{path}: no rows under the header; write it again with gnomon")
+    for name in columns:
+        numbers = pandas.to_numeric(table[name], errors="coerce")
+        bad = numbers.isna() & table[name].notna()
+        if bad.any():
+            row = int(bad.to_numpy().argmax())
+            raise InputError(f"{path}: line {row + 2}: {name} is no number: {table[name][row]}")
+        table[name] = numbers.astype(float)
+    return table
+
+
+def read_formulas(paths):
+    """Tables of `gnomon depth --csv`, with or without GL's part."""
+    return [_read_depths(path, FORMULA_COLUMNS) for path in paths]
+
+
+def read_measured(paths):
+    """Tables of `gnomon depth --csv` with GL's part; planes that GL did not draw are left out."""
+    return [_read_depths(path, FORMULA_COLUMNS + MEASURED_COLUMNS) for path in paths]
+
+
+def _read_depths(path, columns):
+    table = read(path, columns)
+    rows = table.dropna(subset=list(columns)).reset_index(drop=True)
+    if len(rows) < 3:
+        raise InputError(
+            f"{path}: only {len(rows)} rows have all of {', '.join(columns)};"
+            " was it written with --theory-only?"
+        )
+    rows.attrs["path"] = str(path)
+    return rows
+
+
+def storage_of(table):
+    """Near, far and bits of a table, from its depths and codes: 1/ζ is linear in depth.
+
+    Raises InputError if it is not, that is, for an orthographic projection.
+    """
+    depth = table["depth"].to_numpy()
+    inverse = 1 / table["zeta_m"].to_numpy()
+    slope = (inverse[-1] - inverse[0]) / (depth[-1] - depth[0])
+    at_0 = inverse[0] - slope * depth[0]
+    if not numpy.allclose(at_0 + slope * depth, inverse, rtol=1e-9, atol=0):
+        raise InputError(
+            f"{table.attrs['path']}: these depths are of no perspective; leave out"
+            " --projection orthographic"
+        )
+    far_m, near_m = sorted((1 / at_0, 1 / (at_0 + slope)), reverse=True)
+    return Storage(near_m, far_m, is_reversed=slope > 0, bits=_bits_of(table))
+
+
+def _bits_of(table):
+    """The width whose nearest codes the table's are; None where they are the bits of a float."""
+    depth = table["depth"].to_numpy()
+    code = table["formula_code"].to_numpy()
+    for bits in range(8, 33):
+        # A depth is rounded to double, which moves a code by 2^-21 at most.
+        if numpy.all(numpy.abs(code - depth * (2**bits - 1)) <= 0.5 + 2**-20):
+            return bits
+    return None
+
+
+def common_frustum(tables):
+    """The storages of tables that share near and far.
+
+    Raises InputError where they do not.
+    """
+    storages = [storage_of(table) for table in tables]
+    for table, storage in zip(tables, storages):
+        if storage.frustum != storages[0].frustum:
+            raise InputError(
+                f"{table.attrs['path']}: {storage.frustum}, but the first table has"
+                f" {storages[0].frustum}; give one frustum"
+            )
+    return storages
