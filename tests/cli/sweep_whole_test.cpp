@@ -48,7 +48,7 @@ camera.eye = [2, 4, 16]
 path every_row(const path& csv, int n)
 {
     std::ifstream all{csv};
-    const path some = csv.parent_path() / "some.csv";
+    path some = csv.parent_path() / "some.csv";
     std::ofstream out{some};
     std::string line;
     for (int i = 0; std::getline(all, line); ++i) {
