@@ -42,7 +42,7 @@ struct ErrorBin {
     PartCounts counts;
     std::optional<Quantiles> needed_bias; ///< of the lit pixels' finite critical biases
     std::optional<Quantiles> map_error_m; ///< of the scored pixels that have one, signed [m]
-    /// By distance: what storing depths alone may do to `map_error_m` at `upper` [m].
+    /// By distance: what storing depths alone may do to `map_error_m` [m].
     std::optional<double> envelope_m;
 };
 

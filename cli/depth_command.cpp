@@ -197,7 +197,7 @@ void plan(const DepthOptions& options)
 {
     if (!options.max_error_m || !options.far_m) {
         throw scene::InputError(
-            "--plan needs --max-error-m and --far: the error to keep, and up to "
+            "--plan needs both --max-error-m and --far: the error to keep, and up to "
             "which distance");
     }
     if (!(*options.max_error_m > 0) || !std::isfinite(*options.max_error_m)) {
@@ -221,6 +221,13 @@ void require_consistent(const DepthOptions& options)
                                     "--format, --csv and --plot");
         }
     }
+    const DepthOptions defaults;
+    if (options.plan && (options.offset_m != 0 || options.tilt_deg != 0 || options.reversed ||
+                         !options.clip.empty() || options.samples != defaults.samples)) {
+        throw scene::InputError("--plan is about flat planes before a camera at the origin, in "
+                                "both directions of depth: leave out --offset, --tilt-deg, "
+                                "--reversed, --clip and --samples");
+    }
     if (options.max_error_m && !options.plan) {
         throw scene::InputError("--max-error-m needs --plan");
     }
@@ -228,8 +235,9 @@ void require_consistent(const DepthOptions& options)
         throw scene::InputError(
             "--json and --csv both write to standard output: name a file, --csv FILE");
     }
-    if (options.samples < 2) {
-        throw scene::InputError(fmt::format("--samples {}: must be at least 2", options.samples));
+    if (options.samples < 2 || options.samples > scene::most_depth_planes) {
+        throw scene::InputError(fmt::format("--samples {}: must be 2 to {}", options.samples,
+                                            scene::most_depth_planes));
     }
     if (!options.plot_path.empty()) {
         reports::require_drawing_path(options.plot_path);

@@ -17,7 +17,6 @@ namespace {
 
 constexpr int smallest_tile_texels = 4; // a triangle in it surely covers the centre of a texel
 constexpr int largest_map_texels = 16384;
-constexpr int largest_count = 1 << 22;
 constexpr double largest_tilt_deg = 80;
 constexpr double half_width_tangent = 0.125; // of the view; 1 − tan 80° · 0.125 is above 0
 
@@ -67,9 +66,9 @@ std::array<Vec2d, 3> corner_positions(const DepthPlanes& planes, std::size_t sam
 
 void check(const DepthPlaneSettings& settings)
 {
-    if (settings.count < 1 || settings.count > largest_count) {
+    if (settings.count < 1 || settings.count > most_depth_planes) {
         throw InputError(
-            fmt::format("samples = {}: must be 1 to {}", settings.count, largest_count));
+            fmt::format("samples = {}: must be 1 to {}", settings.count, most_depth_planes));
     }
     if (!(settings.tilt_rad >= 0 && settings.tilt_rad <= glm::radians(largest_tilt_deg))) {
         throw InputError(fmt::format("tilt = {:g} deg: must be 0 to {}",

@@ -8,6 +8,9 @@
 
 namespace gnomon::scene {
 
+/// Planes that are measured at most.
+inline constexpr int most_depth_planes = 1 << 22;
+
 /// Planes to measure stored depths on.
 struct DepthPlaneSettings {
     DepthRange range;

@@ -3,17 +3,39 @@
 #include "analysis/depth/depth_error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon::analysis {
+
+namespace {
+
+/// The largest envelope in a bin, of 65 distances evenly spaced over it: for evenly spaced codes
+/// that is the upper edge's, but a float32's falls where its depth meets a power of two.
+double largest_in(const DepthMapping& mapping, const DepthCoding& coding, double lower_m,
+                  double upper_m)
+{
+    double largest_m = std::max(error_envelope_m(mapping, coding, lower_m),
+                                error_envelope_m(mapping, coding, upper_m));
+    constexpr int steps = 64;
+    for (int i = 1; i < steps; ++i) {
+        const double zeta_m = std::lerp(lower_m, upper_m, i / double{steps});
+        largest_m = std::max(largest_m, error_envelope_m(mapping, coding, zeta_m));
+    }
+    return largest_m;
+}
+
+} // namespace
 
 void add_envelopes(std::vector<ErrorBin>& by_distance, const scene::LightFrustum& frustum,
                    scene::DepthFormat format)
 {
     const DepthMapping mapping{frustum.depth_range()};
     const DepthCoding coding = DepthCoding::of(format);
+    const auto within = [&](double zeta_m) {
+        return std::clamp(zeta_m, frustum.near_m, frustum.far_m);
+    };
     for (ErrorBin& bin : by_distance) {
-        bin.envelope_m =
-            error_envelope_m(mapping, coding, std::clamp(bin.upper, frustum.near_m, frustum.far_m));
+        bin.envelope_m = largest_in(mapping, coding, within(bin.lower), within(bin.upper));
     }
 }
 

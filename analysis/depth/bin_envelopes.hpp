@@ -8,8 +8,8 @@
 
 namespace gnomon::analysis {
 
-/// Sets the formula's envelope beside the map errors of bins by light distance: `error_envelope_m`
-/// at each bin's upper edge, at the nearest distance between near and far where that lies outside.
+/// Sets the formula's envelope beside the map errors of bins by light distance: the largest
+/// `error_envelope_m` in each bin, as far as it lies between near and far.
 /// Source: docs/depth_precision.md#envelope.
 void add_envelopes(std::vector<ErrorBin>& by_distance, const scene::LightFrustum& frustum,
                    scene::DepthFormat format);

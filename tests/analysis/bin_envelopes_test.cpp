@@ -1,4 +1,5 @@
 #include "analysis/depth/bin_envelopes.hpp"
+#include "analysis/depth/depth_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@
 namespace gnomon::analysis {
 namespace {
 
-TEST(BinEnvelopes, AreTheFormulasAtTheUpperEdgeBetweenNearAndFar)
+TEST(BinEnvelopes, AreTheFormulasBetweenNearAndFar)
 {
     scene::LightFrustum frustum;
     frustum.projection = scene::Projection::perspective;
@@ -22,6 +23,24 @@ TEST(BinEnvelopes, AreTheFormulasAtTheUpperEdgeBetweenNearAndFar)
     EXPECT_NEAR(bins[0].envelope_m.value(), 2.81e-5, 0.005e-5);
     EXPECT_NEAR(bins[1].envelope_m.value(), 4.3874e-3, 0.00005e-3);
     EXPECT_EQ(bins[2].envelope_m, bins[1].envelope_m);
+}
+
+TEST(BinEnvelopes, HoldForTheWholeBinWhereTheFormulaFalls)
+{
+    scene::LightFrustum frustum;
+    frustum.projection = scene::Projection::perspective;
+    frustum.near_m = 4;
+    frustum.far_m = 50;
+    frustum.reversed = true;
+    frustum.clip_range = scene::ClipRange::zero_to_one;
+    const DepthMapping mapping{frustum.depth_range()};
+    std::vector<ErrorBin> bins(1);
+    bins[0].lower = 30;
+    bins[0].upper = 50;
+    add_envelopes(bins, frustum, {scene::DepthFormat::Kind::d32f, 32});
+    EXPECT_GE(bins[0].envelope_m.value(), error_envelope_m(mapping, DepthCoding::float32(), 30));
+    EXPECT_GT(bins[0].envelope_m.value(),
+              10 * error_envelope_m(mapping, DepthCoding::float32(), 49.9));
 }
 
 TEST(BinEnvelopes, AreConstantForAnOrthographicMap)

@@ -168,6 +168,9 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--tilt-deg", "85"}, "tilt");
     refused({"--offset", "1e12"}, "offset");
     refused({"--plan"}, "--max-error-m and --far");
+    refused({"--plan", "--max-error-m", "1", "--far", "9", "--offset", "3"}, "leave out --offset");
+    refused({"--plan", "--max-error-m", "1", "--far", "9", "--reversed"}, "--reversed");
+    refused({"--samples", "4194305"}, "--samples 4194305: must be 2 to 4194304");
     refused({"--plan", "--max-error-m", "-1", "--far", "9"}, "above 0");
     refused({"--max-error-m", "1"}, "needs --plan");
     refused({"--compare", "--bits", "16"}, "leave out");
