@@ -164,13 +164,12 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--format", "d24", "--bits", "24"}, "excludes");
     refused({"--projection", "fisheye"}, "--projection");
     refused({"--samples", "1"}, "--samples 1");
-    refused({"--samples", "10000000"}, "samples = 10000000");
+    refused({"--samples", "10000000"}, "--samples 10000000: must be 2 to 4194304");
     refused({"--tilt-deg", "85"}, "tilt");
     refused({"--offset", "1e12"}, "offset");
     refused({"--plan"}, "--max-error-m and --far");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--offset", "3"}, "leave out --offset");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--reversed"}, "--reversed");
-    refused({"--samples", "4194305"}, "--samples 4194305: must be 2 to 4194304");
     refused({"--plan", "--max-error-m", "-1", "--far", "9"}, "above 0");
     refused({"--max-error-m", "1"}, "needs --plan");
     refused({"--compare", "--bits", "16"}, "leave out");
