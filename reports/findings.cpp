@@ -159,7 +159,7 @@ constexpr analysis::BiasInterval usable_biases{0.0F, 1.0F};
 
 /// The change with the fewest errors, of those that were measured.
 struct Change {
-    std::string who; ///< whose result it is
+    std::string beginning; ///< of its sentence: what was measured
     std::string keys;
     analysis::ErrorCounts errors;
 };
@@ -207,10 +207,10 @@ std::optional<Change> best_change(const analysis::Comparison& comparison,
 std::string in_words(const Change& change, std::uint64_t now)
 {
     if (change.errors.total() >= now) {
-        return fmt::format("{}, none has fewer errors.", change.who);
+        return fmt::format("{}, none has fewer errors.", change.beginning);
     }
-    return fmt::format("{}, {} has the fewest errors: {} in place of {}.", change.who, change.keys,
-                       grouped(change.errors.total()), grouped(now));
+    return fmt::format("{}, {} has the fewest errors: {} in place of {}.", change.beginning,
+                       change.keys, grouped(change.errors.total()), grouped(now));
 }
 
 /// Slope and normal offset are biases too, which no constant one makes up for.

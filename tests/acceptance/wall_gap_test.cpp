@@ -93,6 +93,28 @@ TEST_P(WallGap, IsTheBiasAndTheStripItsSine)
     }
 }
 
+TEST(WallGapOfFilters, IsTheBiasWithinHalfTheFootprint)
+{
+    GNOMON_REQUIRE_GL();
+    constexpr double angle_rad = std::numbers::pi / 4;
+    constexpr double bias_m = 0.05;
+    scene::Job job = job_of(45, bias_m);
+    const Compared compared{job};
+    for (const scene::Filter filter : {scene::Filter::linear, scene::Filter::hardware,
+                                       scene::Filter::pcf3, scene::Filter::pcf9}) {
+        job.lookup.filter = filter;
+        const auto result = compared(job);
+        const double texel_m = result.view.frustum.texel_width_m(1, 4096);
+        const Strip strip = measure_strip(result, 0, 1.2);
+        // Pixels that only the ground's own taps shadow without bias lie a whole shadow's length
+        // away; a tap that the wall shadows is at most half the filter from P's.
+        const double reach_m = 0.5 * scene::filter_width_texels(filter) * texel_m;
+        EXPECT_NEAR(double{result.diagnosis->peter_panning.metres->max}, bias_m,
+                    reach_m / std::tan(angle_rad) + strip.footprint_m / std::sin(angle_rad))
+            << scene::filter_width_texels(filter) << " texels";
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Angles, WallGap, testing::Values(20, 45, 70));
 
 } // namespace
