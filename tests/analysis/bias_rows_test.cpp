@@ -5,6 +5,7 @@
 #include "analysis/bias_order.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/pcf_taps.hpp"
+#include "random_biases.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -26,6 +27,8 @@ using scene::Outside;
 using scene::PixelClass;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using testing::random_biases;
+using testing::random_depth;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 const float nan = std::nanf("");
@@ -134,12 +137,6 @@ TEST(BiasRows, OfNoBiasAreNone)
     EXPECT_THAT(find_gaps_at({}, {}), IsEmpty());
 }
 
-/// A depth of few digits, so that many pixels turn at the same bias, some of them at 0.
-float random_depth(std::mt19937& random)
-{
-    return static_cast<float>(random() % 9) / 8.0F;
-}
-
 Subject random_subject(std::mt19937& random)
 {
     Subject subject{{1 + static_cast<int>(random() % 9), 1 + static_cast<int>(random() % 7)}};
@@ -169,29 +166,6 @@ Subject random_subject(std::mt19937& random)
                              exact.at(random() % 5)};
     }
     return subject;
-}
-
-/// Biases at which something changes, their neighbours and a few others, ascending.
-std::vector<float> random_biases(std::mt19937& random, const std::vector<float>& criticals)
-{
-    std::vector<float> biases;
-    const auto add = [&](float bias) {
-        if (std::isfinite(bias) && random() % 3 != 0) {
-            biases.push_back(bias);
-        }
-    };
-    for (const float critical : criticals) {
-        add(previous_bias(critical));
-        add(critical);
-        add(next_bias(critical));
-    }
-    for (const float bias : {0.0F, -0.5F, 0.125F, 0.25F, bias_of_rank(1), bias_of_rank(-1),
-                             bias_of_rank(largest_bias_rank), bias_of_rank(-largest_bias_rank)}) {
-        add(bias);
-    }
-    std::sort(biases.begin(), biases.end());
-    biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
-    return biases;
 }
 
 TEST(BiasRows, AgreeWithCountingEachBiasByItself)
@@ -361,55 +335,6 @@ TEST(WrongTaps, AgreeWithCountingEachBiasByItself)
                 << scene::filter_name(taps.rule.filter) << ", "
                 << scene::outside_name(taps.rule.outside) << ", slope " << taps.rule.slope
                 << (taps.rule.reversed ? ", reversed" : "");
-        }
-    }
-}
-
-TEST(GapsAtBiases, GrowWithTheBias)
-{
-    const std::vector<PanningGap> gaps{{0.5F, {3, 30}}, {0.25F, {1, 10}}, {-infinity, {2, 20}}};
-    const std::vector<float> biases{0, 0.25F, 0.5F};
-    const auto rows = find_gaps_at(gaps, biases);
-    EXPECT_EQ(rows[0].metres, (Quantiles{1, 2, 2, 2, 2}));
-    EXPECT_EQ(rows[1].metres, (Quantiles{2, 1, 1, 2, 2}));
-    EXPECT_EQ(rows[2].metres, (Quantiles{3, 1, 2, 3, 3}));
-    EXPECT_EQ(rows[2].texels, (Quantiles{3, 10, 20, 30, 30}));
-}
-
-TEST(GapsAtBiases, AreEmptyWhereNothingPans)
-{
-    const std::vector<PanningGap> gaps{{0.5F, {3, 30}}, {infinity, {1, 10}}};
-    const std::vector<float> biases{previous_bias(0.5F)};
-    EXPECT_EQ(find_gaps_at(gaps, biases)[0].metres, std::nullopt);
-    EXPECT_EQ(find_gaps_at(gaps, biases)[0].texels, std::nullopt);
-}
-
-TEST(GapsAtBiases, AgreeWithMeasuringEachBiasByItself)
-{
-    std::mt19937 random{33};
-    for (int round = 0; round < 1000; ++round) {
-        std::vector<PanningGap> gaps(random() % 60);
-        std::vector<float> criticals;
-        for (PanningGap& gap : gaps) {
-            gap.critical_bias = random() % 9 == 0 ? -infinity : random_depth(random) - 0.5F;
-            // Few lengths, so that many are equal; some are not finite, as beside a light.
-            gap.gap = {static_cast<float>(random() % 12),
-                       random() % 20 == 0 ? infinity : static_cast<float>(random() % 12)};
-            criticals.push_back(gap.critical_bias);
-        }
-        const auto biases = random_biases(random, criticals);
-        const auto rows = find_gaps_at(gaps, biases);
-        ASSERT_EQ(rows.size(), biases.size());
-        for (std::size_t i = 0; i < biases.size(); ++i) {
-            std::vector<PixelGap> panning;
-            for (const PanningGap& gap : gaps) {
-                if (gap.critical_bias <= biases[i]) {
-                    panning.push_back(gap.gap);
-                }
-            }
-            const Gaps expected = measure_gaps(panning);
-            ASSERT_EQ(rows[i].metres, expected.metres) << "round " << round << ", " << biases[i];
-            ASSERT_EQ(rows[i].texels, expected.texels) << "round " << round << ", " << biases[i];
         }
     }
 }

@@ -1,0 +1,72 @@
+// Peter-panning gaps at many biases from one sorted list, against measuring each bias by itself.
+
+#include "analysis/bias_rows.hpp"
+
+#include "random_biases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace gnomon::analysis {
+namespace {
+
+using testing::random_biases;
+using testing::random_depth;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+TEST(GapsAtBiases, GrowWithTheBias)
+{
+    const std::vector<PanningGap> gaps{{0.5F, {3, 30}}, {0.25F, {1, 10}}, {-infinity, {2, 20}}};
+    const std::vector<float> biases{0, 0.25F, 0.5F};
+    const auto rows = find_gaps_at(gaps, biases);
+    EXPECT_EQ(rows[0].metres, (Quantiles{1, 2, 2, 2, 2}));
+    EXPECT_EQ(rows[1].metres, (Quantiles{2, 1, 1, 2, 2}));
+    EXPECT_EQ(rows[2].metres, (Quantiles{3, 1, 2, 3, 3}));
+    EXPECT_EQ(rows[2].texels, (Quantiles{3, 10, 20, 30, 30}));
+}
+
+TEST(GapsAtBiases, AreEmptyWhereNothingPans)
+{
+    const std::vector<PanningGap> gaps{{0.5F, {3, 30}}, {infinity, {1, 10}}};
+    const std::vector<float> biases{previous_bias(0.5F)};
+    EXPECT_EQ(find_gaps_at(gaps, biases)[0].metres, std::nullopt);
+    EXPECT_EQ(find_gaps_at(gaps, biases)[0].texels, std::nullopt);
+}
+
+TEST(GapsAtBiases, AgreeWithMeasuringEachBiasByItself)
+{
+    std::mt19937 random{33};
+    for (int round = 0; round < 1000; ++round) {
+        std::vector<PanningGap> gaps(random() % 60);
+        std::vector<float> criticals;
+        for (PanningGap& gap : gaps) {
+            gap.critical_bias = random() % 9 == 0 ? -infinity : random_depth(random) - 0.5F;
+            // Few lengths, so that many are equal; some are not finite, as beside a light.
+            gap.gap = {static_cast<float>(random() % 12),
+                       random() % 20 == 0 ? infinity : static_cast<float>(random() % 12)};
+            criticals.push_back(gap.critical_bias);
+        }
+        const auto biases = random_biases(random, criticals);
+        const auto rows = find_gaps_at(gaps, biases);
+        ASSERT_EQ(rows.size(), biases.size());
+        for (std::size_t i = 0; i < biases.size(); ++i) {
+            std::vector<PixelGap> panning;
+            for (const PanningGap& gap : gaps) {
+                if (gap.critical_bias <= biases[i]) {
+                    panning.push_back(gap.gap);
+                }
+            }
+            const Gaps expected = measure_gaps(panning);
+            ASSERT_EQ(rows[i].metres, expected.metres) << "round " << round << ", " << biases[i];
+            ASSERT_EQ(rows[i].texels, expected.texels) << "round " << round << ", " << biases[i];
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::analysis
