@@ -3,22 +3,21 @@
 #include "analysis/bias_order.hpp"
 #include "analysis/radix_sort.hpp"
 #include "analysis/ratio.hpp"
+#include "scene/infinity.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace gnomon::analysis {
 
 namespace {
 
+using scene::infinity;
 using scene::PixelClass;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 void require_same_size(scene::ImageSize criticals, scene::ImageSize classes)
 {

@@ -2,20 +2,20 @@
 
 #include "analysis/bias_order.hpp"
 #include "analysis/radix_sort.hpp"
+#include "scene/infinity.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 namespace gnomon::analysis {
 
 namespace {
 
+using scene::infinity;
 using scene::PixelClass;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 /// The allowances are 1/n: integers divide without rounding.
 constexpr std::array<std::uint64_t, 3> allowed_one_in{10000, 1000, 100};
 constexpr std::size_t verdict_allowance = 1; // no_constant_bias_serves is decided at 0.1 %

@@ -3,6 +3,7 @@
 #include "analysis/bias_order.hpp"
 #include "analysis/pcf_taps.hpp"
 #include "analysis/pixel_runs.hpp"
+#include "scene/infinity.hpp"
 
 #include <fmt/format.h>
 
@@ -19,10 +20,10 @@ namespace gnomon::analysis {
 
 namespace {
 
+using scene::infinity;
 using scene::Outside;
 using scene::Vec2f;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
 
 /// The lookup's comparison, both depth directions in one form: negating both sides of

@@ -1,22 +1,23 @@
 #include "analysis/exact_lookup.hpp"
 
+#include "scene/infinity.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace gnomon::analysis {
 
 using scene::ExactTap;
 using scene::Filter;
+using scene::infinity;
 using scene::LinearQuery;
 using scene::NearestQuery;
 using scene::Outside;
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 /// What a tap's critical bias lies between, up to an order that all taps of a lookup share.
 struct Key {
     double low;

@@ -1,17 +1,17 @@
 #include "analysis/pcf_taps.hpp"
 
+#include "scene/infinity.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace gnomon::analysis {
 
+using scene::infinity;
 using scene::Outside;
 using scene::Vec2f;
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 } // namespace
 

@@ -13,6 +13,10 @@ target_compile_options(gnomon_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wcast-align
   -Wno-missing-field-initializers # designated initialisers leave the defaults on purpose
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2)
+if(CMAKE_UNITY_BUILD)
+  # A local may be named like another file's constant.
+  target_compile_options(gnomon_warnings INTERFACE -Wno-shadow)
+endif()
 if(GNOMON_WARNINGS_AS_ERRORS)
   target_compile_options(gnomon_warnings INTERFACE -Werror)
 endif()

@@ -13,7 +13,7 @@ using scene::Vec3d;
 namespace {
 
 constexpr double unit_roundoff = 0x1p-53;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// A point in doubles, and how far each of its coordinates can be from the exact one.
 struct Enclosure {
@@ -50,7 +50,7 @@ Enclosure enclose(const Point& point)
         if (!std::isfinite(result.centre[axis]) ||
             !is_within(*numerators[static_cast<std::size_t>(axis)], point.weight,
                        result.centre[axis], result.radius)) {
-            return {Vec3d{0}, infinity};
+            return {Vec3d{0}, unbounded};
         }
     }
     return result;
@@ -77,8 +77,8 @@ SegmentBounds::SegmentBounds(const Point& start, const Point& end, double larges
         q = 4 * unit_roundoff * largest_of(direction_);
         for (int axis = 0; axis < 3; ++axis) {
             const bool is_finite = direction_[axis] == 0;
-            lower_[axis] = is_finite || direction_[axis] > 0 ? start_[axis] : -infinity;
-            upper_[axis] = is_finite || direction_[axis] < 0 ? start_[axis] : infinity;
+            lower_[axis] = is_finite || direction_[axis] > 0 ? start_[axis] : -unbounded;
+            upper_[axis] = is_finite || direction_[axis] < 0 ? start_[axis] : unbounded;
         }
     } else {
         const Enclosure to = enclose(end);

@@ -1,5 +1,7 @@
 #include "reference_rt/critical_bias.hpp"
 
+#include "scene/infinity.hpp"
+
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,7 +11,7 @@ namespace gnomon::reference_rt {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using scene::infinity;
 
 /// What a texel's ray meets; it stays where it is, as the hit refers to its ray and facet.
 struct TapHit {

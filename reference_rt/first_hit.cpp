@@ -1,20 +1,19 @@
 #include "reference_rt/first_hit.hpp"
 
 #include "reference_rt/stand_in.hpp"
+#include "scene/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace gnomon::reference_rt {
 
 using scene::ClassReason;
+using scene::infinity;
 using scene::no_triangle;
 using scene::PixelClass;
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// True when the ray meets the closed facet beyond the near plane; `hit` is made where it meets it.
 bool is_hit(const CameraRay& ray, const Facet& facet, double near_m, SignCounts& counts,

@@ -24,7 +24,7 @@ RationalVec rational(const Vec3d& v)
     return {Rational{v.x}, Rational{v.y}, Rational{v.z}};
 }
 
-RationalVec difference(const RationalVec& a, const RationalVec& b)
+RationalVec rational_difference(const RationalVec& a, const RationalVec& b)
 {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
@@ -42,11 +42,11 @@ Rational dot(const RationalVec& a, const RationalVec& b)
 RationalVec rational_point(const Receiver& receiver)
 {
     const RationalVec a = rational(receiver.corners()[0]);
-    const RationalVec normal = cross(difference(rational(receiver.corners()[1]), a),
-                                     difference(rational(receiver.corners()[2]), a));
+    const RationalVec normal = cross(rational_difference(rational(receiver.corners()[1]), a),
+                                     rational_difference(rational(receiver.corners()[2]), a));
     const RationalVec origin = rational(receiver.ray().origin);
     const RationalVec direction = rational(receiver.ray().direction);
-    const Rational t = dot(normal, difference(a, origin)) / dot(normal, direction);
+    const Rational t = dot(normal, rational_difference(a, origin)) / dot(normal, direction);
     return {origin[0] + t * direction[0], origin[1] + t * direction[1],
             origin[2] + t * direction[2]};
 }
@@ -59,10 +59,10 @@ bool runs_through(const Receiver& receiver, const Corners& s, const Light& light
     const bool is_sun = light.type == LightType::directional;
     const RationalVec point = rational_point(receiver);
     const RationalVec step =
-        is_sun ? rational(-light.direction) : difference(rational(light.position), point);
+        is_sun ? rational(-light.direction) : rational_difference(rational(light.position), point);
     const std::array<RationalVec, 3> corner{rational(s[0]), rational(s[1]), rational(s[2])};
     const RationalVec normal =
-        cross(difference(corner[1], corner[0]), difference(corner[2], corner[0]));
+        cross(rational_difference(corner[1], corner[0]), rational_difference(corner[2], corner[0]));
     // Clips point + r·step, 0 < r < 1 or without end, by the three half-planes of the triangle.
     Rational enter = 0;
     std::optional<Rational> leave;
@@ -71,8 +71,9 @@ bool runs_through(const Receiver& receiver, const Corners& s, const Light& light
     }
     const std::optional<Rational> end = leave;
     for (std::size_t i = 0; i < 3; ++i) {
-        const RationalVec inward = cross(normal, difference(corner[(i + 1) % 3], corner[i]));
-        const Rational inside = dot(inward, difference(point, corner[i]));
+        const RationalVec inward =
+            cross(normal, rational_difference(corner[(i + 1) % 3], corner[i]));
+        const Rational inside = dot(inward, rational_difference(point, corner[i]));
         const Rational growth = dot(inward, step);
         if (growth == 0) {
             if (inside < 0) {

@@ -1,5 +1,7 @@
 #include "reference_rt/stand_in.hpp"
 
+#include "scene/infinity.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 
 namespace gnomon::reference_rt {
 
+using scene::infinity;
 using scene::Light;
 using scene::LightType;
 using scene::Ray;
@@ -14,8 +17,6 @@ using scene::Vec3d;
 using scene::Vec3f;
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 } // namespace
 

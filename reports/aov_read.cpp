@@ -20,7 +20,8 @@ namespace {
 
 using scene::ImageSize;
 
-constexpr std::string_view remedy = "write it again with `gnomon compare JOB --aov FILE.exr`";
+constexpr std::string_view rewrite_advice =
+    "write it again with `gnomon compare JOB --aov FILE.exr`";
 
 /// Beyond these a header is no AOV's: the longest text is the job, some kilobytes.
 constexpr std::size_t longest_name = 255;
@@ -28,9 +29,9 @@ constexpr std::size_t largest_attribute_bytes = 1U << 20;
 constexpr int most_attributes = 256;
 constexpr int most_channels = 64;
 
-[[noreturn]] void refuse(const std::filesystem::path& path, std::string_view what)
+[[noreturn]] void refuse_aov(const std::filesystem::path& path, std::string_view what)
 {
-    throw scene::InputError(fmt::format("{}: {}: {}", path.string(), what, remedy));
+    throw scene::InputError(fmt::format("{}: {}: {}", path.string(), what, rewrite_advice));
 }
 
 /// Reads just enough of an EXR header to know the image's size before the decoder, which takes
@@ -42,7 +43,7 @@ public:
           stream_{path, std::ios::binary}
     {
         if (!stream_) {
-            refuse(path_, "the file cannot be opened");
+            refuse_aov(path_, "the file cannot be opened");
         }
     }
 
@@ -53,7 +54,7 @@ public:
         constexpr std::uint32_t version = 2;
         constexpr std::uint32_t long_names = 0x400; // the only flag that plain scanlines may have
         if (word() != magic || (word() & ~long_names) != version) {
-            refuse(path_, "not an EXR file of plain scanlines");
+            refuse_aov(path_, "not an EXR file of plain scanlines");
         }
         std::optional<ImageSize> size;
         for (int i = 0; i < most_attributes; ++i) {
@@ -64,7 +65,7 @@ public:
             const std::string type = text();
             const std::uint32_t bytes = word();
             if (bytes > largest_attribute_bytes) {
-                refuse(path_, fmt::format("attribute {} is too large", printable(name)));
+                refuse_aov(path_, fmt::format("attribute {} is too large", printable(name)));
             }
             if (name == "dataWindow" && type == "box2i" && bytes == sizeof(Window)) {
                 size = window_size();
@@ -72,13 +73,13 @@ public:
                 stream_.ignore(static_cast<std::streamsize>(bytes));
             }
         }
-        refuse(path_, "the header has too many attributes");
+        refuse_aov(path_, "the header has too many attributes");
     }
 
 private:
     using Window = std::array<std::int32_t, 4>; // left, top, right, bottom; inclusive
 
-    [[noreturn]] ImageSize throw_no_window() { refuse(path_, "the header has no data window"); }
+    [[noreturn]] ImageSize throw_no_window() { refuse_aov(path_, "the header has no data window"); }
 
     ImageSize window_size()
     {
@@ -90,7 +91,7 @@ private:
         const auto [left, top, right, bottom] = window;
         if (left != 0 || top != 0 || right < 0 || bottom < 0 || right > largest ||
             bottom > largest) {
-            refuse(path_, "the data window is not an image's");
+            refuse_aov(path_, "the data window is not an image's");
         }
         return {right + 1, bottom + 1};
     }
@@ -99,7 +100,7 @@ private:
     {
         const int value = stream_.get();
         if (value == std::char_traits<char>::eof()) {
-            refuse(path_, "the header ends too early");
+            refuse_aov(path_, "the header ends too early");
         }
         return static_cast<char>(value);
     }
@@ -117,7 +118,7 @@ private:
         std::string result;
         for (char c = byte(); c != '\0'; c = byte()) {
             if (result.size() == longest_name) {
-                refuse(path_, "a name in the header is too long");
+                refuse_aov(path_, "a name in the header is too long");
             }
             result += c;
         }
@@ -149,12 +150,12 @@ public:
                             OIIO::geterror()));
         }
         if (!input_->open(path.string(), spec_)) {
-            refuse(path_, "the header is damaged");
+            refuse_aov(path_, "the header is damaged");
         }
         if (spec_.width != size.width_px || spec_.height != size.height_px || spec_.depth != 1 ||
             spec_.x != 0 || spec_.y != 0 || spec_.deep || spec_.tile_width != 0 ||
             spec_.nchannels > most_channels) {
-            refuse(path_, "the image is not laid out as an AOV");
+            refuse_aov(path_, "the image is not laid out as an AOV");
         }
     }
 
@@ -165,12 +166,12 @@ public:
             std::is_same_v<Value, float> ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32;
         const int index = spec_.channelindex(name);
         if (index < 0 || spec_.channelformat(index) != type) {
-            refuse(path_, fmt::format("channel {} is missing or of another type", name));
+            refuse_aov(path_, fmt::format("channel {} is missing or of another type", name));
         }
         scene::Image<Value> image{size_};
         if (!input_->read_scanlines(0, 0, 0, size_.height_px, 0, index, index + 1, type,
                                     image.data())) {
-            refuse(path_, "the pixels are damaged or truncated");
+            refuse_aov(path_, "the pixels are damaged or truncated");
         }
         return image;
     }
@@ -201,8 +202,8 @@ scene::Image<scene::PixelClass> pixel_classes(const std::filesystem::path& path,
     scene::Image<scene::PixelClass> result{codes.size()};
     for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
         if (codes[i] >= scene::pixel_class_count) {
-            refuse(path, fmt::format("class code {} is none of 0 to {}", codes[i],
-                                     scene::pixel_class_count - 1));
+            refuse_aov(path, fmt::format("class code {} is none of 0 to {}", codes[i],
+                                         scene::pixel_class_count - 1));
         }
         result[i] = static_cast<scene::PixelClass>(codes[i]);
     }
@@ -215,7 +216,7 @@ Aov read_aov(const std::filesystem::path& path, ImageSize image)
 {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
-        refuse(path, "no such file");
+        refuse_aov(path, "no such file");
     }
     const ImageSize size = HeaderScan{path}.size();
     if (size != image) {

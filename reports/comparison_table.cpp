@@ -124,7 +124,7 @@ std::string float_audit(const analysis::Comparison& comparison)
     return text;
 }
 
-std::string seconds(const analysis::StageSeconds& seconds)
+std::string seconds_line(const analysis::StageSeconds& seconds)
 {
     return setting_line("seconds",
                         fmt::format("scene {:.3f}  bvh {:.3f}  receivers {:.3f}  shadow map {:.3f}",
@@ -141,7 +141,7 @@ std::string comparison_table(const analysis::Comparison& comparison)
     return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
                        classes(comparison.metrics.pixels), errors(comparison.metrics),
                        diagnosis_table(comparison), float_audit(comparison),
-                       seconds(comparison.seconds) + findings_text(comparison));
+                       seconds_line(comparison.seconds) + findings_text(comparison));
 }
 
 } // namespace gnomon::reports

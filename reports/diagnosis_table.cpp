@@ -37,7 +37,7 @@ std::string named_counts(std::string_view head, const Names& names, const Counts
     return text;
 }
 
-std::string by_object(const std::vector<analysis::ObjectErrors>& objects)
+std::string object_rows(const std::vector<analysis::ObjectErrors>& objects)
 {
     constexpr std::size_t most_lines = 12;
     std::vector<analysis::ObjectErrors> wrong;
@@ -81,7 +81,7 @@ std::string causes(const analysis::Comparison& comparison)
                             counted(gap->count, "pixel"), gap->median, gap->p95, gap->max,
                             gap_texels->max));
     }
-    return text + by_object(diagnosis.by_object);
+    return text + object_rows(diagnosis.by_object);
 }
 
 /// A limit that need not exist.

@@ -1,5 +1,7 @@
 #include "reports/exact_inputs.hpp"
 
+#include "reports/depth/depth_names.hpp"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -32,11 +34,6 @@ std::vector<std::string> row_major(const scene::Mat4f& matrix)
         }
     }
     return texts;
-}
-
-std::string_view projection_name(scene::Projection projection)
-{
-    return projection == scene::Projection::perspective ? "perspective" : "orthographic";
 }
 
 void add_light(std::vector<ExactInput>& inputs, const scene::Light& light)

@@ -28,7 +28,7 @@ std::string allowed_text(const scene::BuiltinParameter& parameter)
                        parameter.unit.empty() ? "" : " " + parameter.unit);
 }
 
-std::size_t longest_name(std::span<const scene::BuiltinScene> scenes)
+std::size_t longest_scene_name(std::span<const scene::BuiltinScene> scenes)
 {
     std::size_t columns = 0;
     for (const scene::BuiltinScene& scene : scenes) {
@@ -44,7 +44,7 @@ std::size_t longest_name(std::span<const scene::BuiltinScene> scenes)
 
 std::string scenes_table(std::span<const scene::BuiltinScene> scenes)
 {
-    const std::size_t columns = longest_name(scenes);
+    const std::size_t columns = longest_scene_name(scenes);
     std::string text;
     for (const scene::BuiltinScene& scene : scenes) {
         text += pad_right(scene.name, columns) + scene.description + "\n";

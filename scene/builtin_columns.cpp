@@ -15,7 +15,7 @@ namespace {
 constexpr double spacing_m = 3;
 constexpr double floor_y_m = 0.9;
 constexpr double springing_y_m = 4.3; // where the columns carry the arches
-constexpr double sunk_m = 0.03;
+constexpr double foot_depth_m = 0.03;
 constexpr double front_z_m = 0;
 constexpr double back_z_m = -4.2;
 
@@ -53,7 +53,7 @@ void append_arc(std::vector<Vec2d>& profile, const Vec2d& centre, double radius_
 /// Base, swelling shaft, ring and capital of a column, from below the floor into the arches.
 [[nodiscard]] std::vector<Vec2d> column_profile()
 {
-    const double foot_y_m = floor_y_m - sunk_m;
+    const double foot_y_m = floor_y_m - foot_depth_m;
     std::vector<Vec2d> profile{{0, foot_y_m}, {0.47, foot_y_m}, {0.47, floor_y_m + 0.10}};
     append_arc(profile, {0.385, floor_y_m + 0.185}, 0.075, -1, 1, 8); // torus
     constexpr int shaft_segments = 20;
@@ -67,8 +67,8 @@ void append_arc(std::vector<Vec2d>& profile, const Vec2d& centre, double radius_
     profile.emplace_back(0.285, springing_y_m - 0.26);
     append_arc(profile, {0.285, springing_y_m - 0.10}, 0.13, -0.8, 0, 6); // echinus
     profile.emplace_back(0.46, springing_y_m - 0.10);
-    profile.emplace_back(0.46, springing_y_m + sunk_m);
-    profile.emplace_back(0.0, springing_y_m + sunk_m);
+    profile.emplace_back(0.46, springing_y_m + foot_depth_m);
+    profile.emplace_back(0.0, springing_y_m + foot_depth_m);
     return profile;
 }
 
@@ -122,7 +122,8 @@ void add_top(SceneBuilder& builder, int column_count)
 void add_urns(SceneBuilder& builder, double half_length_m, int slices)
 {
     constexpr double pedestal_y_m = 1.05;
-    std::vector<Vec2d> profile{{0, pedestal_y_m - sunk_m}, {0.2, pedestal_y_m - sunk_m}};
+    std::vector<Vec2d> profile{{0, pedestal_y_m - foot_depth_m},
+                               {0.2, pedestal_y_m - foot_depth_m}};
     profile.emplace_back(0.2, pedestal_y_m + 0.05);
     profile.emplace_back(0.08, pedestal_y_m + 0.16);
     append_arc(profile, {0, pedestal_y_m + 0.52}, 0.36, -0.85, 0.55, 16);

@@ -10,12 +10,12 @@ namespace gnomon::scene {
 namespace {
 
 /// A corner of the polygon, projected so that the polygon turns counter-clockwise.
-struct Corner {
+struct ProjectedCorner {
     std::uint32_t index = 0;
     Vec2d position;
 };
 
-double twice_area(const Corner& a, const Corner& b, const Corner& c)
+double twice_area(const ProjectedCorner& a, const ProjectedCorner& b, const ProjectedCorner& c)
 {
     const Vec2d ab = b.position - a.position;
     const Vec2d ac = c.position - a.position;
@@ -34,8 +34,8 @@ Vec3d area_vector(std::span<const Vec3f> vertices, std::span<const std::uint32_t
     return sum;
 }
 
-std::vector<Corner> projected(std::span<const Vec3f> vertices,
-                              std::span<const std::uint32_t> polygon)
+std::vector<ProjectedCorner> projected(std::span<const Vec3f> vertices,
+                                       std::span<const std::uint32_t> polygon)
 {
     const Vec3d area = area_vector(vertices, polygon);
     const Vec3d size = glm::abs(area);
@@ -45,7 +45,7 @@ std::vector<Corner> projected(std::span<const Vec3f> vertices,
     if (area[dropped] < 0) {
         std::swap(first, second);
     }
-    std::vector<Corner> corners;
+    std::vector<ProjectedCorner> corners;
     corners.reserve(polygon.size());
     for (const std::uint32_t index : polygon) {
         const Vec3d position{vertices[index]};
@@ -55,16 +55,16 @@ std::vector<Corner> projected(std::span<const Vec3f> vertices,
 }
 
 /// Whether corner `i` can be cut off: it is convex, and no other corner lies in the cut triangle.
-bool is_ear(const std::vector<Corner>& corners, std::size_t i)
+bool is_ear(const std::vector<ProjectedCorner>& corners, std::size_t i)
 {
     const std::size_t n = corners.size();
-    const Corner& a = corners[(i + n - 1) % n];
-    const Corner& b = corners[i];
-    const Corner& c = corners[(i + 1) % n];
+    const ProjectedCorner& a = corners[(i + n - 1) % n];
+    const ProjectedCorner& b = corners[i];
+    const ProjectedCorner& c = corners[(i + 1) % n];
     if (!(twice_area(a, b, c) > 0)) {
         return false;
     }
-    for (const Corner& p : corners) {
+    for (const ProjectedCorner& p : corners) {
         // Polygons with holes pass twice through the ends of the bridge.
         const bool is_corner =
             p.position == a.position || p.position == b.position || p.position == c.position;
@@ -77,7 +77,7 @@ bool is_ear(const std::vector<Corner>& corners, std::size_t i)
 }
 
 /// The corner to cut off next. Flat corners come last: their neighbours may need them.
-std::size_t next_cut(const std::vector<Corner>& corners)
+std::size_t next_cut(const std::vector<ProjectedCorner>& corners)
 {
     const std::size_t n = corners.size();
     for (std::size_t i = 1; i <= n; ++i) {
@@ -102,7 +102,7 @@ void triangulate(std::span<const Vec3f> vertices, std::span<const std::uint32_t>
         triangles.push_back({polygon[0], polygon[1], polygon[2]});
         return;
     }
-    std::vector<Corner> corners = projected(vertices, polygon);
+    std::vector<ProjectedCorner> corners = projected(vertices, polygon);
     while (corners.size() > 3) {
         const std::size_t n = corners.size();
         const std::size_t i = next_cut(corners);

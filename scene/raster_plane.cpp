@@ -10,7 +10,7 @@ namespace gnomon::scene {
 
 namespace {
 
-constexpr double u32 = 0x1p-24;
+constexpr double half_ulp = 0x1p-24;
 
 double cross(const Vec2d& a, const Vec2d& b)
 {
@@ -30,8 +30,8 @@ RasterPlane::RasterPlane(const std::array<Vec4f, 3>& clip, int resolution_texels
             (Vec2d{ndc} * 0.5 + 0.5) * static_cast<double>(resolution_texels);
         window_.depth.at(k) = zero_to_one ? ndc.z : 0.5 * ndc.z + 0.5;
         // Reciprocal and product round; so does the sum of ½z + ½, but not that of 1·z + 0.
-        const double division = 2 * u32 * std::abs(ndc.z);
-        corner_error_ = std::max(corner_error_, zero_to_one ? division : 0.5 * division + u32);
+        const double division = 2 * half_ulp * std::abs(ndc.z);
+        corner_error_ = std::max(corner_error_, zero_to_one ? division : 0.5 * division + half_ulp);
         is_inside = is_inside && corner.z <= corner.w && corner.z >= (zero_to_one ? 0 : -corner.w);
     }
     area2_px2_ = cross(window_.position_px[1] - window_.position_px[0],

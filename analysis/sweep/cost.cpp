@@ -7,13 +7,14 @@ namespace gnomon::analysis {
 
 namespace {
 
-using Kind = SweepStep::Kind;
+using StepKind = SweepStep::Kind;
 
 // Bytes a pixel: receivers 40 and lookup 24 on the GPU; triangle, class, reason, witness and gap 18
 // for each camera; two lookups under way, each 24, with causes, distances and errors 60.
 constexpr std::uint64_t camera_bytes = 40 + 18;
 constexpr std::uint64_t lookup_bytes = 24 + 2 * 24 + 60;
-constexpr std::uint64_t texel_bytes = 12; ///< u-formats, or a GL format and its depths read back
+constexpr std::uint64_t peak_texel_bytes =
+    12; ///< u-formats, or a GL format and its depths read back
 
 /// Pixels of all cameras that are kept side by side.
 constexpr std::uint64_t kept_pixels = 4U << 20U;
@@ -35,17 +36,17 @@ double estimate_seconds(const SweepStep& step, const CurveRequest& request)
     const auto pixels = static_cast<double>(request.pixels);
     const auto texels = static_cast<double>(request.texels);
     switch (step.kind) {
-    case Kind::read_scene:
+    case StepKind::read_scene:
         return 0.5;
-    case Kind::draw_receivers:
+    case StepKind::draw_receivers:
         return 0.01 + pixels * 30e-9;
-    case Kind::find_truth:
+    case StepKind::find_truth:
         return pixels * 250e-9;
-    case Kind::draw_shadow_map:
+    case StepKind::draw_shadow_map:
         return 0.005 + texels * 3e-9;
-    case Kind::look_up:
+    case StepKind::look_up:
         return pixels * 40e-9;
-    case Kind::answer:
+    case StepKind::answer:
         return pixels * 400e-9 + static_cast<double>(request.ordinals.size()) * 30e-6;
     }
     return 0;
@@ -67,7 +68,7 @@ std::uint64_t estimate_bytes(const SweepPlan& plan, std::span<const CurveRequest
         most_texels = std::max(most_texels, request.texels);
     }
     return most_pixels(requests) * (plan.slots * camera_bytes + lookup_bytes) +
-           most_texels * texel_bytes;
+           most_texels * peak_texel_bytes;
 }
 
 std::size_t camera_slots(std::span<const CurveRequest> requests)
@@ -84,7 +85,7 @@ std::vector<std::uint32_t> divide(const SweepPlan& plan, std::span<const CurveRe
     double pending = 0; // of the steps that lead to the next answer
     for (const SweepStep& step : plan.steps) {
         pending += estimate_seconds(step, requests[step.curve]);
-        if (step.kind == Kind::answer) {
+        if (step.kind == StepKind::answer) {
             const double middle = before + pending / 2;
             const double part = std::floor(middle / whole * shards);
             shard_of[step.curve] = 1 + std::min(shards - 1, static_cast<std::uint32_t>(part));

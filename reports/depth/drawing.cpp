@@ -17,7 +17,7 @@ namespace {
 
 constexpr Rgb white{255, 255, 255};
 
-std::string hexadecimal(Rgb colour)
+std::string css_colour(Rgb colour)
 {
     return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
 }
@@ -44,7 +44,7 @@ void append_svg(std::string& svg, const Polyline& line)
 {
     auto out = std::back_inserter(svg);
     fmt::format_to(out, "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" points=\"",
-                   hexadecimal(line.colour), line.width_px);
+                   css_colour(line.colour), line.width_px);
     for (const Point& point : line.points) {
         fmt::format_to(out, "{:.2f},{:.2f} ", point.x, point.y);
     }
@@ -54,7 +54,7 @@ void append_svg(std::string& svg, const Polyline& line)
 void append_svg(std::string& svg, const Dots& dots)
 {
     auto out = std::back_inserter(svg);
-    fmt::format_to(out, "<g fill=\"{}\">\n", hexadecimal(dots.colour));
+    fmt::format_to(out, "<g fill=\"{}\">\n", css_colour(dots.colour));
     for (const Point& centre : dots.centres) {
         fmt::format_to(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\"/>\n", centre.x, centre.y,
                        dots.radius_px);
@@ -69,7 +69,7 @@ void append_svg(std::string& svg, const Label& label)
                    "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\"{} fill=\"{}\" "
                    "text-anchor=\"{}\">{}</text>\n",
                    label.at.x, label.at.y, label.style.size_px,
-                   label.style.bold ? " font-weight=\"bold\"" : "", hexadecimal(label.style.colour),
+                   label.style.bold ? " font-weight=\"bold\"" : "", css_colour(label.style.colour),
                    anchors.at(static_cast<std::size_t>(label.anchor)), escaped(label.text));
 }
 

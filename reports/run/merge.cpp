@@ -23,7 +23,7 @@ using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
 
-[[noreturn]] void refuse(const std::filesystem::path& run, std::string_view what)
+[[noreturn]] void refuse_run(const std::filesystem::path& run, std::string_view what)
 {
     throw scene::InputError(scene::one_line(fmt::format("{}: {}", run.string(), what)));
 }
@@ -50,17 +50,17 @@ std::vector<RunDescription> read_descriptions(std::span<const std::filesystem::p
         const RunDescription& first = all.front();
         const RunDescription& last = all.back();
         if (last.size == 0) {
-            refuse(run, "nothing was planned in it: leave it out");
+            refuse_run(run, "nothing was planned in it: leave it out");
         }
         if (last.size != first.size || last.axes != first.axes) {
-            refuse(run, fmt::format("is of another sweep than {}: merge the parts of one",
-                                    runs.front().string()));
+            refuse_run(run, fmt::format("is of another sweep than {}: merge the parts of one",
+                                        runs.front().string()));
         }
         if (environments == Environments::one && !are_equal(last.environment, first.environment)) {
-            refuse(run, fmt::format("was computed in another environment ({}) than {} ({}): "
-                                    "leave it out, or pass --allow-mixed",
-                                    text_of(last.environment), runs.front().string(),
-                                    text_of(first.environment)));
+            refuse_run(run, fmt::format("was computed in another environment ({}) than {} ({}): "
+                                        "leave it out, or pass --allow-mixed",
+                                        text_of(last.environment), runs.front().string(),
+                                        text_of(first.environment)));
         }
     }
     return all;
@@ -71,7 +71,7 @@ std::vector<RunDescription> read_descriptions(std::span<const std::filesystem::p
 void require_vacant(const Database& database, const std::filesystem::path& out)
 {
     if (read_description(database).size != 0) {
-        refuse(out, "holds a run already: name a new folder");
+        refuse_run(out, "holds a run already: name a new folder");
     }
     Transaction transaction{database};
     for (const char* const table : {"curve_bins", "curve_points", "plan", "configurations",
@@ -85,9 +85,10 @@ void require_same_sweep(const Database& database, const std::filesystem::path& r
 {
     Statement find{database, merge_sql::other_plan()};
     if (find.step()) {
-        refuse(run, fmt::format("is of another sweep than the runs before it: its configuration "
-                                "{} is another; merge the parts of one",
-                                find.integer(0)));
+        refuse_run(run,
+                   fmt::format("is of another sweep than the runs before it: its configuration "
+                               "{} is another; merge the parts of one",
+                               find.integer(0)));
     }
 }
 
@@ -96,9 +97,10 @@ void require_no_conflict(const Database& database, const std::filesystem::path& 
     for (const merge_sql::Conflict& conflict : merge_sql::conflicts()) {
         Statement find{database, conflict.query};
         if (find.step()) {
-            refuse(run, fmt::format("{} {} has another {} than in the runs before it: leave one "
-                                    "of them out",
-                                    conflict.subject, find.text(0), find.text(1)));
+            refuse_run(run,
+                       fmt::format("{} {} has another {} than in the runs before it: leave one "
+                                   "of them out",
+                                   conflict.subject, find.text(0), find.text(1)));
         }
     }
 }
@@ -124,9 +126,10 @@ void require_one_environment(const Database& database, const std::filesystem::pa
     const auto count = database.integer("SELECT count(DISTINCT environment) FROM configurations"
                                         " WHERE environment IS NOT NULL");
     if (count > 1) {
-        refuse(out, fmt::format("the runs hold results of {} environments: pass --allow-mixed to "
-                                "keep them together",
-                                count));
+        refuse_run(out,
+                   fmt::format("the runs hold results of {} environments: pass --allow-mixed to "
+                               "keep them together",
+                               count));
     }
 }
 

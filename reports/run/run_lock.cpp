@@ -23,7 +23,7 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr mode_t default_mode = 0666; ///< before the umask
+constexpr mode_t lock_mode = 0666; ///< before the umask
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string_view call, int code)
 {
@@ -89,7 +89,7 @@ RunLock::RunLock(const std::filesystem::path& folder)
 {
     make_folder(folder);
     const std::filesystem::path path = folder / "lock";
-    descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, default_mode);
+    descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, lock_mode);
     if (descriptor_ < 0) {
         fail(path, "open", errno);
     }

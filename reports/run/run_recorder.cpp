@@ -74,7 +74,7 @@ std::string_view name_of(DistanceProfile::At at)
     return at == DistanceProfile::At::job_bias ? "job_bias" : "best_bias";
 }
 
-[[noreturn]] void refuse(std::string_view function, std::uint64_t ordinal)
+[[noreturn]] void refuse_ordinal(std::string_view function, std::uint64_t ordinal)
 {
     throw std::invalid_argument(
         fmt::format("{}: ordinal {} is not planned, or of another curve", function, ordinal));
@@ -166,7 +166,7 @@ void RunRecorder::write_row(const FinishedCurve::Row& row, std::int64_t curve,
         .bind(next + 1, static_cast<std::int64_t>(row.ordinal))
         .run();
     if (database_->changes() != 1) {
-        refuse("RunStore::record", row.ordinal);
+        refuse_ordinal("RunStore::record", row.ordinal);
     }
 }
 
@@ -178,7 +178,7 @@ void RunRecorder::record_failure(std::span<const std::uint64_t> ordinals,
     for (const std::uint64_t ordinal : ordinals) {
         const auto number = find_configuration_.bind(1, static_cast<std::int64_t>(ordinal)).first();
         if (!number) {
-            refuse("RunStore::record_failure", ordinal);
+            refuse_ordinal("RunStore::record_failure", ordinal);
         }
         fail_configuration_.bind(1, std::string_view{line}).bind(2, *number).run();
     }

@@ -139,7 +139,7 @@ std::vector<std::string> schema_statements()
             results_view(), error_vs_z_view(),  bias_curves_view()};
 }
 
-[[noreturn]] void refuse(const Database& database, std::string_view what)
+[[noreturn]] void refuse_database(const Database& database, std::string_view what)
 {
     throw scene::InputError(fmt::format("{}: {}: name another folder",
                                         scene::one_line(database.path().string()), what));
@@ -171,16 +171,17 @@ std::filesystem::path results_path(const std::filesystem::path& folder)
 void require_run_schema(const Database& database)
 {
     if (database.integer("PRAGMA application_id") != application_id) {
-        refuse(database, "is a database, but not of a sweep's results");
+        refuse_database(database, "is a database, but not of a sweep's results");
     }
     const auto version = database.integer("PRAGMA user_version");
     if (version != run_schema) {
-        refuse(database, fmt::format("its schema is {}, this Gnomon's is {}", version, run_schema));
+        refuse_database(database,
+                        fmt::format("its schema is {}, this Gnomon's is {}", version, run_schema));
     }
     // A key or a result that came or went makes other columns.
     for (const std::string& statement : schema_statements()) {
         if (!was_made_by(database, statement)) {
-            refuse(database, "a Gnomon with other keys or results wrote it");
+            refuse_database(database, "a Gnomon with other keys or results wrote it");
         }
     }
 }

@@ -28,7 +28,7 @@ bool comes_from_the_system(int code)
     return primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN;
 }
 
-std::string remedy(int code)
+std::string sqlite_remedy(int code)
 {
     switch (code & 0xFF) {
     case SQLITE_FULL:
@@ -311,8 +311,9 @@ void Database::fail(int code) const
         number == 0
             ? std::string{}
             : fmt::format(", {}", std::error_code{number, std::generic_category()}.message());
-    throw scene::EnvironmentError(scene::one_line(fmt::format(
-        "cannot use {}: {}{} (SQLite {}); {}", path_.string(), what, cause, code, remedy(code))));
+    throw scene::EnvironmentError(
+        scene::one_line(fmt::format("cannot use {}: {}{} (SQLite {}); {}", path_.string(), what,
+                                    cause, code, sqlite_remedy(code))));
 }
 
 Transaction::Transaction(const Database& database, Kind kind) : database_{&database}

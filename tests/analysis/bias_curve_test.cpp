@@ -2,6 +2,7 @@
 
 #include "analysis/radix_sort.hpp"
 #include "curve_case.hpp"
+#include "scene/infinity.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,12 +13,12 @@
 namespace gnomon::analysis {
 namespace {
 
+using scene::infinity;
 using scene::PixelClass;
 using testing::ElementsAre;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr auto lit = PixelClass::lit;
-constexpr auto blocked = PixelClass::blocked;
+using PixelClass::blocked;
+using PixelClass::lit;
 
 TEST(RadixSort, OrdersFloatsAsTheirValues)
 {

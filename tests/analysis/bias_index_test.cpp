@@ -1,16 +1,16 @@
 #include "analysis/bias_index.hpp"
+#include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <set>
 
 namespace gnomon::analysis {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using scene::infinity;
 
 TEST(BiasIndex, FindsTheFirstThatIsNotBelow)
 {

@@ -1,6 +1,7 @@
 #include "analysis/bias_limits.hpp"
 
 #include "curve_case.hpp"
+#include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +11,11 @@
 namespace gnomon::analysis {
 namespace {
 
+using scene::infinity;
 using scene::PixelClass;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr auto lit = PixelClass::lit;
-constexpr auto blocked = PixelClass::blocked;
+using PixelClass::blocked;
+using PixelClass::lit;
 
 BiasBounds bounds_of(const std::vector<CurvePixel>& pixels, const ForgiveGaps& forgive = nullptr)
 {

@@ -6,6 +6,7 @@
 #include "analysis/metrics.hpp"
 #include "analysis/pcf_taps.hpp"
 #include "random_biases.hpp"
+#include "scene/infinity.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -23,14 +23,14 @@ namespace gnomon::analysis {
 namespace {
 
 using scene::Filter;
+using scene::infinity;
 using scene::Outside;
 using scene::PixelClass;
+using test::random_biases;
+using test::random_depth;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using testing::random_biases;
-using testing::random_depth;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 const float nan = std::nanf("");
 
 /// One lookup and what is known of its pixels.

@@ -15,7 +15,7 @@ namespace {
 using scene::DepthFormat;
 using scene::PixelClass;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless_m = std::numeric_limits<double>::infinity();
 
 scene::LightFrustum directional()
 {
@@ -77,11 +77,11 @@ TEST(BiasLength, HasTheSlopeOfDepth)
 TEST(BiasLength, IsInfiniteBeyondEveryDistance)
 {
     // A·b·ζ = -1 at the bias that brings the receiver's 1/ζ to 0; A = 0.23.
-    EXPECT_EQ(bias_length_m(spot(), -1.0, 1 / 0.23), -infinity);
-    EXPECT_EQ(bias_length_m(spot(), -1.0, 20), -infinity);
+    EXPECT_EQ(bias_length_m(spot(), -1.0, 1 / 0.23), -endless_m);
+    EXPECT_EQ(bias_length_m(spot(), -1.0, 20), -endless_m);
     for (const auto& frustum : {spot(), directional()}) {
-        EXPECT_EQ(bias_length_m(frustum, infinity, 5), infinity);
-        EXPECT_EQ(bias_length_m(frustum, -infinity, 5), -infinity);
+        EXPECT_EQ(bias_length_m(frustum, endless_m, 5), endless_m);
+        EXPECT_EQ(bias_length_m(frustum, -endless_m, 5), -endless_m);
     }
 }
 
@@ -121,7 +121,7 @@ TEST(BiasMap, HoldsWhatLitPixelsNeedAndBlockedPixelsAllow)
 TEST(BiasMap, KeepsInfinities)
 {
     constexpr scene::ImageSize size{4, 1};
-    constexpr auto inf = static_cast<float>(infinity);
+    constexpr auto inf = static_cast<float>(endless_m);
     scene::Image<float> criticals{size, inf};
     criticals[1] = criticals[3] = -inf;
     scene::Image<PixelClass> classes{size, PixelClass::lit};

@@ -1,11 +1,11 @@
 #include "analysis/breakdown.hpp"
+#include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -13,12 +13,12 @@
 namespace gnomon::analysis {
 namespace {
 
+using scene::infinity;
 using scene::PixelClass;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 const float none = std::nanf("");
-constexpr auto lit = PixelClass::lit;
-constexpr auto blocked = PixelClass::blocked;
+using PixelClass::blocked;
+using PixelClass::lit;
 
 TEST(Quantiles, AreValuesOfNearestRank)
 {

@@ -1,6 +1,7 @@
 #include "analysis/causes.hpp"
 
 #include "fake_light.hpp"
+#include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +14,11 @@ namespace gnomon::analysis {
 namespace {
 
 using scene::Filter;
+using scene::infinity;
 using scene::Outside;
 using scene::PixelClass;
 
 constexpr int resolution = 8;
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
 
 /// One pixel before a map of 8×8 texels, looked up at the centre of texel (4, 4) with r = ½.

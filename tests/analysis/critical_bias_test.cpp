@@ -2,6 +2,7 @@
 
 #include "analysis/bias_order.hpp"
 #include "lookup_layers.hpp"
+#include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@
 namespace gnomon::analysis {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using scene::infinity;
+
 constexpr float smallest_normal = std::numeric_limits<float>::min();
 
 struct Case {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace gnomon::analysis::testing {
+namespace gnomon::analysis::test {
 
 /// The textbook lesson's frustum: near 4, far 50.
 inline scene::DepthRange
@@ -30,4 +30,4 @@ inline std::vector<DepthMapping> all_mappings()
     return mappings;
 }
 
-} // namespace gnomon::analysis::testing
+} // namespace gnomon::analysis::test

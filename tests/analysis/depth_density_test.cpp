@@ -12,7 +12,7 @@ namespace {
 
 using scene::ClipRange;
 using scene::Projection;
-using testing::seed_range;
+using test::seed_range;
 
 const DepthMapping tenth_to_ten_thousand{{Projection::perspective, 0.1, 10000, false, {}}};
 const DepthCoding d24 = DepthCoding::unorm(24);
@@ -47,7 +47,7 @@ TEST(CodeDensity, OfAnOrthographicProjectionIsConstant)
 
 TEST(CodeDensity, CountsCodesWithinADistanceFromNearToFar)
 {
-    for (const DepthMapping& mapping : testing::all_mappings()) {
+    for (const DepthMapping& mapping : test::all_mappings()) {
         for (const DepthCoding& coding : {d24, DepthCoding::float32()}) {
             EXPECT_EQ(code_share_within(mapping, coding, 4), 0);
             EXPECT_EQ(code_share_within(mapping, coding, 50), 1);

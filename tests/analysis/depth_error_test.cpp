@@ -14,19 +14,21 @@ namespace {
 
 using scene::ClipRange;
 using scene::Projection;
-using testing::all_mappings;
-using testing::seed_range;
+using test::all_mappings;
+using test::seed_range;
 
-/// Row of the table for near 4, far 50: error half a code about near, envelope at far, largest.
-struct Row {
+/// LargestError of the table for near 4, far 50: error half a code about near, envelope at far,
+/// largest.
+struct LargestError {
     int bits;
     double near_m;
     double far_m;
     double largest_m;
 };
-constexpr Row table[] = {{8, 7.23e-3, 1.1535, 1.10259},       {12, 4.49e-4, 0.07031, 0.070109},
-                         {16, 2.81e-5, 4.3874e-3, 4.3866e-3}, {20, 1.76e-6, 2.7418e-4, 2.7418e-4},
-                         {24, 1.10e-7, 1.7136e-5, 1.7136e-5}, {32, 4.28e-10, 6.694e-8, 6.694e-8}};
+constexpr LargestError table[] = {
+    {8, 7.23e-3, 1.1535, 1.10259},       {12, 4.49e-4, 0.07031, 0.070109},
+    {16, 2.81e-5, 4.3874e-3, 4.3866e-3}, {20, 1.76e-6, 2.7418e-4, 2.7418e-4},
+    {24, 1.10e-7, 1.7136e-5, 1.7136e-5}, {32, 4.28e-10, 6.694e-8, 6.694e-8}};
 
 /// Half a unit of the last digit of a number that is given with `digits` digits.
 double half_digit(double value, int digits)
@@ -37,7 +39,7 @@ double half_digit(double value, int digits)
 TEST(LargestDepthError, OfTheLessonIsTheTablesForEveryWidth)
 {
     const DepthMapping mapping{seed_range()};
-    for (const Row& row : table) {
+    for (const LargestError& row : table) {
         const DepthCoding coding = DepthCoding::unorm(row.bits);
         const int digits = row.bits == 8 ? 6 : row.bits == 32 ? 4 : 5;
         EXPECT_NEAR(largest_error_m(mapping, coding), row.largest_m,

@@ -12,8 +12,8 @@ namespace {
 
 using scene::ClipRange;
 using scene::Projection;
-using testing::all_mappings;
-using testing::seed_range;
+using test::all_mappings;
+using test::seed_range;
 
 TEST(DepthMapping, RunsFromNearToFar)
 {

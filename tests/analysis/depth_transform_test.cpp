@@ -116,7 +116,7 @@ constexpr TransformOrder both_orders[] = {TransformOrder::view_then_projection,
 
 TEST(TransformError, BoundsFloat32EvaluationOfBothOrders)
 {
-    for (const DepthMapping& mapping : testing::all_mappings()) {
+    for (const DepthMapping& mapping : test::all_mappings()) {
         for (const double offset_m : {0.0, 1.0, 500.0}) {
             for (const TransformOrder order : both_orders) {
                 const Measured measured = measure(mapping, offset_m, order);
@@ -159,7 +159,7 @@ TEST(TransformError, OfReversedDepthInZeroToOneIsNotMagnified)
 
 TEST(TransformError, OfTheLessonAtFarIsAboutFourHalfStepsOfD24)
 {
-    const DepthMapping mapping{testing::seed_range()};
+    const DepthMapping mapping{test::seed_range()};
     // 3(f + 3n)/(f − n) = 4.04 half-steps of D24 from the projection alone; z_ndc's division adds
     // one, the viewport one, and γ5·S the rest.
     const double half_step_m = 1.7136e-5;

@@ -3,10 +3,10 @@
 #include "analysis/bias_rows.hpp"
 
 #include "random_biases.hpp"
+#include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <optional>
 #include <random>
 #include <vector>
@@ -14,10 +14,10 @@
 namespace gnomon::analysis {
 namespace {
 
-using testing::random_biases;
-using testing::random_depth;
+using scene::infinity;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::random_biases;
+using test::random_depth;
 
 TEST(GapsAtBiases, GrowWithTheBias)
 {

@@ -22,13 +22,13 @@ scene::LightFrustum orthographic_frustum()
 }
 
 /// Four pixels looked up in one row of an 8×8 map: hit, missed by GL, rounded to far, not scored.
-struct Row {
+struct FourPixels {
     scene::TruthLayers truth;
     scene::LookupLayers lookup;
     scene::Image<float> no_depths;
     FakeLight light;
 
-    Row()
+    FourPixels()
     {
         truth.pixel_class = scene::Image<PixelClass>{{4, 1}, PixelClass::lit};
         truth.pixel_class[3] = PixelClass::attached;
@@ -60,7 +60,7 @@ struct Row {
 
 TEST(MapDepthErrors, AreStoredLessExactWhereBothSeeSomething)
 {
-    const auto errors_m = Row{}.errors_m();
+    const auto errors_m = FourPixels{}.errors_m();
     EXPECT_FLOAT_EQ(errors_m[0], 0.5F); // ζ 6.5 stored, 6 seen
     EXPECT_TRUE(std::isnan(errors_m[1])) << "GL saw nothing there";
     // 0.999 rounds to 1 in eight bits: 10 stored, 9.992 seen.

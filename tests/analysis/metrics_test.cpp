@@ -15,7 +15,7 @@ namespace {
 using scene::ClassReason;
 using scene::PixelClass;
 
-struct Pixel {
+struct MetricsPixel {
     PixelClass pixel_class;
     ClassReason reason = ClassReason::none;
     float verdict = 0;
@@ -26,7 +26,7 @@ struct Layers {
     scene::LookupLayers lookup;
 };
 
-Layers layers_of(const std::vector<Pixel>& pixels)
+Layers layers_of(const std::vector<MetricsPixel>& pixels)
 {
     const scene::ImageSize size{static_cast<int>(pixels.size()), 1};
     Layers layers;
@@ -42,7 +42,7 @@ Layers layers_of(const std::vector<Pixel>& pixels)
     return layers;
 }
 
-Metrics measure(const std::vector<Pixel>& pixels)
+Metrics measure(const std::vector<MetricsPixel>& pixels)
 {
     const Layers layers = layers_of(pixels);
     return analysis::measure(layers.truth, layers.lookup, 0);
@@ -134,7 +134,7 @@ TEST(Measure, LeavesRatesWithoutADenominatorEmpty)
 
 TEST(Measure, AcceptsAnEmptyImage)
 {
-    EXPECT_EQ(measure(std::vector<Pixel>{}).pixels.total, 0U);
+    EXPECT_EQ(measure(std::vector<MetricsPixel>{}).pixels.total, 0U);
 }
 
 TEST(Measure, GivesTheSameBitsWithAnyNumberOfThreads)
@@ -142,8 +142,8 @@ TEST(Measure, GivesTheSameBitsWithAnyNumberOfThreads)
     // Larger than several leaves of the reduction, with verdicts whose sum rounds.
     std::mt19937 random{20};
     std::uniform_real_distribution<float> verdict{0.0F, 1.0F};
-    std::vector<Pixel> pixels(300'001);
-    for (Pixel& pixel : pixels) {
+    std::vector<MetricsPixel> pixels(300'001);
+    for (MetricsPixel& pixel : pixels) {
         pixel = {random() % 2 == 0 ? PixelClass::lit : PixelClass::blocked, ClassReason::none,
                  std::min(verdict(random), 1.0F)};
     }
@@ -171,7 +171,7 @@ TEST(Measure, RejectsAScoredVerdictThatIsNoVerdict)
 
 TEST(Measure, NamesTheFirstBadPixel)
 {
-    std::vector<Pixel> pixels(200'000, Pixel{PixelClass::lit, ClassReason::none, 1});
+    std::vector<MetricsPixel> pixels(200'000, MetricsPixel{PixelClass::lit, ClassReason::none, 1});
     pixels[199'999].verdict = std::nanf("");
     pixels[100'003].verdict = std::nanf("");
     try {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace gnomon::analysis::testing {
+namespace gnomon::analysis::test {
 
 /// A depth of few digits, so that many pixels turn at the same bias, some of them at 0.
 inline float random_depth(std::mt19937& random)
@@ -38,4 +38,4 @@ inline std::vector<float> random_biases(std::mt19937& random, const std::vector<
     return biases;
 }
 
-} // namespace gnomon::analysis::testing
+} // namespace gnomon::analysis::test

@@ -7,7 +7,7 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-constexpr ImageSize image{160, 120};
+constexpr ImageSize audited_image{160, 120};
 
 struct Audited {
     std::vector<scene::FloatMethodErrors> errors;
@@ -35,8 +35,8 @@ Audited audit_at(const Vec3d& shift)
     for (scene::Vec3f& vertex : scene.vertices) {
         vertex += scene::Vec3f{shift};
     }
-    const View view =
-        make_view(Vec3d{2, 2.5, 4} + shift, Vec3d{0, 0.5, 0} + shift, image, sun({-0.4, -1, -0.3}));
+    const View view = make_view(Vec3d{2, 2.5, 4} + shift, Vec3d{0, 0.5, 0} + shift, audited_image,
+                                sun({-0.4, -1, -0.3}));
     const auto receivers = brute_force_receivers(scene, view);
     const ReferenceScene reference{scene, {0, true, true}};
     Audited audited;
@@ -79,8 +79,8 @@ TEST(AuditFloatMethods, NeedsPlainRays)
     SceneBuilder builder;
     add_ground(builder, 3, 1);
     const TriangleScene scene = builder.take();
-    const View view = make_view({2, 2.5, 4}, {0, 0, 0}, image, sun({0, -1, 0}));
-    const Image<std::uint32_t> receivers{image, 0};
+    const View view = make_view({2, 2.5, 4}, {0, 0, 0}, audited_image, sun({0, -1, 0}));
+    const Image<std::uint32_t> receivers{audited_image, 0};
     const ReferenceScene reference{scene};
     const auto truth = compute_truth(reference, view, brute_force_receivers(scene, view), {});
     EXPECT_THROW((void)audit_float_methods(reference, view, receivers, truth),

@@ -9,7 +9,7 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-constexpr ImageSize image{40, 30};
+constexpr ImageSize blocked_image{40, 30};
 
 /// Sheets above a ground, several of which cover a point.
 TriangleScene layered_scene(std::mt19937& random)
@@ -61,7 +61,7 @@ TEST(NearestBlockers, AreThoseOfBruteForceInRationals)
         std::mt19937 random{seed};
         const TriangleScene scene = layered_scene(random);
         const View view =
-            make_view({0.5, 3, 2}, {0, -1, 0}, image,
+            make_view({0.5, 3, 2}, {0, -1, 0}, blocked_image,
                       seed == 41 ? sun({0.3, -1, 0.2}) : spot({0, 2, 0.5}, {0, -1, 0}, 160));
         const auto receivers = brute_force_receivers(scene, view);
         const ReferenceScene reference{scene};
@@ -77,9 +77,9 @@ TEST(NearestBlockers, AreThoseOfBruteForceInRationals)
         int other_than_witness = 0;
         for (std::size_t k = 0; k < pixels.size(); ++k) {
             const std::size_t i = pixels[k];
-            const scene::Ray ray =
-                scene::pixel_ray(view.camera, view.image, static_cast<int>(i) % image.width_px,
-                                 static_cast<int>(i) / image.width_px);
+            const scene::Ray ray = scene::pixel_ray(view.camera, view.image,
+                                                    static_cast<int>(i) % blocked_image.width_px,
+                                                    static_cast<int>(i) / blocked_image.width_px);
             const RationalVec point = exact_point(ray, scene.corners(receivers[i]));
             EXPECT_EQ(blockers[k], exact_nearest_to_light(scene, view, point, receivers[i]))
                 << "pixel " << i;
@@ -129,13 +129,13 @@ TEST(NearestBlockers, RejectPixelsWithoutReceiver)
 {
     std::mt19937 random{1};
     const TriangleScene scene = layered_scene(random);
-    const View view = make_view({0, 3, 2}, {0, 0, 0}, image, sun({0, -1, 0}));
-    const Image<std::uint32_t> nothing{image, no_triangle};
+    const View view = make_view({0, 3, 2}, {0, 0, 0}, blocked_image, sun({0, -1, 0}));
+    const Image<std::uint32_t> nothing{blocked_image, no_triangle};
     const std::vector<std::size_t> first{0};
-    const std::vector<std::size_t> outside{image.pixel_count()};
+    const std::vector<std::size_t> outside{blocked_image.pixel_count()};
     const ReferenceScene reference{scene};
     EXPECT_THROW((void)nearest_blockers(reference, view, nothing, first), std::invalid_argument);
-    const Image<std::uint32_t> ground{image, 0};
+    const Image<std::uint32_t> ground{blocked_image, 0};
     EXPECT_THROW((void)nearest_blockers(reference, view, ground, outside), std::invalid_argument);
     const ReferenceScene plain{scene, {0, false, true}};
     EXPECT_THROW((void)nearest_blockers(plain, view, ground, first), std::invalid_argument);

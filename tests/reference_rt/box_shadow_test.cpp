@@ -69,7 +69,7 @@ std::vector<Vec2d> shadow_polygon(const scene::Light& light)
     return convex_hull(points);
 }
 
-/// A ground point in the image, homogeneous [px], seen from the pixel's centre.
+/// A ground point in the box_image, homogeneous [px], seen from the pixel's centre.
 Vec3d image_of(const Vec2d& ground, const View& view, const Vec2d& centre)
 {
     const Vec3d q = Vec3d{ground.x, 0, ground.y} - view.camera.eye;
@@ -81,7 +81,7 @@ Vec3d image_of(const Vec2d& ground, const View& view, const Vec2d& centre)
             -scale * glm::dot(q, view.camera.up) + (half - centre.y) * w, w};
 }
 
-/// Signed distance of a pixel's centre from the polygon's border in the image, positive inside;
+/// Signed distance of a pixel's centre from the polygon's border in the box_image, positive inside;
 /// outside it is at most the true distance. `point` is what the pixel shows of the ground.
 double depth_inside_px(const std::vector<Vec2d>& polygon, const Vec2d& point, const View& view,
                        const Vec2d& centre)
@@ -135,17 +135,17 @@ Comparison compare(const scene::TruthLayers& truth, const Image<std::uint32_t>& 
 /// pixel is no smaller than 1 mm here.
 constexpr double tolerance_px = 1e-3;
 
-constexpr ImageSize image{160, 120};
+constexpr ImageSize box_image{160, 120};
 constexpr ImageSize small{80, 60}; // where the ground has many triangles
 
-struct Case {
+struct Lighting {
     std::string_view name;
     View view;
 
-    friend void PrintTo(const Case& shown, std::ostream* out) { *out << shown.name; }
+    friend void PrintTo(const Lighting& shown, std::ostream* out) { *out << shown.name; }
 };
 
-class BoxShadow : public testing::TestWithParam<Case> {};
+class BoxShadow : public testing::TestWithParam<Lighting> {};
 
 TEST_P(BoxShadow, EqualsTheAnalyticPolygon)
 {
@@ -163,19 +163,20 @@ TEST_P(BoxShadow, EqualsTheAnalyticPolygon)
 INSTANTIATE_TEST_SUITE_P(
     Views, BoxShadow,
     testing::Values(
-        Case{"high sun", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.4, -1, 0.3}))},
-        Case{"low sun", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({1, -0.35, 0.2}))},
-        Case{"along an axis", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.7, -1, 0}))},
-        Case{"sideways", make_view({-1, 3, 3}, {0, 0, 0}, image, sun({-1, -0.5, 1}))},
+        Lighting{"high sun", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({0.4, -1, 0.3}))},
+        Lighting{"low sun", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({1, -0.35, 0.2}))},
+        Lighting{"along an axis", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({0.7, -1, 0}))},
+        Lighting{"sideways", make_view({-1, 3, 3}, {0, 0, 0}, box_image, sun({-1, -0.5, 1}))},
         // The box's foot from near: a pixel is about 3 mm.
-        Case{"foot", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, sun({1, -1, 0.1}))},
-        Case{"corner", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, sun({0.2, -0.4, 1}))},
-        Case{"spot",
-             make_view({2, 2.5, 3}, {0, 0, 0}, image, spot({-1.5, 3, 0.5}, {0, 0, 0}, 170))},
-        Case{"spot at the foot",
-             make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, image, spot({-1.5, 3, 0}, {0, 0, 0}, 170))},
-        Case{"orthographic", make_view({2, 2.5, 3}, {0, 0, 0}, image, sun({0.4, -1, 0.3}),
-                                       scene::Projection::orthographic)}));
+        Lighting{"foot", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image, sun({1, -1, 0.1}))},
+        Lighting{"corner",
+                 make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image, sun({0.2, -0.4, 1}))},
+        Lighting{"spot", make_view({2, 2.5, 3}, {0, 0, 0}, box_image,
+                                   spot({-1.5, 3, 0.5}, {0, 0, 0}, 170))},
+        Lighting{"spot at the foot", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image,
+                                               spot({-1.5, 3, 0}, {0, 0, 0}, 170))},
+        Lighting{"orthographic", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({0.4, -1, 0.3}),
+                                           scene::Projection::orthographic)}));
 
 TEST(BoxShadowOnTiles, IsNotBrokenByCoplanarNeighbours)
 {

@@ -26,12 +26,12 @@ using scene::View;
 using testing::HasSubstr;
 
 /// A box and a sphere on the ground, small enough for every pixel to be derived.
-struct Case {
+struct CertifiedScene {
     scene::TriangleScene scene;
     View view;
     TruthClaims claims;
 
-    explicit Case(const scene::LightSettings& light = test::sun({-0.4, -1, -0.3}))
+    explicit CertifiedScene(const scene::LightSettings& light = test::sun({-0.4, -1, -0.3}))
     {
         SceneBuilder builder;
         test::add_ground(builder, 3, 2);
@@ -79,7 +79,7 @@ struct Case {
 TEST(Certify, CertifiesTheReferencesTruthOfEveryPixel)
 {
     for (const auto& light : {test::sun({-0.4, -1, -0.3}), test::spot({2, 4, 1}, {0, 0, 0}, 40)}) {
-        const Case example{light};
+        const CertifiedScene example{light};
         const Certificate certificate = example.certify();
         for (const Refutation& refutation : certificate.refutations) {
             ADD_FAILURE() << refutation.x << ' ' << refutation.y << ": " << refutation.reason;
@@ -95,7 +95,7 @@ TEST(Certify, CertifiesTheReferencesTruthOfEveryPixel)
 
 TEST(Certify, RefutesAFlippedClass)
 {
-    Case example;
+    CertifiedScene example;
     const std::size_t lit = example.find(PixelClass::lit);
     for (const PixelClass claim : {PixelClass::attached, PixelClass::out_of_light,
                                    PixelClass::unmatched, PixelClass::indeterminate}) {
@@ -108,7 +108,7 @@ TEST(Certify, RefutesAFlippedClass)
 
 TEST(Certify, RefutesABlockedPixelThatIsClaimedLit)
 {
-    Case example;
+    CertifiedScene example;
     const std::size_t blocked = example.find(PixelClass::blocked);
     example.claim(blocked, PixelClass::lit);
     example.claims.witness[blocked] = no_triangle;
@@ -117,7 +117,7 @@ TEST(Certify, RefutesABlockedPixelThatIsClaimedLit)
 
 TEST(Certify, RefutesALitPixelThatIsClaimedBlocked)
 {
-    Case example;
+    CertifiedScene example;
     const std::size_t lit = example.find(PixelClass::lit);
     example.claim(lit, PixelClass::blocked);
     example.claims.witness[lit] = 30;
@@ -126,7 +126,7 @@ TEST(Certify, RefutesALitPixelThatIsClaimedBlocked)
 
 TEST(Certify, RefutesAReplacedOrMissingWitnessOutsideTheSampleToo)
 {
-    Case example;
+    CertifiedScene example;
     const std::size_t blocked = example.find(PixelClass::blocked);
     // The ground's first triangle, seen from its own plane, blocks nobody.
     for (const auto& [witness, reason] :
@@ -140,7 +140,7 @@ TEST(Certify, RefutesAReplacedOrMissingWitnessOutsideTheSampleToo)
 
 TEST(Certify, RefutesAWitnessOfAPixelThatIsNotBlocked)
 {
-    Case example;
+    CertifiedScene example;
     const std::size_t lit = example.find(PixelClass::lit);
     example.claims.witness[lit] = 3;
     example.expect_refuted(lit, "it has the witness 3 but is not blocked");
@@ -148,7 +148,7 @@ TEST(Certify, RefutesAWitnessOfAPixelThatIsNotBlocked)
 
 TEST(Certify, RefutesAnotherReceiver)
 {
-    Case example;
+    CertifiedScene example;
     const std::size_t lit = example.find(PixelClass::lit);
     const std::uint32_t receiver = example.claims.receiver[lit];
     for (const std::uint32_t other : {receiver + 1, 1'000'000U}) {
@@ -162,7 +162,7 @@ TEST(Certify, RefutesAnotherReceiver)
 
 TEST(Certify, RefutesATruthThatIsNotItsClasss)
 {
-    Case example;
+    CertifiedScene example;
     const std::size_t lit = example.find(PixelClass::lit);
     for (const float truth : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
         example.claims.truth[lit] = truth;
@@ -173,8 +173,8 @@ TEST(Certify, RefutesATruthThatIsNotItsClasss)
 TEST(Certify, RefutesASceneThatLacksABlocker)
 {
     // The claims were made without the sphere: its shadow was missed.
-    const Case example;
-    Case without = example;
+    const CertifiedScene example;
+    CertifiedScene without = example;
     for (std::size_t i = 0; i < without.claims.pixel_class.pixel_count(); ++i) {
         if (without.claims.pixel_class[i] == PixelClass::blocked &&
             without.scene.object_of(without.claims.witness[i]) == 2) {
@@ -189,7 +189,7 @@ TEST(Certify, RefutesASceneThatLacksABlocker)
 
 TEST(Certify, NamesTheFirstHundredInTheImagesOrder)
 {
-    Case example;
+    CertifiedScene example;
     std::uint64_t lit = 0;
     for (std::size_t i = 0; i < example.claims.pixel_class.pixel_count(); ++i) {
         if (example.claims.pixel_class[i] == PixelClass::lit) {
@@ -212,7 +212,7 @@ TEST(Certify, NamesTheFirstHundredInTheImagesOrder)
 
 TEST(Certify, DrawsTheSampleFromTheSurfaceAndFillsUpRareClasses)
 {
-    const Case example;
+    const CertifiedScene example;
     const Certificate certificate = example.certify({.sample = 100, .seed = 5});
     EXPECT_EQ(certificate.sampled, 100U);
     // 3/k for k pixels without a wrong one.
@@ -230,7 +230,7 @@ TEST(Certify, DrawsTheSampleFromTheSurfaceAndFillsUpRareClasses)
 
 TEST(Certify, DrawsTheSampleBySeedAlone)
 {
-    Case example;
+    CertifiedScene example;
     for (std::size_t i = 0; i < example.claims.pixel_class.pixel_count(); ++i) {
         if (example.claims.pixel_class[i] == PixelClass::lit) {
             example.claim(i, PixelClass::attached); // so that every pixel derived is named
@@ -252,7 +252,7 @@ TEST(Certify, DrawsTheSampleBySeedAlone)
 
 TEST(Certify, ReportsProgressOfBothStages)
 {
-    const Case example;
+    const CertifiedScene example;
     std::vector<std::string> stages;
     CertificateOptions options;
     options.progress = [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
@@ -267,7 +267,7 @@ TEST(Certify, ReportsProgressOfBothStages)
 
 TEST(Certify, ProvesNothingWithoutSurface)
 {
-    Case example;
+    CertifiedScene example;
     for (std::size_t i = 0; i < example.claims.pixel_class.pixel_count(); ++i) {
         example.claims.receiver[i] = no_triangle;
         example.claims.witness[i] = no_triangle;
@@ -283,7 +283,7 @@ TEST(Certify, ProvesNothingWithoutSurface)
 
 TEST(Certify, RejectsImagesOfAnotherSize)
 {
-    Case example;
+    CertifiedScene example;
     example.claims.truth = Image<float>{ImageSize{1, 1}};
     EXPECT_THROW((void)example.certify(), std::invalid_argument);
 }

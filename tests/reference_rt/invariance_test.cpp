@@ -10,7 +10,7 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-constexpr ImageSize image{48, 36};
+constexpr ImageSize moved_image{48, 36};
 constexpr std::array<unsigned, 3> seeds{31, 32, 33};
 
 /// A soup and two boxes on a tiled ground: general triangles, shared edges and coplanar neighbours.
@@ -34,7 +34,7 @@ TriangleScene mixed_scene(std::mt19937& random)
 
 View view_of(bool has_sun)
 {
-    return make_view({1, 2.5, 4}, {0, -0.5, 0}, image,
+    return make_view({1, 2.5, 4}, {0, -0.5, 0}, moved_image,
                      has_sun ? sun({-0.5, -1, -0.25}) : spot({-1, 3, 1}, {0, 0, 0}, 150));
 }
 

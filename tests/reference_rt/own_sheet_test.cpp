@@ -18,8 +18,8 @@ struct Spot {
 
 /// A scene under a sun at noon whose 8×8 texels are 0.5 m wide, u towards −x and v towards z, so
 /// that their centres are over odd multiples of 0.25 m. The camera looks straight down.
-struct Noon : LitScene {
-    explicit Noon(SceneBuilder& builder)
+struct NoonFromAbove : LitScene {
+    explicit NoonFromAbove(SceneBuilder& builder)
         : LitScene{builder.take(), light(), fixed_frustum(2, 1, 8), 8, {32, 32}}
     {
         scene::CameraSettings camera;
@@ -57,7 +57,7 @@ TEST(OwnSheet, LeadsAcrossThePlaneOfTwoTriangles)
 {
     SceneBuilder builder;
     add_ground(builder, 3, 1);
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({-1, 0.5}, 0, {-1.25, 0.75}, 0));
     EXPECT_TRUE(noon.leads({-1, 0.5}, 0, {1.25, -1.25}, 1));
     EXPECT_TRUE(noon.leads({1, -0.5}, 1, {-1.25, 1.25}, 0));
@@ -67,7 +67,7 @@ TEST(OwnSheet, LeadsAcrossManyTriangles)
 {
     SceneBuilder builder;
     add_ground(builder, 3, 25);
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     noon.receivers = brute_force_receivers(noon.triangles, noon.view);
     const auto texels = noon.all_texels();
     const auto hits = noon.exact_light()->first_hits(texels, HitDetail::placed);
@@ -87,7 +87,7 @@ TEST(OwnSheet, DoesNotLeadBeyondTheTexel)
     builder.add("strip",
                 std::vector<Vec3d>{{-2, 0, -1}, {-2, 0, 1}, {-0.5, 0, 1}, {0.5, 0, -1}, {2, 0, 1}},
                 Indices{{0, 1, 2}, {0, 2, 3}, {3, 2, 4}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({-1.75, 0.125}, 0, {-0.25, 0.25}, 1));
     EXPECT_FALSE(noon.leads({-1.75, 0.125}, 0, {-0.25, 0.25}, 2));
     EXPECT_TRUE(noon.leads({-1.75, 0.125}, 0, {0.75, 0.25}, 2));
@@ -99,7 +99,7 @@ TEST(OwnSheet, EndsAtAFold)
     SceneBuilder builder;
     builder.add("leaves", std::vector<Vec3d>{{1, 0, -2}, {1, 0, 2}, {-2, -0.5, 0}, {-2, 0.5, 0}},
                 Indices{{0, 2, 1}, {0, 3, 1}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_FALSE(noon.leads({0.5, 0}, 0, {0.75, -0.25}, 1));
     EXPECT_FALSE(noon.leads({0.5, 0}, 0, {1.75, -0.25}, 1)); // towards the edge and beyond
 }
@@ -109,7 +109,7 @@ TEST(OwnSheet, DoesNotLeadToAnother)
     SceneBuilder builder;
     add_ground(builder, 3, 1);
     add_ground(builder, 1, 1, 1, "table");
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_FALSE(noon.leads({1.25, 0.5}, 1, {0.75, -0.25}, 3));
     EXPECT_TRUE(noon.leads({0.5, 0.25}, 3, {-0.75, 0.25}, 2) &&
                 noon.leads({-0.5, 0.25}, 2, {-0.25, -0.75}, 2));
@@ -123,7 +123,7 @@ TEST(OwnSheet, EndsAtABoundaryEvenIfItGoesOnBehind)
         "L",
         std::vector<Vec3d>{{-2, 0, -2}, {-1, 0, -2}, {-1, 0, 1}, {-2, 0, 2}, {2, 0, 1}, {2, 0, 2}},
         Indices{{0, 2, 1}, {0, 3, 2}, {3, 4, 2}, {3, 5, 4}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_FALSE(noon.leads({-1.25, -1.5}, 0, {1.75, 1.25}, 2));
     EXPECT_TRUE(noon.leads({-1.75, 0.875}, 1, {0.25, 1.75}, 3)) << "this way stays inside";
 }
@@ -135,7 +135,7 @@ TEST(OwnSheet, DoesNotJoinAtATJunction)
     builder.add("junction",
                 std::vector<Vec3d>{{0, 0, -2}, {0, 0, 2}, {-2, 0, 0}, {0, 0, 0}, {2, 0, 0}},
                 Indices{{0, 2, 1}, {0, 3, 4}, {3, 1, 4}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_FALSE(noon.leads({-0.5, 0.5}, 0, {0.25, 0.25}, 2));
     EXPECT_TRUE(noon.leads({0.5, -0.25}, 1, {0.25, 0.25}, 2));
 }
@@ -147,7 +147,7 @@ TEST(OwnSheet, LeadsThroughACorner)
     SceneBuilder builder;
     builder.add("fan", std::vector<Vec3d>{{0, 0, 0}, {-2, 0, 0}, {0, 0, 2}, {2, 0, 0}, {0, 0, -2}},
                 Indices{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({-0.25, -0.25}, 3, {0.25, 0.25}, 1));
 }
 
@@ -156,7 +156,7 @@ TEST(OwnSheet, LeadsFromACorner)
     SceneBuilder builder;
     builder.add("fan", std::vector<Vec3d>{{0, 0, 0}, {-2, 0, 0}, {0, 0, 2}, {2, 0, 0}, {0, 0, -2}},
                 Indices{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({0, 0}, 3, {0.25, 0.25}, 1));
 }
 
@@ -164,7 +164,7 @@ TEST(OwnSheet, LeadsAcrossAnEdgeThatTheWayRunsAlong)
 {
     SceneBuilder builder;
     add_ground(builder, 2, 1); // the diagonal x = z
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({-1, -1}, 1, {0.25, 0.25}, 0));
     EXPECT_TRUE(noon.leads({0.25, 0.25}, 1, {0.25, 0.25}, 0)) << "P is on the texel's ray";
 }
@@ -174,10 +174,10 @@ TEST(OwnSheet, LeadsAroundACornerOnlyWhereThereIsSurface)
     const std::vector<Vec3d> corners{{0, 0, 0}, {-2, 0, 0}, {0, 0, 2}, {2, 0, 0}, {0, 0, -2}};
     SceneBuilder one_way;
     one_way.add("fan", corners, Indices{{0, 1, 2}, {0, 2, 3}, {0, 4, 1}});
-    EXPECT_TRUE(Noon{one_way}.leads({-0.25, -0.25}, 2, {0.25, 0.25}, 1));
+    EXPECT_TRUE(NoonFromAbove{one_way}.leads({-0.25, -0.25}, 2, {0.25, 0.25}, 1));
     SceneBuilder no_way;
     no_way.add("fan", corners, Indices{{0, 2, 3}, {0, 4, 1}});
-    EXPECT_FALSE(Noon{no_way}.leads({-0.25, -0.25}, 1, {0.25, 0.25}, 0));
+    EXPECT_FALSE(NoonFromAbove{no_way}.leads({-0.25, -0.25}, 1, {0.25, 0.25}, 0));
 }
 
 TEST(OwnSheet, LeadsThroughANonManifoldEdgeToEveryContinuation)
@@ -185,7 +185,7 @@ TEST(OwnSheet, LeadsThroughANonManifoldEdgeToEveryContinuation)
     SceneBuilder builder;
     builder.add("book", std::vector<Vec3d>{{0, 0, -2}, {0, 0, 2}, {-2, 0, 0}, {2, 0, 0}, {2, 1, 0}},
                 Indices{{0, 2, 1}, {0, 1, 3}, {0, 1, 4}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({-0.5, 0.125}, 0, {0.25, -0.25}, 1));
     EXPECT_TRUE(noon.leads({-0.5, 0.125}, 0, {0.25, -0.25}, 2));
     EXPECT_FALSE(noon.leads({0.5, 0.125}, 1, {0.25, -0.25}, 2))
@@ -199,7 +199,7 @@ TEST(OwnSheet, DoesNotTurnBackAtANonManifoldEdgeUnderTheTexel)
     builder.add("book",
                 std::vector<Vec3d>{{0.25, 0, -2}, {0.25, 0, 2}, {-2, 1, 0}, {-2, 0, 0}, {2, 0, 0}},
                 Indices{{0, 2, 1}, {0, 3, 1}, {0, 1, 4}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({-0.5, 0.125}, 1, {0.25, 0.25}, 2));
     EXPECT_FALSE(noon.leads({-0.5, 0.125}, 1, {0.25, 0.25}, 0));
 }
@@ -209,7 +209,7 @@ TEST(OwnSheet, JoinsPositionsWhateverTheirIndicesAndObjects)
     SceneBuilder builder;
     builder.add("left", std::vector<Vec3d>{{0, 0, -2}, {0, 0, 2}, {-2, 0, 0}}, Indices{{0, 2, 1}});
     builder.add("right", std::vector<Vec3d>{{2, 0, 0}, {0, 0, 2}, {0, 0, -2}}, Indices{{0, 2, 1}});
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     EXPECT_TRUE(noon.leads({-0.5, 0.125}, 0, {0.25, -0.25}, 1));
 }
 
@@ -288,7 +288,7 @@ TEST(OwnSheet, RejectsWhatIsNotInTheScene)
 {
     SceneBuilder builder;
     add_ground(builder, 3, 1);
-    Noon noon{builder};
+    NoonFromAbove noon{builder};
     noon.receivers[0] = 0;
     const auto light = noon.exact_light();
     for (const SheetQuery& query : {SheetQuery{0, {0, 8}, 0}, SheetQuery{0, {-1, 0}, 0},

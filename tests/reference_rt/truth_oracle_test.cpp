@@ -11,7 +11,7 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-constexpr ImageSize image{36, 27};
+constexpr ImageSize oracle_image{36, 27};
 
 /// Triangles about as large as the cube [-1, 1]^3 in which their middles lie.
 TriangleScene triangle_soup(std::mt19937& random, int triangle_count)
@@ -36,7 +36,7 @@ View view_of_soup(std::mt19937& random, bool has_sun, scene::Projection projecti
     const Vec3d side{place(random), place(random), place(random)};
     const scene::LightSettings light =
         has_sun ? sun(side) : spot(Vec3d{0, 3, 0} + side, {0, 0, 0}, 170);
-    return make_view(Vec3d{0, 0, 3} + 0.5 * side, {0, 0, 0}, image, light, projection);
+    return make_view(Vec3d{0, 0, 3} + 0.5 * side, {0, 0, 0}, oracle_image, light, projection);
 }
 
 /// Classes by brute force; the random soups hold no degenerate contact.

@@ -8,7 +8,7 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-constexpr ImageSize image{96, 72};
+constexpr ImageSize truth_image{96, 72};
 
 /// Ground and three boxes, one of them off the others' axes.
 TriangleScene boxes_scene()
@@ -23,17 +23,17 @@ TriangleScene boxes_scene()
 
 View boxes_view(const scene::LightSettings& light)
 {
-    return make_view({1.5, 2.25, 3.5}, {0, 0.25, 0}, image, light);
+    return make_view({1.5, 2.25, 3.5}, {0, 0.25, 0}, truth_image, light);
 }
 
 TEST(ComputeTruth, SeesOnlyBackgroundWhereThereIsNothing)
 {
     const TriangleScene scene = boxes_scene();
-    const View view = make_view({0, 2, 3}, {0, 4, 8}, image, sun({0, -1, 0}));
+    const View view = make_view({0, 2, 3}, {0, 4, 8}, truth_image, sun({0, -1, 0}));
     const auto truth = truth_of(scene, view);
     EXPECT_EQ(count(truth.pixel_class, PixelClass::background),
-              static_cast<int>(image.pixel_count()));
-    EXPECT_EQ(count(truth.witness, no_triangle), static_cast<int>(image.pixel_count()));
+              static_cast<int>(truth_image.pixel_count()));
+    EXPECT_EQ(count(truth.witness, no_triangle), static_cast<int>(truth_image.pixel_count()));
 }
 
 TEST(ComputeTruth, CallsAWallInTheLightsPlaneAttached)
@@ -64,9 +64,10 @@ TEST(ComputeTruth, CallsTheSideAwayFromTheLightAttached)
     SceneBuilder builder;
     add_ground(builder, 4, 1);
     const TriangleScene scene = builder.take();
-    const auto truth = truth_of(scene, make_view({0, 3, 1}, {0, 0, 0}, image, sun({0.1, 1, 0})));
+    const auto truth =
+        truth_of(scene, make_view({0, 3, 1}, {0, 0, 0}, truth_image, sun({0.1, 1, 0})));
     EXPECT_EQ(count(truth.pixel_class, PixelClass::attached),
-              static_cast<int>(image.pixel_count()));
+              static_cast<int>(truth_image.pixel_count()));
 }
 
 TEST(ComputeTruth, LightsADiscUnderASpot)
@@ -74,7 +75,7 @@ TEST(ComputeTruth, LightsADiscUnderASpot)
     SceneBuilder builder;
     add_ground(builder, 8, 8);
     const TriangleScene scene = builder.take();
-    const View view = make_view({2, 4, 3}, {0, 0, 0}, image, spot({0, 3, 0}, {0, 0, 0}, 60));
+    const View view = make_view({2, 4, 3}, {0, 0, 0}, truth_image, spot({0, 3, 0}, {0, 0, 0}, 60));
     const auto receivers = brute_force_receivers(scene, view);
     const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
     const auto points = receiver_points(scene, view, receivers);
@@ -137,12 +138,12 @@ TEST(ComputeTruth, BlocksAtAContactCloserThanFloatRaysResolve)
     TriangleScene scene = builder.take();
     scene.objects[1].receives = false;
     for (const Vec3d& direction : {Vec3d{0.3, -1, 0.2}, Vec3d{-1, -0.9, 0.4}}) {
-        const View view = make_view({1000.5, 2.5, 0.75}, {1000, 0, 0}, image, sun(direction));
+        const View view = make_view({1000.5, 2.5, 0.75}, {1000, 0, 0}, truth_image, sun(direction));
         const auto receivers = brute_force_receivers(scene, view);
         const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
         const int background = count(truth.pixel_class, PixelClass::background);
         EXPECT_EQ(count(truth.pixel_class, PixelClass::blocked) + background,
-                  static_cast<int>(image.pixel_count()));
+                  static_cast<int>(truth_image.pixel_count()));
         EXPECT_LT(background, 1000);
     }
 }
@@ -154,7 +155,7 @@ TEST(ComputeTruth, BlocksEverythingInsideAClosedSphere)
     add_sphere(builder, {0, 0, 0}, 2, 16);
     const TriangleScene scene = builder.take();
     for (const Vec3d& direction : {Vec3d{0, -1, 0}, Vec3d{1, 0, 0}, Vec3d{0.3, -1, 0.2}}) {
-        const View view = make_view({0, 0, 0.25}, {0.5, 0.5, -1}, image, sun(direction));
+        const View view = make_view({0, 0, 0.25}, {0.5, 0.5, -1}, truth_image, sun(direction));
         const auto truth = truth_of(scene, view);
         EXPECT_EQ(count(truth.pixel_class, PixelClass::lit), 0);
         EXPECT_EQ(count(truth.pixel_class, PixelClass::indeterminate), 0);
@@ -225,7 +226,7 @@ TEST(ComputeTruth, ByPlainRaysAgreesAwayFromContacts)
     // Its rays start 1e-4 of the diagonal off P, 1 mm or a tenth of a pixel: only pixels at a foot
     // or at a border, some 500 here, can differ, a tenth of them at most.
     EXPECT_LE(different, 50);
-    EXPECT_EQ(count(plain.witness, no_triangle), static_cast<int>(image.pixel_count()));
+    EXPECT_EQ(count(plain.witness, no_triangle), static_cast<int>(truth_image.pixel_count()));
 }
 
 TEST(ComputeTruth, RejectsForeignReceivers)
@@ -235,7 +236,7 @@ TEST(ComputeTruth, RejectsForeignReceivers)
     const ReferenceScene reference{scene};
     const Image<std::uint32_t> narrow{ImageSize{95, 72}, no_triangle};
     EXPECT_THROW((void)compute_truth(reference, view, narrow, {}), std::invalid_argument);
-    Image<std::uint32_t> foreign{image, no_triangle};
+    Image<std::uint32_t> foreign{truth_image, no_triangle};
     foreign(3, 3) = static_cast<std::uint32_t>(scene.triangles.size());
     EXPECT_THROW((void)compute_truth(reference, view, foreign, {}), std::invalid_argument);
     EXPECT_THROW((void)receiver_points(scene, view, foreign), std::invalid_argument);

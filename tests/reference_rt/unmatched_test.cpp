@@ -10,7 +10,7 @@ namespace {
 
 using scene::ClassReason;
 
-constexpr ImageSize image{64, 48};
+constexpr ImageSize small_image{64, 48};
 
 /// Two triangles that share the diagonal of a square, 4 m from the camera, and a sheet `gap_m`
 /// behind.
@@ -26,7 +26,7 @@ TriangleScene square_and_sheet(double gap_m)
 
 View front_view()
 {
-    return make_view({0, 0, 4}, {0, 0, 0}, image, sun({0.1, 0.2, -1}));
+    return make_view({0, 0, 4}, {0, 0, 0}, small_image, sun({0.1, 0.2, -1}));
 }
 
 struct Reclassified {
@@ -52,8 +52,8 @@ void expect_unmatched(const Reclassified& pixel, ClassReason reason)
 
 TEST(Unmatched, AcceptsBothFirstHitsOfASharedEdge)
 {
-    // In a square image, whose sx and sy have the same bits, the centres of (32 + k, 31 − k) lie on
-    // the diagonal exactly.
+    // In a square small_image, whose sx and sy have the same bits, the centres of (32 + k, 31 − k)
+    // lie on the diagonal exactly.
     const TriangleScene scene = square_and_sheet(1);
     View view = front_view();
     view.image = {64, 64};
@@ -110,7 +110,7 @@ TEST(Unmatched, IsASnapWhereTheNearPlaneCutsATriangle)
     builder.add("slope", std::vector<Vec3d>{{-9, -9, -9}, {9, -9, 9}, {9, 9, 9}, {-9, 9, -9}},
                 std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
     const TriangleScene scene = builder.take();
-    View view = make_view({4, 0, 4}, {4, 0, 0}, image, sun({0.1, 0.2, -1}),
+    View view = make_view({4, 0, 4}, {4, 0, 0}, small_image, sun({0.1, 0.2, -1}),
                           scene::Projection::orthographic);
     view.camera.half_height = 1;
     const double near_m = scene::receiver_near_m(scene.bounds());

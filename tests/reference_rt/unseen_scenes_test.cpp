@@ -11,15 +11,15 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-constexpr ImageSize image{32, 24};
+constexpr ImageSize unseen_image{32, 24};
 
-struct Case {
+struct Unseen {
     std::string_view name;
     TriangleScene (*make)(std::mt19937&);
     scene::LightSettings light;
     scene::Projection projection = scene::Projection::perspective;
 
-    friend void PrintTo(const Case& shown, std::ostream* out) { *out << shown.name; }
+    friend void PrintTo(const Unseen& shown, std::ostream* out) { *out << shown.name; }
 };
 
 /// Boxes on a lattice that share faces, edges and corners, on a ground of coplanar tiles.
@@ -91,7 +91,7 @@ TriangleScene soup(std::mt19937& random)
     return builder.take();
 }
 
-class UnseenScene : public testing::TestWithParam<Case> {};
+class UnseenScene : public testing::TestWithParam<Unseen> {};
 
 TEST_P(UnseenScene, HasNoWrongPixel)
 {
@@ -99,8 +99,8 @@ TEST_P(UnseenScene, HasNoWrongPixel)
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         std::mt19937 random{seed};
         const TriangleScene scene = GetParam().make(random);
-        const View view =
-            make_view({1, 2.5, 4}, {0, 0, 0}, image, GetParam().light, GetParam().projection);
+        const View view = make_view({1, 2.5, 4}, {0, 0, 0}, unseen_image, GetParam().light,
+                                    GetParam().projection);
         const Tally tally = check_every_pixel(scene, view);
         EXPECT_GT(tally.scored, 50);
         EXPECT_GT(tally.blocked, 5);
@@ -123,7 +123,7 @@ TEST_P(UnseenScene, HasNoWrongPixelAHundredDiagonalsAway)
         *light.target += shift;
     }
     const View view =
-        make_view(Vec3d{1, 2.5, 4} + shift, shift, image, light, GetParam().projection);
+        make_view(Vec3d{1, 2.5, 4} + shift, shift, unseen_image, light, GetParam().projection);
     EXPECT_GT(check_every_pixel(scene, view).scored, 50);
 }
 
@@ -139,7 +139,7 @@ View view_from_above(const scene::LightSettings& light)
     return View{scene::make_camera(camera), {32, 32}, scene::make_light(light), {}, {}};
 }
 
-class SceneOnTheSamplingLattice : public testing::TestWithParam<Case> {};
+class SceneOnTheSamplingLattice : public testing::TestWithParam<Unseen> {};
 
 TEST_P(SceneOnTheSamplingLattice, HasNoWrongPixel)
 {
@@ -183,7 +183,8 @@ TEST(AwkwardLight, MakesNoPixelWrong)
         add_box(builder, {0, 0, 0}, {1, 1, 1});
         add_box(builder, {-1, 0, 1}, {0, 1, 2});
         const TriangleScene scene = builder.take();
-        scored += check_every_pixel(scene, make_view({1, 2.5, 4}, {0, 0, 0}, image, light)).scored;
+        scored +=
+            check_every_pixel(scene, make_view({1, 2.5, 4}, {0, 0, 0}, unseen_image, light)).scored;
         scored += check_every_pixel(scene, view_from_above(light)).scored;
     }
     EXPECT_GT(scored, 1000);
@@ -220,7 +221,7 @@ TEST(TinyScene, HasNoWrongPixel)
                 vertex *= 1e-6F;
             }
             const auto light = spot({-1e-6, 3e-6, 1e-6}, {0, 0, 0}, 150);
-            const View view = make_view({1e-6, 2.5e-6, 4e-6}, {0, 0, 0}, image, light);
+            const View view = make_view({1e-6, 2.5e-6, 4e-6}, {0, 0, 0}, unseen_image, light);
             EXPECT_GT(check_every_pixel(scene, view).scored, 50);
         }
     }
@@ -231,25 +232,26 @@ const scene::LightSettings upright = sun({0, -1, 0});
 const scene::LightSettings diagonal = sun({-1, -1, 0});
 const scene::LightSettings lamp = spot({-1, 3, 1}, {0, 0, 0}, 150);
 
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, UnseenScene,
-    testing::Values(Case{"boxes, slanted", touching_boxes, slanted},
-                    Case{"boxes, upright", touching_boxes, upright},
-                    Case{"boxes, diagonal", touching_boxes, diagonal},
-                    Case{"boxes, orthographic", touching_boxes, diagonal,
-                         scene::Projection::orthographic},
-                    Case{"boxes, lamp", touching_boxes, lamp},
-                    Case{"sheets, slanted", coplanar_sheets, slanted},
-                    Case{"sheets, lamp", coplanar_sheets, lamp},
-                    Case{"strip, upright", folded_strip, upright},
-                    Case{"strip, lamp", folded_strip, lamp}, Case{"soup, slanted", soup, slanted},
-                    Case{"soup, lamp, orthographic", soup, lamp, scene::Projection::orthographic}));
+INSTANTIATE_TEST_SUITE_P(Kinds, UnseenScene,
+                         testing::Values(Unseen{"boxes, slanted", touching_boxes, slanted},
+                                         Unseen{"boxes, upright", touching_boxes, upright},
+                                         Unseen{"boxes, diagonal", touching_boxes, diagonal},
+                                         Unseen{"boxes, orthographic", touching_boxes, diagonal,
+                                                scene::Projection::orthographic},
+                                         Unseen{"boxes, lamp", touching_boxes, lamp},
+                                         Unseen{"sheets, slanted", coplanar_sheets, slanted},
+                                         Unseen{"sheets, lamp", coplanar_sheets, lamp},
+                                         Unseen{"strip, upright", folded_strip, upright},
+                                         Unseen{"strip, lamp", folded_strip, lamp},
+                                         Unseen{"soup, slanted", soup, slanted},
+                                         Unseen{"soup, lamp, orthographic", soup, lamp,
+                                                scene::Projection::orthographic}));
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SceneOnTheSamplingLattice,
-                         testing::Values(Case{"boxes, diagonal", touching_boxes, diagonal},
-                                         Case{"boxes, lamp", touching_boxes,
-                                              spot({0.0625, 3, 0.0625}, {0, 0, 0}, 150)},
-                                         Case{"strip, diagonal", folded_strip, diagonal}));
+                         testing::Values(Unseen{"boxes, diagonal", touching_boxes, diagonal},
+                                         Unseen{"boxes, lamp", touching_boxes,
+                                                spot({0.0625, 3, 0.0625}, {0, 0, 0}, 150)},
+                                         Unseen{"strip, diagonal", folded_strip, diagonal}));
 
 } // namespace
 } // namespace gnomon::reference_rt::test

@@ -17,12 +17,6 @@ namespace {
 
 using testing::UnorderedElementsAre;
 
-const Example& example()
-{
-    static const Example instance;
-    return instance;
-}
-
 /// An EXR file as it was read; channels are found by name, for their order in the file is not ours.
 class ReadLayers {
 public:

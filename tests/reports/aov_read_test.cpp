@@ -29,11 +29,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const Example& example()
-{
-    static const Example instance;
-    return instance;
-}
 ImageSize example_size()
 {
     return example().comparison.truth.pixel_class.size();

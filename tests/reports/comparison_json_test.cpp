@@ -19,12 +19,6 @@ using nlohmann::json;
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
-const Example& example()
-{
-    static const Example instance;
-    return instance;
-}
-
 json parsed(const analysis::Comparison& comparison)
 {
     return json::parse(comparison_json(comparison));

@@ -274,6 +274,12 @@ Example::Example(const ExampleOptions& options) : file{example_scene(options)}
     comparison = analysis::compare(example_job(options), file, renderers);
 }
 
+const Example& example()
+{
+    static const Example instance;
+    return instance;
+}
+
 TemporaryFolder::TemporaryFolder()
 {
     std::string name = (std::filesystem::temp_directory_path() / "gnomon-test-XXXXXX").string();

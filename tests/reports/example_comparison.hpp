@@ -27,6 +27,9 @@ struct Example {
     Example& operator=(const Example&) = delete;
 };
 
+/// The default example, made once.
+[[nodiscard]] const Example& example();
+
 /// A folder for one test's files, removed with everything in it.
 class TemporaryFolder {
 public:

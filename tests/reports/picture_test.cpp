@@ -19,12 +19,6 @@ using scene::ImageSize;
 using scene::PixelClass;
 using testing::HasSubstr;
 
-const Example& example()
-{
-    static const Example instance;
-    return instance;
-}
-
 std::ptrdiff_t count_colour(const RgbImage& image, Rgb colour)
 {
     return std::count(image.begin(), image.end(), colour);

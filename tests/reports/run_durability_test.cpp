@@ -29,14 +29,14 @@ using testing::HasSubstr;
 using testing::Not;
 using Access = RunStore::Access;
 
-const ExampleRun example{40, 25};
+const ExampleRun durable_run{40, 25};
 
 /// The CSV files of a run that nothing befell.
 const std::string& undisturbed_csv()
 {
     static const std::string texts = [] {
         const TemporaryFolder folder;
-        example.compute(folder.path());
+        durable_run.compute(folder.path());
         return csv_texts(folder.path());
     }();
     return texts;
@@ -46,13 +46,13 @@ const std::string& undisturbed_csv()
 void resume(const std::filesystem::path& folder, const std::function<void(std::uint64_t)>& done)
 {
     RunStore store{folder, Access::write};
-    store.plan(example.description(), example.configurations());
+    store.plan(durable_run.description(), durable_run.configurations());
     std::set<std::uint64_t> curves;
     for (const std::uint64_t ordinal : store.ordinals(RunState::planned)) {
-        curves.insert(ordinal / example.biases);
+        curves.insert(ordinal / durable_run.biases);
     }
     for (const std::uint64_t curve : curves) {
-        store.record(example.curve(curve));
+        store.record(durable_run.curve(curve));
         done(curve);
     }
     store.write_csv();
@@ -78,11 +78,11 @@ TEST(RunDurability, KeepsWhatWasReportedWhenItIsKilled)
             const RunStore store{folder.path(), Access::write};
             const auto done = store.ordinals(RunState::done);
             for (const char curve : read_text(log)) {
-                const auto ordinal = static_cast<std::uint64_t>(curve) * example.biases;
+                const auto ordinal = static_cast<std::uint64_t>(curve) * durable_run.biases;
                 EXPECT_TRUE(std::binary_search(done.begin(), done.end(), ordinal))
                     << "after kill " << kills << ", curve " << int{curve};
             }
-            EXPECT_EQ(done.size() % example.biases, 0U) << "half a curve after kill " << kills;
+            EXPECT_EQ(done.size() % durable_run.biases, 0U) << "half a curve after kill " << kills;
         }
     }
     resume(folder.path(), [](std::uint64_t) {});
@@ -179,12 +179,12 @@ void set_writable(const std::filesystem::path& folder, bool is_writable)
 TEST(RunDurability, SaysThatTheFolderMayNotBeWritten)
 {
     const TemporaryFolder folder;
-    example.compute(folder.path());
+    durable_run.compute(folder.path());
     set_writable(folder.path(), false);
     const std::string message = error_in_child([&] {
         become_nobody();
         RunStore store{folder.path(), Access::write};
-        store.plan(example.description(), example.configurations());
+        store.plan(durable_run.description(), durable_run.configurations());
     });
     set_writable(folder.path(), true);
     EXPECT_THAT(message, AllOf(HasSubstr("EnvironmentError: "), HasSubstr("results.sqlite"),
@@ -208,12 +208,12 @@ TEST(RunDurability, SaysThatANewFolderMayNotBeWritten)
 TEST(RunDurability, IsReadWhereNothingMayBeWritten)
 {
     const TemporaryFolder folder;
-    example.compute(folder.path());
+    durable_run.compute(folder.path());
     set_writable(folder.path(), false);
     const std::string message = error_in_child([&] {
         become_nobody();
         const RunStore store{folder.path(), Access::read};
-        if (store.ordinals(RunState::done).size() != example.curves * example.biases) {
+        if (store.ordinals(RunState::done).size() != durable_run.curves * durable_run.biases) {
             throw scene::InputError("not all was read");
         }
     });
@@ -253,7 +253,7 @@ TEST(RunDurability, RefusesAFileThatIsNoDatabase)
 TEST(RunDurability, RefusesADatabaseThatIsCutOff)
 {
     const TemporaryFolder folder;
-    example.compute(folder.path());
+    durable_run.compute(folder.path());
     const auto file = folder / "results.sqlite";
     const auto size = std::filesystem::file_size(file);
     for (const std::uintmax_t left : {size - 5000, size / 2, std::uintmax_t{4096}}) {
@@ -265,7 +265,7 @@ TEST(RunDurability, RefusesADatabaseThatIsCutOff)
 TEST(RunDurability, RefusesADamagedDatabase)
 {
     const TemporaryFolder folder;
-    example.compute(folder.path());
+    durable_run.compute(folder.path());
     {
         std::fstream file{folder / "results.sqlite",
                           std::ios::in | std::ios::out | std::ios::binary};
@@ -300,7 +300,7 @@ TEST(RunDurability, RefusesAnotherProgramsDatabaseAndLeavesItAlone)
 TEST(RunDurability, RefusesAnotherSchema)
 {
     const TemporaryFolder folder;
-    example.compute(folder.path());
+    durable_run.compute(folder.path());
     run_sql(folder / "results.sqlite", "PRAGMA user_version = 99");
     expect_refused(folder.path(), "its schema is 99, this Gnomon's is 1");
 }
@@ -308,7 +308,7 @@ TEST(RunDurability, RefusesAnotherSchema)
 TEST(RunDurability, RefusesOtherColumns)
 {
     const TemporaryFolder folder;
-    example.compute(folder.path());
+    durable_run.compute(folder.path());
     run_sql(folder / "results.sqlite", "ALTER TABLE configurations ADD COLUMN luck REAL");
     expect_refused(folder.path(), "a Gnomon with other keys or results wrote it");
 }

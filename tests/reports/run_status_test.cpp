@@ -20,16 +20,16 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const ExampleRun example{4, 2, 2};
+const ExampleRun two_case_run{4, 2, 2};
 
 /// A run of shard 2 with one failed and two missing configurations.
 void make_incomplete(const std::filesystem::path& folder)
 {
     std::filesystem::create_directories(folder);
     RunStore store{folder, RunStore::Access::write};
-    store.plan(example.description(2), example.configurations());
+    store.plan(two_case_run.description(2), two_case_run.configurations());
     store.record_failure(std::vector<std::uint64_t>{7}, "light.obj: no such file");
-    analysis::FinishedCurve half = example.curve(3);
+    analysis::FinishedCurve half = two_case_run.curve(3);
     half.rows.pop_back();
     store.record(half);
 }
@@ -52,7 +52,7 @@ TEST(RunStatus, ListsWhatFailedAndWhatIsMissing)
 TEST(RunStatus, IsShortWhenAllIsDone)
 {
     const TemporaryFolder folder;
-    example.compute(folder.path(), 1);
+    two_case_run.compute(folder.path(), 1);
     const RunStatus status = read_run_status(folder.path(), 20);
     EXPECT_TRUE(status.is_complete());
     EXPECT_EQ(run_status_text(status), folder.path().string() +
@@ -95,9 +95,10 @@ TEST(RunStatus, RefusesAFolderWithoutARun)
 TEST(RunStatus, LeavesTheCommandOutWhereItIsNotKnown)
 {
     const TemporaryFolder folder;
-    RunDescription description = example.description();
+    RunDescription description = two_case_run.description();
     description.command.clear();
-    RunStore{folder.path(), RunStore::Access::write}.plan(description, example.configurations());
+    RunStore{folder.path(), RunStore::Access::write}.plan(description,
+                                                          two_case_run.configurations());
     EXPECT_THAT(run_status_text(read_run_status(folder.path(), 0)), Not(HasSubstr("resume")));
 }
 

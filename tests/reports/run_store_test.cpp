@@ -23,12 +23,12 @@ using testing::Not;
 using Access = RunStore::Access;
 using Ordinals = std::vector<std::uint64_t>;
 
-const ExampleRun example{2, 3};
+const ExampleRun small_run{2, 3};
 
 RunStore planned_store(const TemporaryFolder& folder)
 {
     RunStore store{folder.path(), Access::write};
-    store.plan(example.description(), example.configurations());
+    store.plan(small_run.description(), small_run.configurations());
     return store;
 }
 
@@ -36,7 +36,7 @@ TEST(RunStore, StartsWithEverythingPlanned)
 {
     const TemporaryFolder folder;
     RunStore store{folder.path(), Access::write};
-    const PlanOutcome outcome = store.plan(example.description(), example.configurations());
+    const PlanOutcome outcome = store.plan(small_run.description(), small_run.configurations());
     EXPECT_EQ(outcome.planned, 6U);
     EXPECT_EQ(outcome.done + outcome.failed + outcome.retired, 0U);
     EXPECT_THAT(store.ordinals(RunState::planned), ElementsAre(0, 1, 2, 3, 4, 5));
@@ -47,7 +47,7 @@ TEST(RunStore, KnowsWhatWasRecorded)
 {
     const TemporaryFolder folder;
     RunStore store = planned_store(folder);
-    store.record(example.curve(1));
+    store.record(small_run.curve(1));
     store.record_failure(Ordinals{0, 2}, "out of\nmemory");
     EXPECT_THAT(store.ordinals(RunState::done), ElementsAre(3, 4, 5));
     EXPECT_THAT(store.ordinals(RunState::failed), ElementsAre(0, 2));
@@ -66,24 +66,24 @@ TEST(RunStore, KnowsWhatWasRecorded)
 TEST(RunStore, KeepsItAllForTheNextProcess)
 {
     const TemporaryFolder folder;
-    planned_store(folder).record(example.curve(1));
+    planned_store(folder).record(small_run.curve(1));
     RunStore store{folder.path(), Access::write};
     EXPECT_THAT(store.ordinals(RunState::done), ElementsAre(3, 4, 5));
-    const PlanOutcome outcome = store.plan(example.description(), example.configurations());
+    const PlanOutcome outcome = store.plan(small_run.description(), small_run.configurations());
     EXPECT_EQ(outcome.done, 3U);
     EXPECT_EQ(outcome.planned, 3U);
-    store.record(example.curve(0));
+    store.record(small_run.curve(0));
     store.write_csv();
 
     const TemporaryFolder other;
-    example.compute(other.path());
+    small_run.compute(other.path());
     EXPECT_EQ(csv_texts(folder.path()), csv_texts(other.path()));
 }
 
 TEST(RunStore, IsOneFileBetweenRuns)
 {
     const TemporaryFolder folder;
-    planned_store(folder).record(example.curve(1));
+    planned_store(folder).record(small_run.curve(1));
     EXPECT_EQ(folder.entry_count(), 1U);
     (void)RunStore{folder.path(), Access::read}.ordinals(RunState::done);
     EXPECT_EQ(folder.entry_count(), 1U);
@@ -95,17 +95,17 @@ TEST(RunStore, IsReadWhileItIsWritten)
     RunStore writer = planned_store(folder);
     const RunStore reader{folder.path(), Access::read};
     EXPECT_THAT(reader.ordinals(RunState::done), IsEmpty());
-    writer.record(example.curve(0));
+    writer.record(small_run.curve(0));
     EXPECT_THAT(reader.ordinals(RunState::done), ElementsAre(0, 1, 2));
 }
 
 TEST(RunStore, RemembersWhatWasPlanned)
 {
     const TemporaryFolder folder;
-    RunDescription planned = example.description();
+    RunDescription planned = small_run.description();
     planned.job = "[scene]\nfile = \"gr\xC3\xB6\xC3\x9F"
                   "er.obj\"\n";
-    RunStore{folder.path(), Access::write}.plan(planned, example.configurations());
+    RunStore{folder.path(), Access::write}.plan(planned, small_run.configurations());
     const RunDescription read = RunStore{folder.path(), Access::read}.description();
     EXPECT_EQ(read.environment.gl_renderer, "llvmpipe");
     EXPECT_EQ(read.environment.gl_version, "4.5 Mesa");
@@ -122,15 +122,15 @@ TEST(RunStore, TakesNewOrdinalsFromANewPlan)
 {
     const TemporaryFolder folder;
     RunStore store = planned_store(folder);
-    store.record(example.curve(0));
-    store.record(example.curve(1));
-    auto configurations = example.configurations();
+    store.record(small_run.curve(0));
+    store.record(small_run.curve(1));
+    auto configurations = small_run.configurations();
     std::reverse(configurations.begin(), configurations.end());
     configurations.resize(4); // of curve 1 all, of curve 0 the last
     for (std::size_t i = 0; i < configurations.size(); ++i) {
         configurations[i].ordinal = 10 + i;
     }
-    const PlanOutcome outcome = store.plan(example.description(), configurations);
+    const PlanOutcome outcome = store.plan(small_run.description(), configurations);
     EXPECT_EQ(outcome.done, 4U);
     EXPECT_EQ(outcome.retired, 2U);
     EXPECT_THAT(store.ordinals(RunState::done), ElementsAre(10, 11, 12, 13));
@@ -140,7 +140,7 @@ TEST(RunStore, TakesNewOrdinalsFromANewPlan)
     EXPECT_EQ(table.rows[0].at("id"), configurations[0].id);
     EXPECT_EQ(table.rows[0].at("false_shadow"), "1005"); // the example's ordinal 5
 
-    const PlanOutcome again = store.plan(example.description(), example.configurations());
+    const PlanOutcome again = store.plan(small_run.description(), small_run.configurations());
     EXPECT_EQ(again.done, 6U); // what was retired is not lost
     EXPECT_EQ(again.retired, 0U);
 }
@@ -149,11 +149,11 @@ TEST(RunStore, LeavesOutCurvesThatThePlanDoesNotAskFor)
 {
     const TemporaryFolder folder;
     RunStore store = planned_store(folder);
-    store.record(example.curve(0));
-    store.record(example.curve(1));
-    auto configurations = example.configurations();
+    store.record(small_run.curve(0));
+    store.record(small_run.curve(1));
+    auto configurations = small_run.configurations();
     configurations.resize(3);
-    store.plan(example.description(), configurations);
+    store.plan(small_run.description(), configurations);
     store.write_csv();
     EXPECT_EQ(read_csv(folder / "bias_curves.csv").rows.size(), 100U);
     EXPECT_EQ(read_csv(folder / "error_vs_z.csv").rows.size(), 64U);
@@ -163,12 +163,12 @@ TEST(RunStore, GivesEqualJobsOneResultAndEachItsRow)
 {
     const TemporaryFolder folder;
     RunStore store{folder.path(), Access::write};
-    auto configurations = example.configurations();
+    auto configurations = small_run.configurations();
     configurations[1].id = configurations[0].id; // two values of an axis that are the same job
     configurations[1].case_name = "evening";
-    const PlanOutcome outcome = store.plan(example.description(), configurations);
+    const PlanOutcome outcome = store.plan(small_run.description(), configurations);
     EXPECT_EQ(outcome.planned, 6U);
-    analysis::FinishedCurve curve = example.curve(0);
+    analysis::FinishedCurve curve = small_run.curve(0);
     curve.rows.erase(curve.rows.begin() + 1);
     store.record(curve);
     EXPECT_THAT(store.ordinals(RunState::done), ElementsAre(0, 1, 2));
@@ -184,11 +184,11 @@ TEST(RunStore, TriesWhatFailedAgainWhenAsked)
     const TemporaryFolder folder;
     RunStore store = planned_store(folder);
     store.record_failure(Ordinals{1, 4}, "no memory");
-    EXPECT_EQ(store.plan(example.description(), example.configurations()).failed, 2U);
+    EXPECT_EQ(store.plan(small_run.description(), small_run.configurations()).failed, 2U);
     EXPECT_EQ(store.reset_failed(), 2U);
     EXPECT_THAT(store.ordinals(RunState::failed), IsEmpty());
-    store.record(example.curve(0));
-    store.record(example.curve(1));
+    store.record(small_run.curve(0));
+    store.record(small_run.curve(1));
     store.write_csv();
     EXPECT_THAT(read_text(folder / "results.csv"), Not(HasSubstr("no memory")));
 }
@@ -197,7 +197,7 @@ TEST(RunStore, KeepsAResultAgainstALaterFailure)
 {
     const TemporaryFolder folder;
     RunStore store = planned_store(folder);
-    store.record(example.curve(0));
+    store.record(small_run.curve(0));
     store.record_failure(Ordinals{0}, "no memory");
     EXPECT_THAT(store.ordinals(RunState::done), ElementsAre(0, 1, 2));
     EXPECT_THAT(store.ordinals(RunState::failed), IsEmpty());
@@ -220,12 +220,12 @@ TEST(RunStore, RefusesResultsOfTwoEnvironments)
 {
     const TemporaryFolder folder;
     RunStore store = planned_store(folder);
-    RunDescription elsewhere = example.description();
+    RunDescription elsewhere = small_run.description();
     elsewhere.environment.gl_version = "4.6 Mesa";
-    EXPECT_NO_THROW(store.plan(elsewhere, example.configurations())); // no results yet
-    store.record(example.curve(0));
+    EXPECT_NO_THROW(store.plan(elsewhere, small_run.configurations())); // no results yet
+    store.record(small_run.curve(0));
     try {
-        store.plan(example.description(), example.configurations());
+        store.plan(small_run.description(), small_run.configurations());
         ADD_FAILURE() << "mixed two environments";
     } catch (const scene::InputError& error) {
         EXPECT_THAT(error.what(),
@@ -234,7 +234,7 @@ TEST(RunStore, RefusesResultsOfTwoEnvironments)
                           Not(HasSubstr("\n"))));
     }
     EXPECT_EQ(store.description().environment.gl_version, "4.6 Mesa"); // nothing changed
-    store.plan(example.description(), example.configurations(), Environments::several);
+    store.plan(small_run.description(), small_run.configurations(), Environments::several);
     EXPECT_THAT(store.ordinals(RunState::done), ElementsAre(0, 1, 2));
 }
 
@@ -242,10 +242,10 @@ TEST(RunStore, RefusesWhatWasNotPlanned)
 {
     const TemporaryFolder folder;
     RunStore store = planned_store(folder);
-    analysis::FinishedCurve unknown = example.curve(0);
+    analysis::FinishedCurve unknown = small_run.curve(0);
     unknown.curve.id = "unknown";
     EXPECT_THROW(store.record(unknown), std::invalid_argument);
-    analysis::FinishedCurve other_rows = example.curve(0);
+    analysis::FinishedCurve other_rows = small_run.curve(0);
     other_rows.rows.back().ordinal = 3; // of curve 1
     EXPECT_THROW(store.record(other_rows), std::invalid_argument);
     EXPECT_THROW(store.record_failure(Ordinals{0, 6}, "late"), std::invalid_argument);
@@ -256,13 +256,13 @@ TEST(RunStore, RefusesAPlanThatIsNone)
 {
     const TemporaryFolder folder;
     RunStore store{folder.path(), Access::write};
-    auto twice = example.configurations();
+    auto twice = small_run.configurations();
     twice[1].ordinal = 0;
-    EXPECT_THROW(store.plan(example.description(), twice), std::invalid_argument);
-    auto unknown_key = example.configurations();
+    EXPECT_THROW(store.plan(small_run.description(), twice), std::invalid_argument);
+    auto unknown_key = small_run.configurations();
     unknown_key[0].parameters.emplace_back("bias.variable", "1");
-    EXPECT_THROW(store.plan(example.description(), unknown_key), std::invalid_argument);
-    EXPECT_THROW(store.plan(example.description(2), example.configurations()),
+    EXPECT_THROW(store.plan(small_run.description(), unknown_key), std::invalid_argument);
+    EXPECT_THROW(store.plan(small_run.description(2), small_run.configurations()),
                  std::invalid_argument);
     EXPECT_THAT(store.ordinals(RunState::planned), IsEmpty());
 }

@@ -12,7 +12,7 @@ using testing::StartsWith;
 // Defaults that these tests build on: `wall` has a directional light by its direction and a bias in
 // metres, `sphere-plane` a spot and planes at 0.5 and 10, `yard` a directional light by position
 // and target and a fixed fit.
-const std::string wall = "scene.builtin = \"wall\"\n";
+const std::string wall_job = "scene.builtin = \"wall\"\n";
 const std::string sphere_plane = "scene.builtin = \"sphere-plane\"\n";
 const std::string yard = "scene.builtin = \"yard\"\n";
 const std::string model = "scene.file = \"model.obj\"\n";
@@ -27,7 +27,7 @@ TEST(JobLayers, BuiltInsDefaultsLieBeneathTheFilesKeys)
 
 TEST(JobLayers, OverridesLieAboveCasesAndCasesAboveTheFile)
 {
-    const std::string text = wall +
+    const std::string text = wall_job +
                              "image = {width = 10, height = 10}\nshadow_map.resolution = 10\n"
                              "[[case]]\nname = \"a\"\nimage.width = 20\nimage.height = 20\n";
     const Job job = job_of(text, {{"image.width", "30"}}, "a").job;
@@ -67,25 +67,26 @@ TEST(JobLayers, PartialCameraTakesTheDefaultsForTheRest)
 TEST(JobLayers, PartialCameraKeepsTheBuiltInsRest)
 {
     const Job built_in = builtin_job("wall").job;
-    const Job job = job_of(wall + "camera.eye = [9, 9, 9]\n").job;
+    const Job job = job_of(wall_job + "camera.eye = [9, 9, 9]\n").job;
     EXPECT_EQ(job.camera->eye, Vec3d(9, 9, 9));
     EXPECT_EQ(job.camera->target, built_in.camera->target);
 }
 
 TEST(JobLayers, OrthographicHeightReplacesAPerspectiveAndBack)
 {
-    const Job job = job_of(wall + "camera.orthographic_height = 3\n").job;
+    const Job job = job_of(wall_job + "camera.orthographic_height = 3\n").job;
     EXPECT_EQ(job.camera->projection, Projection::orthographic);
     EXPECT_EQ(job.camera->orthographic_height_m, 3);
     const Job back =
-        job_of(wall + "camera.orthographic_height = 3\n", {{"camera.vertical_fov_deg", "30"}}).job;
+        job_of(wall_job + "camera.orthographic_height = 3\n", {{"camera.vertical_fov_deg", "30"}})
+            .job;
     EXPECT_EQ(back.camera->projection, Projection::perspective);
     EXPECT_EQ(back.camera->vertical_fov_deg, 30);
 }
 
 TEST(JobLayers, BiasInDepthUnitsReplacesABiasInMetresAndBack)
 {
-    const Job depth_units = job_of(wall + "bias.constant = 0.5\n").job;
+    const Job depth_units = job_of(wall_job + "bias.constant = 0.5\n").job;
     EXPECT_FALSE(depth_units.bias.constant_m);
     EXPECT_EQ(depth_units.bias.constant, 0.5);
     const Job metres = job_of(yard + "bias.constant_m = 0.5\n").job;
@@ -116,7 +117,7 @@ TEST(JobLayers, SpotReplacesADirectionAndAnExtent)
 {
     const std::string light =
         "[light]\ntype = \"spot\"\nposition = [0, 9, 0]\ntarget = [0, 0, 0]\n";
-    EXPECT_FALSE(job_of(wall + "bias.constant = 0\n" + light).job.light->direction);
+    EXPECT_FALSE(job_of(wall_job + "bias.constant = 0\n" + light).job.light->direction);
     const Job job = job_of(yard + light).job;
     EXPECT_EQ(job.shadow_map.frustum.fit, Fit::fixed);
     EXPECT_FALSE(keys_of(job).contains("shadow_map.half_extent"));
@@ -132,11 +133,11 @@ TEST(JobLayers, DirectionAloneOverASpotIsRefusedWithBothRemedies)
 
 TEST(JobLayers, TargetReplacesADirectionFromBelow)
 {
-    const Job job = job_of(wall + "light.position = [1, 5, 0]\nlight.target = [0, 0, 0]\n").job;
+    const Job job = job_of(wall_job + "light.position = [1, 5, 0]\nlight.target = [0, 0, 0]\n").job;
     EXPECT_FALSE(job.light->direction);
     EXPECT_EQ(job.light->target, Vec3d(0, 0, 0));
     // Position alone says where the directional light's camera stands.
-    const Job moved = job_of(wall + "light.position = [1, 5, 0]\n").job;
+    const Job moved = job_of(wall_job + "light.position = [1, 5, 0]\n").job;
     EXPECT_TRUE(moved.light->direction);
     EXPECT_EQ(moved.light->position, Vec3d(1, 5, 0));
 }
@@ -156,7 +157,7 @@ TEST(JobLayers, AnotherFitReplacesTheFixedExtent)
 
 TEST(JobLayers, AnotherSceneLeavesTheParametersOfTheFormer)
 {
-    const std::string thick = wall + "scene.wall.thickness_m = 0.5\n";
+    const std::string thick = wall_job + "scene.wall.thickness_m = 0.5\n";
     const auto thickness = [](const Job& job) {
         return std::get<double>(job.scene.parameters.at("thickness_m"));
     };
@@ -177,22 +178,22 @@ TEST(JobLayers, LastOverrideOfAKeyCounts)
 
 TEST(JobLayers, RefuseTwoKeysThatExcludeEachOther)
 {
-    EXPECT_EQ(refusal(wall + model),
+    EXPECT_EQ(refusal(wall_job + model),
               "job.toml:2: scene.file = \"model.obj\": scene.builtin excludes it (job.toml:1: "
               "scene.builtin = \"wall\"); keep one of the two");
-    EXPECT_THAT(refusal(wall + "[camera]\nvertical_fov_deg = 40\northographic_height = 4\n"),
+    EXPECT_THAT(refusal(wall_job + "[camera]\nvertical_fov_deg = 40\northographic_height = 4\n"),
                 StartsWith("job.toml:4: camera.orthographic_height = 4: camera.vertical_fov_deg "
                            "excludes it"));
-    EXPECT_THAT(refusal(wall + "bias = {constant = 0, constant_m = 1}\n"),
+    EXPECT_THAT(refusal(wall_job + "bias = {constant = 0, constant_m = 1}\n"),
                 HasSubstr("bias.constant excludes it"));
-    EXPECT_THAT(refusal(wall + "light.position = [0, 1, 0]\nlight.target = [0, 0, 0]\n"
-                               "light.direction = [0, -1, 0]\n"),
+    EXPECT_THAT(refusal(wall_job + "light.position = [0, 1, 0]\nlight.target = [0, 0, 0]\n"
+                                   "light.direction = [0, -1, 0]\n"),
                 StartsWith("job.toml:3: light.target = [0, 0, 0]: light.direction excludes it"));
 }
 
 TEST(JobLayers, RefuseKeysOfTheOtherLight)
 {
-    EXPECT_THAT(refusal(wall + "light.cone_deg = 30\n"),
+    EXPECT_THAT(refusal(wall_job + "light.cone_deg = 30\n"),
                 HasSubstr("light.cone_deg = 30: only a spot has a cone"));
     EXPECT_THAT(refusal(model + "light.type = \"spot\"\nlight.position = [0, 1, 0]\n"),
                 AllOf(HasSubstr("a spot needs light.position and light.target"),
@@ -206,10 +207,10 @@ TEST(JobLayers, RefuseKeysOfTheOtherLight)
 
 TEST(JobLayers, RefuseAnExtentThatTheFitDoesNotUse)
 {
-    EXPECT_THAT(refusal(wall + "shadow_map.half_extent = 3\n"),
+    EXPECT_THAT(refusal(wall_job + "shadow_map.half_extent = 3\n"),
                 HasSubstr("only for shadow_map.fit = \"fixed\""));
     const std::string fixed = "shadow_map.fit = \"fixed\"\n";
-    EXPECT_THAT(refusal(wall + fixed + "shadow_map.fov_deg = 30\n"),
+    EXPECT_THAT(refusal(wall_job + fixed + "shadow_map.fov_deg = 30\n"),
                 HasSubstr("a directional light's map takes shadow_map.half_extent"));
     EXPECT_THAT(refusal(sphere_plane + fixed + "shadow_map.half_extent = 3\n"),
                 HasSubstr("a spot's map takes shadow_map.fov_deg"));
@@ -217,7 +218,7 @@ TEST(JobLayers, RefuseAnExtentThatTheFitDoesNotUse)
 
 TEST(JobLayers, RefuseNearThatIsNotBeforeFar)
 {
-    EXPECT_EQ(refusal(wall + "[shadow_map]\nnear = 5\nfar = 5\n"),
+    EXPECT_EQ(refusal(wall_job + "[shadow_map]\nnear = 5\nfar = 5\n"),
               "job.toml:3: shadow_map.near = 5: must be less than shadow_map.far (job.toml:4: "
               "shadow_map.far = 5)");
     EXPECT_THAT(refusal(sphere_plane + "shadow_map.near = 11\n"), // over the built-in's far
@@ -226,17 +227,18 @@ TEST(JobLayers, RefuseNearThatIsNotBeforeFar)
                 HasSubstr("shadow_map.near = 0: must be above 0 for a spot"));
     EXPECT_THAT(refusal(sphere_plane + "shadow_map.near = \"auto\"\nshadow_map.far = -1\n"),
                 HasSubstr("shadow_map.far = -1: must be above 0 for a spot"));
-    EXPECT_EQ(
-        job_of(wall + "shadow_map.near = -5\nshadow_map.far = 0\n").job.shadow_map.frustum.near_m,
-        -5);
+    EXPECT_EQ(job_of(wall_job + "shadow_map.near = -5\nshadow_map.far = 0\n")
+                  .job.shadow_map.frustum.near_m,
+              -5);
 }
 
 TEST(JobLayers, RefuseImagesThatAreTooLargeAltogether)
 {
-    EXPECT_EQ(job_of(wall + "image = {width = 16384, height = 8192}\n").job.image.height_px, 8192);
-    EXPECT_THAT(refusal(wall + "image = {width = 16384, height = 8193}\n"),
+    EXPECT_EQ(job_of(wall_job + "image = {width = 16384, height = 8192}\n").job.image.height_px,
+              8192);
+    EXPECT_THAT(refusal(wall_job + "image = {width = 16384, height = 8193}\n"),
                 HasSubstr("is 134234112 pixels; must be at most 134217728"));
-    EXPECT_THAT(refusal(wall + "image = {width = 20000, height = 20000}\n"),
+    EXPECT_THAT(refusal(wall_job + "image = {width = 20000, height = 20000}\n"),
                 HasSubstr("image.width = 20000: must be an integer from 1 to 16384"));
 }
 
