@@ -1,5 +1,6 @@
 #include "analysis/depth/measured_error.hpp"
 
+#include "analysis/depth/conversion.hpp"
 #include "analysis/depth/depth_error.hpp"
 
 #include <algorithm>
@@ -43,6 +44,18 @@ void include_extremes(MeasuredDepthError& error, const DepthErrorRow& row)
     error.max_share_of_model = std::max(error.max_share_of_model, magnitude_m / row.model_m);
 }
 
+/// Bound on the distance's error: that of the depths which lie as far off as the vertices moved the
+/// plane by, the driver's bound and conversion.
+double model_bound_m(const DepthMapping& mapping, const DepthCoding& coding,
+                     const scene::DepthSample& sample, double transform)
+{
+    const auto& [plane_depth, driver_bound, code] = sample.texel;
+    const double drop = driver_bound + conversion_drop(coding, plane_depth - driver_bound);
+    const double rise = driver_bound + conversion_rise(coding, plane_depth + driver_bound);
+    return std::max(std::abs(mapping.zeta_error_m(sample.zeta_m, transform - drop)),
+                    std::abs(mapping.zeta_error_m(sample.zeta_m, transform + rise)));
+}
+
 } // namespace
 
 DepthErrorRow formula_row(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
@@ -67,9 +80,7 @@ DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& co
     row.stored_zeta_m = zeta_m + row.error_m;
     const double transform = sample.texel.plane_depth - row.depth;
     row.transform_error_m = mapping.zeta_error_m(zeta_m, transform);
-    const double either_code = 2 * coding.half_step(sample.texel.plane_depth);
-    row.model_m = mapping.largest_zeta_error_m(zeta_m, std::abs(transform) +
-                                                           sample.texel.driver_bound + either_code);
+    row.model_m = model_bound_m(mapping, coding, sample, transform);
     row.texel_class = classify_texel(coding, sample.texel);
     return row;
 }

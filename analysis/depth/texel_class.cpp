@@ -1,7 +1,8 @@
 #include "analysis/depth/texel_class.hpp"
 
+#include "analysis/depth/conversion.hpp"
+
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -9,32 +10,14 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Codes of the depths next below and above, both the same if the depth has a code.
-struct CodePair {
-    std::uint32_t lower = 0;
-    std::uint32_t upper = 0;
-
-    [[nodiscard]] bool holds(std::uint32_t code) const { return lower <= code && code <= upper; }
-};
-
-std::uint32_t floor_code(const DepthCoding& coding, double depth)
+/// Residual over what the driver's bound and conversion allow on its side of the exact depth.
+double share_of_bound(const DepthCoding& coding, const scene::TexelDepth& texel)
 {
-    const double clamped = std::clamp(depth, 0.0, 1.0);
-    if (!coding.is_float()) {
-        return static_cast<std::uint32_t>(std::floor(clamped * coding.largest_code()));
-    }
-    const std::uint32_t code = coding.nearest_code(clamped);
-    return coding.depth(code) > clamped ? code - 1 : code; // the bits of floats >= 0 are in order
-}
-
-std::uint32_t ceil_code(const DepthCoding& coding, double depth)
-{
-    const double clamped = std::clamp(depth, 0.0, 1.0);
-    if (!coding.is_float()) {
-        return static_cast<std::uint32_t>(std::ceil(clamped * coding.largest_code()));
-    }
-    const std::uint32_t code = coding.nearest_code(clamped);
-    return coding.depth(code) < clamped ? code + 1 : code;
+    const double residual = coding.depth(texel.code) - texel.plane_depth;
+    const double conversion = residual < 0
+                                  ? conversion_drop(coding, texel.plane_depth - texel.driver_bound)
+                                  : conversion_rise(coding, texel.plane_depth + texel.driver_bound);
+    return std::abs(residual) / (texel.driver_bound + conversion);
 }
 
 std::size_t bin_of(double magnitude_codes)
@@ -65,19 +48,16 @@ double residual_codes(const DepthCoding& coding, const scene::TexelDepth& texel)
 TexelClass classify_texel(const DepthCoding& coding, const scene::TexelDepth& texel)
 {
     const double exact = texel.plane_depth;
-    const auto pair = [&](double lower, double upper) {
-        return CodePair{floor_code(coding, lower), ceil_code(coding, upper)};
-    };
-    const CodePair format = pair(exact, exact);
+    const CodeRange format = nearest_codes(coding, exact);
     if (format.holds(texel.code)) {
         const std::uint32_t other = texel.code == format.lower ? format.upper : format.lower;
         const bool is_nearest =
             std::abs(coding.depth(texel.code) - exact) <= std::abs(coding.depth(other) - exact);
         return is_nearest ? TexelClass::nearest_code : TexelClass::within_format;
     }
-    return pair(exact - texel.driver_bound, exact + texel.driver_bound).holds(texel.code)
-               ? TexelClass::within_model
-               : TexelClass::outside;
+    const CodeRange model =
+        converted_codes(coding, exact - texel.driver_bound, exact + texel.driver_bound);
+    return model.holds(texel.code) ? TexelClass::within_model : TexelClass::outside;
 }
 
 double histogram_end_codes(std::size_t bin)
@@ -95,14 +75,13 @@ DepthCertificate certify_texels(const DepthCoding& coding,
     double squares = 0;
     for (const scene::TexelDepth& texel : texels) {
         const double magnitude = std::abs(residual_codes(coding, texel));
-        const double step = 2 * coding.half_step(texel.plane_depth);
         ++certificate.counts.at(static_cast<std::size_t>(classify_texel(coding, texel)));
         ++certificate.histogram.at(bin_of(magnitude));
         squares += magnitude * magnitude;
         certificate.largest_residual_codes =
             std::max(certificate.largest_residual_codes, magnitude);
-        certificate.largest_share_of_bound = std::max(
-            certificate.largest_share_of_bound, magnitude * step / (texel.driver_bound + step));
+        certificate.largest_share_of_bound =
+            std::max(certificate.largest_share_of_bound, share_of_bound(coding, texel));
     }
     if (!texels.empty()) {
         certificate.rms_residual_codes = std::sqrt(squares / static_cast<double>(texels.size()));

@@ -15,7 +15,7 @@ namespace gnomon::analysis {
 enum class TexelClass : std::uint8_t {
     nearest_code,  ///< the code nearest to the exact depth
     within_format, ///< one of the two nearest, which GL allows a conversion
-    within_model,  ///< within the driver's bound B of the exact depth, then rounded either way
+    within_model,  ///< converted from a depth within the driver's bound B of the exact one
     outside        ///< none of these
 };
 inline constexpr std::size_t texel_class_count = 4;
@@ -34,7 +34,7 @@ struct DepthCertificate {
     std::array<std::size_t, texel_class_count> counts{}; ///< by class, each texel once
     double largest_residual_codes = 0;                   ///< magnitude
     double rms_residual_codes = 0;
-    double largest_share_of_bound = 0; ///< |stored − exact| / (B + one code)
+    double largest_share_of_bound = 0; ///< |stored − exact| / (B + the conversion's error)
     /// Texels by |residual| in codes: up to ½, 1, 2, 4, … 2^12, and above.
     std::array<std::size_t, 15> histogram{};
 

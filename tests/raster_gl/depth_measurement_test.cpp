@@ -1,5 +1,6 @@
 #include "gl_case.hpp"
 
+#include "analysis/depth/conversion.hpp"
 #include "analysis/depth/depth_error.hpp"
 #include "analysis/depth/depth_plan.hpp"
 #include "analysis/depth/measured_error.hpp"
@@ -11,8 +12,10 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 /// Depths that GL stored of planes whose distance is known, against the formulas.
 namespace gnomon::raster_gl {
@@ -133,6 +136,67 @@ TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
             }
         }
     }
+}
+
+/// Frusta whose depths lie near 0 and 1, in each direction and clip range.
+std::vector<scene::DepthRange> ranges_near_the_ends_of_depth()
+{
+    std::vector<scene::DepthRange> ranges;
+    for (const auto& [near_m, far_m] : {std::pair{4.0, 50.0}, {0.1, 1000.0}, {1.0, 1e6}}) {
+        for (const bool reversed : {false, true}) {
+            for (const auto clip : {ClipRange::minus_one_to_one, ClipRange::zero_to_one}) {
+                ranges.push_back({Projection::perspective, near_m, far_m, reversed, clip});
+            }
+        }
+    }
+    return ranges;
+}
+
+TEST(DepthMeasurement, LeavesTheDriverModelNowhereNearTheEndsOfDepth)
+{
+    GNOMON_REQUIRE_GL();
+    for (const scene::DepthRange& range : ranges_near_the_ends_of_depth()) {
+        for (const std::string& format : supported_formats()) {
+            DepthPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 12);
+            settings.range = range;
+            const MeasuredDepthError error = measured(settings, format);
+            const auto where =
+                fmt::format("{} near {} far {} reversed {} clip {}", format, range.near_m,
+                            range.far_m, range.reversed, static_cast<int>(range.clip_range));
+            EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U) << where;
+            EXPECT_LE(error.certificate.largest_share_of_bound, 1) << where;
+            EXPECT_LE(error.max_share_of_model, 1) << where;
+        }
+    }
+}
+
+TEST(DepthMeasurement, Of32BitsOnLlvmpipeIsADoubledSignedInteger)
+{
+    GNOMON_REQUIRE_GL();
+    const auto names = supported_formats();
+    if (!tests::shader_arithmetic_is_ieee() || std::ranges::find(names, "d32") == names.end()) {
+        GTEST_SKIP() << "another driver converts in another way, or has no d32";
+    }
+    std::size_t below_gl = 0;
+    for (const scene::DepthRange& range : ranges_near_the_ends_of_depth()) {
+        DepthPlaneSettings settings = seed_planes(1 << 12);
+        settings.range = range;
+        const scene::DepthPlanes planes = scene::make_depth_planes(settings);
+        RasterPlanes raster{*tests::shared_context(), planes};
+        const auto integers = raster.measure(format_of("d32")).samples;
+        const auto floats = raster.measure(format_of("d32f")).samples;
+        ASSERT_EQ(integers.size(), floats.size());
+        for (std::size_t i = 0; i < floats.size(); ++i) {
+            const auto depth = std::bit_cast<float>(floats[i].texel.code);
+            const auto truncated = static_cast<std::uint32_t>(depth * 0x1p31F);
+            const std::uint32_t code = integers[i].texel.code;
+            ASSERT_EQ(code, 2 * truncated - (truncated >> 31U)) << std::hexfloat << depth;
+            if (code < analysis::nearest_codes(DepthCoding::unorm(32), depth).lower) {
+                ++below_gl;
+            }
+        }
+    }
+    EXPECT_GT(below_gl, 1000U); // what GL does not allow, and why the model must
 }
 
 TEST(DepthMeasurement, TransformsErrorStaysBelowTheTheorysBound)
