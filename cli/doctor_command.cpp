@@ -7,8 +7,7 @@
 #include "raster_gl/depth_formats.hpp"
 #include "reference_rt/truth.hpp"
 #include "reports/canvas.hpp"
-#include "reports/depth/depth_certificate_text.hpp"
-#include "reports/depth/depth_json.hpp"
+#include "reports/depth/depth_certificate_report.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +30,7 @@ struct Findings {
     std::vector<raster_gl::DeviceInfo> devices;
     std::optional<raster_gl::GlFacts> gl;
     std::vector<raster_gl::FormatSupport> formats;
-    std::vector<reports::CertifiedFormat> certificate; ///< empty if it was not asked for
+    reports::DriverCertificate certificate; ///< empty if it was not asked for
     std::string embree;
     std::uint64_t available_memory_bytes = 0;
     unsigned cores = 0;
@@ -68,21 +67,6 @@ Findings look(std::optional<int> device, bool certifies_depth)
     return findings;
 }
 
-Json certificate_json(const std::vector<reports::CertifiedFormat>& formats)
-{
-    Json json = Json::object();
-    for (const reports::CertifiedFormat& format : formats) {
-        Json units = Json::array();
-        for (const auto& [depth, r] : format.offset_units) {
-            units.push_back({{"depth", depth}, {"r", r}});
-        }
-        json[format.name] = {{"large", reports::certificate_json(format.large)},
-                             {"small", reports::certificate_json(format.small)},
-                             {"offset_units", units}};
-    }
-    return json;
-}
-
 Json to_json(const Findings& findings)
 {
     Json json;
@@ -106,8 +90,8 @@ Json to_json(const Findings& findings)
     for (const auto& format : findings.formats) {
         json["depth_formats"][format.name] = format.supported;
     }
-    if (!findings.certificate.empty()) {
-        json["depth_certificate"] = certificate_json(findings.certificate);
+    if (!findings.certificate.ranges.empty()) {
+        json["depth_certificate"] = reports::driver_certificate_json(findings.certificate);
     }
     json["embree"] = findings.embree;
     json["cores"] = findings.cores;
@@ -148,7 +132,7 @@ std::string to_text(const Findings& findings)
     for (const std::string& problem : findings.problems) {
         text += row("missing", problem);
     }
-    if (!findings.certificate.empty()) {
+    if (!findings.certificate.ranges.empty()) {
         text += reports::certificate_text(findings.certificate) + "\n";
     }
     return text + (findings.problems.empty() ? "Everything that Gnomon needs is here.\n" : "");

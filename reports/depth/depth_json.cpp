@@ -14,15 +14,6 @@ using analysis::DepthStudy;
 using analysis::DepthTheory;
 using analysis::MeasuredDepthError;
 
-Json frustum_json(const scene::DepthRange& range)
-{
-    return {{"projection", projection_name(range.projection)},
-            {"near_m", range.near_m},
-            {"far_m", range.far_m},
-            {"reversed", range.reversed},
-            {"clip_range", clip_range_name(range.clip_range)}};
-}
-
 Json theory_json(const DepthTheory& theory)
 {
     return {{"max_error_m", theory.max_error_m},
@@ -75,6 +66,15 @@ Json sample_json(const DepthErrorRow& row, bool is_measured)
 }
 
 } // namespace
+
+Json frustum_json(const scene::DepthRange& range)
+{
+    return {{"projection", projection_name(range.projection)},
+            {"near_m", range.near_m},
+            {"far_m", range.far_m},
+            {"reversed", range.reversed},
+            {"clip_range", clip_range_name(range.clip_range)}};
+}
 
 Json certificate_json(const analysis::DepthCertificate& certificate)
 {

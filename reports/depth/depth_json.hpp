@@ -3,6 +3,7 @@
 #include "analysis/depth/depth_study.hpp"
 #include "analysis/depth/texel_class.hpp"
 #include "reports/json_values.hpp"
+#include "scene/depth_range.hpp"
 
 #include <span>
 #include <string>
@@ -18,6 +19,9 @@ namespace gnomon::reports {
 
 /// Theory and measurement without samples.
 [[nodiscard]] Json depth_summary_json(const analysis::DepthStudy& study);
+
+/// "projection", "near_m", "far_m", "reversed", "clip_range".
+[[nodiscard]] Json frustum_json(const scene::DepthRange& range);
 
 /// Counts by class, residuals and histogram of a certificate.
 [[nodiscard]] Json certificate_json(const analysis::DepthCertificate& certificate);

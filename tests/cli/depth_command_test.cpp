@@ -5,6 +5,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <utility>
 
 namespace gnomon::testing {
 namespace {
@@ -177,22 +179,39 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--plot", "x.jpg"}, ".svg or .png");
 }
 
-TEST(Doctor, CertifiesDepth)
+TEST(Doctor, CertifiesDepthInEveryRange)
 {
     const Ending ending = gnomon({"doctor", "--depth", "--json"});
     expect_done(ending);
-    const Json json = Json::parse(ending.out);
-    for (const auto& [name, format] : json.at("depth_certificate").items()) {
-        for (const char* triangles : {"large", "small"}) {
-            const Json& certificate = format.at(triangles);
-            EXPECT_EQ(certificate.at("outside"), 0) << name << " " << triangles;
-            EXPECT_GT(certificate.at("texels"), 10000) << name << " " << triangles;
-        }
-        if (name.starts_with("d")) {
-            EXPECT_EQ(format.at("offset_units").size(), 6U) << name;
+    const Json certificate = Json::parse(ending.out).at("depth_certificate");
+    std::set<std::pair<std::string, bool>> directions;
+    for (const Json& range : certificate.at("ranges")) {
+        const Json& frustum = range.at("frustum");
+        directions.emplace(frustum.at("clip_range"), frustum.at("reversed"));
+        EXPECT_GE(range.at("formats").size(), 6U) << frustum;
+        for (const auto& [name, format] : range.at("formats").items()) {
+            for (const char* triangles : {"large", "small"}) {
+                const Json& texels = format.at(triangles);
+                EXPECT_EQ(texels.at("outside"), 0) << frustum << name << " " << triangles;
+                EXPECT_LE(texels.at("largest_share_of_bound"), 1)
+                    << frustum << name << " " << triangles;
+                EXPECT_GT(texels.at("texels"), 10000) << frustum << name << " " << triangles;
+            }
         }
     }
-    EXPECT_THAT(gnomon({"doctor", "--depth"}).out, HasSubstr("polygon offset"));
+    EXPECT_EQ(directions,
+              (std::set<std::pair<std::string, bool>>{
+                  {"minus_one_to_one", false}, {"zero_to_one", false}, {"zero_to_one", true}}));
+    for (const auto& [name, units] : certificate.at("offset_units").items()) {
+        EXPECT_EQ(units.size(), 6U) << name;
+    }
+}
+
+TEST(Doctor, PrintsTheCertificateIfAskedFor)
+{
+    const std::string text = gnomon({"doctor", "--depth"}).out;
+    EXPECT_THAT(text, HasSubstr("near 0.1 m, far 1000 m, clip [0, 1], reversed"));
+    EXPECT_THAT(text, HasSubstr("polygon offset"));
     EXPECT_FALSE(Json::parse(gnomon({"doctor", "--json"}).out).contains("depth_certificate"));
 }
 
