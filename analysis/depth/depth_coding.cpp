@@ -54,6 +54,14 @@ double DepthCoding::depth(std::uint32_t code) const
                       : code / static_cast<double>(largest_code());
 }
 
+SplitDepth DepthCoding::split_depth(std::uint32_t code) const
+{
+    const double complement = is_float()
+                                  ? 1 - depth(code)
+                                  : (largest_code() - code) / static_cast<double>(largest_code());
+    return {depth(code), complement};
+}
+
 double DepthCoding::half_step(double depth) const
 {
     return is_float() ? std::min(half_float32_step(depth), 0x1p-25) : 0.5 / largest_code();

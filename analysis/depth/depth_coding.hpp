@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/depth/split_depth.hpp"
 #include "scene/job.hpp"
 
 #include <cstdint>
@@ -28,6 +29,8 @@ public:
     [[nodiscard]] std::uint32_t nearest_code(double depth) const;
     /// The depth that a code stands for, in [0, 1].
     [[nodiscard]] double depth(std::uint32_t code) const;
+    /// The same with 1 − d, both rounded once.
+    [[nodiscard]] SplitDepth split_depth(std::uint32_t code) const;
     /// Largest distance of a depth from the nearest code: q/2 with q = 1/(2^bits − 1), or half a
     /// unit in the last place, 2^(e − 24) for 2^e <= d < 2^(e+1) (2^-25 at 1).
     [[nodiscard]] double half_step(double depth) const;

@@ -46,12 +46,12 @@ double largest_float_error_m(const DepthMapping& mapping, const DepthCoding& cod
 
 StoredDepth stored_depth(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
 {
-    const double exact = mapping.depth(zeta_m);
     StoredDepth stored;
-    stored.code = code_of(mapping, coding, exact);
-    stored.depth = coding.depth(stored.code);
-    stored.error_m = mapping.zeta_error_m(zeta_m, stored.depth - exact);
-    stored.zeta_m = zeta_m + stored.error_m;
+    stored.code = code_of(mapping, coding, mapping.depth(zeta_m));
+    const SplitDepth depth = coding.split_depth(stored.code);
+    stored.depth = depth.depth;
+    stored.error_m = mapping.stored_error_m(zeta_m, depth);
+    stored.zeta_m = mapping.zeta_m(depth);
     return stored;
 }
 
@@ -83,7 +83,7 @@ double largest_error_m(const DepthMapping& mapping, const DepthCoding& coding)
 
 double exact_distance_m(const DepthMapping& mapping, const DepthCoding& coding, std::uint32_t code)
 {
-    return mapping.zeta_m(coding.depth(code));
+    return mapping.zeta_m(coding.split_depth(code));
 }
 
 double smooth_float_envelope_m(const DepthMapping& mapping, double zeta_m)

@@ -8,7 +8,7 @@ namespace gnomon::analysis {
 
 DepthMapping::DepthMapping(const scene::DepthRange& range)
     : range_{range},
-      depth_per_inverse_m_{1 / range.near_m - 1 / range.far_m}
+      depth_per_inverse_m_{(range.far_m - range.near_m) / (range.far_m * range.near_m)}
 {
     if (!std::isfinite(near_m()) || !std::isfinite(far_m()) || !(near_m() < far_m())) {
         throw std::domain_error("DepthMapping: near must be below far, both finite");
@@ -18,24 +18,37 @@ DepthMapping::DepthMapping(const scene::DepthRange& range)
     }
 }
 
-double DepthMapping::depth(double zeta_m) const
+SplitDepth DepthMapping::split_depth(double zeta_m) const
 {
-    const double from_end_m = range_.reversed ? far_m() - zeta_m : zeta_m - near_m();
-    const double share = from_end_m / (far_m() - near_m());
-    if (!is_perspective()) {
-        return share;
+    const double extent_m = far_m() - near_m();
+    double from_near = (zeta_m - near_m()) / extent_m;
+    double from_far = (far_m() - zeta_m) / extent_m;
+    if (is_perspective()) {
+        from_near = far_m() * from_near / zeta_m;
+        from_far = near_m() * from_far / zeta_m;
     }
-    return (range_.reversed ? near_m() : far_m()) * share / zeta_m;
+    return range_.reversed ? SplitDepth{from_far, from_near} : SplitDepth{from_near, from_far};
 }
 
-double DepthMapping::zeta_m(double depth) const
+double DepthMapping::zeta_m(const SplitDepth& depth) const
 {
+    const auto [from_near, from_far] =
+        range_.reversed ? SplitDepth{depth.complement, depth.depth} : depth;
+    const bool is_nearer_near = from_near < from_far;
     if (!is_perspective()) {
-        const double along_m = depth * (far_m() - near_m());
-        return range_.reversed ? far_m() - along_m : near_m() + along_m;
+        const double extent_m = far_m() - near_m();
+        return is_nearer_near ? near_m() + from_near * extent_m : far_m() - from_far * extent_m;
     }
-    return 1 / (range_.reversed ? 1 / far_m() + depth_per_inverse_m_ * depth
-                                : 1 / near_m() - depth_per_inverse_m_ * depth);
+    return is_nearer_near ? near_m() / (from_far + near_m() / far_m() * from_near)
+                          : far_m() / (from_near + far_m() / near_m() * from_far);
+}
+
+double DepthMapping::stored_error_m(double zeta_m, const SplitDepth& stored) const
+{
+    const double raised = difference(stored, split_depth(zeta_m));
+    const double towards_far = range_.reversed ? -raised : raised;
+    return is_perspective() ? depth_per_inverse_m_ * towards_far * zeta_m * this->zeta_m(stored)
+                            : towards_far * (far_m() - near_m());
 }
 
 double DepthMapping::slope_m(double zeta_m) const

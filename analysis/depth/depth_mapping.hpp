@@ -1,12 +1,13 @@
 #pragma once
 
+#include "analysis/depth/split_depth.hpp"
 #include "scene/depth_range.hpp"
 
 namespace gnomon::analysis {
 
 /// The exact map between the distance ζ from the camera's plane and window depth in [0, 1].
 ///
-///     perspective    d = f(ζ − n)/(ζ(f − n)),  1/ζ = 1/n − A·d,  A = 1/n − 1/f
+///     perspective    d = f(ζ − n)/(ζ(f − n)),  1/ζ = 1/n − A·d,  A = 1/n − 1/f = (f − n)/(fn)
 ///     reversed       d = n(f − ζ)/(ζ(f − n)),  1/ζ = 1/f + A·d
 ///     orthographic   d = (ζ − n)/(f − n), reversed (f − ζ)/(f − n)
 ///
@@ -25,9 +26,19 @@ public:
     }
 
     /// Window depth of a distance; in [0, 1] for ζ in [near, far].
-    [[nodiscard]] double depth(double zeta_m) const;
-    /// The distance that a window depth stands for [m].
-    [[nodiscard]] double zeta_m(double depth) const;
+    [[nodiscard]] double depth(double zeta_m) const { return split_depth(zeta_m).depth; }
+    /// The same with 1 − d, both to a few 2^-53 of themselves and exact at near and far.
+    [[nodiscard]] SplitDepth split_depth(double zeta_m) const;
+    /// The distance that a window depth stands for [m]; near and far are exact. With t the depth,
+    /// or reversed 1 − d, sums of positive terms, to a few 2^-53 of the distance:
+    ///
+    ///     perspective    n/((1 − t) + (n/f)t) = f/(t + (f/n)(1 − t))
+    ///     orthographic   n + t(f − n) = f − (1 − t)(f − n)
+    [[nodiscard]] double zeta_m(const SplitDepth& depth) const;
+    [[nodiscard]] double zeta_m(double depth) const { return zeta_m({depth, 1 - depth}); }
+    /// How far the distance ζ' of a depth lies behind ζ [m]: AΔζζ', Δ(f − n) for an orthographic
+    /// projection, to a few 2^-53 of the larger of the two distances.
+    [[nodiscard]] double stored_error_m(double zeta_m, const SplitDepth& stored) const;
     /// |dζ/dd| at ζ [m]: Aζ² for a perspective, far − near for an orthographic projection.
     [[nodiscard]] double slope_m(double zeta_m) const;
     /// How far a signed depth error moves the distance [m]: AΔζ²/(1 − AΔζ), exactly; Δ(f − n) for

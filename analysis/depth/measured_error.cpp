@@ -76,8 +76,9 @@ DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& co
     const double zeta_m = sample.zeta_m;
     DepthErrorRow row = formula_row(mapping, coding, zeta_m);
     row.code = sample.texel.code;
-    row.error_m = mapping.zeta_error_m(zeta_m, coding.depth(row.code) - row.depth);
-    row.stored_zeta_m = zeta_m + row.error_m;
+    const SplitDepth stored = coding.split_depth(row.code);
+    row.error_m = mapping.stored_error_m(zeta_m, stored);
+    row.stored_zeta_m = mapping.zeta_m(stored);
     const double transform = sample.texel.plane_depth - row.depth;
     row.transform_error_m = mapping.zeta_error_m(zeta_m, transform);
     row.model_m = model_bound_m(mapping, coding, sample, transform);

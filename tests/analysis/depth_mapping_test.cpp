@@ -1,11 +1,14 @@
 #include "analysis/depth/depth_mapping.hpp"
 
+#include "analysis/depth/depth_coding.hpp"
 #include "depth_case.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon::analysis {
 namespace {
@@ -21,8 +24,104 @@ TEST(DepthMapping, RunsFromNearToFar)
         const double near_depth = mapping.range().reversed ? 1 : 0;
         EXPECT_EQ(mapping.depth(4), near_depth);
         EXPECT_EQ(mapping.depth(50), 1 - near_depth);
-        EXPECT_DOUBLE_EQ(mapping.zeta_m(near_depth), 4);
-        EXPECT_DOUBLE_EQ(mapping.zeta_m(1 - near_depth), 50);
+        EXPECT_EQ(mapping.zeta_m(near_depth), 4);
+        EXPECT_EQ(mapping.zeta_m(1 - near_depth), 50);
+    }
+}
+
+/// Ranges whose far plane lies up to 10^12 times as far as the near one, or close behind it.
+std::vector<DepthMapping> extreme_mappings()
+{
+    std::vector<DepthMapping> mappings;
+    for (const auto& [near_m, far_m] :
+         {std::pair{0.1, 10000.0}, {0.3, 1e6}, {1e-6, 1e6}, {7.0, 7.000001}, {1e3, 1e15}}) {
+        for (const auto projection : {Projection::perspective, Projection::orthographic}) {
+            for (const bool reversed : {false, true}) {
+                mappings.emplace_back(
+                    scene::DepthRange{projection, near_m, far_m, reversed, ClipRange::zero_to_one});
+            }
+        }
+    }
+    return mappings;
+}
+
+const std::vector<DepthCoding> codings{DepthCoding::unorm(8), DepthCoding::unorm(24),
+                                       DepthCoding::unorm(32), DepthCoding::float32()};
+
+/// Codes at, next to and between the ends.
+std::vector<std::uint32_t> codes_of(const DepthCoding& coding)
+{
+    const std::uint32_t last = coding.largest_code();
+    return {0, 1, 2, last / 7, last / 2, last / 2 + 1, last - last / 9, last - 2, last - 1, last};
+}
+
+/// The distance of a code with the 64 significant bits of long double; 1 − t of an integer code is
+/// exact.
+long double wide_zeta_m(const DepthMapping& mapping, const DepthCoding& coding, std::uint32_t code)
+{
+    const long double largest = coding.largest_code();
+    const long double depth =
+        coding.is_float() ? static_cast<long double>(coding.depth(code)) : code / largest;
+    const long double complement =
+        coding.is_float() ? 1 - depth
+                          : static_cast<long double>(coding.largest_code() - code) / largest;
+    const long double t = mapping.range().reversed ? complement : depth;
+    const long double rest = mapping.range().reversed ? depth : complement;
+    const long double near_m = mapping.near_m();
+    const long double far_m = mapping.far_m();
+    return mapping.is_perspective() ? near_m * far_m / (far_m * rest + near_m * t)
+                                    : rest * near_m + t * far_m;
+}
+
+TEST(DepthMapping, HasNearAndFarExactlyAtTheEndsOfEveryCoding)
+{
+    for (const DepthMapping& mapping : extreme_mappings()) {
+        for (const DepthCoding& coding : codings) {
+            const double at_0_m = mapping.zeta_m(coding.split_depth(0));
+            const double at_1_m = mapping.zeta_m(coding.split_depth(coding.largest_code()));
+            EXPECT_EQ(at_0_m, mapping.range().reversed ? mapping.far_m() : mapping.near_m());
+            EXPECT_EQ(at_1_m, mapping.range().reversed ? mapping.near_m() : mapping.far_m());
+        }
+    }
+}
+
+TEST(DepthMapping, KeepsEveryDigitOfACodesDistance)
+{
+    for (const DepthMapping& mapping : extreme_mappings()) {
+        for (const DepthCoding& coding : codings) {
+            for (const std::uint32_t code : codes_of(coding)) {
+                const long double exact_m = wide_zeta_m(mapping, coding, code);
+                const double zeta_m = mapping.zeta_m(coding.split_depth(code));
+                // Positive terms: t, 1 − t, n/f, product, sum and quotient round once each.
+                EXPECT_NEAR(static_cast<double>(zeta_m - exact_m), 0,
+                            6 * 0x1p-53 * static_cast<double>(exact_m))
+                    << mapping.near_m() << " to " << mapping.far_m() << ", " << coding.bits()
+                    << " bits, code " << code;
+            }
+        }
+    }
+}
+
+TEST(DepthMapping, ErrorOfAStoredDepthIsTheDifferenceOfItsDistances)
+{
+    for (const DepthMapping& mapping : extreme_mappings()) {
+        for (const DepthCoding& coding : codings) {
+            for (const std::uint32_t code : codes_of(coding)) {
+                for (const double share : {0.0, 1e-9, 0.1, 0.5, 0.999, 1.0}) {
+                    const double zeta_m = std::lerp(mapping.near_m(), mapping.far_m(), share);
+                    const auto difference_m =
+                        static_cast<double>(wide_zeta_m(mapping, coding, code) - zeta_m);
+                    const double larger_m = std::max(zeta_m, zeta_m + difference_m);
+                    // Δ is off by four roundings of one half of the depth at ζ and one at ζ', the
+                    // smaller at ζ: times Aζζ' each is below 2 max(ζ, ζ'). The products add 4, the
+                    // distance 6, relative to a result below max(ζ, ζ').
+                    EXPECT_NEAR(mapping.stored_error_m(zeta_m, coding.split_depth(code)),
+                                difference_m, 20 * 0x1p-53 * larger_m)
+                        << mapping.near_m() << " to " << mapping.far_m() << ", " << coding.bits()
+                        << " bits, code " << code << ", zeta " << zeta_m;
+                }
+            }
+        }
     }
 }
 
