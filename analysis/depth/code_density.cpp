@@ -13,6 +13,12 @@ double code_step_m(const DepthMapping& mapping, const DepthCoding& coding, doubl
     return 2 * depth_tolerance(mapping, coding, zeta_m) * mapping.slope_m(zeta_m);
 }
 
+double largest_code_step_m(const DepthMapping& mapping, const DepthCoding& coding)
+{
+    const auto [zeta_m, tolerance] = coarsest_depth(mapping, coding);
+    return 2 * tolerance * mapping.slope_m(zeta_m);
+}
+
 double codes_per_metre(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
 {
     return 1 / code_step_m(mapping, coding, zeta_m);

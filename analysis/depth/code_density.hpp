@@ -13,6 +13,10 @@ namespace gnomon::analysis {
 [[nodiscard]] double code_step_m(const DepthMapping& mapping, const DepthCoding& coding,
                                  double zeta_m);
 
+/// The largest distance between neighbouring codes from near to far [m], to first order: far's but
+/// for float32.
+[[nodiscard]] double largest_code_step_m(const DepthMapping& mapping, const DepthCoding& coding);
+
 /// Codes per metre at ζ [1/m]: 1/step.
 [[nodiscard]] double codes_per_metre(const DepthMapping& mapping, const DepthCoding& coding,
                                      double zeta_m);

@@ -22,16 +22,25 @@ std::uint32_t code_of(const DepthMapping& mapping, const DepthCoding& coding, do
     return coding.nearest_code(depth);
 }
 
-/// The largest envelope of float32: Δ is constant between powers of two of d (and of z_ndc), and
-/// ζ² grows, so it is attained at one of them or at an end.
-double largest_float_error_m(const DepthMapping& mapping, const DepthCoding& coding)
+double tolerance_at_depth(const DepthMapping& mapping, const DepthCoding& coding, double depth)
 {
-    double largest_m = 0;
+    const double half_step = coding.half_step(depth);
+    if (!passes_float_ndc(mapping, coding)) {
+        return half_step;
+    }
+    return half_step + 0.5 * std::min(half_float32_step(2 * depth - 1), 0x1p-25);
+}
+
+CoarsestDepth coarsest_float_depth(const DepthMapping& mapping, const DepthCoding& coding)
+{
+    CoarsestDepth coarsest;
     const auto include = [&](double depth) {
-        const double zeta_m = std::clamp(mapping.zeta_m(depth), mapping.near_m(), mapping.far_m());
-        largest_m = std::max(largest_m, error_envelope_m(mapping, coding, zeta_m));
+        const CoarsestDepth here{mapping.zeta_m(depth), tolerance_at_depth(mapping, coding, depth)};
+        if (here.tolerance * mapping.slope_m(here.zeta_m) >
+            coarsest.tolerance * mapping.slope_m(coarsest.zeta_m)) {
+            coarsest = here;
+        }
     };
-    include(0);
     constexpr int smallest_exponent = -149;
     for (int exponent = 0; exponent >= smallest_exponent; --exponent) {
         const double power = std::ldexp(1.0, exponent);
@@ -39,7 +48,7 @@ double largest_float_error_m(const DepthMapping& mapping, const DepthCoding& cod
         include(0.5 + 0.5 * power);
         include(0.5 - 0.5 * power);
     }
-    return largest_m;
+    return coarsest;
 }
 
 } // namespace
@@ -57,12 +66,13 @@ StoredDepth stored_depth(const DepthMapping& mapping, const DepthCoding& coding,
 
 double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
 {
-    const double depth = mapping.depth(zeta_m);
-    const double half_step = coding.half_step(depth);
-    if (!passes_float_ndc(mapping, coding)) {
-        return half_step;
-    }
-    return half_step + 0.5 * std::min(half_float32_step(2 * depth - 1), 0x1p-25);
+    return tolerance_at_depth(mapping, coding, mapping.depth(zeta_m));
+}
+
+CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding)
+{
+    return coding.is_float() ? coarsest_float_depth(mapping, coding)
+                             : CoarsestDepth{mapping.far_m(), coding.half_step(1)};
 }
 
 double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m,
@@ -74,7 +84,8 @@ double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding, 
 double largest_error_m(const DepthMapping& mapping, const DepthCoding& coding)
 {
     if (coding.is_float()) {
-        return largest_float_error_m(mapping, coding);
+        const auto [zeta_m, tolerance] = coarsest_depth(mapping, coding);
+        return mapping.largest_zeta_error_m(zeta_m, tolerance);
     }
     const double far_m = mapping.far_m();
     const double before_far = coding.half_step(1);

@@ -37,6 +37,16 @@ struct StoredDepth {
 [[nodiscard]] double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding,
                                       double zeta_m, double codes = 1);
 
+/// Where between near and far the envelope, and with it the step between codes, is largest.
+struct CoarsestDepth {
+    double zeta_m = 0;
+    double tolerance = 0; ///< Δ there
+};
+
+/// Evenly spaced codes: far. float32: Δ is constant between powers of two of d (and of z_ndc) and
+/// ζ² grows, so it is at one of them or at an end.
+[[nodiscard]] CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding);
+
 /// The largest error between near and far [m].
 ///
 /// Evenly spaced codes: attained half a code before far, A(q/2)f²/(1 + A(q/2)f); orthographic

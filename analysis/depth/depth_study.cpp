@@ -23,6 +23,10 @@ DepthTheory depth_theory(const DepthMapping& mapping, const DepthCoding& coding,
     theory.envelope_at_far_m = error_envelope_m(mapping, coding, far_m);
     theory.step_at_near_m = code_step_m(mapping, coding, near_m);
     theory.step_at_far_m = code_step_m(mapping, coding, far_m);
+    const auto [coarsest_at_m, tolerance] = coarsest_depth(mapping, coding);
+    theory.coarsest_at_m = coarsest_at_m;
+    theory.largest_envelope_m = mapping.largest_zeta_error_m(coarsest_at_m, tolerance);
+    theory.largest_step_m = largest_code_step_m(mapping, coding);
     theory.half_of_codes_within_m = exact_distance_m(mapping, coding, coding.largest_code() / 2);
     theory.code_share_within_1m = code_share_within(mapping, coding, 1);
     theory.distance_of_1m_step_m = distance_of_step_m(mapping, coding, 1);

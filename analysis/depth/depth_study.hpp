@@ -18,6 +18,9 @@ struct DepthTheory {
     double envelope_at_far_m = 0;
     double step_at_near_m = 0;
     double step_at_far_m = 0;
+    double coarsest_at_m = 0; ///< where envelope and step are largest: far but for float32
+    double largest_envelope_m = 0;
+    double largest_step_m = 0;
     double half_of_codes_within_m = 0; ///< distance up to which half of the codes are spent
     double code_share_within_1m = 0;   ///< of the camera's plane
     std::optional<double> distance_of_1m_step_m;

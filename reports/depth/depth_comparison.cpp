@@ -21,11 +21,11 @@ std::string depth_comparison_table(std::span<const DepthStudy> studies,
     }
     text +=
         fmt::format("\n{:<16}{:>13}{:>13}{:>14}{:>14}{:>13}{:>13}  {}\n", "", "step at near",
-                    "step at far", "largest error", "GL's largest", "GL's rms", "excess", "[m]");
+                    "largest step", "largest error", "GL's largest", "GL's rms", "excess", "[m]");
     for (const DepthStudy& study : studies) {
         text += fmt::format("{:<16}{:>13.3g}{:>13.3g}{:>14.4g}",
                             study.format + (study.mapping.range().reversed ? " reversed" : ""),
-                            study.theory.step_at_near_m, study.theory.step_at_far_m,
+                            study.theory.step_at_near_m, study.theory.largest_step_m,
                             study.theory.max_error_m);
         if (study.measured) {
             const auto& m = *study.measured;

@@ -21,6 +21,9 @@ Json theory_json(const DepthTheory& theory)
             {"envelope_at_far_m", theory.envelope_at_far_m},
             {"step_at_near_m", theory.step_at_near_m},
             {"step_at_far_m", theory.step_at_far_m},
+            {"coarsest_at_m", theory.coarsest_at_m},
+            {"largest_envelope_m", theory.largest_envelope_m},
+            {"largest_step_m", theory.largest_step_m},
             {"codes_per_metre_at_near", 1 / theory.step_at_near_m},
             {"codes_per_metre_at_far", 1 / theory.step_at_far_m},
             {"half_of_codes_within_m", theory.half_of_codes_within_m},
@@ -104,6 +107,8 @@ Json depth_summary_json(const DepthStudy& study)
               {"theory", theory_json(study.theory)}};
     json["measured"] = study.measured ? measured_json(*study.measured) : Json();
     json["not_measured_because"] = study.measured ? Json() : Json(study.not_measured_because);
+    json["tilt_deg"] = study.tilt_rad * 180 / std::numbers::pi;
+    json["offset_m"] = study.offset_m;
     return json;
 }
 
@@ -112,8 +117,6 @@ std::string depth_json(const DepthStudy& study, std::span<const DepthErrorRow> r
 {
     Json json{{"schema", 1}};
     json.update(depth_summary_json(study));
-    json["tilt_deg"] = study.tilt_rad * 180 / std::numbers::pi;
-    json["offset_m"] = study.offset_m;
     json["environment"] = {{"gl_renderer", gl_renderer}, {"gl_version", gl_version}};
     json["samples"] = Json::array();
     for (const DepthErrorRow& row : rows) {

@@ -35,11 +35,14 @@ std::string theory_text(const DepthStudy& study)
     const DepthTheory& t = study.theory;
     std::string text = "theory\n";
     text += setting_line("largest error", metres(t.max_error_m));
-    text +=
-        setting_line("envelope", fmt::format("{} at near, {} at far", metres(t.envelope_at_near_m),
-                                             metres(t.envelope_at_far_m)));
-    text += setting_line("code step", fmt::format("{} at near, {} at far", metres(t.step_at_near_m),
-                                                  metres(t.step_at_far_m)));
+    const auto near_and_largest = [&](double at_near_m, double largest_m) {
+        return study.mapping.is_perspective() || study.coding.is_float()
+                   ? fmt::format("{} at near, at most {} at {}", metres(at_near_m),
+                                 metres(largest_m), metres(t.coarsest_at_m))
+                   : fmt::format("{} everywhere", metres(largest_m));
+    };
+    text += setting_line("envelope", near_and_largest(t.envelope_at_near_m, t.largest_envelope_m));
+    text += setting_line("code step", near_and_largest(t.step_at_near_m, t.largest_step_m));
     text += setting_line("codes", fmt::format("half of them within {}, {} within 1 m",
                                               metres(t.half_of_codes_within_m),
                                               percent(t.code_share_within_1m)));

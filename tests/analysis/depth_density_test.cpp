@@ -1,9 +1,11 @@
 #include "analysis/depth/code_density.hpp"
 
+#include "analysis/depth/depth_error.hpp"
 #include "depth_case.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -56,6 +58,34 @@ TEST(CodeDensity, CountsCodesWithinADistanceFromNearToFar)
             EXPECT_TRUE(share > 0 && share < 1) << share;
         }
     }
+}
+
+TEST(LargestCodeStep, OfEvenlySpacedCodesIsFars)
+{
+    for (const DepthMapping& mapping : testing::all_mappings()) {
+        EXPECT_DOUBLE_EQ(largest_code_step_m(mapping, d24), code_step_m(mapping, d24, 50));
+    }
+    EXPECT_DOUBLE_EQ(largest_code_step_m(tenth_to_ten_thousand, d24),
+                     code_step_m(tenth_to_ten_thousand, d24, 10000));
+}
+
+TEST(LargestCodeStep, OfFloatsIsNowhereExceededAndAttained)
+{
+    const DepthCoding coding = DepthCoding::float32();
+    for (const DepthMapping& mapping : testing::all_mappings()) {
+        const double largest_m = largest_code_step_m(mapping, coding);
+        double swept_m = 0;
+        for (int i = 0; i <= 100'000; ++i) {
+            swept_m = std::max(swept_m, code_step_m(mapping, coding, 4 + 46e-5 * i));
+        }
+        EXPECT_LE(swept_m, largest_m * (1 + 1e-15));
+        // The sweep misses the largest by up to 4.6e-4 m of some 20, squared.
+        EXPECT_GE(swept_m, largest_m * (1 - 1e-4));
+    }
+    // Reversed 2u·f/4, within the binade of d: ζ = 29.1 m at d = 2^-4.
+    const DepthMapping reversed{seed_range(Projection::perspective, true, ClipRange::zero_to_one)};
+    EXPECT_NEAR(largest_code_step_m(reversed, coding), 2 * 7.2509e-7, 1e-10);
+    EXPECT_NEAR(coarsest_depth(reversed, coding).zeta_m, 1 / (0.02 + 0.23 / 16), 1e-12);
 }
 
 TEST(FloatLimit, IsWhereHalfOfTheDepthsEnd)

@@ -13,6 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 Json depth_json(std::vector<std::string> arguments)
@@ -136,9 +137,31 @@ TEST(DepthCommand, ComparesAllFormats)
 {
     const Json json = depth_json({"--compare", "--samples", "64"});
     EXPECT_EQ(json.at("formats").size(), 22U);
+    for (const Json& format : json.at("formats")) {
+        EXPECT_EQ(format.at("tilt_deg"), 0);
+        EXPECT_EQ(format.at("offset_m"), 0);
+    }
     const Ending text = gnomon({"depth", "--compare", "--theory-only"});
     expect_done(text);
     EXPECT_THAT(text.out, HasSubstr("d32f reversed"));
+    EXPECT_THAT(text.out, HasSubstr("largest step"));
+    const Json moved = depth_json(
+        {"--compare", "--samples", "64", "--tilt-deg", "30", "--offset", "8", "--theory-only"});
+    EXPECT_NEAR(moved.at("formats").at(0).at("tilt_deg").get<double>(), 30, 1e-12);
+    EXPECT_EQ(moved.at("formats").at(21).at("offset_m"), 8);
+}
+
+TEST(DepthCommand, StatesTheLargestStepOfReversedFloatsWhereItIs)
+{
+    // At far the floats next to 0 are 2^-149 apart: no step that a distance could have.
+    const std::vector<std::string> arguments{"--format", "d32f", "--reversed", "--theory-only"};
+    const Json theory = depth_json(arguments).at("theory");
+    EXPECT_LT(theory.at("step_at_far_m"), 1e-40);
+    EXPECT_NEAR(theory.at("largest_step_m").get<double>(), 1.4502e-6, 1e-10);
+    EXPECT_NEAR(theory.at("coarsest_at_m").get<double>(), 29.09, 0.005);
+    const Ending text = gnomon({"depth", "--format", "d32f", "--reversed", "--theory-only"});
+    EXPECT_THAT(text.out, HasSubstr("at most 1.45e-06 m at 29.09 m"));
+    EXPECT_THAT(text.out, Not(HasSubstr("e-43 m")));
 }
 
 TEST(DepthCommand, NeedsGlOnlyToMeasure)
