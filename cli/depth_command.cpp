@@ -64,13 +64,25 @@ void require_range(const DepthOptions& options, double near_m, double far_m)
     if (!(near_m < far_m) || !(std::abs(near_m) <= scene::max_coordinate_m) ||
         !(far_m <= scene::max_coordinate_m)) {
         throw scene::InputError(
-            fmt::format("--near {:g} --far {:g}: near must be below far, both within ±{:g} m",
-                        near_m, far_m, scene::max_coordinate_m));
+            fmt::format("--near {} --far {}: near must be below far, both within ±{:g} m", near_m,
+                        far_m, scene::max_coordinate_m));
     }
     if (options.projection == "perspective" && !(near_m >= smallest_near_share * far_m)) {
         throw scene::InputError(
-            fmt::format("--near {:g}: of a perspective it must be above 0, at least {:g} of far",
+            fmt::format("--near {}: of a perspective it must be above 0, at least {:g} of far",
                         near_m, smallest_near_share));
+    }
+}
+
+void require_placement(const DepthOptions& options)
+{
+    if (!(options.tilt_deg >= 0 && options.tilt_deg <= scene::largest_plane_tilt_deg)) {
+        throw scene::InputError(fmt::format("--tilt-deg {}: must be 0 to {}", options.tilt_deg,
+                                            scene::largest_plane_tilt_deg));
+    }
+    if (!(std::abs(options.offset_m) <= scene::max_coordinate_m)) {
+        throw scene::InputError(fmt::format("--offset {}: must be within ±{:g} m", options.offset_m,
+                                            scene::max_coordinate_m));
     }
 }
 
@@ -79,6 +91,7 @@ scene::DepthPlaneSettings planes_of(const DepthOptions& options)
     const double near_m = options.near_m.value_or(default_near_m);
     const double far_m = options.far_m.value_or(default_far_m);
     require_range(options, near_m, far_m);
+    require_placement(options);
     const bool zero_to_one =
         options.clip.empty() ? options.reversed : options.clip == "zero_to_one";
     scene::DepthPlaneSettings planes;
@@ -202,7 +215,7 @@ void plan(const DepthOptions& options)
     }
     if (!(*options.max_error_m > 0) || !std::isfinite(*options.max_error_m)) {
         throw scene::InputError(
-            fmt::format("--max-error-m {:g}: must be above 0", *options.max_error_m));
+            fmt::format("--max-error-m {}: must be above 0", *options.max_error_m));
     }
     require_range(options, options.near_m.value_or(0.5 * *options.far_m), *options.far_m);
     const analysis::PlanTarget target{projection_of(options), *options.max_error_m, *options.far_m,

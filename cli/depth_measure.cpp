@@ -80,10 +80,10 @@ std::vector<DepthStudy> study_formats(const raster_gl::Context& context,
         }
         const scene::DepthMeasurement measurement = raster.measure(*choice.format);
         if (measurement.samples.empty()) {
-            throw scene::InputError(
-                fmt::format("--offset {:g}: float32 moves every plane off its place or out of near "
-                            "and far; lower it",
-                            settings.offset_m));
+            throw scene::InputError(fmt::format(
+                "--offset {:.7g}: float32 moves every plane off its place or out of near "
+                "and far; lower it",
+                settings.offset_m));
         }
         study.measured = analysis::measured_depth_error(study.mapping, measurement);
     }

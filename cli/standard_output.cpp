@@ -1,7 +1,5 @@
 #include "cli/standard_output.hpp"
 
-#include "scene/error.hpp"
-
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -14,6 +12,9 @@ void print(std::string_view text)
 {
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
     if (!written || std::fflush(stdout) != 0) {
+        if (errno == EPIPE) {
+            throw ReaderGone{};
+        }
         throw scene::EnvironmentError(fmt::format(
             "standard output: {}: free space or write elsewhere", std::strerror(errno)));
     }

@@ -95,12 +95,16 @@ std::vector<EglDisplay> candidate_displays(std::optional<int> device)
     const bool has_device_platform = has_client_extension("EGL_EXT_platform_device");
     const std::vector<Device> devices = query_devices();
     if (device) {
-        if (!has_device_platform || *device < 0 ||
-            static_cast<std::size_t>(*device) >= devices.size()) {
+        if (!has_device_platform || devices.empty()) {
             throw scene::EnvironmentError(
-                fmt::format("--device {}: EGL lists {} devices, numbered from 0; `gnomon doctor` "
-                            "names them",
-                            *device, devices.size()));
+                fmt::format("--device {}: EGL lists no devices: {}", *device, driver_remedy));
+        }
+        if (*device < 0 || static_cast<std::size_t>(*device) >= devices.size()) {
+            const std::string others =
+                devices.size() == 1 ? "0" : fmt::format("0 to {}", devices.size() - 1);
+            throw scene::InputError(
+                fmt::format("--device {}: EGL lists only {}; `gnomon doctor` names what they are",
+                            *device, others));
         }
         const auto index = static_cast<std::size_t>(*device);
         return {display_of(devices[index], index)};

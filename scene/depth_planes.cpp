@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace gnomon::scene {
 
@@ -17,7 +18,6 @@ namespace {
 
 constexpr int smallest_tile_texels = 4; // a triangle in it surely covers the centre of a texel
 constexpr int largest_map_texels = 16384;
-constexpr double largest_tilt_deg = 80;
 constexpr double half_width_tangent = 0.125; // of the view; 1 − tan 80° · 0.125 is above 0
 
 /// The sampled texel lies at a third of its tile, well inside the half of the tile that the
@@ -68,14 +68,14 @@ void check(const DepthPlaneSettings& settings)
 {
     if (settings.count < 1 || settings.count > most_depth_planes) {
         throw InputError(
-            fmt::format("samples = {}: must be 1 to {}", settings.count, most_depth_planes));
+            fmt::format("--samples {}: must be 1 to {}", settings.count, most_depth_planes));
     }
-    if (!(settings.tilt_rad >= 0 && settings.tilt_rad <= glm::radians(largest_tilt_deg))) {
-        throw InputError(fmt::format("tilt = {:g} deg: must be 0 to {}",
-                                     glm::degrees(settings.tilt_rad), largest_tilt_deg));
+    if (!(settings.tilt_rad >= 0 && settings.tilt_rad <= glm::radians(largest_plane_tilt_deg))) {
+        throw InputError(fmt::format("--tilt-deg {:.10g}: must be 0 to {}",
+                                     glm::degrees(settings.tilt_rad), largest_plane_tilt_deg));
     }
     if (!(std::abs(settings.offset_m) <= max_coordinate_m)) {
-        throw InputError(fmt::format("offset = {} m: must be within ±{:g}", settings.offset_m,
+        throw InputError(fmt::format("--offset {}: must be within ±{:g} m", settings.offset_m,
                                      max_coordinate_m));
     }
 }
@@ -86,7 +86,7 @@ void choose_tiles(DepthPlanes& planes, const DepthPlaneSettings& settings)
     planes.tile_texels = std::max(smallest_tile_texels, settings.smallest_map_texels / across);
     planes.resolution_texels = planes.tile_texels * across;
     if (planes.resolution_texels > largest_map_texels) {
-        throw InputError(fmt::format("samples = {}: their map is larger than {} texels; ask for "
+        throw InputError(fmt::format("--samples {}: their map is larger than {} texels; ask for "
                                      "fewer",
                                      settings.count, largest_map_texels));
     }
@@ -153,6 +153,15 @@ struct SampleRange {
     double last_m = 0;
 };
 
+std::string no_room(const DepthPlaneSettings& settings)
+{
+    const bool stands_straight = settings.tilt_rad == 0 && settings.offset_m == 0;
+    return fmt::format("--near {} --far {}: in float32 no plane fits between them at --tilt-deg "
+                       "{:.10g} and --offset {:.7g}; widen the range{}",
+                       settings.range.near_m, settings.range.far_m, glm::degrees(settings.tilt_rad),
+                       settings.offset_m, stands_straight ? "" : ", or lower tilt and offset");
+}
+
 SampleRange sample_range(const DepthPlanes& planes, const DepthPlaneSettings& settings)
 {
     const LightFrustum& f = planes.frustum;
@@ -175,10 +184,7 @@ SampleRange sample_range(const DepthPlanes& planes, const DepthPlaneSettings& se
     const SampleRange range = perspective ? SampleRange{nearest_m / least, farthest_m / most}
                                           : SampleRange{nearest_m - least, farthest_m - most};
     if (!(range.first_m < range.last_m)) {
-        throw InputError(fmt::format(
-            "tilt = {:g} deg, offset = {:g} m: no such plane fits between near {:g} and far {:g} "
-            "in float32; lower them or widen the range",
-            glm::degrees(settings.tilt_rad), settings.offset_m, f.near_m, f.far_m));
+        throw InputError(no_room(settings));
     }
     return range;
 }
@@ -205,8 +211,9 @@ void add_triangle(TriangleScene& scene, const std::array<Vec3d, 3>& corners)
     const Vec3d b{scene.vertices[first + 1]};
     const Vec3d c{scene.vertices[first + 2]};
     if (glm::cross(b - a, c - a) == Vec3d{0}) {
-        throw InputError("offset: at this distance from the origin float32 cannot tell the corners "
-                         "of a measured triangle apart; lower it, or ask for fewer samples");
+        throw InputError(
+            "--offset: at this distance from the origin float32 cannot tell the corners "
+            "of a measured triangle apart; lower it, or ask for fewer --samples");
     }
     scene.triangles.push_back({first, first + 1, first + 2});
 }

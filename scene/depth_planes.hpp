@@ -10,6 +10,8 @@ namespace gnomon::scene {
 
 /// Planes that are measured at most.
 inline constexpr int most_depth_planes = 1 << 22;
+/// Tilt that a plane has at most.
+inline constexpr double largest_plane_tilt_deg = 80;
 
 /// Planes to measure stored depths on.
 struct DepthPlaneSettings {

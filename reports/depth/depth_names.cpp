@@ -16,7 +16,7 @@ std::string_view clip_range_name(scene::ClipRange range)
 
 std::string range_text(const scene::DepthRange& range)
 {
-    return fmt::format("{}, near {:g} m, far {:g} m, clip {}{}", projection_name(range.projection),
+    return fmt::format("{}, near {} m, far {} m, clip {}{}", projection_name(range.projection),
                        range.near_m, range.far_m,
                        range.clip_range == scene::ClipRange::zero_to_one ? "[0, 1]" : "[-1, 1]",
                        range.reversed ? ", reversed" : "");

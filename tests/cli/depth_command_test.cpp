@@ -190,8 +190,16 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--projection", "fisheye"}, "--projection");
     refused({"--samples", "1"}, "--samples 1");
     refused({"--samples", "10000000"}, "--samples 10000000: must be 2 to 4194304");
-    refused({"--tilt-deg", "85"}, "tilt");
-    refused({"--offset", "1e12"}, "offset");
+    refused({"--near", "1.0000001", "--far", "1.00000009"}, "--near 1.0000001 --far 1.00000009:");
+    refused({"--near", "1", "--far", "1.0000001"},
+            "--near 1 --far 1.0000001: in float32 no plane fits between them");
+    refused({"--tilt-deg", "81"}, "--tilt-deg 81: must be 0 to 80");
+    refused({"--tilt-deg", "nan", "--theory-only"}, "--tilt-deg nan: must be 0 to 80");
+    refused({"--tilt-deg", "80", "--near", "49"},
+            "--tilt-deg 80 and --offset 0; widen the range, or");
+    refused({"--offset", "1e30"}, "--offset 1e+30: must be within ±1e+15 m");
+    refused({"--offset", "nan"}, "--offset nan: must be within");
+    refused({"--offset", "1e12"}, "--offset 1e+12");
     refused({"--plan"}, "--max-error-m and --far");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--offset", "3"}, "leave out --offset");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--reversed"}, "--reversed");

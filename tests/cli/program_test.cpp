@@ -157,12 +157,24 @@ TEST(WithoutEgl, DoctorSaysWhatIsMissing)
     }
 }
 
-TEST(WithoutEgl, AnUnknownDeviceIsRefused)
+TEST(Device, ThatDoesNotExistIsABadArgument)
 {
     for (const char* const device : {"99", "-1"}) {
-        expect_refused(gnomon(small({"compare", "--builtin", "wall", "--device", device})), 4,
-                       "--device");
+        for (const std::vector<std::string>& command :
+             {small({"compare", "--builtin", "wall"}), {"depth"}, {"doctor"}}) {
+            std::vector<std::string> arguments = command;
+            arguments.insert(arguments.end(), {"--device", device});
+            expect_refused(gnomon(arguments), 2,
+                           fmt::format("--device {}: EGL lists only 0", device));
+        }
     }
+}
+
+TEST(WithoutEgl, NoDeviceIsTheArgumentsFault)
+{
+    Start start;
+    start.environment = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
+    expect_refused(gnomon({"depth", "--device", "99"}, start), 4, "apt-get install");
 }
 
 /// What bash offers after these words, the last of which is being typed.

@@ -38,8 +38,8 @@ TEST(Context, TurnsGlErrorsIntoExceptionsOnce)
 TEST(Context, RefusesADeviceThatDoesNotExist)
 {
     GNOMON_REQUIRE_GL();
-    EXPECT_THROW(Context{999}, scene::EnvironmentError);
-    EXPECT_THROW(Context{-1}, scene::EnvironmentError);
+    EXPECT_THROW(Context{999}, scene::InputError);
+    EXPECT_THROW(Context{-1}, scene::InputError);
 }
 
 TEST(DepthFormats, GlRequiresD16D24AndD32f)
