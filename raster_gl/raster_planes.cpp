@@ -1,6 +1,7 @@
 #include "raster_gl/raster_planes.hpp"
 
 #include "raster_gl/clip_positions.hpp"
+#include "scene/error.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,27 @@ using scene::Vec2d;
 Vec2d centre_px(int resolution_texels, int x, int y)
 {
     return {x + 0.5, resolution_texels - 1 - y + 0.5};
+}
+
+/// Tiles that a triangle may touch: columns and rows, first to last.
+struct TileSpan {
+    std::size_t left = 0;
+    std::size_t right = 0;
+    std::size_t low = 0;
+    std::size_t high = 0;
+
+    [[nodiscard]] std::size_t count() const { return (right - left + 1) * (high - low + 1); }
+};
+
+TileSpan tiles_touched(const scene::RasterPlane& plane, double tile_px, double tiles_across)
+{
+    const auto& corners = plane.window().position_px;
+    const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+    const auto [low, high] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+    const auto tile = [&](double px) {
+        return static_cast<std::size_t>(std::clamp(px / tile_px, 0.0, tiles_across - 1));
+    };
+    return {tile(left), tile(right), tile(low), tile(high)};
 }
 
 } // namespace
@@ -49,6 +71,36 @@ bool RasterPlanes::surely_covers(const scene::RasterPlane& plane, const Vec2d& a
     return plane.is_whole() && plane.inside_px(at) > std::ldexp(1.0, -subpixel_bits_);
 }
 
+std::vector<bool> RasterPlanes::disputed_samples() const
+{
+    const auto across = static_cast<std::size_t>(planes_.resolution_texels / planes_.tile_texels);
+    const double subpixel_px = std::ldexp(1.0, -subpixel_bits_);
+    std::vector<bool> disputed(raster_.size());
+    std::size_t visits = 0;
+    for (std::size_t i = 0; i < raster_.size(); ++i) {
+        const TileSpan span =
+            tiles_touched(raster_[i], planes_.tile_texels, static_cast<double>(across));
+        constexpr std::size_t bearable_tiles = 64; // on average
+        visits += span.count();
+        if (visits > bearable_tiles * raster_.size()) {
+            throw scene::InputError("--offset: at this distance from the origin float32 moves the "
+                                    "measured planes over each other; lower it");
+        }
+        for (std::size_t row = span.low; row <= span.high; ++row) {
+            for (std::size_t column = span.left; column <= span.right; ++column) {
+                const std::size_t sample = row * across + column;
+                if (sample == i || sample >= raster_.size()) {
+                    continue;
+                }
+                const auto [x, y] = planes_.texel(sample);
+                const Vec2d at = centre_px(planes_.resolution_texels, x, y);
+                disputed[sample] = disputed[sample] || raster_[i].inside_px(at) > -subpixel_px;
+            }
+        }
+    }
+    return disputed;
+}
+
 scene::DepthMeasurement RasterPlanes::measure(scene::DepthFormat format)
 {
     const ShadowMap& map = draw(format);
@@ -58,10 +110,11 @@ scene::DepthMeasurement RasterPlanes::measure(scene::DepthFormat format)
     scene::DepthMeasurement measurement;
     measurement.format = format;
     measurement.samples.reserve(raster_.size());
+    const std::vector<bool> disputed = disputed_samples();
     for (std::size_t i = 0; i < raster_.size(); ++i) {
         const auto [x, y] = planes_.texel(i);
         const Vec2d at = centre_px(planes_.resolution_texels, x, y);
-        if (!surely_covers(raster_[i], at)) {
+        if (disputed[i] || !surely_covers(raster_[i], at)) {
             ++measurement.missing;
             continue;
         }

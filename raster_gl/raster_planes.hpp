@@ -18,8 +18,11 @@ public:
     /// @throws scene::EnvironmentError  if GL fails.
     RasterPlanes(const Context& context, const scene::DepthPlanes& planes);
 
-    /// Draws them in one map and reads one texel of each plane.
-    /// @throws scene::InputError  if the driver lacks the format or the map's size.
+    /// Draws them in one map and reads one texel of each plane; planes that float32 moved off their
+    /// texel, or over that of another, are missing.
+    /// @throws scene::InputError  if the driver lacks the format or the map's size, or float32
+    /// moves
+    ///                            the planes all over each other.
     [[nodiscard]] scene::DepthMeasurement measure(scene::DepthFormat format);
     /// Draws them in one map and reads every texel whose centre a triangle covers with certainty.
     /// @throws scene::InputError  if the driver lacks the format or the map's size.
@@ -28,6 +31,8 @@ public:
 private:
     void include_triangle(const scene::RasterPlane& plane, const scene::Image<std::uint32_t>& codes,
                           std::vector<scene::TexelDepth>& texels) const;
+    /// By sample: whether the triangle of another may cover its texel.
+    [[nodiscard]] std::vector<bool> disputed_samples() const;
     [[nodiscard]] bool surely_covers(const scene::RasterPlane& plane, const scene::Vec2d& at) const;
     const ShadowMap& draw(scene::DepthFormat format);
 

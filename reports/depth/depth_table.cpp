@@ -57,9 +57,11 @@ std::string theory_text(const DepthStudy& study)
 
 std::string measured_text(const MeasuredDepthError& m)
 {
-    std::string text = fmt::format(
-        "\nmeasured on {} planes{}\n", grouped(m.rows.size()),
-        m.missing == 0 ? "" : fmt::format(", {} clipped or moved away", grouped(m.missing)));
+    std::string text =
+        fmt::format("\nmeasured on {} planes{}\n", grouped(m.rows.size()),
+                    m.missing == 0 ? ""
+                                   : fmt::format(", {} left out, clipped or moved by float32",
+                                                 grouped(m.missing)));
     text += setting_line("largest error", fmt::format("{} at {}", metres(m.max_error_m),
                                                       metres(m.max_error_zeta_m)));
     text +=
