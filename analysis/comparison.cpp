@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <stdexcept>
 #include <string_view>
@@ -79,6 +80,19 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers)
             {*comparison.triangles, comparison.receivers, comparison.truth, comparison.lookup},
             renderers);
     }
+}
+
+std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
+                                                  const Renderers& renderers)
+{
+    if (!comparison.diagnosis || !comparison.diagnosis->biases) {
+        return std::nullopt;
+    }
+    const BiasAnswers& answers = *comparison.diagnosis->biases;
+    const auto& triangles = comparison.receivers.triangle;
+    const std::array<float, 2> wanted{comparison.view.bias.constant, answers.best.recommended()};
+    return verify_biases(comparison.job, comparison.view, triangles, answers.critical_bias,
+                         biases_to_verify(answers.critical_bias, triangles, wanted), renderers);
 }
 
 Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/bias_reruns.hpp"
+#include "analysis/bias_verification.hpp"
 #include "analysis/diagnosis.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/renderers.hpp"
@@ -60,7 +61,9 @@ struct Comparison {
     Metrics metrics;
     std::optional<Diagnosis> diagnosis; ///< empty: not asked for
     std::vector<BiasRerun> reruns;      ///< for `hardware`, which has no bias curve; else empty
-    std::vector<Advice> advice;         ///< empty: not asked for
+    /// Empty: not asked for, or nothing to verify (`hardware`).
+    std::optional<BiasVerification> verification;
+    std::vector<Advice> advice;                        ///< empty: not asked for
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
 
     std::string truth_method;
@@ -73,6 +76,15 @@ struct Comparison {
 /// other members are known.
 /// @throws std::invalid_argument  if its layers are not of the image's size.
 void measure_comparison(Comparison& comparison, const Renderers& renderers);
+
+/// Runs GL's lookup again with biases that put the comparison's critical biases to the test, its
+/// own and the best one among them.
+///
+/// Receivers and map must be those drawn last.
+/// @return  Empty if there are no critical biases: the filter is `hardware`, whose every other bias
+///          is GL's own run anyway, or no diagnosis was asked for.
+[[nodiscard]] std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
+                                                                const Renderers& renderers);
 
 /// Resolves the job's view, runs both renderers over it and measures the difference; where the
 /// filter has no bias curve, and a diagnosis is asked for, GL's lookup is run again with other

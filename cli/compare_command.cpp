@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -33,6 +34,7 @@ struct CompareOptions {
     std::string truth = "exact";
     bool audit = false;
     bool advise = false;
+    bool verify = false;
     SessionOptions session;
 };
 
@@ -94,6 +96,18 @@ void require_no_mismatch(const analysis::Comparison& comparison)
     }
 }
 
+/// @throws scene::EnvironmentError  if GL's reruns are not what the critical biases say.
+void require_no_difference(const analysis::Comparison& comparison)
+{
+    const auto& verification = comparison.verification;
+    if (verification && verification->differences() > 0) {
+        throw scene::EnvironmentError{fmt::format(
+            "{} of {} verdicts of GL's reruns are not those of the bias curve: its numbers do not "
+            "hold for this driver; report it with the job and the output of `gnomon doctor`",
+            verification->differences(), verification->verdicts())};
+    }
+}
+
 /// What the exact truth alone can answer.
 void require_exact_truth(const CompareOptions& options)
 {
@@ -106,6 +120,18 @@ void require_exact_truth(const CompareOptions& options)
     }
     if (options.advise && options.truth != "exact") {
         throw scene::InputError{"--advise needs --truth exact: advice follows from the causes"};
+    }
+    if (options.verify && options.truth != "exact") {
+        throw scene::InputError{"--verify needs --truth exact: without it there is no bias curve"};
+    }
+}
+
+void verify(analysis::Comparison& comparison, const analysis::Renderers& renderers)
+{
+    comparison.verification = analysis::verify_comparison(comparison, renderers);
+    if (!comparison.verification) {
+        fmt::print(stderr, "gnomon: --verify: the hardware filter has no critical biases to hold "
+                           "GL to; its other biases are GL's own reruns\n");
     }
 }
 
@@ -132,6 +158,9 @@ void compare(const CompareOptions& options)
             session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
             options.session.threads);
     }
+    if (options.verify) {
+        verify(comparison, session.renderers());
+    }
     if (options.advise) {
         comparison.advice = analysis::advise(comparison, session.file(), session.renderers());
     }
@@ -141,6 +170,7 @@ void compare(const CompareOptions& options)
     }
     write_outputs(options, comparison);
     require_no_mismatch(comparison);
+    require_no_difference(comparison);
 }
 
 } // namespace
@@ -169,6 +199,9 @@ void add_compare_command(CLI::App& program)
     command->add_flag(
         "--advise", options->advise,
         "Run GL again with the changes that suit the errors, and print what they give");
+    command->add_flag("--verify", options->verify,
+                      "Run GL again with biases that put the bias curve to the test, and compare "
+                      "every verdict; exit status 4 if one differs");
     add_session_options(*command, options->session);
     command->footer("Examples:\n"
                     "  gnomon compare --builtin sphere-plane\n"

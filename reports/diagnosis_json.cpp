@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace gnomon::reports {
 
@@ -141,6 +142,24 @@ Json reruns(const std::vector<analysis::BiasRerun>& reruns)
     return json;
 }
 
+Json verification(const std::optional<analysis::BiasVerification>& verification)
+{
+    if (!verification) {
+        return nullptr;
+    }
+    Json reruns = Json::array();
+    for (const analysis::BiasVerification::Rerun& rerun : verification->reruns) {
+        reruns.push_back({{"bias", rerun.bias},
+                          {"lit", rerun.lit},
+                          {"shadowed", rerun.shadowed},
+                          {"differences", rerun.differences}});
+    }
+    return {{"biases", verification->reruns.size()},
+            {"verdicts", verification->verdicts()},
+            {"differences", verification->differences()},
+            {"reruns", std::move(reruns)}};
+}
+
 Json advice(const std::vector<analysis::Advice>& changes)
 {
     Json json = Json::array();
@@ -167,6 +186,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
         json["bias_curve"] = nullptr;
         json["bias_source"] = nullptr;
         json["bias_reruns"] = nullptr;
+        json["verification"] = nullptr;
         return;
     }
     const analysis::CauseCounts& counts = diagnosis->causes.counts;
@@ -179,6 +199,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
     json["bias_curve"] = diagnosis->biases ? bias_curve(*diagnosis->biases) : Json(nullptr);
     json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     json["bias_reruns"] = comparison.reruns.empty() ? Json(nullptr) : reruns(comparison.reruns);
+    json["verification"] = verification(comparison.verification);
     json["slope_curves"] = diagnosis->biases ? slope_answers(*diagnosis->biases) : Json(nullptr);
     json["by_light_distance_m"] = bins(diagnosis->by_distance);
     json["by_receiver_angle_rad"] = bins(diagnosis->by_angle);

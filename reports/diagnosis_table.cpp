@@ -90,6 +90,17 @@ std::string limit(float bias, std::string_view none)
     return std::isfinite(bias) ? fmt::format("{:.4g}", bias) : std::string{none};
 }
 
+/// "17 reruns of GL: 0 of 39,168 verdicts differ"
+std::string verification(const analysis::Comparison& comparison)
+{
+    const auto& found = comparison.verification;
+    return found ? setting_line("", fmt::format("{} of GL: {} of {} differ",
+                                                counted(found->reruns.size(), "rerun"),
+                                                grouped(found->differences()),
+                                                counted(found->verdicts(), "verdict")))
+                 : std::string{};
+}
+
 std::string constant_bias(const analysis::Comparison& comparison)
 {
     if (!comparison.diagnosis || !comparison.diagnosis->biases) {
@@ -109,7 +120,7 @@ std::string constant_bias(const analysis::Comparison& comparison)
     text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
                                          limit(lenient.acne_free, "-"),
                                          limit(lenient.panning_free, "-")));
-    return text;
+    return text + verification(comparison);
 }
 
 /// "bias.constant = 0.002, shadow_map.resolution = 2048" and what was measured with it.

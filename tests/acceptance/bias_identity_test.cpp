@@ -1,4 +1,5 @@
 #include "analysis/bias_order.hpp"
+#include "analysis/bias_verification.hpp"
 #include "analysis/critical_bias.hpp"
 #include "gl_case.hpp"
 
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <random>
 #include <string>
@@ -90,27 +92,16 @@ std::vector<float> biases_to_try(std::vector<float> criticals, std::size_t count
     return biases;
 }
 
-struct Rerun {
-    std::size_t different = 0;
-    std::size_t lit = 0;
-    std::size_t shadowed = 0;
-};
-
-/// Looks the receivers up with this bias and holds GL's verdicts against the critical biases.
-void rerun(GlCase& c, const scene::Image<std::uint32_t>& triangles,
-           const scene::Image<float>& criticals, float bias, Rerun& sum)
+/// GL's lookups of the case's receivers in its map.
+analysis::Renderers lookups_of(GlCase& c)
 {
-    c.view.bias.constant = bias;
-    c.look_up();
-    const auto samples = c.lookup_pass.read().samples;
-    for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
-        if (triangles[i] == scene::no_triangle) {
-            continue;
-        }
-        const bool is_lit = scene::is_lit(samples[i].verdict);
-        ++(is_lit ? sum.lit : sum.shadowed);
-        sum.different += is_lit != (criticals[i] <= bias) ? 1U : 0U;
-    }
+    analysis::Renderers renderers;
+    renderers.look_up = [&c](const scene::Job&, const scene::View& view) {
+        c.view = view;
+        c.look_up();
+        return c.lookup_pass.read();
+    };
+    return renderers;
 }
 
 /// @return  how many receivers have their verdict from the policy.
@@ -129,12 +120,17 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
             seen.push_back(criticals[i]);
         }
     }
-    Rerun sum;
-    for (const float bias : biases_to_try(seen, is_full_run() ? 1000 : 12)) {
-        rerun(c, triangles, criticals, bias, sum);
+    const auto verification =
+        analysis::verify_biases(c.job, c.view, triangles, criticals,
+                                biases_to_try(seen, is_full_run() ? 1000 : 12), lookups_of(c));
+    std::uint64_t lit = 0;
+    std::uint64_t shadowed = 0;
+    for (const auto& rerun : verification.reruns) {
+        EXPECT_EQ(rerun.differences, 0U) << label << " bias " << rerun.bias;
+        lit += rerun.lit;
+        shadowed += rerun.shadowed;
     }
-    EXPECT_EQ(sum.different, 0U) << label;
-    EXPECT_GT(std::min(sum.lit, sum.shadowed), 1000U) << label;
+    EXPECT_GT(std::min(lit, shadowed), 1000U) << label;
     return static_cast<std::size_t>(std::count_if(
         seen.begin(), seen.end(), [](float critical) { return std::isinf(critical); }));
 }

@@ -186,6 +186,41 @@ TEST(ComparisonJson, HasWhatGlMeasuredAgainWhereAFilterHasNoCurve)
     EXPECT_TRUE(nearest.at("bias_reruns").is_null());
 }
 
+TEST(Verify, HoldsGlsRerunsToTheBiasCurve)
+{
+    const Json result =
+        compare(small({"--builtin", "columns", "--set", "lookup.filter=pcf3", "--verify"}));
+    const Json& verification = result.at("verification");
+    const Json& reruns = verification.at("reruns");
+    EXPECT_EQ(verification.at("differences"), 0);
+    EXPECT_EQ(verification.at("biases"), reruns.size());
+    EXPECT_GE(reruns.size(), 15U) << "at, below and above five critical biases";
+    std::int64_t verdicts = 0;
+    std::int64_t most_lit = 0;
+    for (const Json& rerun : reruns) {
+        EXPECT_EQ(rerun.at("differences"), 0) << rerun;
+        EXPECT_GE(rerun.at("lit"), most_lit) << "more bias never shadows";
+        most_lit = rerun.at("lit").get<std::int64_t>();
+        verdicts += most_lit + rerun.at("shadowed").get<std::int64_t>();
+    }
+    EXPECT_EQ(verification.at("verdicts"), verdicts);
+    EXPECT_TRUE(compare(small({"--builtin", "columns"})).at("verification").is_null());
+    const Ending table = gnomon(small({"compare", "--builtin", "columns", "--verify"}));
+    expect_done(table);
+    EXPECT_NE(table.out.find(" reruns of GL: 0 of "), std::string::npos) << table.out;
+}
+
+TEST(Verify, SaysThatHardwareHasNothingToVerify)
+{
+    const Ending ending = gnomon(
+        small({"compare", "--builtin", "columns", "--set", "lookup.filter=hardware", "--verify"}));
+    EXPECT_EQ(ending.exit_code, 0);
+    EXPECT_NE(ending.err.find("hardware filter has no critical biases"), std::string::npos)
+        << ending.err;
+    expect_refused(gnomon(small({"compare", "--builtin", "wall", "--verify", "--truth", "float"})),
+                   2, "--verify needs --truth exact");
+}
+
 TEST(Determinism, TheSameJobGivesTheSameBytesOnAnyNumberOfThreads)
 {
     for (const char* const builtin : {"columns", "sphere-cube"}) {
