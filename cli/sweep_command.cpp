@@ -37,6 +37,7 @@ struct SweepOptions {
     bool json = false;
     bool keeps_pixels = false;
     bool keeps_no_pixels = false;
+    bool verifies = false;
     bool is_quiet = false;
     bool allows_mixed = false;
     SessionOptions session;
@@ -74,6 +75,7 @@ std::string flags_text(const SweepOptions& options)
     std::string text;
     text += options.keeps_pixels ? " --keep-pixels" : "";
     text += options.keeps_no_pixels ? " --no-keep-pixels" : "";
+    text += options.verifies ? " --verify" : "";
     text += options.allows_mixed ? " --allow-mixed" : "";
     text += options.session.device ? fmt::format(" --device {}", *options.session.device) : "";
     text +=
@@ -109,6 +111,9 @@ std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcom
     text += fmt::format(": {}/results.csv\n  now: {}\n", options.folder,
                         outcome.counts.configurations > 0 ? counts_text(outcome.counts)
                                                           : "nothing was left to do");
+    if (options.verifies) {
+        text += fmt::format("  verified: {}\n", reports::verification_text(outcome.checks));
+    }
     if (outcome.retired > 0) {
         text +=
             fmt::format("  {} of an earlier sweep stay in results.sqlite, not in the CSV files\n",
@@ -125,7 +130,23 @@ int exit_code(const SweepOutcome& outcome)
     if (outcome.done < outcome.configurations) {
         return exit_codes::incomplete;
     }
-    return outcome.mismatches > 0 ? exit_codes::environment_failed : exit_codes::done;
+    return outcome.checks.are_passed() ? exit_codes::done : exit_codes::environment_failed;
+}
+
+/// Why the sweep did not end with 0.
+void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
+{
+    if (outcome.is_interrupted) {
+        fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
+    } else if (code == exit_codes::incomplete) {
+        fmt::print(stderr,
+                   "gnomon: {} failed; `gnomon status {}` says why, --retry failed tries "
+                   "again\n",
+                   reports::counted(outcome.failed, "configuration"),
+                   reports::shell_text({options.folder}));
+    } else if (code == exit_codes::environment_failed) {
+        fmt::print(stderr, "gnomon: {}\n", reports::failed_checks_text(outcome.checks));
+    }
 }
 
 void sweep(const SweepOptions& options)
@@ -145,6 +166,7 @@ void sweep(const SweepOptions& options)
     run.folder = options.folder;
     run.shard = shard;
     run.keeps_pixels = keeps;
+    run.verifies = options.verifies;
     run.retries_failed = !options.retry.empty();
     run.is_quiet = options.is_quiet;
     run.allows_mixed = options.allows_mixed;
@@ -154,21 +176,7 @@ void sweep(const SweepOptions& options)
     const SweepOutcome outcome = run_sweep_command(space, run);
     print(outcome_text(options, outcome));
     const int code = exit_code(outcome);
-    if (outcome.is_interrupted) {
-        fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
-    } else if (code == exit_codes::incomplete) {
-        fmt::print(stderr,
-                   "gnomon: {} failed; `gnomon status {}` says why, --retry failed tries "
-                   "again\n",
-                   reports::counted(outcome.failed, "configuration"),
-                   reports::shell_text({options.folder}));
-    } else if (code == exit_codes::environment_failed) {
-        fmt::print(stderr,
-                   "gnomon: {} pixels mismatch: GL's triangle is neither a first hit nor explained "
-                   "by snapping or depth resolution; report it with the job and the output of "
-                   "`gnomon doctor`\n",
-                   outcome.mismatches);
-    }
+    explain(options, outcome, code);
     if (code != exit_codes::done) {
         throw CLI::RuntimeError{code};
     }
@@ -204,12 +212,16 @@ void add_sweep_command(CLI::App& program)
         ->capture_default_str();
     command->add_option("--retry", options->retry, "failed: compute failed configurations again")
         ->check(CLI::IsMember({"failed"}));
+    command->add_flag("--verify", options->verifies,
+                      "Run GL again with biases that put each bias curve to the test, and compare "
+                      "every verdict; also of what is done already");
     command->add_flag("--allow-mixed", options->allows_mixed,
                       "Go on in a RUN that holds results of another driver or version");
     command->add_flag("--quiet", options->is_quiet, "No progress on stderr");
     add_session_options(*command, options->session);
     command->footer(
-        "Exit status: 0 all are done; 5 some failed; 130 interrupted.\n\nExamples:\n"
+        "Exit status: 0 all are done; 4 all are, but GL and the truth, or the bias curve, disagree "
+        "where they must not; 5 some failed; 130 interrupted.\n\nExamples:\n"
         "  gnomon sweep job.toml --out run\n"
         "  gnomon sweep --builtin columns --out run --axis shadow_map.resolution=512,1024,2048 "
         "--axis 'bias.constant={from=1e-6, to=0.1, count=200, scale=\"log\"}'\n"

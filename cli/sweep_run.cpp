@@ -93,6 +93,7 @@ public:
         store_.write_csv();
         outcome_.done = store_.ordinals(RunState::done).size();
         outcome_.failed = store_.ordinals(RunState::failed).size();
+        outcome_.checks = store_.checks();
         return outcome_;
     }
 
@@ -166,18 +167,24 @@ private:
         return description;
     }
 
-    /// What was not computed yet, and what was but without its pixels, where they are kept.
+    /// What was not computed yet, and what was but without its pixels, where they are kept, or
+    /// without being verified, where that is asked for.
     [[nodiscard]] std::vector<std::uint64_t> missing_ordinals() const
     {
         std::vector<std::uint64_t> missing = store_.ordinals(RunState::planned);
+        if (options_.verifies) {
+            const auto unverified = store_.unverified();
+            missing.insert(missing.end(), unverified.begin(), unverified.end());
+        }
         if (options_.keeps_pixels) {
             for (const std::uint64_t ordinal : store_.ordinals(RunState::done)) {
                 if (!fs::exists(reports::pixels_path(options_.folder, ids_.at(ordinal)))) {
                     missing.push_back(ordinal);
                 }
             }
-            std::sort(missing.begin(), missing.end());
         }
+        std::sort(missing.begin(), missing.end());
+        missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
         return missing;
     }
 
@@ -229,9 +236,6 @@ private:
         hooks.task = [this, &progress](std::size_t curve) { return task(curve, progress); };
         hooks.record = [this, &progress](const analysis::FinishedCurve& finished) {
             store_.record(finished);
-            for (const auto& row : finished.rows) {
-                outcome_.mismatches += row.result.metrics.pixels.of(scene::ClassReason::mismatch);
-            }
             progress.add(finished.rows.size(), 0);
         };
         hooks.record_failure = [this, &progress](std::span<const std::uint64_t> ordinals,
@@ -240,6 +244,7 @@ private:
             progress.add(0, ordinals.size());
         };
         hooks.should_stop = [] { return is_interrupted(); };
+        hooks.verifies_biases = options_.verifies;
         if (options_.keeps_pixels) {
             hooks.keep_pixels = [this](std::uint64_t ordinal,
                                        const analysis::Comparison& comparison) {

@@ -18,6 +18,7 @@ struct SweepRunOptions {
     std::filesystem::path folder; ///< RUN
     reports::Shard shard;
     bool keeps_pixels = false;
+    bool verifies = false; ///< holds every curve to GL's reruns, those done before too
     bool retries_failed = false;
     bool is_quiet = false;
     bool allows_mixed = false; ///< results of several environments in one run
@@ -33,7 +34,7 @@ struct SweepOutcome {
     std::uint64_t failed = 0;
     std::uint64_t retired = 0;   ///< results of an earlier plan that stay in the database
     analysis::PlanCounts counts; ///< the work that was done now
-    std::uint64_t mismatches = 0;
+    reports::RunChecks checks;   ///< of all that is done
     bool is_interrupted = false;
 };
 

@@ -146,11 +146,18 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<f
     }
 }
 
+scene::Image<float> LookupAnswers::critical_biases(float slope) const
+{
+    LookupRule rule = rule_;
+    rule.slope = slope;
+    return analysis::critical_biases(deciding(), rule);
+}
+
 FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
 {
     LookupRule rule = rule_;
     rule.slope = question.slope;
-    const scene::Image<float> critical = critical_biases(deciding(), rule);
+    const scene::Image<float> critical = critical_biases(question.slope);
     const BiasCurve curve{critical, classes()};
     const BestBiases best = find_best_biases(curve);
     const BiasBounds bounds =

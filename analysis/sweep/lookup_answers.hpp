@@ -3,6 +3,7 @@
 #include "analysis/bias_rows.hpp"
 #include "analysis/causes.hpp"
 #include "analysis/comparison.hpp"
+#include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/exact_side.hpp"
 #include "analysis/sweep/results.hpp"
 #include "scene/job.hpp"
@@ -24,18 +25,6 @@ struct SweepLookup {
     scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
 };
 
-/// What is asked of one bias curve.
-struct CurveQuestion {
-    struct Row {
-        std::uint64_t ordinal = 0;
-        float bias = 0;
-    };
-    std::string id;
-    float slope = 0;    ///< depth units per unit of tan θ
-    float job_bias = 0; ///< of the job without its axes: one of the error profiles
-    std::vector<Row> rows;
-};
-
 /// Everything about one lookup that does not depend on constant and slope bias; answers for all of
 /// them without GL. Not for `hardware`.
 class LookupAnswers {
@@ -45,6 +34,8 @@ public:
     LookupAnswers& operator=(const LookupAnswers&) = delete;
 
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question);
+    /// The critical bias of each pixel; for its argument see `CurveQuestion`.
+    [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
 
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;

@@ -59,6 +59,16 @@ public:
 
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question)
     {
+        return answers().answer(question);
+    }
+    [[nodiscard]] scene::Image<float> critical_biases(float slope)
+    {
+        return answers().critical_biases(slope);
+    }
+
+private:
+    LookupAnswers& answers()
+    {
         if (!answers_) {
             auto side = sides_.find(slot_, stage_keys(lookup_.job).exact, [&] {
                 return std::make_shared<ExactSide>(scene_.open.file->scene, subject_, lookup_.job,
@@ -66,10 +76,9 @@ public:
             });
             answers_ = std::make_unique<LookupAnswers>(std::move(side), std::move(lookup_));
         }
-        return answers_->answer(question);
+        return *answers_;
     }
 
-private:
     const ReadScene& scene_;
     std::shared_ptr<SweepSubject> subject_;
     std::size_t slot_;

@@ -2,6 +2,7 @@
 
 #include "analysis/bias_curve.hpp"
 #include "analysis/bias_limits.hpp"
+#include "analysis/bias_verification.hpp"
 #include "analysis/breakdown.hpp"
 #include "analysis/cause.hpp"
 #include "analysis/gaps.hpp"
@@ -59,6 +60,7 @@ struct CurveResult {
     std::optional<BiasBounds> bounds;
     std::vector<CurvePoint> points; ///< `sample_curve`
     std::vector<DistanceProfile> by_distance;
+    std::optional<BiasVerification> verification; ///< empty: not asked for, or without a curve
 };
 
 /// A finished curve, with those of its configurations that the sweep asks for.

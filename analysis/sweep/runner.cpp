@@ -3,6 +3,7 @@
 #include "analysis/critical_bias.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/sweep/background.hpp"
+#include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/lookup_work.hpp"
 #include "analysis/sweep/made.hpp"
 #include "scene/error.hpp"
@@ -40,49 +41,6 @@ private:
     const SweepHooks& hooks_;
     std::mutex mutex_;
 };
-
-/// The job's own constant bias [depth units]; 0 where it is none in this frustum.
-float own_constant_bias(const scene::Job& job, const scene::LightFrustum& frustum)
-{
-    try {
-        return scene::resolve_bias(job.bias, frustum).constant;
-    } catch (const scene::InputError&) {
-        return 0;
-    }
-}
-
-/// A row that cannot be computed, and why.
-struct RefusedRow {
-    std::uint64_t ordinal = 0;
-    std::string message;
-};
-
-/// What the task asks of its curve; moves rows whose bias is none from the task to `refused`.
-CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum,
-                          std::vector<RefusedRow>& refused)
-{
-    const float slope = scene::resolve_bias({.slope = task.job.bias.slope}, frustum).slope;
-    CurveQuestion question{task.id, slope, own_constant_bias(task.job, frustum), {}};
-    std::erase_if(task.rows, [&](const SweepTask::Row& row) {
-        try {
-            question.rows.push_back({row.ordinal, scene::resolve_bias(row.bias, frustum).constant});
-            return false;
-        } catch (const scene::InputError& error) {
-            refused.push_back({row.ordinal, error.what()});
-            return true;
-        }
-    });
-    return question;
-}
-
-std::vector<std::uint64_t> ordinals_of(const SweepTask& task)
-{
-    std::vector<std::uint64_t> ordinals;
-    for (const SweepTask::Row& row : task.rows) {
-        ordinals.push_back(row.ordinal);
-    }
-    return ordinals;
-}
 
 class Runner {
 public:
@@ -283,15 +241,21 @@ private:
         if (is_compared()) {
             return answer_by_comparison(slot, task_.rows.at(0));
         }
+        if (hooks_.verifies_biases) {
+            finish_lanes(); // GL holds this lookup's map and receivers only until the next step
+            answer_by_curve(task_, lookup_, slot);
+            return task_curve_.reset();
+        }
         lanes_[slot % lanes_.size()]->add(
-            [this, task = std::move(task_), lookup = lookup_]() mutable {
-                answer_by_curve(task, lookup);
+            [this, task = std::move(task_), lookup = lookup_, slot]() mutable {
+                answer_by_curve(task, lookup, slot);
             });
         task_curve_.reset();
     }
 
-    /// Called by a lane. Only the work is a stage: what the hooks throw ends the sweep.
-    void answer_by_curve(SweepTask& task, const Made<LookupWork>& lookup)
+    /// Called by a lane, or where GL verifies by its own thread. Only the work is a stage: what the
+    /// hooks throw ends the sweep.
+    void answer_by_curve(SweepTask& task, const Made<LookupWork>& lookup, std::size_t slot)
     {
         std::vector<RefusedRow> refused;
         const auto made = make<std::optional<FinishedCurve>>([&] {
@@ -300,6 +264,9 @@ private:
             auto finished = std::make_shared<std::optional<FinishedCurve>>();
             if (!question.rows.empty()) {
                 *finished = work->answer(question);
+                if (hooks_.verifies_biases) {
+                    verify(*work, question, slot, (*finished)->curve);
+                }
             }
             return finished;
         });
@@ -313,6 +280,18 @@ private:
         }
     }
 
+    /// Holds the curve to GL's reruns. Source: docs/bias_curve.md#verification.
+    void verify(LookupWork& work, const CurveQuestion& question, std::size_t slot,
+                CurveResult& curve) const
+    {
+        const scene::Image<float> criticals = work.critical_biases(question.slope);
+        const auto& triangles = need(receivers_[slot])->triangle;
+        select(slot);
+        curve.verification = verify_biases(
+            task_.job, stage_view(), triangles, criticals,
+            biases_to_verify(criticals, triangles, wanted_biases(question, curve)), renderers());
+    }
+
     void answer_by_comparison(std::size_t slot, const SweepTask::Row& row)
     {
         const auto made =
@@ -324,8 +303,14 @@ private:
         if (hooks_.keep_pixels) {
             hooks_.keep_pixels(row.ordinal, comparison);
         }
-        teller_.finished(finish_compared(comparison, task_.id, row.ordinal,
-                                         own_constant_bias(task_.job, comparison.view.frustum)));
+        FinishedCurve finished =
+            finish_compared(comparison, task_.id, row.ordinal,
+                            own_constant_bias(task_.job, comparison.view.frustum));
+        if (hooks_.verifies_biases && verified_ != task_.id) {
+            finished.curve.verification = verify_comparison(comparison, renderers());
+            verified_ = task_.id;
+        }
+        teller_.finished(finished);
     }
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
@@ -363,6 +348,7 @@ private:
     Made<bool> map_;
     ExactSides sides_; ///< the lanes'
     Made<LookupWork> lookup_;
+    std::string verified_; ///< the curve that was verified last, of those compared bias by bias
     std::vector<std::unique_ptr<Background>> lanes_; ///< last: they work on the others
 };
 

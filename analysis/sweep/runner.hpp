@@ -46,6 +46,9 @@ struct SweepHooks {
     std::function<bool()> should_stop;
     /// Empty, or told of each configuration's full comparison: GL looks up every bias by itself.
     std::function<void(std::uint64_t ordinal, const Comparison&)> keep_pixels;
+    /// Each curve is held to GL's reruns (`verify_biases`): those of the job's bias, the best one
+    /// and a few of the rows' are among them.
+    bool verifies_biases = false;
 };
 
 /// Runs the steps of a plan. GL works on the calling thread; truth-dependent answers are found by

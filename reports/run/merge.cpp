@@ -74,8 +74,8 @@ void require_vacant(const Database& database, const std::filesystem::path& out)
         refuse_run(out, "holds a run already: name a new folder");
     }
     Transaction transaction{database};
-    for (const char* const table : {"curve_bins", "curve_points", "plan", "configurations",
-                                    "curves", "environments", "run"}) {
+    for (const char* const table : {"verifications", "curve_bins", "curve_points", "plan",
+                                    "configurations", "curves", "environments", "run"}) {
         database.run(fmt::format("DELETE FROM {}", table));
     }
     transaction.commit();

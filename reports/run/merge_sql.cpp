@@ -134,6 +134,19 @@ std::string better_curves()
                        environment, assigned(curve_names()));
 }
 
+/// After the curves: a verification is of the results that came from its own environment.
+std::string worst_verifications()
+{
+    return fmt::format("INSERT INTO main.verifications (curve, biases, verdicts, differences)"
+                       " SELECT m.number, t.biases, t.verdicts, t.differences"
+                       " FROM input.verifications t JOIN input.curves i ON i.number = t.curve"
+                       " JOIN main.curves m ON m.id = i.id WHERE m.environment = {}"
+                       " ON CONFLICT (curve) DO UPDATE SET biases = excluded.biases,"
+                       " verdicts = excluded.verdicts, differences = excluded.differences"
+                       " WHERE excluded.differences > differences",
+                       environment);
+}
+
 std::string new_configurations()
 {
     Names names{"id", "scene_hash", "status", "message"};
@@ -201,6 +214,7 @@ std::vector<std::string> union_statements()
             copied_rows("curve_points", point_names()),
             copied_rows("curve_bins", bin_names()),
             better_curves(),
+            worst_verifications(),
             new_configurations(),
             better_configurations(),
             new_plan};

@@ -90,6 +90,9 @@ RunRecorder::RunRecorder(const Database& database)
       insert_point_{database, "INSERT INTO curve_points VALUES (?, ?, ?, ?, ?)"},
       delete_bins_{database, "DELETE FROM curve_bins WHERE curve = ?"},
       insert_bin_{database, bin_insertion()},
+      delete_verification_{database, "DELETE FROM verifications WHERE curve = ?1 AND"
+                                     " (SELECT environment FROM curves WHERE number = ?1) <> ?2"},
+      insert_verification_{database, "INSERT OR REPLACE INTO verifications VALUES (?, ?, ?, ?)"},
       update_configuration_{database, configuration_update()},
       find_configuration_{database, "SELECT configuration FROM plan WHERE ordinal = ?"},
       fail_configuration_{database, "UPDATE configurations SET status = 'failed', message = ?"
@@ -105,6 +108,7 @@ void RunRecorder::record(const FinishedCurve& curve, std::int64_t environment)
             "RunStore::record: curve {} is not planned, or without rows", curve.curve.id));
     }
     Transaction transaction{*database_};
+    write_verification(curve.curve, *number, environment);
     write_curve(curve, *number, environment);
     write_points(curve.curve, *number);
     write_bins(curve.curve, *number);
@@ -154,6 +158,20 @@ void RunRecorder::write_bins(const CurveResult& curve, std::int64_t number)
             bind_columns(insert_bin_, 6, bin_columns(), bin);
             insert_bin_.run();
         }
+    }
+}
+
+/// Before the curve is written: what was verified in another environment is of another curve.
+void RunRecorder::write_verification(const CurveResult& curve, std::int64_t number,
+                                     std::int64_t environment)
+{
+    delete_verification_.bind(1, number).bind(2, environment).run();
+    if (curve.verification) {
+        insert_verification_.bind(1, number)
+            .bind(2, static_cast<std::int64_t>(curve.verification->reruns.size()))
+            .bind(3, static_cast<std::int64_t>(curve.verification->verdicts()))
+            .bind(4, static_cast<std::int64_t>(curve.verification->differences()))
+            .run();
     }
 }
 

@@ -26,6 +26,8 @@ private:
                      std::int64_t environment);
     void write_points(const analysis::CurveResult& curve, std::int64_t number);
     void write_bins(const analysis::CurveResult& curve, std::int64_t number);
+    void write_verification(const analysis::CurveResult& curve, std::int64_t number,
+                            std::int64_t environment);
     void write_row(const analysis::FinishedCurve::Row& row, std::int64_t curve,
                    std::int64_t environment);
 
@@ -36,6 +38,8 @@ private:
     sqlite::Statement insert_point_;
     sqlite::Statement delete_bins_;
     sqlite::Statement insert_bin_;
+    sqlite::Statement delete_verification_;
+    sqlite::Statement insert_verification_;
     sqlite::Statement update_configuration_;
     sqlite::Statement find_configuration_;
     sqlite::Statement fail_configuration_;

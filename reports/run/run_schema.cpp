@@ -55,6 +55,10 @@ constexpr const char* points_table =
     " bias REAL, false_shadow INTEGER, false_lit INTEGER, PRIMARY KEY (curve, point))"
     " WITHOUT ROWID";
 
+constexpr const char* verifications_table =
+    "CREATE TABLE verifications (curve INTEGER PRIMARY KEY REFERENCES curves,"
+    " biases INTEGER NOT NULL, verdicts INTEGER NOT NULL, differences INTEGER NOT NULL)";
+
 std::string curves_table()
 {
     return fmt::format("CREATE TABLE curves (number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE,"
@@ -134,9 +138,9 @@ std::string bias_curves_view()
 
 std::vector<std::string> schema_statements()
 {
-    return {run_table,      environments_table, curves_table(),    configurations_table(),
-            plan_table,     points_table,       bins_table(),      part_view(),
-            results_view(), error_vs_z_view(),  bias_curves_view()};
+    return {run_table,   environments_table, curves_table(),    configurations_table(),
+            plan_table,  points_table,       bins_table(),      verifications_table,
+            part_view(), results_view(),     error_vs_z_view(), bias_curves_view()};
 }
 
 [[noreturn]] void refuse_database(const Database& database, std::string_view what)

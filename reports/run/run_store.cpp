@@ -53,6 +53,16 @@ std::vector<std::string> known_keys(const std::vector<std::string>& keys)
     return known;
 }
 
+/// The first column of every row.
+std::vector<std::uint64_t> integers(Statement find)
+{
+    std::vector<std::uint64_t> all;
+    while (find.step()) {
+        all.push_back(static_cast<std::uint64_t>(find.integer(0)));
+    }
+    return all;
+}
+
 std::string shown(const sqlite::ValueView& value)
 {
     std::string text;
@@ -135,11 +145,7 @@ std::vector<std::uint64_t> RunStore::ordinals(RunState state) const
                    "SELECT p.ordinal FROM part p CROSS JOIN configurations c"
                    " ON c.number = p.configuration WHERE c.status = ? ORDER BY p.ordinal"};
     find.bind(1, state_names[static_cast<std::size_t>(state)]);
-    std::vector<std::uint64_t> ordinals;
-    while (find.step()) {
-        ordinals.push_back(static_cast<std::uint64_t>(find.integer(0)));
-    }
-    return ordinals;
+    return integers(std::move(find));
 }
 
 std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
@@ -174,6 +180,20 @@ std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
 PlanOutcome RunStore::outcome() const
 {
     return read_outcome(parts_->database);
+}
+
+std::vector<std::uint64_t> RunStore::unverified() const
+{
+    return integers({parts_->database,
+                     "SELECT p.ordinal FROM part p CROSS JOIN configurations c"
+                     " ON c.number = p.configuration JOIN curves v ON v.number = c.curve"
+                     " WHERE c.status = 'done' AND v.bias_source = 'curve'"
+                     " AND v.number NOT IN (SELECT curve FROM verifications) ORDER BY p.ordinal"});
+}
+
+RunChecks RunStore::checks() const
+{
+    return read_run_checks(parts_->database);
 }
 
 std::uint64_t RunStore::reset_failed()

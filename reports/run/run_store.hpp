@@ -2,6 +2,7 @@
 
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
+#include "reports/run/run_checks.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -119,6 +120,13 @@ public:
 
     /// How the plan's configurations stand.
     [[nodiscard]] PlanOutcome outcome() const;
+
+    /// Ordinals of this part's finished configurations whose curve was not held to GL's reruns,
+    /// ascending.
+    [[nodiscard]] std::vector<std::uint64_t> unverified() const;
+
+    /// What the checks of this part's results found.
+    [[nodiscard]] RunChecks checks() const;
 
     /// Makes failed configurations planned again; returns how many of this part's ordinals that is.
     std::uint64_t reset_failed();

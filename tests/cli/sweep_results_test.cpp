@@ -18,6 +18,7 @@ namespace {
 
 using std::filesystem::path;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 /// Compares each row of the run once more by itself.
@@ -104,6 +105,37 @@ TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
         EXPECT_TRUE(std::filesystem::exists(kept / "pixels" / (row.at("id") + ".exr")))
             << row.at("id");
     }
+}
+
+TEST(Sweep, GivesTheSameBytesWhetherItIsVerifiedOrNot)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights);
+    const std::vector<std::string> axes{"--axis", "lookup.filter=nearest,pcf3,hardware", "--axis",
+                                        "bias.constant=0,0.001,0.02", "--no-keep-pixels"};
+    const path plain = folder.path() / "plain";
+    const path verified = folder.path() / "verified";
+    EXPECT_THAT(swept(sweep(job, plain, axes)).out, Not(HasSubstr("verified")));
+    const RunCsv before{plain};
+    const Ending ending = swept(sweep(job, verified, with(axes, {"--verify"})));
+    EXPECT_THAT(ending.out, HasSubstr("\n  verified: 4 of 4 bias curves, 0 of "));
+    expect_same(RunCsv{verified}, before);
+    // What was done before is verified too, once.
+    const Ending later = swept(sweep(job, plain, with(axes, {"--verify"})));
+    EXPECT_THAT(later.out, HasSubstr(" 4 lookup passes, 4 bias curves\n  verified: 4 of 4 bias"));
+    expect_same(RunCsv{plain}, before);
+    EXPECT_THAT(swept(sweep(job, plain, with(axes, {"--verify"}))).out,
+                HasSubstr("now: nothing was left to do\n  verified: 4 of 4 bias curves, 0 of "));
+}
+
+TEST(Sweep, SaysWhereThereIsNothingToVerify)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights);
+    const path run = folder.path() / "run";
+    const auto arguments = sweep(job, run, {"--axis", "lookup.filter=hardware", "--verify"});
+    EXPECT_THAT(swept(arguments).out, HasSubstr("\n  verified: nothing: without a bias curve"));
+    EXPECT_THAT(swept(arguments).out, HasSubstr("nothing was left to do"));
 }
 
 TEST(Sweep, GivesTheSameBytesForAnyNumberOfThreadsAndShards)

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "analysis/sweep/results.hpp"
+#include "analysis/sweep/runner.hpp"
+#include "scene/job.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What is asked of one bias curve.
+struct CurveQuestion {
+    struct Row {
+        std::uint64_t ordinal = 0;
+        float bias = 0;
+    };
+    std::string id;
+    float slope = 0;    ///< depth units per unit of tan θ
+    float job_bias = 0; ///< of the job without its axes: one of the error profiles
+    std::vector<Row> rows;
+};
+
+/// The job's own constant bias [depth units]; 0 where it is none in this frustum.
+[[nodiscard]] float own_constant_bias(const scene::Job& job, const scene::LightFrustum& frustum);
+
+/// A row that cannot be computed, and why.
+struct RefusedRow {
+    std::uint64_t ordinal = 0;
+    std::string message;
+};
+
+/// What the task asks of its curve; moves rows whose bias is none from the task to `refused`.
+[[nodiscard]] CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum,
+                                        std::vector<RefusedRow>& refused);
+
+/// The biases that a curve's numbers are asked for: the job's, the best one, and a few of the rows'
+/// evenly spread over them.
+[[nodiscard]] std::vector<float> wanted_biases(const CurveQuestion& question,
+                                               const CurveResult& curve);
+
+[[nodiscard]] std::vector<std::uint64_t> ordinals_of(const SweepTask& task);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,104 @@
+// Curves of a sweep that are held to GL's reruns.
+
+#include "fake_sweep.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+namespace {
+
+using ::testing::IsEmpty;
+
+const std::vector<std::string> axes{"lookup.filter=nearest,pcf3", "bias.normal_texels=0,1",
+                                    "bias.slope=0,0.0625", "bias.constant=0,0.125,0.3"};
+const std::vector<scene::Override> small_map{{"shadow_map.resolution", "5"}};
+
+TEST(SweepVerification, FindsNoDifferenceWhereGlDoesWhatTheCurveSays)
+{
+    FakeSweep sweep{axes, small_map, two_cameras};
+    sweep.hooks.verifies_biases = true;
+    EXPECT_EQ(sweep.run(), sweep.planned);
+    EXPECT_THAT(sweep.failed, IsEmpty());
+    expect_compared(sweep);
+    EXPECT_EQ(sweep.curves.size(), 16U);
+    for (const auto& [id, curve] : sweep.curves) {
+        ASSERT_TRUE(curve.verification) << id;
+        EXPECT_EQ(curve.verification->differences(), 0U) << id;
+        EXPECT_GE(curve.verification->reruns.size(), 10U) << id;
+        for (const float bias : {0.0F, 0.125F, 0.3F, curve.best->recommended()}) {
+            EXPECT_TRUE(std::any_of(
+                curve.verification->reruns.begin(), curve.verification->reruns.end(),
+                [&](const BiasVerification::Rerun& rerun) { return rerun.bias == bias; }))
+                << id << " " << bias;
+        }
+    }
+}
+
+TEST(SweepVerification, ChangesNoResult)
+{
+    FakeSweep plain{axes, small_map, two_cameras};
+    FakeSweep verified{axes, small_map, two_cameras};
+    verified.hooks.verifies_biases = true;
+    plain.run();
+    verified.run();
+    EXPECT_EQ(plain.done, verified.done);
+    for (const auto& [id, curve] : plain.curves) {
+        EXPECT_FALSE(curve.verification) << "not asked for";
+        EXPECT_EQ(curve.points, verified.curves.at(id).points);
+    }
+}
+
+TEST(SweepVerification, CountsWhatGlDoesOtherwise)
+{
+    for (const bool keeps_pixels : {false, true}) {
+        FakeSweep sweep{{"bias.slope=0,0.0625", "bias.constant=0,0.125"}, small_map};
+        sweep.hooks.verifies_biases = true;
+        if (keeps_pixels) {
+            sweep.keep_pixels();
+        }
+        // A driver that forgets the bias once it is large.
+        Renderers renderers = sweep.world.renderers();
+        const auto look_up = renderers.look_up;
+        renderers.look_up = [&](const scene::Job& job, scene::View view) {
+            view.bias.constant = view.bias.constant > 0.5F ? 0 : view.bias.constant;
+            return look_up(job, view);
+        };
+        sweep.hooks.open_scene = [&](const scene::Job&) {
+            return OpenScene{&sweep.world.file(), &renderers};
+        };
+        std::uint64_t differences = 0;
+        std::size_t verified = 0;
+        const auto record = sweep.hooks.record;
+        sweep.hooks.record = [&](const FinishedCurve& finished) {
+            const auto& verification = finished.curve.verification;
+            verified += verification ? 1U : 0U;
+            differences += verification ? verification->differences() : 0;
+            record(finished);
+        };
+        sweep.run();
+        EXPECT_EQ(sweep.done.size(), 4U) << "results are recorded all the same";
+        EXPECT_EQ(verified, 2U) << "each curve once";
+        EXPECT_GT(differences, 0U) << "keeps pixels: " << keeps_pixels;
+    }
+}
+
+TEST(SweepVerification, HasNothingToSayOfHardware)
+{
+    FakeSweep sweep{{"lookup.filter=hardware", "bias.constant=0,0.125"}, small_map};
+    sweep.hooks.verifies_biases = true;
+    EXPECT_EQ(sweep.run(), sweep.planned);
+    EXPECT_EQ(sweep.done.size(), 2U);
+    for (const auto& [id, curve] : sweep.curves) {
+        EXPECT_FALSE(curve.verification);
+    }
+}
+
+} // namespace
+} // namespace gnomon::analysis
