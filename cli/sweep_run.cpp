@@ -167,11 +167,13 @@ private:
         return description;
     }
 
-    /// What was not computed yet, and what was but without its pixels, where they are kept, or
-    /// without being verified, where that is asked for.
+    /// What was not computed yet, and what was but without something that is asked for now: errors
+    /// at the job's bias, its pixels, being verified.
     [[nodiscard]] std::vector<std::uint64_t> missing_ordinals() const
     {
         std::vector<std::uint64_t> missing = store_.ordinals(RunState::planned);
+        const auto others = store_.without_job_bias();
+        missing.insert(missing.end(), others.begin(), others.end());
         if (options_.verifies) {
             const auto unverified = store_.unverified();
             missing.insert(missing.end(), unverified.begin(), unverified.end());

@@ -42,6 +42,15 @@ std::string curve_of(std::string_view version, std::string_view scene_hash, cons
     return id_of(version, scene_hash, parameters, !has_curve);
 }
 
+/// The constant bias that a job has but for the sweep's axes.
+std::string job_bias_text(const scene::BiasSettings& own, scene::Filter filter)
+{
+    if (filter == scene::Filter::hardware) {
+        return {};
+    }
+    return own.constant_m ? fmt::format("{} m", *own.constant_m) : fmt::format("{}", own.constant);
+}
+
 /// Writes the job's constant bias over that of other parameters of the same structure.
 void replace_constant_bias(Parameters& parameters, const scene::Job& job)
 {
@@ -135,7 +144,9 @@ void SweepCatalogue::describe(std::size_t request, std::string_view scene_hash, 
     configuration.scene_hash = scene_hash;
     configuration.shard = shard;
     configuration.curve = curve_of(version_, scene_hash, job, configuration.parameters);
-    configuration.case_name = space_.case_name(space_.at(ordinals.front()));
+    const scene::SweepPoint first = space_.at(ordinals.front());
+    configuration.case_name = space_.case_name(first);
+    configuration.job_bias = job_bias_text(space_.own_constant_bias(first), job.lookup.filter);
     for (const std::uint64_t ordinal : ordinals) {
         space_.set_constant_bias(job, space_.at(ordinal));
         replace_constant_bias(configuration.parameters, job);

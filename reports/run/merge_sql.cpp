@@ -52,7 +52,7 @@ Names point_names()
 
 Names bin_names()
 {
-    Names names{"profile", "bin", "\"at\"", "bias"};
+    Names names{"job_bias", "\"at\"", "bin", "bias"};
     append_names(names, bin_columns());
     return names;
 }
@@ -90,28 +90,50 @@ std::string differing(const Names& names)
 }
 
 /// Finds a curve whose rows in `table` are not the same in both.
-std::string other_rows(std::string_view table, const Names& names, std::string_view shown)
+/// @param names   of the columns, without the curve's.
+/// @param group   a column by whose values the rows are compared: those that either side lacks are
+///                left out. Empty: all rows are.
+std::string other_rows(std::string_view table, const Names& names, std::string_view group,
+                       std::string_view shown)
 {
-    const auto rows = [&](std::string_view schema, std::string_view number) {
-        return fmt::format("SELECT {} FROM {}.{} t WHERE t.curve = {}", listed("t", names), schema,
-                           table, number);
+    const auto rows = [&](std::string_view schema, std::string_view number, std::string_view other,
+                          std::string_view other_number) {
+        std::string query = fmt::format("SELECT {} FROM {}.{} t WHERE t.curve = {}",
+                                        listed("t", names), schema, table, number);
+        if (!group.empty()) {
+            query += fmt::format(" AND t.{0} IN (SELECT u.{0} FROM {1}.{2} u WHERE u.curve = {3})",
+                                 group, other, table, other_number);
+        }
+        return query;
     };
-    const std::string main_rows = rows("main", "m.number");
-    const std::string input_rows = rows("input", "i.number");
+    const std::string main_rows = rows("main", "m.number", "input", "i.number");
+    const std::string input_rows = rows("input", "i.number", "main", "m.number");
     return fmt::format("SELECT m.id, '{0}' FROM main.curves m JOIN input.curves i ON i.id = m.id"
                        " WHERE m.environment IS NOT NULL AND i.environment IS NOT NULL"
                        " AND (EXISTS ({1} EXCEPT {2}) OR EXISTS ({2} EXCEPT {1})) LIMIT 1",
                        shown, main_rows, input_rows);
 }
 
-/// Copies the rows in `table` of curves that only the input has results of.
-std::string copied_rows(std::string_view table, const Names& names)
+/// Copies the points of curves that only the input has results of.
+std::string new_points()
 {
-    return fmt::format("INSERT INTO main.{0} (curve, {1}) SELECT m.number, {2}"
+    const Names names = point_names();
+    return fmt::format("INSERT INTO main.curve_points (curve, {0}) SELECT m.number, {1}"
                        " FROM input.curves i JOIN main.curves m ON m.id = i.id"
-                       " JOIN input.{0} t ON t.curve = i.number"
+                       " JOIN input.curve_points t ON t.curve = i.number"
                        " WHERE m.environment IS NULL AND i.environment IS NOT NULL",
-                       table, fmt::join(names, ", "), listed("t", names));
+                       fmt::join(names, ", "), listed("t", names));
+}
+
+/// Copies the errors by distance that the union lacks, after the curves: each run may have them at
+/// other jobs' biases.
+std::string new_bins()
+{
+    const Names names = bin_names();
+    return fmt::format("INSERT OR IGNORE INTO main.curve_bins (curve, {0}) SELECT m.number, {1}"
+                       " FROM input.curves i JOIN main.curves m ON m.id = i.id"
+                       " JOIN input.curve_bins t ON t.curve = i.number WHERE m.environment = {2}",
+                       fmt::join(names, ", "), listed("t", names), environment);
 }
 
 constexpr const char* new_environments =
@@ -172,10 +194,10 @@ std::string better_configurations()
 }
 
 constexpr const char* new_plan =
-    "INSERT INTO main.plan (ordinal, configuration, \"case\", shard)"
+    "INSERT INTO main.plan (ordinal, configuration, \"case\", shard, job_bias)"
     " SELECT p.ordinal, (SELECT m.number FROM input.configurations i"
     " JOIN main.configurations m ON m.id = i.id WHERE i.number = p.configuration),"
-    " p.\"case\", p.shard FROM input.plan p"
+    " p.\"case\", p.shard, p.job_bias FROM input.plan p"
     " WHERE p.ordinal NOT IN (SELECT ordinal FROM main.plan) ORDER BY p.ordinal";
 
 } // namespace
@@ -186,7 +208,7 @@ std::string other_plan()
            " JOIN input.configurations i ON i.number = p.configuration"
            " JOIN main.plan q ON q.ordinal = p.ordinal"
            " JOIN main.configurations m ON m.number = q.configuration"
-           " WHERE m.id <> i.id OR p.\"case\" <> q.\"case\" LIMIT 1";
+           " WHERE m.id <> i.id OR p.\"case\" <> q.\"case\" OR p.job_bias <> q.job_bias LIMIT 1";
 }
 
 std::vector<Conflict> conflicts()
@@ -203,20 +225,14 @@ std::vector<Conflict> conflicts()
         differing(curve_names()));
     return {{"configuration", configurations},
             {"curve", curves},
-            {"curve", other_rows("curve_points", point_names(), "bias curve")},
-            {"curve", other_rows("curve_bins", bin_names(), "error by distance")}};
+            {"curve", other_rows("curve_points", point_names(), "", "bias curve")},
+            {"curve", other_rows("curve_bins", bin_names(), "job_bias", "error by distance")}};
 }
 
 std::vector<std::string> union_statements()
 {
-    return {new_environments,
-            new_curves(),
-            copied_rows("curve_points", point_names()),
-            copied_rows("curve_bins", bin_names()),
-            better_curves(),
-            worst_verifications(),
-            new_configurations(),
-            better_configurations(),
+    return {new_environments, new_curves(),          new_points(),         better_curves(),
+            new_bins(),       worst_verifications(), new_configurations(), better_configurations(),
             new_plan};
 }
 

@@ -2,6 +2,7 @@
 
 #include "reports/output_file.hpp"
 #include "reports/run/csv_text.hpp"
+#include "reports/run/run_schema.hpp"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -102,18 +103,26 @@ private:
     std::string pending_;
 };
 
-/// Curves that a result of this part belongs to, in the order of the first one's ordinal.
-std::vector<std::string> exported_curves(const Database& database)
+/// A curve that a result of this part belongs to.
+struct ExportedCurve {
+    std::string id;
+    std::string job_biases; ///< of the jobs that ask for it, as a JSON array
+};
+
+/// In the order of the first result's ordinal.
+std::vector<ExportedCurve> exported_curves(const Database& database)
 {
     Statement find{database,
-                   "SELECT v.id, min(p.ordinal) AS first FROM part p CROSS JOIN configurations c"
-                   " ON c.number = p.configuration JOIN curves v ON v.number = c.curve"
-                   " WHERE c.status = 'done' GROUP BY c.curve ORDER BY first"};
-    std::vector<std::string> ids;
+                   "SELECT v.id, json_group_array(a.job_bias), min(a.ordinal) AS first FROM"
+                   " (SELECT c.curve, p.job_bias, min(p.ordinal) AS ordinal FROM part p"
+                   " CROSS JOIN configurations c ON c.number = p.configuration"
+                   " WHERE c.status = 'done' GROUP BY c.curve, p.job_bias) a"
+                   " JOIN curves v ON v.number = a.curve GROUP BY a.curve ORDER BY first"};
+    std::vector<ExportedCurve> curves;
     while (find.step()) {
-        ids.push_back(find.text(0));
+        curves.push_back({find.text(0), find.text(1)});
     }
-    return ids;
+    return curves;
 }
 
 /// Reads a range of the results, on a connection of its own.
@@ -176,18 +185,33 @@ void write_results(const Database& database, const std::filesystem::path& path)
 }
 
 /// Writes the rows of each curve.
-/// @param query  with the curve's id as its parameter.
-void write_curves(const Database& database, const std::vector<std::string>& curves,
+/// @param query  with the curve's id as its first parameter; a second one is its jobs' biases.
+void write_curves(const Database& database, const std::vector<ExportedCurve>& curves,
                   const std::string& query, const std::filesystem::path& path)
 {
     CsvFile file{path};
     Statement rows{database, query};
     file.write_header(rows);
-    for (const std::string& curve : curves) {
-        rows.bind(1, std::string_view{curve});
+    const bool asks_for_biases = rows.parameter_count() > 1;
+    for (const ExportedCurve& curve : curves) {
+        rows.bind(1, std::string_view{curve.id});
+        if (asks_for_biases) {
+            rows.bind(2, std::string_view{curve.job_biases});
+        }
         file.write_rows(rows);
     }
     file.commit();
+}
+
+/// The errors by distance of a curve: at its jobs' biases, then at the best one. Two jobs may say
+/// the same bias in different words.
+std::string error_vs_z_query()
+{
+    std::string selection = error_vs_z_selection();
+    selection.insert(std::string_view{"SELECT"}.size(), " DISTINCT");
+    return selection + " WHERE v.id = ?1 AND (b.job_bias = '' OR b.job_bias IN"
+                       " (SELECT value FROM json_each(?2)))"
+                       " ORDER BY b.\"at\" DESC, b.bias, b.lower_m";
 }
 
 } // namespace
@@ -195,12 +219,9 @@ void write_curves(const Database& database, const std::vector<std::string>& curv
 void write_run_csv(const Database& database, const std::filesystem::path& folder)
 {
     Transaction moment{database, Transaction::Kind::read};
-    const std::vector<std::string> curves = exported_curves(database);
+    const std::vector<ExportedCurve> curves = exported_curves(database);
     write_results(database, folder / "results.csv");
-    // "job_bias" before "best_bias".
-    write_curves(database, curves,
-                 "SELECT * FROM error_vs_z WHERE curve = ? ORDER BY \"at\" DESC, lower_m",
-                 folder / "error_vs_z.csv");
+    write_curves(database, curves, error_vs_z_query(), folder / "error_vs_z.csv");
     write_curves(database, curves, "SELECT * FROM bias_curves WHERE curve = ? ORDER BY bias",
                  folder / "bias_curves.csv");
     moment.commit();

@@ -42,7 +42,7 @@ public:
           insert_{database, insertion()},
           find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
           insert_curve_{database, "INSERT INTO curves (id) VALUES (?)"},
-          plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?)"}
+          plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?, ?)"}
     {
         const auto& columns = job_columns();
         for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -58,6 +58,7 @@ public:
             .bind(2, number)
             .bind(3, std::string_view{configuration.case_name})
             .bind(4, std::int64_t{configuration.shard})
+            .bind(5, std::string_view{configuration.job_bias})
             .run();
         if (database_->changes() != 1) {
             throw std::invalid_argument(fmt::format(

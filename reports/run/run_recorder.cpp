@@ -88,7 +88,9 @@ RunRecorder::RunRecorder(const Database& database)
       update_curve_{database, curve_update()},
       delete_points_{database, "DELETE FROM curve_points WHERE curve = ?"},
       insert_point_{database, "INSERT INTO curve_points VALUES (?, ?, ?, ?, ?)"},
-      delete_bins_{database, "DELETE FROM curve_bins WHERE curve = ?"},
+      find_job_bias_{database, "SELECT job_bias FROM plan WHERE ordinal = ?"},
+      delete_bins_{database, "DELETE FROM curve_bins WHERE curve = ?1 AND (job_bias IN ('', ?2) OR"
+                             " (SELECT environment FROM curves WHERE number = ?1) <> ?3)"},
       insert_bin_{database, bin_insertion()},
       delete_verification_{database, "DELETE FROM verifications WHERE curve = ?1 AND"
                                      " (SELECT environment FROM curves WHERE number = ?1) <> ?2"},
@@ -108,10 +110,10 @@ void RunRecorder::record(const FinishedCurve& curve, std::int64_t environment)
             "RunStore::record: curve {} is not planned, or without rows", curve.curve.id));
     }
     Transaction transaction{*database_};
+    write_bins(curve, *number, environment);
     write_verification(curve.curve, *number, environment);
     write_curve(curve, *number, environment);
     write_points(curve.curve, *number);
-    write_bins(curve.curve, *number);
     for (const FinishedCurve::Row& row : curve.rows) {
         write_row(row, *number, environment);
     }
@@ -145,20 +147,36 @@ void RunRecorder::write_points(const CurveResult& curve, std::int64_t number)
     }
 }
 
-void RunRecorder::write_bins(const CurveResult& curve, std::int64_t number)
+/// The blocks at other jobs' biases stay, if they are of this environment: they are of the same
+/// curve. Hence before the curve is written.
+void RunRecorder::write_bins(const FinishedCurve& curve, std::int64_t number,
+                             std::int64_t environment)
 {
-    delete_bins_.bind(1, number).run();
-    std::int64_t profile_number = 0;
-    for (const DistanceProfile& profile : curve.by_distance) {
-        insert_bin_.bind(1, number).bind(2, profile_number++);
-        insert_bin_.bind(4, name_of(profile.at)).bind(5, double{profile.bias});
+    const std::string job_bias = job_bias_of(curve.rows.front());
+    delete_bins_.bind(1, number).bind(2, std::string_view{job_bias}).bind(3, environment).run();
+    for (const DistanceProfile& profile : curve.curve.by_distance) {
+        const bool is_jobs = profile.at == DistanceProfile::At::job_bias;
+        insert_bin_.bind(1, number)
+            .bind(2, is_jobs ? std::string_view{job_bias} : std::string_view{})
+            .bind(3, name_of(profile.at))
+            .bind(5, double{profile.bias});
         std::int64_t bin_number = 0;
         for (const analysis::ErrorBin& bin : profile.bins) {
-            insert_bin_.bind(3, bin_number++);
+            insert_bin_.bind(4, bin_number++);
             bind_columns(insert_bin_, 6, bin_columns(), bin);
             insert_bin_.run();
         }
     }
+}
+
+std::string RunRecorder::job_bias_of(const FinishedCurve::Row& row)
+{
+    if (!find_job_bias_.bind(1, static_cast<std::int64_t>(row.ordinal)).step()) {
+        refuse("RunStore::record", row.ordinal);
+    }
+    std::string job_bias = find_job_bias_.text(0);
+    find_job_bias_.reset();
+    return job_bias;
 }
 
 /// Before the curve is written: what was verified in another environment is of another curve.

@@ -25,7 +25,9 @@ private:
     void write_curve(const analysis::FinishedCurve& curve, std::int64_t number,
                      std::int64_t environment);
     void write_points(const analysis::CurveResult& curve, std::int64_t number);
-    void write_bins(const analysis::CurveResult& curve, std::int64_t number);
+    void write_bins(const analysis::FinishedCurve& curve, std::int64_t number,
+                    std::int64_t environment);
+    [[nodiscard]] std::string job_bias_of(const analysis::FinishedCurve::Row& row);
     void write_verification(const analysis::CurveResult& curve, std::int64_t number,
                             std::int64_t environment);
     void write_row(const analysis::FinishedCurve::Row& row, std::int64_t curve,
@@ -36,6 +38,7 @@ private:
     sqlite::Statement update_curve_;
     sqlite::Statement delete_points_;
     sqlite::Statement insert_point_;
+    sqlite::Statement find_job_bias_;
     sqlite::Statement delete_bins_;
     sqlite::Statement insert_bin_;
     sqlite::Statement delete_verification_;

@@ -48,7 +48,8 @@ constexpr const char* environments_table =
 
 constexpr const char* plan_table = "CREATE TABLE plan (ordinal INTEGER PRIMARY KEY,"
                                    " configuration INTEGER NOT NULL REFERENCES configurations,"
-                                   " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL)";
+                                   " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL,"
+                                   " job_bias TEXT NOT NULL)";
 
 constexpr const char* points_table =
     "CREATE TABLE curve_points (curve INTEGER NOT NULL REFERENCES curves, point INTEGER,"
@@ -79,8 +80,8 @@ std::string configurations_table()
 std::string bins_table()
 {
     return fmt::format("CREATE TABLE curve_bins (curve INTEGER NOT NULL REFERENCES curves,"
-                       " profile INTEGER, bin INTEGER, \"at\" TEXT NOT NULL, bias REAL{},"
-                       " PRIMARY KEY (curve, profile, bin)) WITHOUT ROWID",
+                       " job_bias TEXT NOT NULL, \"at\" TEXT NOT NULL, bin INTEGER, bias REAL{},"
+                       " PRIMARY KEY (curve, job_bias, \"at\", bin)) WITHOUT ROWID",
                        definitions(bin_columns()));
 }
 
@@ -114,7 +115,9 @@ std::string rates(std::string_view counts, std::string_view pixels)
                        counts, pixels);
 }
 
-std::string error_vs_z_view()
+} // namespace
+
+std::string error_vs_z_selection()
 {
     std::string counts;
     std::string depths; // from the first quantile on
@@ -122,11 +125,12 @@ std::string error_vs_z_view()
         const bool is_count = depths.empty() && column.name.find('.') == std::string::npos;
         (is_count ? counts : depths) += fmt::format(", b.{}", sql_name(column.name));
     }
-    return fmt::format("CREATE VIEW error_vs_z AS SELECT v.id AS curve, b.\"at\" AS \"at\","
-                       " b.bias AS bias{}, {}{}"
+    return fmt::format("SELECT v.id AS curve, b.\"at\" AS \"at\", b.bias AS bias{}, {}{}"
                        " FROM curve_bins b JOIN curves v ON v.number = b.curve",
                        counts, rates("b", "b"), depths);
 }
+
+namespace {
 
 std::string bias_curves_view()
 {
@@ -138,9 +142,18 @@ std::string bias_curves_view()
 
 std::vector<std::string> schema_statements()
 {
-    return {run_table,   environments_table, curves_table(),    configurations_table(),
-            plan_table,  points_table,       bins_table(),      verifications_table,
-            part_view(), results_view(),     error_vs_z_view(), bias_curves_view()};
+    return {run_table,
+            environments_table,
+            curves_table(),
+            configurations_table(),
+            plan_table,
+            points_table,
+            bins_table(),
+            verifications_table,
+            part_view(),
+            results_view(),
+            "CREATE VIEW error_vs_z AS " + error_vs_z_selection(),
+            bias_curves_view()};
 }
 
 [[noreturn]] void refuse_database(const Database& database, std::string_view what)

@@ -191,6 +191,18 @@ std::vector<std::uint64_t> RunStore::unverified() const
                      " AND v.number NOT IN (SELECT curve FROM verifications) ORDER BY p.ordinal"});
 }
 
+std::vector<std::uint64_t> RunStore::without_job_bias() const
+{
+    // A curve without scored pixels has no bins at any bias.
+    return integers({parts_->database,
+                     "SELECT a.first FROM (SELECT c.curve, p.job_bias, min(p.ordinal) AS first"
+                     " FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
+                     " WHERE c.status = 'done' GROUP BY c.curve, p.job_bias) a"
+                     " JOIN curves v ON v.number = a.curve WHERE v.lit + v.blocked > 0"
+                     " AND NOT EXISTS (SELECT 1 FROM curve_bins b WHERE b.curve = a.curve"
+                     " AND b.job_bias = a.job_bias AND b.\"at\" = 'job_bias') ORDER BY a.first"});
+}
+
 RunChecks RunStore::checks() const
 {
     return read_run_checks(parts_->database);

@@ -125,6 +125,10 @@ public:
     /// ascending.
     [[nodiscard]] std::vector<std::uint64_t> unverified() const;
 
+    /// Of finished curves that lack the errors by distance at a job's bias, for each such bias the
+    /// first of this part's configurations that asks for it, ascending.
+    [[nodiscard]] std::vector<std::uint64_t> without_job_bias() const;
+
     /// What the checks of this part's results found.
     [[nodiscard]] RunChecks checks() const;
 

@@ -166,6 +166,11 @@ std::optional<std::int64_t> Statement::first()
     return result;
 }
 
+int Statement::parameter_count() const
+{
+    return sqlite3_bind_parameter_count(statement_.get());
+}
+
 int Statement::column_count() const
 {
     return sqlite3_column_count(statement_.get());

@@ -45,6 +45,7 @@ public:
     /// Runs it for the integer in its first row's first column; empty without a row.
     [[nodiscard]] std::optional<std::int64_t> first();
 
+    [[nodiscard]] int parameter_count() const;
     [[nodiscard]] int column_count() const;
     [[nodiscard]] std::string column_name(int column) const;
     [[nodiscard]] bool is_null(int column) const;

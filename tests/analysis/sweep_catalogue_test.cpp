@@ -240,7 +240,19 @@ TEST(SweepCatalogue, KnowsTheFilesBiasBesideTheAxes)
     EXPECT_EQ(catalogue.task(1, hash).rows.at(0).bias.constant, 0.125);
     EXPECT_EQ(catalogue.task(2, hash).job.bias.constant_m, 0.25);
     EXPECT_EQ(catalogue.task(2, hash).rows.at(0).bias.constant_m, 0.25);
-    EXPECT_EQ(describe_all(space)[2].case_name, "metres");
+    const auto all = describe_all(space);
+    EXPECT_EQ(all[2].case_name, "metres");
+    EXPECT_EQ(all[0].job_bias, "0.05 m") << "the built-in's own";
+    EXPECT_EQ(all[1].job_bias, "0.125");
+    EXPECT_EQ(all[2].job_bias, "0.25 m");
+}
+
+TEST(SweepCatalogue, KnowsNoJobsBiasForHardware)
+{
+    for (const Configuration& configuration :
+         describe_all(space_of({"bias.constant=0,0.5"}, {{"lookup.filter", "hardware"}}))) {
+        EXPECT_EQ(configuration.job_bias, "");
+    }
 }
 
 TEST(SweepCatalogue, PutsMetresInPlaceOfDepthUnits)

@@ -42,6 +42,26 @@ TEST(Sweep, IsNotDoneAgain)
     EXPECT_THAT(more.out, HasSubstr("2 bias curves"));
 }
 
+TEST(Sweep, MakesUpForTheErrorsAtAnotherJobsBias)
+{
+    const TemporaryFolder folder;
+    const std::vector<std::string> axes{"--axis", "bias.constant=0,0.001,0.02", "--no-keep-pixels"};
+    const path first = folder.write("first.toml", "bias.constant = 0.002" + two_lights);
+    const path other = folder.write("other.toml", "bias.constant = 0.005" + two_lights);
+    const path run = folder.path() / "run";
+    const path fresh = folder.path() / "fresh";
+    swept(sweep(first, run, axes));
+    const RunCsv before{run};
+    const Ending again = swept(sweep(other, run, axes));
+    EXPECT_THAT(again.out, HasSubstr(" 2 bias curves\n")) << "one row of each curve is enough";
+    swept(sweep(other, fresh, axes));
+    expect_same(RunCsv{run}, RunCsv{fresh});
+    EXPECT_NE(RunCsv{run}.error_vs_z, before.error_vs_z);
+    // Back again everything is known.
+    EXPECT_THAT(swept(sweep(first, run, axes)).out, HasSubstr("nothing was left to do"));
+    expect_same(RunCsv{run}, before);
+}
+
 TEST(Sweep, MakesUpForPixelsThatWereNotKept)
 {
     const TemporaryFolder folder;

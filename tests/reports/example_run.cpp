@@ -112,7 +112,7 @@ std::vector<analysis::Configuration> ExampleRun::configurations() const
             const std::uint64_t ordinal = c * biases + b;
             all.push_back({ordinal, example_id(1000 * biases + ordinal, 'a'), example_id(c, 'c'),
                            "noon", "0123456789abcdef", static_cast<std::uint32_t>(c % shards + 1),
-                           scene::resolved_keys(job)});
+                           "0", scene::resolved_keys(job)});
         }
     }
     return all;
