@@ -148,6 +148,18 @@ Layer single_setting(std::string_view key, const std::string& value, const std::
     return {make_setting(*find_key(key), {value}, label)};
 }
 
+/// What is given, the weakest first.
+std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+{
+    std::vector<Layer> layers{source.file};
+    if (chosen != nullptr) {
+        layers.push_back(chosen->layer);
+    }
+    layers.push_back(source.overrides);
+    layers.push_back(axes);
+    return layers;
+}
+
 } // namespace
 
 JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides)
@@ -203,12 +215,7 @@ const CaseLayer& find_case(const JobSource& source, std::string_view name)
 
 Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
 {
-    std::vector<Layer> layers{source.file};
-    if (chosen != nullptr) {
-        layers.push_back(chosen->layer);
-    }
-    layers.push_back(source.overrides);
-    layers.push_back(axes);
+    std::vector<Layer> layers = given_layers(source, chosen, axes);
     Settings settings = lay_all(layers);
     check_scene_choice(settings, source.name);
     if (const Setting* choice = find_setting(settings, "scene.builtin")) {
@@ -229,6 +236,19 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
         job.scene.file = source.folder / job.scene.file;
     }
     return job;
+}
+
+std::vector<std::pair<std::string, std::string>>
+given_keys(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+{
+    const Settings settings = lay_all(given_layers(source, chosen, axes));
+    std::vector<std::pair<std::string, std::string>> keys;
+    for (const KeySpec& spec : key_specs()) {
+        if (const Setting* setting = find_setting(settings, spec.key.name)) {
+            keys.emplace_back(spec.key.name, to_toml(setting->value));
+        }
+    }
+    return keys;
 }
 
 } // namespace gnomon::scene

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::scene {
@@ -43,5 +44,10 @@ struct JobSource {
 /// @throws InputError  if keys do not go together.
 [[nodiscard]] Job make_job(const JobSource& source, const CaseLayer* chosen = nullptr,
                            const Layer& axes = {});
+
+/// What the file, the case, the overrides and the axes say, whether it goes together or not: keys
+/// and values as text, in the order of `job_keys`. A scene's file is as it was written.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>>
+given_keys(const JobSource& source, const CaseLayer* chosen = nullptr, const Layer& axes = {});
 
 } // namespace gnomon::scene

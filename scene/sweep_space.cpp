@@ -238,13 +238,24 @@ std::uint64_t SweepSpace::structure(const SweepPoint& point) const
     return structure;
 }
 
+Layer SweepSpace::axis_settings(const SweepPoint& point) const
+{
+    Layer settings;
+    for (std::size_t i = 0; i < axes().size(); ++i) {
+        settings.push_back(values_[i][point.values[i]]);
+    }
+    return settings;
+}
+
 Job SweepSpace::job(const SweepPoint& point) const
 {
-    Layer chosen;
-    for (std::size_t i = 0; i < axes().size(); ++i) {
-        chosen.push_back(values_[i][point.values[i]]);
-    }
-    return make_job(source_, chosen_case(point), chosen);
+    return make_job(source_, chosen_case(point), axis_settings(point));
+}
+
+std::vector<std::pair<std::string, std::string>>
+SweepSpace::given_keys(const SweepPoint& point) const
+{
+    return scene::given_keys(source_, chosen_case(point), axis_settings(point));
 }
 
 void SweepSpace::set_constant_bias(Job& job, const SweepPoint& point) const

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::scene {
@@ -47,6 +48,10 @@ public:
     /// The point's job.
     /// @throws InputError  if its keys do not go together.
     [[nodiscard]] Job job(const SweepPoint& point) const;
+    /// The keys that the point's job is given (`scene::given_keys`), also where they do not go
+    /// together.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>>
+    given_keys(const SweepPoint& point) const;
     /// Makes the job of one point that of another of the same structure; much faster than `job`.
     void set_constant_bias(Job& job, const SweepPoint& point) const;
     /// The constant bias that the point's job has but for its axes: what the file, its case and the
@@ -62,6 +67,7 @@ private:
     void number_zipped_structures();
     void count();
 
+    [[nodiscard]] Layer axis_settings(const SweepPoint& point) const;
     [[nodiscard]] const CaseLayer* chosen_case(const SweepPoint& point) const;
     [[nodiscard]] bool is_zipped() const { return source_.sweep.mode == "zip"; }
 

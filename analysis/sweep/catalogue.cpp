@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -16,16 +17,30 @@ namespace {
 
 using Parameters = std::vector<std::pair<std::string, std::string>>;
 
+/// What stands for a scene in ids: its content's hash; where that is not known, its file as the job
+/// writes it.
+std::string scene_name(std::string_view scene_hash, const Parameters& given)
+{
+    if (!scene_hash.empty()) {
+        return std::string{scene_hash};
+    }
+    const auto file = std::find_if(given.begin(), given.end(), [](const auto& parameter) {
+        return parameter.first == "scene.file";
+    });
+    return file == given.end() ? std::string{} : "unread " + file->second;
+}
+
 /// The name of what these parameters give in this scene.
-std::string id_of(std::string_view version, std::string_view scene_hash,
+/// @param scene_name  as above.
+std::string id_of(std::string_view version, std::string_view scene_name,
                   const Parameters& parameters, bool with_constant_bias)
 {
     scene::Fnv1a hash;
     hash.add(fmt::format("schema {}", result_schema));
     hash.add(version);
-    hash.add(scene_hash);
+    hash.add(scene_name);
     for (const auto& [key, value] : parameters) {
-        // The file's place says nothing that its content's hash does not.
+        // The file's place says nothing that the scene's name does not.
         if (key != "scene.file" && (with_constant_bias || !scene::is_constant_bias(key))) {
             hash.add(key);
             hash.add(value);
@@ -35,11 +50,11 @@ std::string id_of(std::string_view version, std::string_view scene_hash,
 }
 
 /// The name of the job's bias curve; `hardware` has none, and each of its biases is by itself.
-std::string curve_of(std::string_view version, std::string_view scene_hash, const scene::Job& job,
+std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
                      const Parameters& parameters)
 {
     const bool has_curve = job.lookup.filter != scene::Filter::hardware;
-    return id_of(version, scene_hash, parameters, !has_curve);
+    return id_of(version, scene_name, parameters, !has_curve);
 }
 
 /// The constant bias that a job has but for the sweep's axes.
@@ -143,15 +158,16 @@ void SweepCatalogue::describe(std::size_t request, std::string_view scene_hash, 
     configuration.parameters = scene::resolved_keys(job);
     configuration.scene_hash = scene_hash;
     configuration.shard = shard;
-    configuration.curve = curve_of(version_, scene_hash, job, configuration.parameters);
     const scene::SweepPoint first = space_.at(ordinals.front());
+    const std::string scene = scene_name(scene_hash, space_.given_keys(first));
+    configuration.curve = curve_of(version_, scene, job, configuration.parameters);
     configuration.case_name = space_.case_name(first);
     configuration.job_bias = job_bias_text(space_.own_constant_bias(first), job.lookup.filter);
     for (const std::uint64_t ordinal : ordinals) {
         space_.set_constant_bias(job, space_.at(ordinal));
         replace_constant_bias(configuration.parameters, job);
         configuration.ordinal = ordinal;
-        configuration.id = id_of(version_, scene_hash, configuration.parameters, true);
+        configuration.id = id_of(version_, scene, configuration.parameters, true);
         visit(configuration);
     }
 }
@@ -163,13 +179,10 @@ void SweepCatalogue::describe(const Refusal& refusal, const Visit& visit) const
         Configuration configuration;
         configuration.ordinal = ordinal;
         configuration.case_name = space_.case_name(point);
-        for (std::size_t axis = 0; axis < space_.axes().size(); ++axis) {
-            const scene::SweepAxis& values = space_.axes()[axis];
-            configuration.parameters.emplace_back(values.key, values.values[point.values[axis]]);
-        }
-        configuration.id = id_of(version_, configuration.case_name, configuration.parameters, true);
-        configuration.curve =
-            id_of(version_, configuration.case_name, configuration.parameters, false);
+        configuration.parameters = space_.given_keys(point);
+        const std::string scene = scene_name({}, configuration.parameters);
+        configuration.id = id_of(version_, scene, configuration.parameters, true);
+        configuration.curve = id_of(version_, scene, configuration.parameters, false);
         visit(configuration);
     }
 }

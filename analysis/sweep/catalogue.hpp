@@ -42,10 +42,11 @@ public:
 
     using Visit = std::function<void(const Configuration&)>;
     /// Says who the request's configurations are.
+    /// @param scene_hash  empty if the scene cannot be read: its file stands for it in the ids.
     /// @param shard  that computes them.
     void describe(std::size_t request, std::string_view scene_hash, const Visit& visit,
                   std::uint32_t shard = 1) const;
-    /// Says who the refused ones are: by their number, case and axes alone.
+    /// Says who the refused ones are: by the keys that they are given.
     void describe(const Refusal& refusal, const Visit& visit) const;
 
 private:

@@ -288,10 +288,38 @@ TEST(SweepCatalogue, RefusesConfigurationsWhoseKeysDoNotGoTogether)
     EXPECT_EQ(ids.size(), 8U);
     using Pair = std::pair<std::string, std::string>;
     EXPECT_THAT(all[5].parameters,
-                ElementsAre(Pair{"shadow_map.near", "5"}, Pair{"shadow_map.far", "4"},
-                            Pair{"bias.constant", "0.5"}));
+                ElementsAre(Pair{"scene.builtin", "\"wall\""}, Pair{"shadow_map.near", "5"},
+                            Pair{"shadow_map.far", "4"}, Pair{"bias.constant", "0.5"}));
     EXPECT_EQ(all[5].scene_hash, "");
     EXPECT_EQ(all[4].curve, all[5].curve);
+}
+
+TEST(SweepCatalogue, NamesRefusedConfigurationsByEveryKeyOfTheirJob)
+{
+    const auto refused = [](const std::vector<scene::Override>& more) {
+        std::vector<scene::Override> keys{{"shadow_map.near", "5"}, {"shadow_map.far", "4"}};
+        keys.insert(keys.end(), more.begin(), more.end());
+        return describe_all(space_of({"bias.slope=0.5"}, keys)).at(0);
+    };
+    EXPECT_EQ(refused({}).id, refused({}).id);
+    // What another job refuses is another row, though the axes are the same.
+    EXPECT_NE(refused({}).id, refused({{"light.direction", "[0, -1, 0.5]"}}).id);
+    EXPECT_NE(refused({}).curve, refused({{"light.direction", "[0, -1, 0.5]"}}).curve);
+    EXPECT_NE(refused({{"scene.file", "a.obj"}}).id, refused({{"scene.file", "b.obj"}}).id);
+    const Configuration biased = refused({{"bias.constant", "0.5"}});
+    EXPECT_NE(refused({}).id, biased.id);
+    EXPECT_EQ(refused({}).curve, biased.curve);
+}
+
+TEST(SweepCatalogue, NamesScenesThatCannotBeReadByTheirPlace)
+{
+    const auto of_file = [](const char* file) {
+        return describe_all(space_of({"bias.slope=0.5"}, {{"scene.file", file}}), "")[0];
+    };
+    EXPECT_EQ(of_file("a.obj").id, of_file("a.obj").id);
+    EXPECT_NE(of_file("a.obj").id, of_file("b.obj").id);
+    EXPECT_NE(of_file("a.obj").curve, of_file("b.obj").curve);
+    EXPECT_EQ(of_file("a.obj").scene_hash, "");
 }
 
 TEST(SweepCatalogue, MayRefuseEverything)

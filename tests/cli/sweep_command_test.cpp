@@ -140,6 +140,29 @@ scene.file = "lost.obj"
     EXPECT_THAT(retried.out, HasSubstr("3 bias curves"));
 }
 
+TEST(Sweep, HasARowOfItsOwnForEachSceneThatCannotBeRead)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", "image.width = 32\nimage.height = 18\n");
+    const std::string ground = "v -9 0 -9\nv 9 0 -9\nv 0 0 9\nf 1 3 2\n";
+    folder.write("there.obj", ground);
+    const path run = folder.path() / "run";
+    const auto arguments = sweep(job, run, {"--axis", "scene.file=there.obj,a.obj,b.obj"});
+    EXPECT_EQ(gnomon(arguments).exit_code, incomplete);
+    const auto rows = csv_rows(run / "results.csv");
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_EQ(rows[0].at("status"), "done");
+    for (const auto& [row, file] : {std::pair{1U, "a.obj"}, {2U, "b.obj"}}) {
+        EXPECT_EQ(rows[row].at("status"), "failed");
+        EXPECT_THAT(rows[row].at("scene.file"), HasSubstr(file));
+        EXPECT_THAT(rows[row].at("message"), HasSubstr(file));
+    }
+    EXPECT_NE(rows[1].at("id"), rows[2].at("id"));
+    // A file that was found is a configuration not computed yet: no --retry is needed.
+    folder.write("a.obj", ground + "v 0 1 0\nv 1 1 0\nv 0 1 1\nf 4 6 5\n");
+    EXPECT_THAT(gnomon(arguments).out, StartsWith("2 of 3 configurations done, 1 failed: "));
+}
+
 TEST(Sweep, OfNothingThatCanBeComputedIsRefused)
 {
     const TemporaryFolder folder;
