@@ -111,6 +111,12 @@ std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcom
     text += fmt::format(": {}/results.csv\n  now: {}\n", options.folder,
                         outcome.counts.configurations > 0 ? counts_text(outcome.counts)
                                                           : "nothing was left to do");
+    if (outcome.repeated > 0) {
+        text += fmt::format("  {} the same as an earlier one (equal id) and not computed twice\n",
+                            outcome.repeated == 1
+                                ? std::string{"1 configuration is"}
+                                : reports::grouped(outcome.repeated) + " configurations are");
+    }
     if (options.verifies) {
         text += fmt::format("  verified: {}\n", reports::verification_text(outcome.checks));
     }

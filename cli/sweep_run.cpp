@@ -18,6 +18,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -44,6 +45,16 @@ std::string refusal_of(const Work& work)
     } catch (const scene::InputError& error) {
         return error.what();
     }
+}
+
+/// Of ascending numbers those that are not among others, ascending too.
+std::vector<std::uint64_t> without(const std::vector<std::uint64_t>& all,
+                                   const std::vector<std::uint64_t>& others)
+{
+    std::vector<std::uint64_t> rest;
+    std::set_difference(all.begin(), all.end(), others.begin(), others.end(),
+                        std::back_inserter(rest));
+    return rest;
 }
 
 /// Numbers as a sorted list, to be asked for.
@@ -129,7 +140,8 @@ private:
     {
         const auto& requests = catalogue_.requests();
         const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
-        const auto shards = analysis::divide(whole, requests, options_.shard.count);
+        auto shards = analysis::divide(whole, requests, options_.shard.count);
+        keep_equals_together(shards);
         const auto show = [&](const reports::VisitConfiguration& visit) {
             const auto keep_id = [&](const Configuration& configuration) {
                 if (options_.keeps_pixels) {
@@ -149,6 +161,21 @@ private:
                                                                : reports::Environments::one);
         outcome_.configurations = outcome.done + outcome.failed + outcome.planned;
         outcome_.retired = outcome.retired;
+        outcome_.repeated = store_.repeated().size();
+    }
+
+    /// Moves requests that differ in nothing but the place of a scene of the same content to one
+    /// shard, which then computes them once.
+    void keep_equals_together(std::vector<std::uint32_t>& shards) const
+    {
+        std::unordered_map<std::string, std::uint32_t> known;
+        for (std::size_t i = 0; i < shards.size(); ++i) {
+            const analysis::StageKeys& keys = catalogue_.requests()[i].keys;
+            const std::string key = hashes_[i] + keys.curve.substr(keys.scene.size());
+            if (!is_refused_[i]) {
+                shards[i] = known.try_emplace(key, shards[i]).first->second;
+            }
+        }
     }
 
     [[nodiscard]] reports::RunDescription description() const
@@ -187,7 +214,7 @@ private:
         }
         std::sort(missing.begin(), missing.end());
         missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-        return missing;
+        return without(missing, store_.repeated());
     }
 
     /// Keeps of requests and refusals what is still to be done here.

@@ -203,6 +203,14 @@ std::vector<std::uint64_t> RunStore::without_job_bias() const
                      " AND b.job_bias = a.job_bias AND b.\"at\" = 'job_bias') ORDER BY a.first"});
 }
 
+std::vector<std::uint64_t> RunStore::repeated() const
+{
+    return integers({parts_->database,
+                     "SELECT ordinal FROM (SELECT ordinal, row_number() OVER"
+                     " (PARTITION BY configuration, job_bias ORDER BY ordinal) AS place FROM part)"
+                     " WHERE place > 1 ORDER BY ordinal"});
+}
+
 RunChecks RunStore::checks() const
 {
     return read_run_checks(parts_->database);

@@ -129,6 +129,10 @@ public:
     /// first of this part's configurations that asks for it, ascending.
     [[nodiscard]] std::vector<std::uint64_t> without_job_bias() const;
 
+    /// Ordinals of this part that repeat an earlier one: the same id and the same bias of the job,
+    /// so that one result serves both. Ascending.
+    [[nodiscard]] std::vector<std::uint64_t> repeated() const;
+
     /// What the checks of this part's results found.
     [[nodiscard]] RunChecks checks() const;
 

@@ -163,6 +163,41 @@ TEST(Sweep, HasARowOfItsOwnForEachSceneThatCannotBeRead)
     EXPECT_THAT(gnomon(arguments).out, StartsWith("2 of 3 configurations done, 1 failed: "));
 }
 
+TEST(Sweep, ComputesScenesOfEqualContentOnce)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", "image.width = 32\nimage.height = 18\n");
+    const std::string text = "v -9 0 -9\nv 9 0 -9\nv 0 0 9\nf 1 3 2\n"
+                             "v 0 1 0\nv 1 1 0\nv 0 1 1\nf 4 6 5\n";
+    folder.write("a.obj", text);
+    folder.write("b.obj", text);
+    const std::vector<std::string> axes{"--axis", "scene.file=a.obj,b.obj", "--axis",
+                                        "bias.constant=0,0.01"};
+    for (const char* const pixels : {"--keep-pixels", "--no-keep-pixels"}) {
+        const path run = folder.path() / pixels;
+        const Ending ending = swept(sweep(job, run, with(axes, {pixels})));
+        EXPECT_THAT(ending.out, HasSubstr("4 of 4 configurations done"));
+        EXPECT_THAT(ending.out, HasSubstr("now: 1 scene, 1 truth, 1 receiver pass, 1 shadow map"));
+        EXPECT_THAT(ending.out, HasSubstr("\n  2 configurations are the same as an earlier one"));
+        const auto rows = csv_rows(run / "results.csv");
+        ASSERT_EQ(rows.size(), 4U);
+        for (const std::size_t i : {0U, 1U}) {
+            EXPECT_EQ(rows[i].at("status"), "done");
+            EXPECT_EQ(rows[i + 2].at("id"), rows[i].at("id"));
+            EXPECT_EQ(rows[i + 2].at("false_shadow"), rows[i].at("false_shadow"));
+        }
+    }
+    // Nor by two shards.
+    std::size_t computed = 0;
+    for (const char* const shard : {"1/2", "2/2"}) {
+        const Ending ending = gnomon(sweep(job, folder.path() / ("part" + std::string{shard[0]}),
+                                           with(axes, {"--no-keep-pixels", "--shard", shard})));
+        EXPECT_EQ(ending.exit_code, 0) << ending.err;
+        computed += ending.out.find("now: 1 scene") == std::string::npos ? 0U : 1U;
+    }
+    EXPECT_EQ(computed, 1U);
+}
+
 TEST(Sweep, OfNothingThatCanBeComputedIsRefused)
 {
     const TemporaryFolder folder;
