@@ -1,6 +1,6 @@
 #include "cli/status_command.hpp"
 
-#include "cli/exit_codes.hpp"
+#include "cli/run_ending.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/run/run_status.hpp"
 
@@ -24,9 +24,7 @@ void show_status(const StatusOptions& options)
     const reports::RunStatus status = reports::read_run_status(
         options.run, options.all ? std::numeric_limits<std::uint64_t>::max() : some_rows);
     print(options.json ? reports::run_status_json(status) : reports::run_status_text(status));
-    if (!status.is_complete()) {
-        throw CLI::RuntimeError{exit_codes::incomplete};
-    }
+    end_as(status);
 }
 
 } // namespace
@@ -40,9 +38,11 @@ void add_status_command(CLI::App& program)
     command->add_flag("--json", options->json, "Print it as JSON (docs/runs.md)");
     command->add_flag("--all", options->all,
                       "List every failed and missing configuration, not the first 20 of each");
-    command->footer("Exit status: 0 complete; 2 there is no run in RUN; 5 configurations failed or "
-                    "are missing.\n\nExample:\n"
-                    "  gnomon status run");
+    command->footer(
+        "Exit status: 0 complete; 2 there is no run in RUN; 4 complete, but GL and the "
+        "truth, or the bias curve, disagree where they must not; 5 configurations failed "
+        "or are missing.\n\nExample:\n"
+        "  gnomon status run");
     command->callback([options] { show_status(*options); });
 }
 

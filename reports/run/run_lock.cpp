@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <iterator>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace gnomon::reports {
 
@@ -83,26 +85,47 @@ std::string holder(int descriptor)
     return scene::one_line(line.substr(0, line.find('\n')));
 }
 
-} // namespace
-
-RunLock::RunLock(const std::filesystem::path& folder)
+/// Opens the file and locks it.
+/// @throws  as `RunLock` does.
+int open_locked(const std::filesystem::path& folder, const std::filesystem::path& path)
 {
-    make_folder(folder);
-    const std::filesystem::path path = folder / "lock";
-    descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, lock_mode);
-    if (descriptor_ < 0) {
+    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, lock_mode);
+    if (descriptor < 0) {
         fail(path, "open", errno);
     }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
         const int code = errno;
-        const std::string who = code == EWOULDBLOCK ? holder(descriptor_) : "";
-        ::close(descriptor_);
+        const std::string who = code == EWOULDBLOCK ? holder(descriptor) : "";
+        ::close(descriptor);
         if (code != EWOULDBLOCK) {
             fail(path, "flock", code);
         }
         throw scene::InputError(fmt::format("{}: another process is writing here ({}): wait for "
                                             "it, or name another folder",
                                             scene::one_line(folder.string()), who));
+    }
+    return descriptor;
+}
+
+/// Whether that is still the file: its last owner may have removed it before it was locked here.
+bool is_file_at(const std::filesystem::path& path, int descriptor)
+{
+    struct stat there {};
+    struct stat here {};
+    return ::stat(path.c_str(), &there) == 0 && ::fstat(descriptor, &here) == 0 &&
+           there.st_dev == here.st_dev && there.st_ino == here.st_ino;
+}
+
+} // namespace
+
+RunLock::RunLock(const std::filesystem::path& folder) : path_{folder / "lock"}
+{
+    make_folder(folder);
+    descriptor_ = open_locked(folder, path_);
+    constexpr int most_tries = 100; // a file system may not know its own files again
+    for (int i = 0; i < most_tries && !is_file_at(path_, descriptor_); ++i) {
+        ::close(std::exchange(descriptor_, -1));
+        descriptor_ = open_locked(folder, path_);
     }
     const std::string text = description_of_this_process();
     // The lock is held whether its text can be written or not.
@@ -113,7 +136,8 @@ RunLock::RunLock(const std::filesystem::path& folder)
 
 RunLock::~RunLock()
 {
-    [[maybe_unused]] const int emptied = ::ftruncate(descriptor_, 0);
+    // While it is locked: whoever opened it before finds out that it is no longer the one.
+    ::unlink(path_.c_str());
     ::close(descriptor_);
 }
 

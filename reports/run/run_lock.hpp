@@ -7,7 +7,8 @@ namespace gnomon::reports {
 /// Keeps every other process from writing into a RUN folder, as long as it lives.
 ///
 /// RUN/lock is locked with flock(2) and says who holds it. The lock goes with its process, however
-/// that ends, so that nothing left behind ever blocks; the file stays.
+/// that ends, so that nothing left behind ever blocks; the file goes too, unless the process is
+/// killed.
 class RunLock {
 public:
     /// Makes the folder where there is none, and takes its lock.
@@ -19,6 +20,7 @@ public:
     ~RunLock();
 
 private:
+    std::filesystem::path path_;
     int descriptor_ = -1;
 };
 

@@ -67,12 +67,20 @@ Json rows_json(const std::vector<RunRow>& rows)
     return json;
 }
 
+Json verification_json(const RunChecks& checks)
+{
+    return {{"curves", checks.curves},
+            {"verified", checks.verified},
+            {"verdicts", checks.verdicts},
+            {"differences", checks.differences}};
+}
+
 } // namespace
 
 RunStatus read_run_status(const std::filesystem::path& folder, std::uint64_t most)
 {
     const RunStore store{folder, RunStore::Access::read};
-    RunStatus status{folder, store.description(), 0, 0, 0, {}, {}};
+    RunStatus status{folder, store.description(), 0, 0, 0, store.checks(), {}, {}};
     if (status.description.size == 0) {
         throw scene::InputError(fmt::format("{}: nothing was planned in it: run `gnomon sweep`",
                                             scene::one_line(folder.string())));
@@ -110,6 +118,12 @@ std::string run_status_text(const RunStatus& status)
                                    scene::one_line(status.folder.string()), grouped(status.done),
                                    counted(total, "configuration"), grouped(status.failed),
                                    grouped(status.missing), part_text(status.description.shard));
+    if (status.checks.verified > 0) {
+        text += fmt::format("  verified: {}\n", verification_text(status.checks));
+    }
+    if (!status.checks.are_passed()) {
+        text += fmt::format("  {}\n", failed_checks_text(status.checks));
+    }
     text += row_lines("failed", status.failed_rows, status.failed);
     text += row_lines("missing", status.missing_rows, status.missing);
     const std::string command = resuming_command(status);
@@ -136,6 +150,8 @@ std::string run_status_json(const RunStatus& status)
                       {"gl_version", description.environment.gl_version},
                       {"embree", description.environment.embree},
                       {"gnomon", description.environment.gnomon}}},
+                    {"mismatched", status.checks.mismatched},
+                    {"verification", verification_json(status.checks)},
                     {"resume", resuming_command(status)},
                     {"failed_configurations", rows_json(status.failed_rows)},
                     {"missing_configurations", rows_json(status.missing_rows)}};

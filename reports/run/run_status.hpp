@@ -16,6 +16,7 @@ struct RunStatus {
     std::uint64_t done = 0;
     std::uint64_t failed = 0;
     std::uint64_t missing = 0;
+    RunChecks checks;
     std::vector<RunRow> failed_rows;  ///< the first of them
     std::vector<RunRow> missing_rows; ///< the first of those that the run knows of
 

@@ -107,6 +107,44 @@ TEST(MergeCommand, UnitesShardsToTheUndividedRun)
                    "holds a run already");
 }
 
+TEST(MergeCommand, LeavesNoLockAndNoFolderThatIsEmpty)
+{
+    const TemporaryFolder folder;
+    divided.compute(folder.path() / "1", 1);
+    EXPECT_EQ(gnomon({"merge", place(folder, "all"), place(folder, "1")}).exit_code, 5);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "all" / "lock"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "all" / "results.csv"));
+    expect_refused(gnomon({"merge", place(folder, "new"), place(folder, "none")}), 2,
+                   "there is no results.sqlite");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "new"));
+}
+
+TEST(MergeCommand, RepeatsThatGlDisagreesWithTheCurve)
+{
+    const TemporaryFolder folder;
+    const ExampleRun run{2, 2};
+    std::filesystem::create_directory(folder.path() / "run");
+    {
+        RunStore store{folder.path() / "run", RunStore::Access::write};
+        store.plan(run.description(), run.configurations());
+        run.record(store);
+        gnomon::analysis::FinishedCurve curve = run.curve(1);
+        curve.curve.verification = gnomon::analysis::BiasVerification{{{0, 60, 40, 3}}};
+        store.record(curve);
+    }
+    const Ending status = gnomon({"status", place(folder, "run")});
+    EXPECT_EQ(status.exit_code, 4);
+    EXPECT_NE(status.out.find("  verified: 1 of 2 bias curves, 3 of 100 verdicts differ\n"),
+              std::string::npos)
+        << status.out;
+    const Json json = Json::parse(gnomon({"status", place(folder, "run"), "--json"}).out);
+    EXPECT_EQ(json.at("complete"), true);
+    EXPECT_EQ(json.at("mismatched"), 0);
+    EXPECT_EQ(json.at("verification").at("differences"), 3);
+    EXPECT_EQ(gnomon({"merge", place(folder, "all"), place(folder, "run")}).exit_code, 4);
+    EXPECT_EQ(gnomon({"status", place(folder, "all")}).exit_code, 4);
+}
+
 TEST(MergeCommand, EndsWithFiveIfSomethingIsMissing)
 {
     const TemporaryFolder folder;
