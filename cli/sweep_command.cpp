@@ -9,6 +9,7 @@
 #include "cli/standard_output.hpp"
 #include "cli/sweep_run.hpp"
 #include "cli/sweep_text.hpp"
+#include "reports/run/run_status.hpp"
 #include "reports/shell_text.hpp"
 #include "reports/text.hpp"
 #include "scene/error.hpp"
@@ -145,11 +146,14 @@ void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
     if (outcome.is_interrupted) {
         fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
     } else if (code == exit_codes::incomplete) {
-        fmt::print(stderr,
-                   "gnomon: {} failed; `gnomon status {}` says why, --retry failed tries "
-                   "again\n",
+        fmt::print(stderr, "gnomon: {} failed; `gnomon status {}` says why{}\n",
                    reports::counted(outcome.failed, "configuration"),
-                   reports::shell_text({options.folder}));
+                   reports::shell_text({options.folder}),
+                   outcome.retriable > 0 ? ", --retry failed tries again" : "");
+        if (outcome.failed > outcome.retriable) {
+            fmt::print(stderr, "gnomon: {}\n",
+                       reports::useless_retry_text(outcome.failed - outcome.retriable));
+        }
     } else if (code == exit_codes::environment_failed) {
         fmt::print(stderr, "gnomon: {}\n", reports::failed_checks_text(outcome.checks));
     }

@@ -104,6 +104,7 @@ public:
         store_.write_csv();
         outcome_.done = store_.ordinals(RunState::done).size();
         outcome_.failed = store_.ordinals(RunState::failed).size();
+        outcome_.retriable = store_.retriable();
         outcome_.checks = store_.checks();
         return outcome_;
     }
@@ -127,7 +128,7 @@ private:
             hashes_.push_back(hash);
             is_refused_.push_back(!message.empty());
             if (!message.empty()) {
-                refusals_.push_back({request.ordinals, message});
+                refusals_.push_back({request.ordinals, message, analysis::Retry::may_help});
             }
         }
         if (std::find(is_refused_.begin(), is_refused_.end(), false) == is_refused_.end()) {
@@ -249,7 +250,7 @@ private:
         }
         Progress progress{total, outcome_.configurations - total, options_.is_quiet};
         for (const Refusal& refusal : refusals_) {
-            store_.record_failure(refusal.ordinals, refusal.message);
+            store_.record_failure(refusal.ordinals, refusal.message, refusal.retry);
             progress.add(0, refusal.ordinals.size());
         }
         const auto plan = analysis::make_plan(requests_, analysis::camera_slots(requests_));
@@ -268,8 +269,9 @@ private:
             progress.add(finished.rows.size(), 0);
         };
         hooks.record_failure = [this, &progress](std::span<const std::uint64_t> ordinals,
-                                                 const std::string& message) {
-            store_.record_failure(ordinals, message);
+                                                 const std::string& message,
+                                                 analysis::Retry retry) {
+            store_.record_failure(ordinals, message, retry);
             progress.add(0, ordinals.size());
         };
         hooks.should_stop = [] { return is_interrupted(); };

@@ -32,6 +32,7 @@ struct SweepOutcome {
     std::uint64_t configurations = 0; ///< of this part of the sweep
     std::uint64_t done = 0;           ///< of them, those of earlier runs included
     std::uint64_t failed = 0;
+    std::uint64_t retriable = 0; ///< of the failed, those that may pass when tried again
     std::uint64_t repeated = 0;  ///< the same as others, which serve them too
     std::uint64_t retired = 0;   ///< results of an earlier plan that stay in the database
     analysis::PlanCounts counts; ///< the work that was done now

@@ -18,6 +18,7 @@ namespace gnomon::analysis {
 struct Refusal {
     std::vector<std::uint64_t> ordinals; ///< ascending
     std::string message;
+    Retry retry = Retry::is_useless;
 };
 
 /// All configurations of a sweep, sorted into bias curves: the jobs behind the numbers.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/sweep/results.hpp"
 #include "scene/error.hpp"
 
 #include <memory>
@@ -13,18 +14,23 @@ template <typename Value>
 struct Made {
     std::shared_ptr<Value> value;
     std::string error; ///< empty: `value` is there
+    Retry retry = Retry::may_help;
 };
 
 /// Why work that needs a result cannot be done; thrown with the words of whatever failed first.
 struct StageFailed : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    StageFailed(const std::string& message, Retry again) : std::runtime_error{message}, retry{again}
+    {
+    }
+    Retry retry;
 };
 
 template <typename Value>
 std::shared_ptr<Value> need(const Made<Value>& made)
 {
     if (!made.value) {
-        throw StageFailed{made.error.empty() ? "an earlier stage did not run" : made.error};
+        throw StageFailed{made.error.empty() ? "an earlier stage did not run" : made.error,
+                          made.retry};
     }
     return made.value;
 }
@@ -34,13 +40,13 @@ template <typename Value, typename Stage>
 Made<Value> make(const Stage& stage)
 {
     try {
-        return {stage(), {}};
+        return {stage(), {}, {}};
     } catch (const StageFailed& error) {
-        return {nullptr, error.what()};
+        return {nullptr, error.what(), error.retry};
     } catch (const scene::InputError& error) {
-        return {nullptr, error.what()};
+        return {nullptr, error.what(), Retry::is_useless};
     } catch (const scene::EnvironmentError& error) {
-        return {nullptr, error.what()};
+        return {nullptr, error.what(), Retry::may_help};
     }
 }
 

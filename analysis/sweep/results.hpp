@@ -44,6 +44,12 @@ struct ConfigurationResult {
     Gaps peter_panning;
 };
 
+/// Whether a configuration that failed may pass when it is tried again, everything else as it was.
+enum class Retry : std::uint8_t {
+    may_help,
+    is_useless, ///< its keys do not go together, or mean nothing in its scene
+};
+
 /// Errors by light distance with one constant bias.
 struct DistanceProfile {
     enum class At : std::uint8_t { job_bias, best_bias };

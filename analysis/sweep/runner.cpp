@@ -31,10 +31,10 @@ public:
         const std::lock_guard lock{mutex_};
         hooks_.record(curve);
     }
-    void failed(const std::vector<std::uint64_t>& ordinals, const std::string& message)
+    void failed(const std::vector<std::uint64_t>& ordinals, const std::string& message, Retry retry)
     {
         const std::lock_guard lock{mutex_};
-        hooks_.record_failure(ordinals, message);
+        hooks_.record_failure(ordinals, message, retry);
     }
 
 private:
@@ -147,6 +147,7 @@ private:
             return std::make_shared<ReadScene>(
                 ReadScene{open, summarise_scene(task_.job.scene, open.file->scene)});
         });
+        scene_.retry = Retry::may_help; // a file may be mended
     }
 
     void draw_receivers(std::size_t slot)
@@ -271,10 +272,10 @@ private:
             return finished;
         });
         for (const RefusedRow& row : refused) {
-            teller_.failed({row.ordinal}, row.message);
+            teller_.failed({row.ordinal}, row.message, Retry::is_useless);
         }
         if (!made.value) {
-            teller_.failed(ordinals_of(task), made.error);
+            teller_.failed(ordinals_of(task), made.error, made.retry);
         } else if (const auto& finished = *made.value) {
             teller_.finished(*finished);
         }
@@ -297,7 +298,7 @@ private:
         const auto made =
             make<Comparison>([&] { return std::make_shared<Comparison>(compare_row(slot, row)); });
         if (!made.value) {
-            return teller_.failed({row.ordinal}, made.error);
+            return teller_.failed({row.ordinal}, made.error, made.retry);
         }
         const Comparison& comparison = *made.value;
         if (hooks_.keep_pixels) {

@@ -40,7 +40,8 @@ struct SweepHooks {
     std::function<SweepTask(std::size_t curve)> task;
     std::function<void(const FinishedCurve&)> record;
     /// Configurations that cannot be computed, and why.
-    std::function<void(std::span<const std::uint64_t> ordinals, const std::string& message)>
+    std::function<void(std::span<const std::uint64_t> ordinals, const std::string& message,
+                       Retry retry)>
         record_failure;
     /// Asked before each step: true ends the sweep once what has begun is recorded.
     std::function<bool()> should_stop;

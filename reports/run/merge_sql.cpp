@@ -171,7 +171,7 @@ std::string worst_verifications()
 
 std::string new_configurations()
 {
-    Names names{"id", "scene_hash", "status", "message"};
+    Names names{"id", "scene_hash", "status", "message", "may_pass"};
     append_names(names, job_columns());
     append_names(names, result_columns());
     return fmt::format("INSERT INTO main.configurations (curve, environment, {})"
@@ -184,7 +184,7 @@ std::string new_configurations()
 
 std::string better_configurations()
 {
-    Names names{"status", "message"};
+    Names names{"status", "message", "may_pass"};
     append_names(names, result_columns());
     return fmt::format("UPDATE main.configurations AS m SET environment = {}, {}"
                        " FROM input.configurations i WHERE i.id = m.id AND {}"

@@ -43,7 +43,7 @@ std::string curve_update()
 
 std::string configuration_update()
 {
-    return fmt::format("UPDATE configurations SET status = 'done', message = NULL,"
+    return fmt::format("UPDATE configurations SET status = 'done', message = NULL, may_pass = NULL,"
                        " environment = ?{} WHERE curve = ?"
                        " AND number = (SELECT configuration FROM plan WHERE ordinal = ?)",
                        assignments(result_columns()));
@@ -97,8 +97,8 @@ RunRecorder::RunRecorder(const Database& database)
       insert_verification_{database, "INSERT OR REPLACE INTO verifications VALUES (?, ?, ?, ?)"},
       update_configuration_{database, configuration_update()},
       find_configuration_{database, "SELECT configuration FROM plan WHERE ordinal = ?"},
-      fail_configuration_{database, "UPDATE configurations SET status = 'failed', message = ?"
-                                    " WHERE number = ? AND status <> 'done'"}
+      fail_configuration_{database, "UPDATE configurations SET status = 'failed', message = ?,"
+                                    " may_pass = ? WHERE number = ? AND status <> 'done'"}
 {
 }
 
@@ -207,7 +207,7 @@ void RunRecorder::write_row(const FinishedCurve::Row& row, std::int64_t curve,
 }
 
 void RunRecorder::record_failure(std::span<const std::uint64_t> ordinals,
-                                 const std::string& message)
+                                 const std::string& message, analysis::Retry retry)
 {
     const std::string line = scene::one_line(message);
     Transaction transaction{*database_};
@@ -216,7 +216,10 @@ void RunRecorder::record_failure(std::span<const std::uint64_t> ordinals,
         if (!number) {
             refuse_ordinal("RunStore::record_failure", ordinal);
         }
-        fail_configuration_.bind(1, std::string_view{line}).bind(2, *number).run();
+        fail_configuration_.bind(1, std::string_view{line})
+            .bind(2, std::int64_t{retry == analysis::Retry::may_help ? 1 : 0})
+            .bind(3, *number)
+            .run();
     }
     transaction.commit();
 }

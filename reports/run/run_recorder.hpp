@@ -19,7 +19,8 @@ public:
     void record(const analysis::FinishedCurve& curve, std::int64_t environment);
 
     /// `RunStore::record_failure`.
-    void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message);
+    void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message,
+                        analysis::Retry retry);
 
 private:
     void write_curve(const analysis::FinishedCurve& curve, std::int64_t number,

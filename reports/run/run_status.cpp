@@ -80,7 +80,8 @@ Json verification_json(const RunChecks& checks)
 RunStatus read_run_status(const std::filesystem::path& folder, std::uint64_t most)
 {
     const RunStore store{folder, RunStore::Access::read};
-    RunStatus status{folder, store.description(), 0, 0, 0, store.checks(), {}, {}};
+    RunStatus status{folder, store.description(), 0, 0, 0, store.retriable(), store.checks(), {},
+                     {}};
     if (status.description.size == 0) {
         throw scene::InputError(fmt::format("{}: nothing was planned in it: run `gnomon sweep`",
                                             scene::one_line(folder.string())));
@@ -108,7 +109,14 @@ std::string resuming_command(const RunStatus& status)
     if (description.shard.count > 1) {
         command += fmt::format(" --shard {}/{}", description.shard.index, description.shard.count);
     }
-    return status.failed > 0 ? command + " --retry failed" : command;
+    return status.retriable > 0 ? command + " --retry failed" : command;
+}
+
+std::string useless_retry_text(std::uint64_t count)
+{
+    return fmt::format("{} cannot pass as {} given: change the keys that the message names, in the "
+                       "job or its axes, and run the sweep again",
+                       counted(count, "failed configuration"), count == 1 ? "it is" : "they are");
 }
 
 std::string run_status_text(const RunStatus& status)
@@ -127,7 +135,10 @@ std::string run_status_text(const RunStatus& status)
     text += row_lines("failed", status.failed_rows, status.failed);
     text += row_lines("missing", status.missing_rows, status.missing);
     const std::string command = resuming_command(status);
-    if (!status.is_complete() && !command.empty()) {
+    if (status.failed > status.retriable) {
+        text += fmt::format("\n{}\n", useless_retry_text(status.failed - status.retriable));
+    }
+    if ((status.missing > 0 || status.retriable > 0) && !command.empty()) {
         text += fmt::format("\nresume with\n  {}\n", scene::one_line(command));
     }
     return text;
@@ -142,6 +153,7 @@ std::string run_status_json(const RunStatus& status)
                     {"done", status.done},
                     {"failed", status.failed},
                     {"missing", status.missing},
+                    {"retriable", status.retriable},
                     {"shard", fmt::format("{}/{}", shard.index, shard.count)},
                     {"sweep_size", description.size},
                     {"axes", description.axes},

@@ -16,6 +16,7 @@ struct RunStatus {
     std::uint64_t done = 0;
     std::uint64_t failed = 0;
     std::uint64_t missing = 0;
+    std::uint64_t retriable = 0; ///< of the failed, those that may pass when tried again
     RunChecks checks;
     std::vector<RunRow> failed_rows;  ///< the first of them
     std::vector<RunRow> missing_rows; ///< the first of those that the run knows of
@@ -29,6 +30,9 @@ struct RunStatus {
 
 /// The command that goes on with a run; empty if it is not known.
 [[nodiscard]] std::string resuming_command(const RunStatus& status);
+
+/// What to do about failed configurations that fail again whenever they are tried.
+[[nodiscard]] std::string useless_retry_text(std::uint64_t count);
 
 /// What `gnomon status` prints, with a final newline.
 [[nodiscard]] std::string run_status_text(const RunStatus& status);

@@ -219,7 +219,8 @@ RunChecks RunStore::checks() const
 std::uint64_t RunStore::reset_failed()
 {
     const std::uint64_t count = ordinals(RunState::failed).size();
-    parts_->database.run("UPDATE configurations SET status = 'planned', message = NULL"
+    parts_->database.run("UPDATE configurations SET status = 'planned', message = NULL,"
+                         " may_pass = NULL"
                          " WHERE status = 'failed'"
                          " AND number IN (SELECT configuration FROM part)");
     return count;
@@ -230,9 +231,17 @@ void RunStore::record(const analysis::FinishedCurve& curve)
     parts_->recorder().record(curve, parts_->environment);
 }
 
-void RunStore::record_failure(std::span<const std::uint64_t> ordinals, const std::string& message)
+void RunStore::record_failure(std::span<const std::uint64_t> ordinals, const std::string& message,
+                              analysis::Retry retry)
 {
-    parts_->recorder().record_failure(ordinals, message);
+    parts_->recorder().record_failure(ordinals, message, retry);
+}
+
+std::uint64_t RunStore::retriable() const
+{
+    return static_cast<std::uint64_t>(parts_->database.integer(
+        "SELECT count(*) FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
+        " WHERE c.status = 'failed' AND c.may_pass"));
 }
 
 void RunStore::write_csv() const

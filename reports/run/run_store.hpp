@@ -145,7 +145,11 @@ public:
 
     /// Records why configurations failed. Those that are done stay done.
     /// @throws std::invalid_argument  if an ordinal is not planned.
-    void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message);
+    void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message,
+                        analysis::Retry retry = analysis::Retry::may_help);
+
+    /// Failed configurations of this part that may pass when they are tried again.
+    [[nodiscard]] std::uint64_t retriable() const;
 
     /// Writes RUN/results.csv, RUN/error_vs_z.csv and RUN/bias_curves.csv (docs/csv_schema.md),
     /// each atomically: the rows of this part, in the order of their ordinals. The same results

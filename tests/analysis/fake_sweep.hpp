@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -65,6 +66,8 @@ public:
     scene::SweepSpace space;
     std::map<std::uint64_t, std::string> done;   ///< results by ordinal
     std::map<std::uint64_t, std::string> failed; ///< messages by ordinal
+    std::set<std::uint64_t> may_be_retried;      ///< of those that failed
+    std::set<std::uint64_t> need_other_keys;     ///< likewise
     std::map<std::string, CurveResult> curves;   ///< by their id
     std::vector<std::uint64_t> kept;
     PlanCounts planned;
@@ -86,7 +89,9 @@ public:
             curves.insert_or_assign(finished.curve.id, finished.curve);
         };
         hooks.record_failure = [this](std::span<const std::uint64_t> ordinals,
-                                      const std::string& message) {
+                                      const std::string& message, Retry retry) {
+            (retry == Retry::may_help ? may_be_retried : need_other_keys)
+                .insert(ordinals.begin(), ordinals.end());
             for (const std::uint64_t ordinal : ordinals) {
                 EXPECT_TRUE(failed.emplace(ordinal, message).second) << ordinal << " failed twice";
             }

@@ -118,6 +118,7 @@ TEST(SweepRunner, FailsOnlyTheSceneThatCannotBeRead)
         sweep.run();
         expect_failed(sweep, ordinals_with(sweep, "scene.builtin", "\"room\""),
                       "the room is locked");
+        EXPECT_THAT(sweep.need_other_keys, IsEmpty()) << "the file may be mended";
     }
 }
 
@@ -130,6 +131,7 @@ TEST(SweepRunner, FailsOnlyConfigurationsWithoutAFrustum)
     EXPECT_THAT(sweep.failed.at(2), HasSubstr("near"));
     EXPECT_EQ(sweep.failed.at(2), sweep.failed.at(3));
     EXPECT_EQ(sweep.done.at(0), result_text(sweep.compared(0)));
+    EXPECT_THAT(sweep.may_be_retried, IsEmpty()) << "no other run has another frustum";
 }
 
 TEST(SweepRunner, FailsOnlyTheRowWhoseBiasIsNone)

@@ -110,7 +110,9 @@ scene.file = "lost.obj"
     EXPECT_THAT(ending.out, StartsWith("6 of 12 configurations done, 6 failed: "));
     EXPECT_THAT(ending.err,
                 HasSubstr(fmt::format("gnomon: 6 configurations failed; `gnomon status {}` says "
-                                      "why, --retry failed tries again\n",
+                                      "why, --retry failed tries again\n"
+                                      "gnomon: 3 failed configurations cannot pass as they are "
+                                      "given: change the keys that the message names",
                                       run.string())));
     const auto rows = csv_rows(run / "results.csv");
     ASSERT_EQ(rows.size(), 12U);

@@ -60,6 +60,27 @@ TEST(RunStatus, IsShortWhenAllIsDone)
                                            "shard 1 of 2\n");
 }
 
+TEST(RunStatus, DoesNotAdviseToRetryWhatCannotPass)
+{
+    const TemporaryFolder folder;
+    RunStore store{folder.path(), RunStore::Access::write};
+    store.plan(example.description(1), example.configurations());
+    const std::vector<std::uint64_t> refused{0, 1};
+    store.record_failure(refused, "near is beyond far", analysis::Retry::is_useless);
+    store.record(example.curve(2));
+    const RunStatus status = read_run_status(folder.path(), 20);
+    EXPECT_EQ(status.failed, 2U);
+    EXPECT_EQ(status.retriable, 0U);
+    const std::string text = run_status_text(status);
+    EXPECT_THAT(text, Not(HasSubstr("--retry")));
+    EXPECT_THAT(text, Not(HasSubstr("resume with"))) << "nothing is missing";
+    EXPECT_THAT(text, HasSubstr("\n2 failed configurations cannot pass as they are given: change "
+                                "the keys that the message names"));
+    store.reset_failed();
+    store.record_failure(refused, "no memory");
+    EXPECT_THAT(run_status_text(read_run_status(folder.path(), 20)), EndsWith("--retry failed\n"));
+}
+
 TEST(RunStatus, SaysTheSameInJson)
 {
     const TemporaryFolder folder;
@@ -70,6 +91,7 @@ TEST(RunStatus, SaysTheSameInJson)
     EXPECT_EQ(object.at("done"), 1);
     EXPECT_EQ(object.at("failed"), 1);
     EXPECT_EQ(object.at("missing"), 2);
+    EXPECT_EQ(object.at("retriable"), 1);
     EXPECT_EQ(object.at("shard"), "2/2");
     EXPECT_EQ(object.at("sweep_size"), 8);
     EXPECT_EQ(object.at("environment").at("embree"), "Embree 3.13.5");
