@@ -104,7 +104,7 @@ public:
         store_.write_csv();
         outcome_.done = store_.ordinals(RunState::done).size();
         outcome_.failed = store_.ordinals(RunState::failed).size();
-        outcome_.retriable = store_.retriable();
+        outcome_.retriable = outcome_.failed > 0 ? store_.retriable() : 0;
         outcome_.checks = store_.checks();
         return outcome_;
     }
@@ -162,7 +162,10 @@ private:
                                                                : reports::Environments::one);
         outcome_.configurations = outcome.done + outcome.failed + outcome.planned;
         outcome_.retired = outcome.retired;
-        outcome_.repeated = store_.repeated().size();
+        if (outcome.has_equal_ids) {
+            repeated_ = store_.repeated();
+        }
+        outcome_.repeated = repeated_.size();
     }
 
     /// Moves requests that differ in nothing but the place of a scene of the same content to one
@@ -215,7 +218,7 @@ private:
         }
         std::sort(missing.begin(), missing.end());
         missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-        return without(missing, store_.repeated());
+        return without(missing, repeated_);
     }
 
     /// Keeps of requests and refusals what is still to be done here.
@@ -309,8 +312,9 @@ private:
     std::vector<std::string> hashes_;                    ///< by request of the catalogue
     std::vector<bool> is_refused_;                       ///< likewise
     std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
-    std::vector<CurveRequest> requests_;                 ///< what is still to be computed
-    std::vector<std::size_t> request_numbers_;           ///< theirs in the catalogue
+    std::vector<std::uint64_t> repeated_;      ///< ordinals whose results are those of earlier ones
+    std::vector<CurveRequest> requests_;       ///< what is still to be computed
+    std::vector<std::size_t> request_numbers_; ///< theirs in the catalogue
     SweepOutcome outcome_;
 };
 

@@ -54,6 +54,7 @@ public:
     {
         const auto known = find_.bind(1, std::string_view{configuration.id}).first();
         const std::int64_t number = known ? *known : insert(configuration);
+        note(static_cast<std::size_t>(number));
         plan_.bind(1, static_cast<std::int64_t>(configuration.ordinal))
             .bind(2, number)
             .bind(3, std::string_view{configuration.case_name})
@@ -66,7 +67,16 @@ public:
         }
     }
 
+    [[nodiscard]] bool has_equal_ids() const { return has_equal_ids_; }
+
 private:
+    void note(std::size_t number)
+    {
+        is_planned_.resize(std::max(is_planned_.size(), number + 1));
+        has_equal_ids_ = has_equal_ids_ || is_planned_[number];
+        is_planned_[number] = true;
+    }
+
     static constexpr int first_key = 4; ///< parameter of `insert_`
 
     static std::string insertion()
@@ -151,6 +161,8 @@ private:
     std::unordered_map<std::string_view, int> parameters_; ///< of `insert_`, by key
     std::vector<Parameter> bound_;                         ///< to `insert_`
     std::unordered_map<std::string, std::int64_t> curves_; ///< numbers by id
+    std::vector<bool> is_planned_;                         ///< by number of the configuration
+    bool has_equal_ids_ = false;
 };
 
 void require_valid(const Shard& shard)
@@ -258,7 +270,8 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     show([&](const Configuration& configuration) { planner.add(configuration); });
     database.run("DELETE FROM configurations WHERE status = 'planned'"
                  " AND number NOT IN (SELECT configuration FROM plan)");
-    const PlanOutcome result = read_outcome(database);
+    PlanOutcome result = read_outcome(database);
+    result.has_equal_ids = planner.has_equal_ids();
     transaction.commit();
     return result;
 }

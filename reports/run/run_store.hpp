@@ -58,6 +58,7 @@ struct PlanOutcome {
     std::uint64_t failed = 0;  ///< of this part's
     std::uint64_t planned = 0; ///< of this part's
     std::uint64_t retired = 0; ///< results in the database that the plan does not ask for
+    bool has_equal_ids = false; ///< of `plan`: two ordinals have the same id
 };
 
 using VisitConfiguration = std::function<void(const analysis::Configuration&)>;

@@ -168,6 +168,11 @@ TEST(RunStore, GivesEqualJobsOneResultAndEachItsRow)
     configurations[1].case_name = "evening";
     const PlanOutcome outcome = store.plan(small_run.description(), configurations);
     EXPECT_EQ(outcome.planned, 6U);
+    EXPECT_TRUE(outcome.has_equal_ids);
+    EXPECT_THAT(store.repeated(), ElementsAre(1));
+    EXPECT_FALSE(store.plan(small_run.description(), small_run.configurations()).has_equal_ids);
+    EXPECT_THAT(store.repeated(), IsEmpty());
+    store.plan(small_run.description(), configurations);
     analysis::FinishedCurve curve = small_run.curve(0);
     curve.rows.erase(curve.rows.begin() + 1);
     store.record(curve);
