@@ -40,7 +40,7 @@ std::vector<float> finite_criticals(const scene::Image<float>& criticals,
     return sorted_set(std::move(finite));
 }
 
-void require_size(std::string_view argument, scene::ImageSize size, scene::ImageSize expected)
+void require_image_size(std::string_view argument, scene::ImageSize size, scene::ImageSize expected)
 {
     if (size != expected) {
         throw std::invalid_argument(
@@ -83,7 +83,7 @@ std::vector<float> biases_to_verify(const scene::Image<float>& criticals,
                                     const scene::Image<std::uint32_t>& triangles,
                                     std::span<const float> wanted)
 {
-    require_size("criticals", criticals.size(), triangles.size());
+    require_image_size("criticals", criticals.size(), triangles.size());
     constexpr std::size_t most_turns = 5;
     const std::vector<float> turns = finite_criticals(criticals, triangles);
     std::vector<float> biases{wanted.begin(), wanted.end()};
@@ -104,13 +104,13 @@ BiasVerification verify_biases(const scene::Job& job, const scene::View& view,
                                const scene::Image<float>& criticals, std::span<const float> biases,
                                const Renderers& renderers)
 {
-    require_size("criticals", criticals.size(), triangles.size());
+    require_image_size("criticals", criticals.size(), triangles.size());
     scene::View biased = view;
     BiasVerification verification;
     for (const float bias : biases) {
         biased.bias.constant = bias;
         const scene::LookupLayers lookup = renderers.look_up(job, biased);
-        require_size("lookup", lookup.samples.size(), triangles.size());
+        require_image_size("lookup", lookup.samples.size(), triangles.size());
         verification.reruns.push_back(hold(lookup, triangles, criticals, bias));
     }
     return verification;

@@ -8,7 +8,8 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr std::string_view remedy = "report it with the job and the output of `gnomon doctor`";
+constexpr std::string_view report_advice =
+    "report it with the job and the output of `gnomon doctor`";
 
 } // namespace
 
@@ -51,12 +52,12 @@ std::string failed_checks_text(const RunChecks& checks)
     if (checks.mismatched > 0) {
         return fmt::format("{} with pixels that mismatch: GL's triangle is neither a first hit nor "
                            "explained by snapping or depth resolution; {}",
-                           counted(checks.mismatched, "configuration"), remedy);
+                           counted(checks.mismatched, "configuration"), report_advice);
     }
     if (checks.differences > 0) {
         return fmt::format("{} of GL's reruns are not those of the bias curve: its numbers do not "
                            "hold for this driver; {}",
-                           counted(checks.differences, "verdict"), remedy);
+                           counted(checks.differences, "verdict"), report_advice);
     }
     return {};
 }

@@ -172,7 +172,7 @@ void RunRecorder::write_bins(const FinishedCurve& curve, std::int64_t number,
 std::string RunRecorder::job_bias_of(const FinishedCurve::Row& row)
 {
     if (!find_job_bias_.bind(1, static_cast<std::int64_t>(row.ordinal)).step()) {
-        refuse("RunStore::record", row.ordinal);
+        refuse_ordinal("RunStore::record", row.ordinal);
     }
     std::string job_bias = find_job_bias_.text(0);
     find_job_bias_.reset();

@@ -40,7 +40,7 @@ bool is_shared(const std::string& name)
 }
 
 /// The job of a built-in scene, or of a mesh in the shared folder.
-scene::Job job_of(const std::string& name, const std::vector<scene::Override>& keys)
+scene::Job placed_job(const std::string& name, const std::vector<scene::Override>& keys)
 {
     return is_shared(name) ? scene::read_job(shared_file(name), keys).job
                            : scene::builtin_job(name, keys).job;
@@ -73,7 +73,7 @@ void expect_sound(const Subject& subject, const std::vector<scene::Override>& ke
                   const std::optional<std::uint64_t>& sample)
 {
     const auto& [name, placement] = subject;
-    const scene::Job job = job_of(name, keys);
+    const scene::Job job = placed_job(name, keys);
     const Placed placed = place(job, scene::load_scene(job.scene), placement);
     const Compared compared{placed.file};
     const auto result = compared(placed.job);

@@ -15,7 +15,7 @@ namespace {
 
 using analysis::Label;
 
-scene::Job job_of(int angle_deg, double bias_m)
+scene::Job wall_job(int angle_deg, double bias_m)
 {
     return scene::builtin_job("wall", {{"scene.wall.light_angle_deg", fmt::format("{}", angle_deg)},
                                        {"bias.constant_m", fmt::format("{}", bias_m)},
@@ -74,9 +74,9 @@ TEST_P(WallGap, IsTheBiasAndTheStripItsSine)
     GNOMON_REQUIRE_GL();
     const double angle_rad = GetParam() * std::numbers::pi / 180;
     const double shadow_m = 2 * std::tan(angle_rad); // of the 2 m high wall
-    const Compared compared{job_of(GetParam(), 0)};
+    const Compared compared{wall_job(GetParam(), 0)};
     for (const double bias_m : {0.02, 0.05, 0.2}) {
-        const auto result = compared(job_of(GetParam(), bias_m));
+        const auto result = compared(wall_job(GetParam(), bias_m));
         const double texel_m = result.view.frustum.texel_width_m(1, 4096);
         const double strip_m = bias_m * std::sin(angle_rad);
         // Half a texel on the light's plane reaches ½·texel·cos θ along the ground seen by the
@@ -98,7 +98,7 @@ TEST(WallGapOfFilters, IsTheBiasWithinHalfTheFootprint)
     GNOMON_REQUIRE_GL();
     constexpr double angle_rad = std::numbers::pi / 4;
     constexpr double bias_m = 0.05;
-    scene::Job job = job_of(45, bias_m);
+    scene::Job job = wall_job(45, bias_m);
     const Compared compared{job};
     for (const scene::Filter filter : {scene::Filter::linear, scene::Filter::hardware,
                                        scene::Filter::pcf3, scene::Filter::pcf9}) {

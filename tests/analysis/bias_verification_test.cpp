@@ -2,6 +2,7 @@
 
 #include "analysis/bias_order.hpp"
 #include "lookup_layers.hpp"
+#include "scene/infinity.hpp"
 #include "scene/triangles.hpp"
 
 #include <gmock/gmock.h>
@@ -14,10 +15,9 @@
 namespace gnomon::analysis {
 namespace {
 
+using scene::infinity;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 template <typename Pixel>
 scene::Image<Pixel> row_of(const std::vector<Pixel>& pixels)

@@ -62,7 +62,7 @@ TEST(CodeDensity, CountsCodesWithinADistanceFromNearToFar)
 
 TEST(LargestCodeStep, OfEvenlySpacedCodesIsFars)
 {
-    for (const DepthMapping& mapping : testing::all_mappings()) {
+    for (const DepthMapping& mapping : test::all_mappings()) {
         EXPECT_DOUBLE_EQ(largest_code_step_m(mapping, d24), code_step_m(mapping, d24, 50));
     }
     EXPECT_DOUBLE_EQ(largest_code_step_m(tenth_to_ten_thousand, d24),
@@ -72,7 +72,7 @@ TEST(LargestCodeStep, OfEvenlySpacedCodesIsFars)
 TEST(LargestCodeStep, OfFloatsIsNowhereExceededAndAttained)
 {
     const DepthCoding coding = DepthCoding::float32();
-    for (const DepthMapping& mapping : testing::all_mappings()) {
+    for (const DepthMapping& mapping : test::all_mappings()) {
         const double largest_m = largest_code_step_m(mapping, coding);
         double swept_m = 0;
         for (int i = 0; i <= 100'000; ++i) {

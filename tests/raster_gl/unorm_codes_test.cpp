@@ -17,7 +17,7 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 
 /// ⌊z·(2^n − 1) + ½⌋ in rationals.
-std::uint32_t exact_code(float z, int bits)
+std::uint32_t nearest_code(float z, int bits)
 {
     const Rational steps = Rational{z} * ((std::uint64_t{1} << bits) - 1) + Rational{1, 2};
     return static_cast<std::uint32_t>(numerator(steps) / denominator(steps));
@@ -55,7 +55,7 @@ TEST(UnormCodes, AreTheExactlyRoundedZOfTheShader)
     std::size_t wrong_in_float = 0;
     for (int bits = 8; bits <= 24; ++bits) {
         for (const auto& sample : measure(raster, fmt::format("u{}", bits)).samples) {
-            ASSERT_EQ(sample.texel.code, exact_code(sample.shader_depth, bits))
+            ASSERT_EQ(sample.texel.code, nearest_code(sample.shader_depth, bits))
                 << "u" << bits << " z " << sample.shader_depth;
             if (bits == 24) {
                 wrong_in_float +=

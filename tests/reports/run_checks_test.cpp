@@ -17,12 +17,12 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-const ExampleRun example{3, 2};
+const ExampleRun checked_run{3, 2};
 
 /// A curve that was held to two reruns of 100 verdicts each, of which so many differ.
 analysis::FinishedCurve verified(std::uint64_t number, std::uint64_t differences)
 {
-    analysis::FinishedCurve curve = example.curve(number);
+    analysis::FinishedCurve curve = checked_run.curve(number);
     curve.curve.verification =
         analysis::BiasVerification{{{0, 60, 40, differences}, {0.5F, 100, 0, 0}}};
     return curve;
@@ -32,7 +32,7 @@ RunStore planned(const std::filesystem::path& folder)
 {
     std::filesystem::create_directories(folder);
     RunStore store{folder, RunStore::Access::write};
-    store.plan(example.description(), example.configurations());
+    store.plan(checked_run.description(), checked_run.configurations());
     return store;
 }
 
@@ -41,7 +41,7 @@ TEST(RunChecks, KnowWhichCurvesWereVerified)
     const TemporaryFolder folder;
     RunStore store = planned(folder.path());
     store.record(verified(0, 0));
-    store.record(example.curve(2));
+    store.record(checked_run.curve(2));
     const RunChecks checks = store.checks();
     EXPECT_EQ(checks.curves, 2U);
     EXPECT_EQ(checks.verified, 1U);
@@ -60,7 +60,7 @@ TEST(RunChecks, DoNotPassWithADifference)
     {
         RunStore store = planned(folder.path());
         store.record(verified(1, 7));
-        store.record(example.curve(1)); // again, without being verified: what was found stays
+        store.record(checked_run.curve(1)); // again, without being verified: what was found stays
     }
     const RunChecks checks = RunStore{folder.path(), RunStore::Access::read}.checks();
     EXPECT_EQ(checks.differences, 7U);
@@ -72,7 +72,7 @@ TEST(RunChecks, DoNotPassWithAMismatch)
 {
     const TemporaryFolder folder;
     RunStore store = planned(folder.path());
-    analysis::FinishedCurve curve = example.curve(0);
+    analysis::FinishedCurve curve = checked_run.curve(0);
     auto& reasons = curve.rows[1].result.metrics.pixels.by_reason;
     reasons[static_cast<std::size_t>(scene::ClassReason::mismatch)] = 5;
     store.record(curve);
@@ -87,7 +87,7 @@ TEST(RunChecks, LeaveHardwareOut)
 {
     const TemporaryFolder folder;
     RunStore store = planned(folder.path());
-    analysis::FinishedCurve curve = example.curve(0);
+    analysis::FinishedCurve curve = checked_run.curve(0);
     curve.curve.best.reset();
     store.record(curve);
     EXPECT_EQ(store.checks().curves, 0U);
@@ -100,10 +100,10 @@ TEST(RunChecks, AreOfTheEnvironmentThatTheResultsComeFrom)
     const TemporaryFolder folder;
     RunStore store = planned(folder.path());
     store.record(verified(0, 7));
-    RunDescription other = example.description();
+    RunDescription other = checked_run.description();
     other.environment.gl_version = "4.6";
-    store.plan(other, example.configurations(), Environments::several);
-    store.record(example.curve(0));
+    store.plan(other, checked_run.configurations(), Environments::several);
+    store.record(checked_run.curve(0));
     EXPECT_EQ(store.checks().verified, 0U);
 }
 
@@ -114,7 +114,7 @@ TEST(RunChecks, SayTheWorstThatMergedRunsFound)
         RunStore store = planned(folder.path() / std::to_string(differences));
         store.record(verified(0, differences));
         store.record(verified(2, 0));
-        store.record(example.curve(1));
+        store.record(checked_run.curve(1));
     }
     std::filesystem::create_directory(folder / "all");
     const std::vector<std::filesystem::path> runs{folder / "0", folder / "3", folder / "1"};

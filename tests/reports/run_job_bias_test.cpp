@@ -24,12 +24,12 @@ using testing::IsEmpty;
 using Block = std::pair<std::string, double>;
 using Path = std::filesystem::path;
 
-const ExampleRun example{2, 3};
+const ExampleRun biased_run{2, 3};
 
 /// The example's configurations, of a job with another constant bias of its own.
 std::vector<analysis::Configuration> configurations_at(const std::string& job_bias)
 {
-    auto all = example.configurations();
+    auto all = biased_run.configurations();
     for (analysis::Configuration& configuration : all) {
         configuration.job_bias = job_bias;
     }
@@ -38,7 +38,7 @@ std::vector<analysis::Configuration> configurations_at(const std::string& job_bi
 
 analysis::FinishedCurve curve_at(std::uint64_t number, float job_bias)
 {
-    analysis::FinishedCurve finished = example.curve(number);
+    analysis::FinishedCurve finished = biased_run.curve(number);
     finished.curve.by_distance[0].bias = job_bias;
     return finished;
 }
@@ -47,7 +47,7 @@ RunStore planned_at(const Path& folder, const std::string& job_bias)
 {
     std::filesystem::create_directories(folder);
     RunStore store{folder, RunStore::Access::write};
-    store.plan(example.description(), configurations_at(job_bias));
+    store.plan(biased_run.description(), configurations_at(job_bias));
     return store;
 }
 
@@ -71,7 +71,7 @@ TEST(JobBias, OfAnotherJobIsMissingThoughEveryConfigurationIsDone)
     store.record(curve_at(0, 0));
     store.record(curve_at(1, 0));
     EXPECT_THAT(store.without_job_bias(), IsEmpty());
-    EXPECT_EQ(store.plan(example.description(), configurations_at("0.5")).done, 6U);
+    EXPECT_EQ(store.plan(biased_run.description(), configurations_at("0.5")).done, 6U);
     EXPECT_THAT(store.without_job_bias(), ElementsAre(0, 3)) << "one for each curve";
     for (const std::uint64_t number : {0U, 1U}) {
         analysis::FinishedCurve curve = curve_at(number, 0.5F);
@@ -82,7 +82,7 @@ TEST(JobBias, OfAnotherJobIsMissingThoughEveryConfigurationIsDone)
     store.write_csv();
     EXPECT_EQ(blocks(folder.path()), (std::set<Block>{{"job_bias", 0.5}, {"best_bias", 0.0015F}}));
     // The first job's are still there.
-    store.plan(example.description(), configurations_at("0"));
+    store.plan(biased_run.description(), configurations_at("0"));
     EXPECT_THAT(store.without_job_bias(), IsEmpty());
     store.write_csv();
     EXPECT_EQ(blocks(folder.path()), (std::set<Block>{{"job_bias", 0}, {"best_bias", 0.0015F}}));
@@ -95,7 +95,7 @@ TEST(JobBias, OfEachJobThatSharesACurveHasABlock)
     auto configurations = configurations_at("0");
     configurations[1].job_bias = "0.5"; // two cases that differ in what the axis replaces
     configurations[2].job_bias = "0.25 m";
-    store.plan(example.description(), configurations);
+    store.plan(biased_run.description(), configurations);
     for (const auto& [row, bias] : {std::pair{0U, 0.0F}, {1U, 0.5F}, {2U, 0.5F}}) {
         analysis::FinishedCurve curve = curve_at(0, bias);
         curve.rows = {curve.rows[row]};
@@ -113,7 +113,7 @@ TEST(JobBias, IsNotAskedForWhereNoPixelIsScored)
 {
     const TemporaryFolder folder;
     RunStore store = planned_at(folder.path(), "0");
-    analysis::FinishedCurve curve = example.curve(0);
+    analysis::FinishedCurve curve = biased_run.curve(0);
     for (auto& row : curve.rows) {
         row.result.metrics.pixels.by_class = {921'600, 0, 0, 0, 0, 0, 0};
     }
@@ -129,7 +129,7 @@ TEST(JobBias, OfOverlappingRunsIsUnited)
     {
         RunStore first = planned_at(folder / "a", "0.5");
         first.record(curve_at(0, 0.5F));
-        first.plan(example.description(), configurations_at("0"));
+        first.plan(biased_run.description(), configurations_at("0"));
         RunStore second = planned_at(folder / "b", "0");
         second.record(curve_at(0, 0));
         second.record(curve_at(1, 0));
