@@ -64,10 +64,10 @@ TEST(RunStatus, DoesNotAdviseToRetryWhatCannotPass)
 {
     const TemporaryFolder folder;
     RunStore store{folder.path(), RunStore::Access::write};
-    store.plan(example.description(1), example.configurations());
+    store.plan(two_case_run.description(1), two_case_run.configurations());
     const std::vector<std::uint64_t> refused{0, 1};
     store.record_failure(refused, "near is beyond far", analysis::Retry::is_useless);
-    store.record(example.curve(2));
+    store.record(two_case_run.curve(2));
     const RunStatus status = read_run_status(folder.path(), 20);
     EXPECT_EQ(status.failed, 2U);
     EXPECT_EQ(status.retriable, 0U);
