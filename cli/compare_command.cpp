@@ -166,7 +166,8 @@ void compare(const CompareOptions& options)
     }
     if (run) {
         run->record(read_job_source(options.job), options.job.case_name, comparison,
-                    job_text(options.job), command_text("compare", options.job));
+                    session.file().defaults, job_text(options.job),
+                    command_text("compare", options.job));
     }
     write_outputs(options, comparison);
     require_no_mismatch(comparison);

@@ -27,7 +27,8 @@ CompareRun::CompareRun(std::filesystem::path folder)
 }
 
 void CompareRun::record(scene::JobSource source, std::string_view case_name,
-                        const analysis::Comparison& comparison, std::string job_text,
+                        const analysis::Comparison& comparison,
+                        const scene::SceneDefaults& defaults, std::string job_text,
                         std::string command)
 {
     source.sweep = {};
@@ -37,9 +38,10 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     const scene::SweepSpace space{std::move(source), {}, case_name};
     const analysis::SweepCatalogue catalogue{space, true, GNOMON_VERSION};
     std::vector<analysis::Configuration> configurations;
-    catalogue.describe(0, comparison.scene.hash, [&](const analysis::Configuration& configuration) {
-        configurations.push_back(configuration);
-    });
+    catalogue.describe(0, analysis::identify_scene(comparison.job, comparison.scene.hash, defaults),
+                       [&](const analysis::Configuration& configuration) {
+                           configurations.push_back(configuration);
+                       });
     const analysis::Configuration& own = configurations.front();
     // Another driver's results in the folder are replaced, not mixed with.
     store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), std::move(command)},

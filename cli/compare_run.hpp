@@ -20,10 +20,12 @@ public:
 
     /// Records the comparison, its layers and the CSV files.
     /// @param source    of the comparison's job; its sweep is left aside.
+    /// @param defaults  that the comparison's scene brings along.
     /// @param job_text, command  as in `reports::RunDescription`.
     /// @throws scene::EnvironmentError  if the disk fails.
     void record(scene::JobSource source, std::string_view case_name,
-                const analysis::Comparison& comparison, std::string job_text, std::string command);
+                const analysis::Comparison& comparison, const scene::SceneDefaults& defaults,
+                std::string job_text, std::string command);
 
 private:
     std::filesystem::path folder_;

@@ -2,6 +2,7 @@
 
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/runner.hpp"
+#include "analysis/sweep/scene_identity.hpp"
 #include "cli/kept_pixels.hpp"
 #include "cli/memory.hpp"
 #include "cli/process.hpp"
@@ -95,7 +96,7 @@ public:
 
     SweepOutcome run()
     {
-        read_hashes();
+        read_scenes();
         plan();
         select_missing();
         if (!requests_.empty() || !refusals_.empty()) {
@@ -110,22 +111,22 @@ public:
     }
 
 private:
-    /// Finds every scene's hash; requests whose scene cannot be read, or which need more memory
-    /// than there is, are refused.
-    void read_hashes()
+    /// Finds what every request's scene is; requests whose scene cannot be read, or which need more
+    /// memory than there is, are refused.
+    void read_scenes()
     {
-        std::map<std::string, std::pair<std::string, std::string>> known; // hash, error
+        std::map<std::string, std::pair<SweepScenes::Content, std::string>> known; // and error
         for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
             const CurveRequest& request = catalogue_.requests()[i];
             const scene::Job job = catalogue_.job(i);
             const auto [entry, is_new] = known.try_emplace(request.keys.scene);
-            auto& [hash, error] = entry->second;
+            auto& [content, error] = entry->second;
             if (is_new) {
-                error = refusal_of([&] { hash = scenes_.hash(job); });
+                error = refusal_of([&] { content = scenes_.content(job); });
             }
             const std::string message =
                 error.empty() ? refusal_of([&] { require_memory(job); }) : error;
-            hashes_.push_back(hash);
+            identities_.push_back(analysis::identify_scene(job, content.hash, content.defaults));
             is_refused_.push_back(!message.empty());
             if (!message.empty()) {
                 refusals_.push_back({request.ordinals, message, analysis::Retry::may_help});
@@ -154,7 +155,7 @@ private:
                 catalogue_.describe(refusal, keep_id);
             }
             for (std::size_t i = 0; i < requests.size(); ++i) {
-                catalogue_.describe(i, hashes_[i], keep_id, shards[i]);
+                catalogue_.describe(i, identities_[i], keep_id, shards[i]);
             }
         };
         const auto outcome = store_.plan(description(), show,
@@ -168,14 +169,14 @@ private:
         outcome_.repeated = repeated_.size();
     }
 
-    /// Moves requests that differ in nothing but the place of a scene of the same content to one
-    /// shard, which then computes them once.
+    /// Moves requests that differ in nothing but the place of the same scene to one shard, which
+    /// then computes them once.
     void keep_equals_together(std::vector<std::uint32_t>& shards) const
     {
         std::unordered_map<std::string, std::uint32_t> known;
         for (std::size_t i = 0; i < shards.size(); ++i) {
             const analysis::StageKeys& keys = catalogue_.requests()[i].keys;
-            const std::string key = hashes_[i] + keys.curve.substr(keys.scene.size());
+            const std::string key = identities_[i].name() + keys.curve.substr(keys.scene.size());
             if (!is_refused_[i]) {
                 shards[i] = known.try_emplace(key, shards[i]).first->second;
             }
@@ -291,7 +292,7 @@ private:
     analysis::SweepTask task(std::size_t curve, Progress& progress) const
     {
         const std::size_t number = request_numbers_[curve];
-        analysis::SweepTask task = catalogue_.task(number, hashes_[number]);
+        analysis::SweepTask task = catalogue_.task(number, identities_[number]);
         const auto& wanted = requests_[curve].ordinals;
         std::erase_if(task.rows, [&](const analysis::SweepTask::Row& row) {
             return !std::binary_search(wanted.begin(), wanted.end(), row.ordinal);
@@ -309,7 +310,7 @@ private:
     SweepScenes scenes_;
     RunStore store_;
     std::optional<tbb::global_control> threads_;
-    std::vector<std::string> hashes_;                    ///< by request of the catalogue
+    std::vector<analysis::SceneIdentity> identities_;    ///< of scenes, by request of the catalogue
     std::vector<bool> is_refused_;                       ///< likewise
     std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
     std::vector<std::uint64_t> repeated_;      ///< ordinals whose results are those of earlier ones

@@ -23,10 +23,10 @@ void SweepScenes::read(const scene::Job& job)
     key_ = std::move(key);
 }
 
-std::string SweepScenes::hash(const scene::Job& job)
+SweepScenes::Content SweepScenes::content(const scene::Job& job)
 {
     read(job);
-    return scene::content_hash(file_->scene);
+    return {scene::content_hash(file_->scene), file_->defaults};
 }
 
 analysis::OpenScene SweepScenes::open(const scene::Job& job)

@@ -3,6 +3,7 @@
 #include "analysis/sweep/runner.hpp"
 #include "cli/scene_hands.hpp"
 #include "raster_gl/context.hpp"
+#include "scene/job.hpp"
 #include "scene/scene_file.hpp"
 
 #include <memory>
@@ -17,9 +18,14 @@ public:
     /// The context must outlive this.
     SweepScenes(const raster_gl::Context& context, const SessionOptions& options);
 
-    /// `scene::content_hash` of the job's scene, which it reads unless it is the last one read.
+    /// What of a scene decides its sweep's ids.
+    struct Content {
+        std::string hash; ///< `scene::content_hash`
+        scene::SceneDefaults defaults;
+    };
+    /// That of the job's scene, which it reads unless it is the last one read.
     /// @throws scene::InputError  as `scene::load_scene` does.
-    [[nodiscard]] std::string hash(const scene::Job& job);
+    [[nodiscard]] Content content(const scene::Job& job);
     /// Hands the job's scene to both renderers; the one before it goes.
     /// @throws scene::InputError, scene::EnvironmentError  as `ComparisonSession` does.
     [[nodiscard]] analysis::OpenScene open(const scene::Job& job);

@@ -17,12 +17,12 @@ namespace {
 
 using Parameters = std::vector<std::pair<std::string, std::string>>;
 
-/// What stands for a scene in ids: its content's hash; where that is not known, its file as the job
+/// What stands for a scene in ids: its identity; where that is not known, its file as the job
 /// writes it.
-std::string scene_name(std::string_view scene_hash, const Parameters& given)
+std::string scene_name(const SceneIdentity& scene, const Parameters& given)
 {
-    if (!scene_hash.empty()) {
-        return std::string{scene_hash};
+    if (!scene.hash.empty()) {
+        return scene.name();
     }
     const auto file = std::find_if(given.begin(), given.end(), [](const auto& parameter) {
         return parameter.first == "scene.file";
@@ -132,12 +132,12 @@ scene::Job SweepCatalogue::job(std::size_t request) const
     return space_.job(space_.at(requests_[request].ordinals.front()));
 }
 
-SweepTask SweepCatalogue::task(std::size_t request, std::string_view scene_hash) const
+SweepTask SweepCatalogue::task(std::size_t request, const SceneIdentity& scene) const
 {
     const auto& ordinals = requests_[request].ordinals;
     scene::Job job = this->job(request);
     SweepTask task;
-    task.id = curve_of(version_, scene_hash, job, scene::resolved_keys(job));
+    task.id = curve_of(version_, scene.name(), job, scene::resolved_keys(job));
     task.job = job;
     const scene::BiasSettings own = space_.own_constant_bias(space_.at(ordinals.front()));
     task.job.bias.constant = own.constant;
@@ -149,25 +149,25 @@ SweepTask SweepCatalogue::task(std::size_t request, std::string_view scene_hash)
     return task;
 }
 
-void SweepCatalogue::describe(std::size_t request, std::string_view scene_hash, const Visit& visit,
+void SweepCatalogue::describe(std::size_t request, const SceneIdentity& scene, const Visit& visit,
                               std::uint32_t shard) const
 {
     const auto& ordinals = requests_[request].ordinals;
     scene::Job job = this->job(request);
     Configuration configuration;
     configuration.parameters = scene::resolved_keys(job);
-    configuration.scene_hash = scene_hash;
+    configuration.scene_hash = scene.hash;
     configuration.shard = shard;
     const scene::SweepPoint first = space_.at(ordinals.front());
-    const std::string scene = scene_name(scene_hash, space_.given_keys(first));
-    configuration.curve = curve_of(version_, scene, job, configuration.parameters);
+    const std::string name = scene_name(scene, space_.given_keys(first));
+    configuration.curve = curve_of(version_, name, job, configuration.parameters);
     configuration.case_name = space_.case_name(first);
     configuration.job_bias = job_bias_text(space_.own_constant_bias(first), job.lookup.filter);
     for (const std::uint64_t ordinal : ordinals) {
         space_.set_constant_bias(job, space_.at(ordinal));
         replace_constant_bias(configuration.parameters, job);
         configuration.ordinal = ordinal;
-        configuration.id = id_of(version_, scene, configuration.parameters, true);
+        configuration.id = id_of(version_, name, configuration.parameters, true);
         visit(configuration);
     }
 }
@@ -180,9 +180,9 @@ void SweepCatalogue::describe(const Refusal& refusal, const Visit& visit) const
         configuration.ordinal = ordinal;
         configuration.case_name = space_.case_name(point);
         configuration.parameters = space_.given_keys(point);
-        const std::string scene = scene_name({}, configuration.parameters);
-        configuration.id = id_of(version_, scene, configuration.parameters, true);
-        configuration.curve = id_of(version_, scene, configuration.parameters, false);
+        const std::string name = scene_name({}, configuration.parameters);
+        configuration.id = id_of(version_, name, configuration.parameters, true);
+        configuration.curve = id_of(version_, name, configuration.parameters, false);
         visit(configuration);
     }
 }

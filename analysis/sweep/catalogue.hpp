@@ -3,13 +3,13 @@
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/results.hpp"
 #include "analysis/sweep/runner.hpp"
+#include "analysis/sweep/scene_identity.hpp"
 #include "scene/job.hpp"
 #include "scene/sweep_space.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -38,14 +38,14 @@ public:
 
     /// A job of the request.
     [[nodiscard]] scene::Job job(std::size_t request) const;
-    /// @param scene_hash  `scene::content_hash` of the request's scene.
-    [[nodiscard]] SweepTask task(std::size_t request, std::string_view scene_hash) const;
+    /// @param scene  the request's, which could be read.
+    [[nodiscard]] SweepTask task(std::size_t request, const SceneIdentity& scene) const;
 
     using Visit = std::function<void(const Configuration&)>;
     /// Says who the request's configurations are.
-    /// @param scene_hash  empty if the scene cannot be read: its file stands for it in the ids.
+    /// @param scene  the request's; if it cannot be read, its file stands for it in the ids.
     /// @param shard  that computes them.
-    void describe(std::size_t request, std::string_view scene_hash, const Visit& visit,
+    void describe(std::size_t request, const SceneIdentity& scene, const Visit& visit,
                   std::uint32_t shard = 1) const;
     /// Says who the refused ones are: by the keys that they are given.
     void describe(const Refusal& refusal, const Visit& visit) const;

@@ -22,8 +22,9 @@ inline constexpr int result_schema = 1;
 /// A configuration of a sweep: one row of its results, known before anything is computed.
 struct Configuration {
     std::uint64_t ordinal = 0; ///< its place in the sweep, from 0: the order of the rows
-    /// Hash of scene content, parameters, schema and program version, as 16 hexadecimal digits: the
-    /// same wherever and whenever it is computed.
+    /// Hash of scene content, of the camera and light that are taken from the scene's file, of
+    /// parameters, schema and program version, as 16 hexadecimal digits: the same wherever and
+    /// whenever it is computed.
     std::string id;
     /// Like `id`, of everything but the constant bias: the name of its bias curve.
     std::string curve;

@@ -7,7 +7,8 @@
 namespace gnomon::analysis {
 
 /// What each stage of a job depends on, as text: two jobs share a stage's result iff its texts are
-/// equal. Made of the job's keys alone, so that a sweep can be planned before a scene is read.
+/// equal. Made of the job's keys alone, so that a sweep can be planned before a scene is read; two
+/// files share nothing, for what cameras and lights they bring along is not known.
 struct StageKeys {
     std::string scene;
     std::string light;     ///< scene and light

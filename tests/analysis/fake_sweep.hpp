@@ -114,7 +114,7 @@ public:
         const auto& requests = catalogue.requests();
         const SweepPlan plan = make_plan(requests, slots);
         planned = plan.counts(requests);
-        hooks.task = [&](std::size_t curve) { return catalogue.task(curve, "hash"); };
+        hooks.task = [&](std::size_t curve) { return catalogue.task(curve, {"hash", ""}); };
         return run_sweep(plan, hooks);
     }
 

@@ -42,7 +42,7 @@ std::vector<Configuration> describe_all(const scene::SweepSpace& space,
     std::vector<Configuration> all;
     const auto visit = [&](const Configuration& configuration) { all.push_back(configuration); };
     for (std::size_t i = 0; i < catalogue.requests().size(); ++i) {
-        catalogue.describe(i, scene_hash, visit);
+        catalogue.describe(i, {std::string{scene_hash}, ""}, visit);
     }
     for (const Refusal& refusal : catalogue.refusals()) {
         catalogue.describe(refusal, visit);
@@ -156,6 +156,44 @@ TEST(SweepCatalogue, NamesScenesByContentAndNotByPlace)
     EXPECT_NE(of_file("a.obj", hash).curve, of_file("a.obj", "0123456789abcdee").curve);
 }
 
+TEST(SweepCatalogue, NamesScenesByWhatIsTakenFromTheirFilesToo)
+{
+    const scene::SweepSpace space = space_of({}, {{"scene.file", "a.gltf"}});
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    const auto described = [&](const SceneIdentity& identity) {
+        Configuration only;
+        catalogue.describe(0, identity, [&](const Configuration& one) { only = one; });
+        EXPECT_EQ(catalogue.task(0, identity).id, only.curve);
+        EXPECT_EQ(only.scene_hash, hash) << "of the triangles alone";
+        return only;
+    };
+    const Configuration none = described({hash, ""});
+    const Configuration one = described({hash, "\ncamera.eye=[1, 2, 3]"});
+    const Configuration other = described({hash, "\ncamera.eye=[1, 2, 4]"});
+    EXPECT_NE(none.id, one.id);
+    EXPECT_NE(none.curve, one.curve);
+    EXPECT_NE(one.id, other.id);
+    EXPECT_NE(one.curve, other.curve);
+    EXPECT_EQ(one.id, described({hash, "\ncamera.eye=[1, 2, 3]"}).id);
+    EXPECT_EQ(one.parameters, none.parameters) << "the job still says nothing of it";
+}
+
+TEST(SweepCatalogue, SharesNoStageBetweenFiles)
+{
+    const scene::SweepSpace space =
+        space_of({"scene.file=a.gltf,b.gltf", "shadow_map.fit=scene,camera"});
+    const SweepCatalogue catalogue{space, false, "1.0"};
+    ASSERT_THAT(catalogue.requests(), SizeIs(4));
+    const StageKeys& a = catalogue.requests()[0].keys;
+    const StageKeys& b = catalogue.requests()[2].keys;
+    for (const auto member :
+         {&StageKeys::scene, &StageKeys::light, &StageKeys::truth, &StageKeys::frustum,
+          &StageKeys::receivers, &StageKeys::texels, &StageKeys::map, &StageKeys::exact,
+          &StageKeys::lookup, &StageKeys::curve}) {
+        EXPECT_NE(a.*member, b.*member) << a.*member;
+    }
+}
+
 TEST(SweepCatalogue, NamesResultsOfAnotherVersionDifferently)
 {
     const scene::SweepSpace space = space_of({});
@@ -213,7 +251,7 @@ TEST(SweepCatalogue, AsksOfACurveTheJobsOwnBiasAndThoseOfItsRows)
     const scene::SweepSpace space =
         space_of({"bias.slope=1,2", "bias.constant=0,0.25,0.5"}, {{"shadow_map.cull", "front"}});
     const SweepCatalogue catalogue{space, false, "1.0"};
-    const SweepTask task = catalogue.task(1, hash);
+    const SweepTask task = catalogue.task(1, {hash, ""});
     EXPECT_EQ(task.id, describe_all(space)[4].curve);
     EXPECT_EQ(task.job.bias.slope, 2);
     EXPECT_EQ(task.job.bias.constant, 0);
@@ -235,11 +273,11 @@ TEST(SweepCatalogue, KnowsTheFilesBiasBesideTheAxes)
     const scene::SweepSpace space{source, {"bias.slope=1"}};
     const SweepCatalogue catalogue{space, false, "1.0"};
     ASSERT_THAT(catalogue.requests(), SizeIs(3));
-    EXPECT_EQ(catalogue.task(0, hash).job.bias.constant, 0);
-    EXPECT_EQ(catalogue.task(1, hash).job.bias.constant, 0.125);
-    EXPECT_EQ(catalogue.task(1, hash).rows.at(0).bias.constant, 0.125);
-    EXPECT_EQ(catalogue.task(2, hash).job.bias.constant_m, 0.25);
-    EXPECT_EQ(catalogue.task(2, hash).rows.at(0).bias.constant_m, 0.25);
+    EXPECT_EQ(catalogue.task(0, {hash, ""}).job.bias.constant, 0);
+    EXPECT_EQ(catalogue.task(1, {hash, ""}).job.bias.constant, 0.125);
+    EXPECT_EQ(catalogue.task(1, {hash, ""}).rows.at(0).bias.constant, 0.125);
+    EXPECT_EQ(catalogue.task(2, {hash, ""}).job.bias.constant_m, 0.25);
+    EXPECT_EQ(catalogue.task(2, {hash, ""}).rows.at(0).bias.constant_m, 0.25);
     const auto all = describe_all(space);
     EXPECT_EQ(all[2].case_name, "metres");
     EXPECT_EQ(all[0].job_bias, "0.05 m") << "the built-in's own";
@@ -259,7 +297,7 @@ TEST(SweepCatalogue, PutsMetresInPlaceOfDepthUnits)
 {
     const scene::SweepSpace space =
         space_of({"bias.constant_m=0.25,0.5"}, {{"shadow_map.cull", "front"}});
-    const SweepTask task = SweepCatalogue{space, false, "1.0"}.task(0, hash);
+    const SweepTask task = SweepCatalogue{space, false, "1.0"}.task(0, {hash, ""});
     EXPECT_EQ(task.job.bias.constant_m, 0.05) << "the built-in's own";
     ASSERT_THAT(task.rows, SizeIs(2));
     EXPECT_EQ(task.rows[0].bias.constant_m, 0.25);

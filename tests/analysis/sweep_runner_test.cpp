@@ -92,7 +92,7 @@ TEST(SweepRunner, DescribesTheCurveAtTheJobsOwnBias)
         const Comparison own = sweep.compared(i);
         const BiasAnswers& answers = *own.diagnosis->biases;
         const SweepCatalogue catalogue{sweep.space, false, "1.0"};
-        const CurveResult& curve = sweep.curves.at(catalogue.task(i, "hash").id);
+        const CurveResult& curve = sweep.curves.at(catalogue.task(i, {"hash", ""}).id);
         ASSERT_EQ(curve.by_distance.size(), 2U);
         EXPECT_EQ(curve.by_distance[0].at, DistanceProfile::At::job_bias);
         EXPECT_EQ(curve.by_distance[0].bias, 0.125F);

@@ -2,12 +2,14 @@
 
 #include "child_process.hpp"
 #include "run_folder.hpp"
+#include "scene_file_fixture.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -198,6 +200,87 @@ TEST(Sweep, ComputesScenesOfEqualContentOnce)
         computed += ending.out.find("now: 1 scene") == std::string::npos ? 0U : 1U;
     }
     EXPECT_EQ(computed, 1U);
+}
+
+/// A quad with a camera `distance_m` before it, and a sun that looks along −z.
+std::string quad_with_camera(int distance_m, bool is_lit)
+{
+    scene::testing::QuadGltf gltf;
+    gltf.more = R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],)";
+    if (is_lit) {
+        gltf.more += R"("extensionsUsed":["KHR_lights_punctual"],)"
+                     R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional"}]}},)";
+    }
+    gltf.nodes = fmt::format(
+        R"([{{"name":"quad","mesh":0}},{{"camera":0,"translation":[0.5,0.5,{}]}},)"
+        R"({{"name":"lamp"{}}}])",
+        distance_m, is_lit ? R"(,"extensions":{"KHR_lights_punctual":{"light":0}})" : "");
+    gltf.roots = "[0,1,2]";
+    return gltf.text();
+}
+
+/// A row but for its place in the sweep.
+std::map<std::string, std::string> without_ordinal(std::map<std::string, std::string> row)
+{
+    row.erase("ordinal");
+    return row;
+}
+
+TEST(Sweep, TellsFilesOfEqualTrianglesApartByTheirCamerasAndLights)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", "image.width = 32\nimage.height = 18\n"
+                                              "scene.ground = true\n");
+    folder.write("near.gltf", quad_with_camera(4, false));
+    folder.write("far.gltf", quad_with_camera(8, false));
+    folder.write("lit.gltf", quad_with_camera(4, true));
+    folder.write("twin.gltf", quad_with_camera(4, false));
+    const std::vector<std::string> files{"near.gltf", "far.gltf", "lit.gltf", "twin.gltf"};
+    const std::vector<std::string> axes{"--axis",
+                                        "scene.file=near.gltf,far.gltf,lit.gltf,twin.gltf",
+                                        "--axis", "bias.constant=0,0.01"};
+    const path run = folder.path() / "run";
+    for (const char* const pixels : {"--keep-pixels", "--no-keep-pixels"}) {
+        SCOPED_TRACE(pixels);
+        std::filesystem::remove_all(run);
+        const Ending ending = swept(sweep(job, run, with(axes, {pixels})));
+        EXPECT_THAT(ending.out, HasSubstr("now: 3 scenes, 3 truths, "));
+        EXPECT_THAT(ending.out, HasSubstr("\n  2 configurations are the same as an earlier one"));
+        const auto rows = csv_rows(run / "results.csv");
+        ASSERT_EQ(rows.size(), 8U);
+        for (std::size_t i = 0; i < 6; ++i) {
+            const path alone = folder.path() / fmt::format("{}{}", files[i / 2], pixels);
+            swept(sweep(job, alone,
+                        {"--axis", fmt::format("scene.file={}", files[i / 2]), "--axis",
+                         "bias.constant=0,0.01", pixels}));
+            EXPECT_EQ(without_ordinal(rows[i]),
+                      without_ordinal(csv_rows(alone / "results.csv").at(i % 2)));
+            EXPECT_EQ(rows[i].at("scene_hash"), rows[0].at("scene_hash"));
+        }
+        EXPECT_NE(rows[0].at("pixels.background"), rows[2].at("pixels.background"));
+        EXPECT_NE(rows[0].at("pixels.lit"), rows[4].at("pixels.lit"));
+        EXPECT_EQ(rows[0].at("id"), rows[6].at("id"));
+    }
+    // By shards too.
+    std::vector<std::string> merge{"merge", folder.path() / "all"};
+    for (const char* const shard : {"1/3", "2/3", "3/3"}) {
+        merge.push_back(folder.path() / fmt::format("part{}", shard[0]));
+        swept(sweep(job, merge.back(), with(axes, {"--no-keep-pixels", "--shard", shard})));
+    }
+    swept(merge);
+    expect_same(RunCsv{folder.path() / "all"}, RunCsv{run});
+    // `compare` names it alike.
+    const path single = folder.path() / "single";
+    swept({"compare", job, "--set", fmt::format("scene.file={}/lit.gltf", folder.path().string()),
+           "--set", "bias.constant=0", "--out", single});
+    EXPECT_EQ(csv_rows(single / "results.csv").at(0).at("id"),
+              csv_rows(run / "results.csv").at(4).at("id"));
+    // Where the job has both, the files are the same.
+    const Ending same = swept(sweep(job, folder.path() / "same",
+                                    with(axes, {"--set", "camera.eye=[0.5, 0.5, 5]", "--set",
+                                                "light.direction=[-1, -1, -1]"})));
+    EXPECT_THAT(same.out, HasSubstr("now: 1 scene, 1 truth, "));
+    EXPECT_THAT(same.out, HasSubstr("\n  6 configurations are the same as an earlier one"));
 }
 
 TEST(Sweep, OfNothingThatCanBeComputedIsRefused)

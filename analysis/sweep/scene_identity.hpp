@@ -1,0 +1,25 @@
+#pragma once
+
+#include "scene/job.hpp"
+
+#include <string>
+
+namespace gnomon::analysis {
+
+/// What stands for a job's scene in ids: everything that `scene::resolve_view` takes from it.
+struct SceneIdentity {
+    std::string hash; ///< `scene::content_hash`; empty if the scene cannot be read
+    /// The camera and the light that the job leaves to the scene's file, as text; empty if the job
+    /// has its own, or the file none.
+    std::string taken_keys;
+
+    /// Equal for scenes that give the job equal results; empty if the scene cannot be read.
+    [[nodiscard]] std::string name() const { return hash + taken_keys; }
+};
+
+/// @param hash      `scene::content_hash` of the job's scene.
+/// @param defaults  that its file brings along.
+[[nodiscard]] SceneIdentity identify_scene(const scene::Job& job, std::string hash,
+                                           const scene::SceneDefaults& defaults);
+
+} // namespace gnomon::analysis
