@@ -12,6 +12,7 @@
 #include <cassert>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -47,6 +48,29 @@ std::string remedy(const std::filesystem::path& path, int code)
     default:
         return "choose another path";
     }
+}
+
+/// `temporary_target` reads it.
+std::string temporary_name(const std::filesystem::path& path, pid_t process, unsigned serial)
+{
+    return fmt::format(".{}.{}-{}.tmp", path.filename().string(), process, serial);
+}
+
+/// Takes a suffix of one or more digits off.
+bool drop_digits(std::string_view& text)
+{
+    const std::size_t size = text.size();
+    while (!text.empty() && text.back() >= '0' && text.back() <= '9') {
+        text.remove_suffix(1);
+    }
+    return text.size() < size;
+}
+
+bool drop_suffix(std::string_view& text, std::string_view suffix)
+{
+    const bool has_suffix = text.ends_with(suffix);
+    text.remove_suffix(has_suffix ? suffix.size() : 0);
+    return has_suffix;
 }
 
 /// The file that a symbolic link names; the path itself if it is no link or leads nowhere.
@@ -148,8 +172,7 @@ void OutputFile::open_temporary()
     std::filesystem::path candidate;
     const TemporariesGuard guard;
     do {
-        candidate = folder_of(path_) /
-                    fmt::format(".{}.{}-{}.tmp", path_.filename().string(), ::getpid(), serial++);
+        candidate = folder_of(path_) / temporary_name(path_, ::getpid(), serial++);
         descriptor_ =
             ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, default_mode);
     } while (descriptor_ < 0 && errno == EEXIST);
@@ -228,6 +251,14 @@ void OutputFile::fail(std::string_view call, int code) const
     throw scene::EnvironmentError(fmt::format(
         "cannot write {}: {}: {} (errno {}); {}", path_.string(), call,
         std::error_code{code, std::generic_category()}.message(), code, remedy(path_, code)));
+}
+
+std::string_view temporary_target(std::string_view name)
+{
+    const bool is_temporary = name.starts_with('.') && drop_suffix(name, ".tmp") &&
+                              drop_digits(name) && drop_suffix(name, "-") && drop_digits(name) &&
+                              drop_suffix(name, ".") && name.size() > 1;
+    return is_temporary ? name.substr(1) : std::string_view{};
 }
 
 void abandon_output_files() noexcept

@@ -44,6 +44,10 @@ private:
     OutputFile* next_ = nullptr; ///< of those that have a temporary file
 };
 
+/// The file name over which `OutputFile` would have renamed a temporary file of that name, in any
+/// process: "a.csv" for ".a.csv.4711-0.tmp". Empty if it gives no file such a name.
+[[nodiscard]] std::string_view temporary_target(std::string_view name);
+
 /// Removes the temporary file of every `OutputFile`, and lets none make or rename another: for a
 /// signal handler, in whatever thread, that ends the process next. Async-signal-safe.
 void abandon_output_files() noexcept;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <system_error>
 
 namespace gnomon::reports {
@@ -20,6 +21,13 @@ fs::path pixels_path(const fs::path& folder, std::string_view id)
                                                   pixels.string(), error.message()));
     }
     return pixels / fmt::format("{}.exr", id);
+}
+
+bool is_pixels_name(std::string_view name)
+{
+    constexpr std::size_t id_digits = 16;
+    return name.size() > id_digits && name.substr(id_digits) == ".exr" &&
+           name.find_first_not_of("0123456789abcdef") == id_digits;
 }
 
 void take_pixels(const fs::path& folder, const fs::path& other)

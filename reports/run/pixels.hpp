@@ -11,6 +11,10 @@ namespace gnomon::reports {
 [[nodiscard]] std::filesystem::path pixels_path(const std::filesystem::path& folder,
                                                 std::string_view id);
 
+/// Whether that is the name of a file in RUN/pixels: ID.exr, with ID as in
+/// `analysis::Configuration`.
+[[nodiscard]] bool is_pixels_name(std::string_view name);
+
 /// Takes over the kept layers of another run that this one lacks; links them where the file system
 /// can.
 /// @throws scene::EnvironmentError  if they cannot be written.

@@ -220,10 +220,11 @@ void write_run_csv(const Database& database, const std::filesystem::path& folder
 {
     Transaction moment{database, Transaction::Kind::read};
     const std::vector<ExportedCurve> curves = exported_curves(database);
-    write_results(database, folder / "results.csv");
-    write_curves(database, curves, error_vs_z_query(), folder / "error_vs_z.csv");
+    const auto [results, error_vs_z, bias_curves] = run_csv_names;
+    write_results(database, folder / results);
+    write_curves(database, curves, error_vs_z_query(), folder / error_vs_z);
     write_curves(database, curves, "SELECT * FROM bias_curves WHERE curve = ? ORDER BY bias",
-                 folder / "bias_curves.csv");
+                 folder / bias_curves);
     moment.commit();
 }
 

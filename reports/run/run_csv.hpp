@@ -2,9 +2,15 @@
 
 #include "reports/run/sqlite.hpp"
 
+#include <array>
 #include <filesystem>
+#include <string_view>
 
 namespace gnomon::reports {
+
+/// What `write_run_csv` writes.
+inline constexpr std::array<std::string_view, 3> run_csv_names{"results.csv", "error_vs_z.csv",
+                                                               "bias_curves.csv"};
 
 /// `RunStore::write_csv`: all three files show the database at one moment.
 void write_run_csv(const sqlite::Database& database, const std::filesystem::path& folder);

@@ -1,5 +1,6 @@
 #include "reports/run/run_lock.hpp"
 
+#include "reports/run/leftovers.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
@@ -132,6 +133,7 @@ RunLock::RunLock(const std::filesystem::path& folder) : path_{folder / "lock"}
     if (::ftruncate(descriptor_, 0) == 0) {
         [[maybe_unused]] const ssize_t written = ::pwrite(descriptor_, text.data(), text.size(), 0);
     }
+    remove_leftovers(folder);
 }
 
 RunLock::~RunLock()

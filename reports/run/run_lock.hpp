@@ -11,7 +11,8 @@ namespace gnomon::reports {
 /// killed.
 class RunLock {
 public:
-    /// Makes the folder where there is none, and takes its lock.
+    /// Makes the folder where there is none, takes its lock, and removes what a killed owner had
+    /// begun to write (`remove_leftovers`).
     /// @throws scene::InputError  if another process holds it, saying which and since when.
     /// @throws scene::EnvironmentError  if the folder cannot be made or written.
     explicit RunLock(const std::filesystem::path& folder);

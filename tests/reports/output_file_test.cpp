@@ -65,6 +65,25 @@ TEST(OutputFile, LeavesNothingBehindWithoutCommit)
     EXPECT_EQ(folder.entry_count(), 1U);
 }
 
+TEST(OutputFile, KnowsWhatItsTemporaryFilesAreFor)
+{
+    const TemporaryFolder folder;
+    for (const char* const name : {"a.csv", "a", ".a", "a.1-2.tmp"}) {
+        const OutputFile file{folder / name};
+        const auto temporary = std::filesystem::directory_iterator
+        {
+            folder.path()
+            } -> path();
+        EXPECT_EQ(temporary_target(temporary.filename().string()), name);
+    }
+    EXPECT_EQ(temporary_target(".a.csv.4711-0.tmp"), "a.csv");
+    for (const char* const name :
+         {"", ".", ".tmp", "a.csv", "a.csv.4711-0.tmp", ".a.csv.4711-0", ".a.csv.4711-.tmp",
+          ".a.csv.-0.tmp", ".a.csv-0.tmp", ".4711-0.tmp", "..4711-0.tmp"}) {
+        EXPECT_EQ(temporary_target(name), "") << name;
+    }
+}
+
 TEST(OutputFile, LetsTwoWritersOfOnePathFinish)
 {
     const TemporaryFolder folder;
