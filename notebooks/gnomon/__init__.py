@@ -1,0 +1,20 @@
+"""Loads what Gnomon writes: runs into pandas, images into numpy.
+
+    import gnomon
+    gnomon.call("sweep", "job.toml", "--out", "out/bias")
+    run = gnomon.load_run("out/bias")
+    run.results                             # one row a configuration
+    layers = gnomon.load_layers("out/view/pixels/0123456789abcdef.exr")
+    layers["critical_bias"]                 # (height, width) float32
+
+docs/csv_schema.md says what the columns mean, docs/aov.md what the layers mean.
+"""
+
+from .errors import InputError
+from .layers import CAUSES, CLASSES, LABELS, Layers, load_layers
+from .program import call
+from .run import Run, load_run
+
+__all__ = [
+    "CAUSES", "CLASSES", "LABELS", "InputError", "Layers", "Run", "call", "load_layers", "load_run",
+]

@@ -1,0 +1,99 @@
+"""The EXR image of a comparison, as numpy arrays."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy
+import OpenImageIO
+
+from .errors import InputError
+
+# By the values in the layers `class`, `cause` and `label`.
+CLASSES = ("background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked")
+CAUSES = ("none", "bias", "precision", "resolution", "coverage")
+LABELS = ("right", "acne", "peter_panning", "leak", "edge", "overshadow")
+
+
+class Layers(Mapping):
+    """The layers of an image by their names in docs/aov.md, each (height, width) of float32 or uint32.
+
+    Row 0 is the top. `P` is the receiver point of each pixel [m], (height, width, 3).
+    """
+
+    def __init__(self, arrays, attributes):
+        self._arrays = arrays
+        self.attributes = attributes  # of the header, texts, without `gnomon:`
+        self.job = json.loads(attributes.get("job", "{}"))  # every key of the job
+
+    def __getitem__(self, name):
+        return self._arrays[name]
+
+    def __iter__(self):
+        return iter(self._arrays)
+
+    def __len__(self):
+        return len(self._arrays)
+
+    @property
+    def is_lit(self):
+        """(height, width) bool: pixels that the light reaches."""
+        return self["class"] == CLASSES.index("lit")
+
+    @property
+    def is_blocked(self):
+        """(height, width) bool: pixels in shadow."""
+        return self["class"] == CLASSES.index("blocked")
+
+    def shows_lit(self, bias=None):
+        """(height, width) bool: what the shadow map says, at the job's constant bias or another.
+
+        Exact for every float32 bias: the layer `critical_bias` is the smallest with which a pixel is
+        lit. Pixels that are not scored may say anything. Raises InputError for another bias where
+        there is no such layer, that is, for the filter `hardware`.
+        """
+        if bias is None:
+            return self["verdict"] >= 0.5
+        if "critical_bias" not in self:
+            raise InputError("the image has no critical_bias: its filter has no bias curve")
+        return self["critical_bias"] <= numpy.float32(bias)
+
+    def errors(self, bias=None):
+        """The numbers of false-shadow and false-lit pixels, as `shows_lit` says."""
+        shown = self.shows_lit(bias)
+        return {
+            "false_shadow": int(numpy.count_nonzero(self.is_lit & ~shown)),
+            "false_lit": int(numpy.count_nonzero(self.is_blocked & shown)),
+        }
+
+
+def load_layers(path):
+    """The layers of an EXR that `--aov`, `--out` or `--keep-pixels` wrote.
+
+    Raises InputError where the file is missing or is no such image.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError(f"{path}: no such file")
+    image = OpenImageIO.ImageInput.open(str(path))
+    if image is None:
+        raise InputError(f"{path}: cannot be read: {' '.join(OpenImageIO.geterror().split())}")
+    try:
+        spec = image.spec()
+        arrays = {}
+        for channel, name in enumerate(spec.channelnames):
+            pixels = image.read_image(0, 0, channel, channel + 1, spec.channelformat(channel))
+            if pixels is None:
+                raise InputError(f"{path}: {name}: cannot be read; write the image again")
+            arrays[name] = pixels[:, :, 0]
+    finally:
+        image.close()
+    if not {"class", "verdict", "P.X", "P.Y", "P.Z"} <= arrays.keys():
+        raise InputError(f"{path}: was not written by gnomon compare; see docs/aov.md")
+    arrays["P"] = numpy.stack([arrays.pop(f"P.{axis}") for axis in "XYZ"], axis=-1)
+    attributes = {
+        attribute.name.removeprefix("gnomon:"): attribute.value
+        for attribute in spec.extra_attribs
+        if attribute.name.startswith("gnomon:")
+    }
+    return Layers(arrays, attributes)
