@@ -12,7 +12,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string wall = "[scene]\nbuiltin = \"wall\"\n";
+const std::string wall_scene = "[scene]\nbuiltin = \"wall\"\n";
 
 TEST(JobFile, OfASceneFileAloneIsAJobOfDefaults)
 {
@@ -42,7 +42,7 @@ TEST(JobFile, SceneFilesAreRelativeToIt)
 TEST(JobFile, ReadsEveryKindOfTableAlike)
 {
     const auto expected =
-        resolved_keys(job_of(wall + "[bias]\nconstant = 0.5\nslope = 0.25\n").job);
+        resolved_keys(job_of(wall_scene + "[bias]\nconstant = 0.5\nslope = 0.25\n").job);
     for (const std::string text : {
              "scene.builtin = \"wall\"\nbias.constant = 0.5\nbias.slope = 0.25\n",
              "scene = {builtin = \"wall\"}\nbias = {constant = 0.5, slope = 0.25}\n",
@@ -71,22 +71,22 @@ TEST(JobFile, ReadsTheExample)
 
 TEST(JobFile, NamesTheNearestOfAnUnknownKeyWithItsLine)
 {
-    EXPECT_EQ(refusal(wall + "[shadow_map]\nresolutoin = 3\n"),
+    EXPECT_EQ(refusal(wall_scene + "[shadow_map]\nresolutoin = 3\n"),
               "job.toml:4: unknown key \"shadow_map.resolutoin\"; the nearest is "
               "shadow_map.resolution");
-    EXPECT_EQ(refusal(wall + "[shadowmap]\nresolution = 3\n"),
+    EXPECT_EQ(refusal(wall_scene + "[shadowmap]\nresolution = 3\n"),
               "job.toml:3: unknown table \"shadowmap\"; the nearest is shadow_map");
-    EXPECT_EQ(refusal(wall + "[swep]\n"),
+    EXPECT_EQ(refusal(wall_scene + "[swep]\n"),
               "job.toml:3: unknown table \"swep\"; the nearest is sweep");
     EXPECT_EQ(refusal("resolution = 3\n"),
               "job.toml:1: unknown key \"resolution\"; the nearest is shadow_map.resolution");
-    EXPECT_EQ(refusal(wall + "[scene.wall]\nthickness = 3\n"),
+    EXPECT_EQ(refusal(wall_scene + "[scene.wall]\nthickness = 3\n"),
               "job.toml:4: unknown key \"scene.wall.thickness\"; the nearest is "
               "scene.wall.thickness_m");
     // In the wrong table:
-    EXPECT_EQ(refusal(wall + "lookup.filter = \"pcf3\"\n"),
+    EXPECT_EQ(refusal(wall_scene + "lookup.filter = \"pcf3\"\n"),
               "job.toml:3: unknown table \"scene.lookup\"; the nearest is lookup");
-    EXPECT_EQ(refusal(wall + "resolution = 3\n"),
+    EXPECT_EQ(refusal(wall_scene + "resolution = 3\n"),
               "job.toml:3: unknown key \"scene.resolution\"; the nearest is "
               "shadow_map.resolution");
     EXPECT_EQ(refusal("bias = 3\n"), "job.toml:1: bias = 3: must be a table, [bias]");
@@ -96,7 +96,7 @@ TEST(JobFile, NamesTheNearestOfAnUnknownKeyWithItsLine)
 
 TEST(JobFile, NamesFileLineKeyValueAndRangeOfABadValue)
 {
-    EXPECT_EQ(refusal(wall + "\n[shadow_map]\nresolution = -1\n"),
+    EXPECT_EQ(refusal(wall_scene + "\n[shadow_map]\nresolution = -1\n"),
               "job.toml:5: shadow_map.resolution = -1: must be an integer from 1 to 16384");
     EXPECT_EQ(refusal("lookup.filter = \"pfc3\"\n"),
               "job.toml:1: lookup.filter = \"pfc3\": must be one of nearest, linear, hardware, "
@@ -112,7 +112,8 @@ TEST(JobFile, RefusesAKeyGivenTwice)
 
 TEST(JobFile, NamesLineAndColumnWhereItIsNotToml)
 {
-    EXPECT_THAT(refusal(wall + "[bias]\nslope = = 1\n"), StartsWith("job.toml:4:9: not TOML: "));
+    EXPECT_THAT(refusal(wall_scene + "[bias]\nslope = = 1\n"),
+                StartsWith("job.toml:4:9: not TOML: "));
     EXPECT_THAT(refusal("[scene\n"), StartsWith("job.toml:1:"));
 }
 
@@ -127,8 +128,8 @@ TEST(JobFile, RefusesPathsThatAreNoJob)
 
 TEST(JobCase, LaysItsKeysOverTheFile)
 {
-    const std::string text = wall + "[[case]]\nname = \"a\"\nlight.direction = [0, -1, 0.1]\n"
-                                    "[case.bias]\nconstant = 0.25\n[[case]]\nname = \"b\"\n";
+    const std::string text = wall_scene + "[[case]]\nname = \"a\"\nlight.direction = [0, -1, 0.1]\n"
+                                          "[case.bias]\nconstant = 0.25\n[[case]]\nname = \"b\"\n";
     const JobFile plain = job_of(text);
     ASSERT_EQ(plain.cases.size(), 2U);
     EXPECT_EQ(plain.cases[0].name, "a");
@@ -146,28 +147,31 @@ TEST(JobCase, LaysItsKeysOverTheFile)
 
 TEST(JobCase, RefusesUnknownNamesNamingTheNearest)
 {
-    const std::string text = wall + "[[case]]\nname = \"noon\"\n[[case]]\nname = \"dusk\"\n";
+    const std::string text = wall_scene + "[[case]]\nname = \"noon\"\n[[case]]\nname = \"dusk\"\n";
     EXPECT_EQ(refusal(text, {}, "dust"), "job.toml: no case \"dust\"; the nearest is \"dusk\"");
-    EXPECT_EQ(refusal(wall, {}, "noon"), "job.toml: no case \"noon\": it has no [[case]] at all");
+    EXPECT_EQ(refusal(wall_scene, {}, "noon"),
+              "job.toml: no case \"noon\": it has no [[case]] at all");
 }
 
 TEST(JobCase, RefusesCasesWithoutANameOfTheirOwn)
 {
-    EXPECT_THAT(refusal(wall + "[[case]]\nbias.slope = 1\n"), HasSubstr("has no name"));
-    EXPECT_THAT(refusal(wall + "[[case]]\nname = \"\"\n"), HasSubstr("[[case]] name = \"\": must"));
-    EXPECT_THAT(refusal(wall + "[[case]]\nname = 3\n"), HasSubstr("[[case]] name = 3: must be"));
-    EXPECT_THAT(refusal(wall + "[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"\n"),
+    EXPECT_THAT(refusal(wall_scene + "[[case]]\nbias.slope = 1\n"), HasSubstr("has no name"));
+    EXPECT_THAT(refusal(wall_scene + "[[case]]\nname = \"\"\n"),
+                HasSubstr("[[case]] name = \"\": must"));
+    EXPECT_THAT(refusal(wall_scene + "[[case]]\nname = 3\n"),
+                HasSubstr("[[case]] name = 3: must be"));
+    EXPECT_THAT(refusal(wall_scene + "[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"\n"),
                 HasSubstr("[[case]] name = \"a\": two cases of that name"));
-    EXPECT_THAT(refusal(wall + "[case]\nname = \"a\"\n"), HasSubstr("each headed [[case]]"));
+    EXPECT_THAT(refusal(wall_scene + "[case]\nname = \"a\"\n"), HasSubstr("each headed [[case]]"));
     EXPECT_THAT(refusal("case = [1]\n"), HasSubstr("must be a table with a name"));
 }
 
 TEST(JobCase, HoldsItsKeysAgainstTheirRangesThoughItIsNotChosen)
 {
-    EXPECT_EQ(refusal(wall + "[[case]]\nname = \"a\"\nbias.slope = nan\n"),
+    EXPECT_EQ(refusal(wall_scene + "[[case]]\nname = \"a\"\nbias.slope = nan\n"),
               "job.toml:5: [[case]] \"a\": bias.slope = nan: must be a number from -1000 to 1000, "
               "0 or at least 1.18e-38 in size (not subnormal)");
-    EXPECT_THAT(refusal(wall + "[[case]]\nname = \"a\"\nbias.slop = 1\n"),
+    EXPECT_THAT(refusal(wall_scene + "[[case]]\nname = \"a\"\nbias.slop = 1\n"),
                 HasSubstr("unknown key \"bias.slop\"; the nearest is bias.slope"));
 }
 
