@@ -207,11 +207,10 @@ void write_curves(const Database& database, const std::vector<ExportedCurve>& cu
 /// the same bias in different words.
 std::string error_vs_z_query()
 {
-    std::string selection = error_vs_z_selection();
-    selection.insert(std::string_view{"SELECT"}.size(), " DISTINCT");
-    return selection + " WHERE v.id = ?1 AND (b.job_bias = '' OR b.job_bias IN"
-                       " (SELECT value FROM json_each(?2)))"
-                       " ORDER BY b.\"at\" DESC, b.bias, b.lower_m";
+    return "SELECT DISTINCT " + error_vs_z_columns() +
+           " WHERE v.id = ?1 AND (b.job_bias = '' OR b.job_bias IN"
+           " (SELECT value FROM json_each(?2)))"
+           " ORDER BY b.\"at\" DESC, b.bias, b.lower_m";
 }
 
 } // namespace

@@ -54,7 +54,7 @@ public:
     {
         const auto known = find_.bind(1, std::string_view{configuration.id}).first();
         const std::int64_t number = known ? *known : insert(configuration);
-        note(static_cast<std::size_t>(number));
+        remember_planned(static_cast<std::size_t>(number));
         plan_.bind(1, static_cast<std::int64_t>(configuration.ordinal))
             .bind(2, number)
             .bind(3, std::string_view{configuration.case_name})
@@ -70,7 +70,7 @@ public:
     [[nodiscard]] bool has_equal_ids() const { return has_equal_ids_; }
 
 private:
-    void note(std::size_t number)
+    void remember_planned(std::size_t number)
     {
         is_planned_.resize(std::max(is_planned_.size(), number + 1));
         has_equal_ids_ = has_equal_ids_ || is_planned_[number];

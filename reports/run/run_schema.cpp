@@ -117,7 +117,7 @@ std::string rates(std::string_view counts, std::string_view pixels)
 
 } // namespace
 
-std::string error_vs_z_selection()
+std::string error_vs_z_columns()
 {
     std::string counts;
     std::string depths; // from the first quantile on
@@ -125,7 +125,7 @@ std::string error_vs_z_selection()
         const bool is_count = depths.empty() && column.name.find('.') == std::string::npos;
         (is_count ? counts : depths) += fmt::format(", b.{}", sql_name(column.name));
     }
-    return fmt::format("SELECT v.id AS curve, b.\"at\" AS \"at\", b.bias AS bias{}, {}{}"
+    return fmt::format("v.id AS curve, b.\"at\" AS \"at\", b.bias AS bias{}, {}{}"
                        " FROM curve_bins b JOIN curves v ON v.number = b.curve",
                        counts, rates("b", "b"), depths);
 }
@@ -152,7 +152,7 @@ std::vector<std::string> schema_statements()
             verifications_table,
             part_view(),
             results_view(),
-            "CREATE VIEW error_vs_z AS " + error_vs_z_selection(),
+            "CREATE VIEW error_vs_z AS SELECT " + error_vs_z_columns(),
             bias_curves_view()};
 }
 

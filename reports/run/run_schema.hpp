@@ -13,9 +13,9 @@ inline constexpr int run_schema = 1;
 /// The database of a run, in its folder.
 [[nodiscard]] std::filesystem::path results_path(const std::filesystem::path& folder);
 
-/// The view `error_vs_z`, which has the columns of the CSV file, as a SELECT over `curve_bins b`:
-/// a WHERE may follow.
-[[nodiscard]] std::string error_vs_z_selection();
+/// What the view `error_vs_z` selects, the columns of the CSV file and FROM `curve_bins b`: between
+/// SELECT and a WHERE.
+[[nodiscard]] std::string error_vs_z_columns();
 
 /// @throws scene::InputError  if it is not a run's database, or one of another schema.
 void require_run_schema(const sqlite::Database& database);
