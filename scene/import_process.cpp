@@ -29,6 +29,7 @@ namespace {
 constexpr int output_fd = STDERR_FILENO + 1; ///< in the child
 constexpr std::uint64_t base_time_s = 5;     ///< of computing
 constexpr std::uint64_t base_clock_s = 8;    ///< by the clock: other programs want the cores too
+constexpr double hung_below_s = 0.5;         ///< of computing, when the clock ran out
 constexpr std::uint64_t bytes_per_s = 2'000'000;
 constexpr std::uint64_t bytes_per_clock_s = 4'000'000;
 constexpr std::uint64_t base_memory_bytes = 1ULL << 30U;
@@ -44,8 +45,12 @@ constexpr bool limits_address_space = true;
 class Descriptor {
 public:
     explicit Descriptor(int fd) : fd_{fd} {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
+    Descriptor(Descriptor&& other) noexcept : fd_{std::exchange(other.fd_, -1)} {}
+    Descriptor& operator=(Descriptor&& other) noexcept
+    {
+        std::swap(fd_, other.fd_);
+        return *this;
+    }
     ~Descriptor()
     {
         if (fd_ >= 0) {
@@ -163,6 +168,64 @@ bool ended_in_time(const Descriptor& child, std::chrono::seconds time)
                                        call, std::strerror(errno), errno)};
 }
 
+/// How a child ended, and what it wrote.
+struct Ended {
+    Descriptor output;
+    int status = 0;
+    bool in_time = false;
+    double computed_s = 0; ///< of CPU time
+
+    [[nodiscard]] bool succeeded() const
+    {
+        return in_time && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
+    }
+    /// Whether it was stopped while it waited. A fork copies one thread alone: a lock that another
+    /// thread of the parent held at that moment (in a sanitizer's allocator, in a driver) is never
+    /// released in the child, which then waits for it until its time is up.
+    [[nodiscard]] bool hung() const
+    {
+        const bool was_stopped = !in_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM);
+        return was_stopped && computed_s < hung_below_s;
+    }
+};
+
+double seconds(const timeval& time)
+{
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+Ended run_once(const ImportLimits& limits, const std::function<void(int, ImportAllowance&)>& work)
+{
+    Ended ended{Descriptor{::memfd_create("gnomon-import", MFD_CLOEXEC | MFD_ALLOW_SEALING)}};
+    if (ended.output.get() < 0) {
+        throw_errno("memfd_create");
+    }
+    const pid_t parent = ::getpid();
+    const pid_t child = ::fork();
+    if (child < 0) {
+        throw_errno("fork");
+    }
+    if (child == 0) {
+        run_child(ended.output.get(), parent, limits, work);
+    }
+    // glibc 2.36 declares pidfd_open() with C++ linkage, and so nobody can link to it.
+    const Descriptor watched{static_cast<int>(::syscall(SYS_pidfd_open, child, 0))};
+    const int watch_error = errno;
+    ended.in_time = watched.get() >= 0 && ended_in_time(watched, limits.time);
+    if (!ended.in_time) {
+        ::kill(child, SIGKILL);
+    }
+    rusage used{};
+    while (::wait4(child, &ended.status, 0, &used) < 0 && errno == EINTR) {
+    }
+    if (watched.get() < 0) {
+        errno = watch_error;
+        throw_errno("pidfd_open");
+    }
+    ended.computed_s = seconds(used.ru_utime) + seconds(used.ru_stime);
+    return ended;
+}
+
 } // namespace
 
 SealedBytes::SealedBytes(int fd)
@@ -238,36 +301,14 @@ void ImportAllowance::apply() const
 SealedBytes run_in_child(const std::string& label, const ImportLimits& limits,
                          const std::function<void(int, ImportAllowance&)>& work)
 {
-    const Descriptor output{::memfd_create("gnomon-import", MFD_CLOEXEC | MFD_ALLOW_SEALING)};
-    if (output.get() < 0) {
-        throw_errno("memfd_create");
+    Ended ended = run_once(limits, work);
+    if (ended.hung()) {
+        ended = run_once(limits, work);
     }
-    const pid_t parent = ::getpid();
-    const pid_t child = ::fork();
-    if (child < 0) {
-        throw_errno("fork");
+    if (!ended.succeeded()) {
+        throw_failure(label, ended.status, ended.in_time, limits);
     }
-    if (child == 0) {
-        run_child(output.get(), parent, limits, work);
-    }
-    // glibc 2.36 declares pidfd_open() with C++ linkage, and so nobody can link to it.
-    const Descriptor watched{static_cast<int>(::syscall(SYS_pidfd_open, child, 0))};
-    const int watch_error = errno;
-    const bool in_time = watched.get() >= 0 && ended_in_time(watched, limits.time);
-    if (!in_time) {
-        ::kill(child, SIGKILL);
-    }
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (watched.get() < 0) {
-        errno = watch_error;
-        throw_errno("pidfd_open");
-    }
-    if (!in_time || !WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) {
-        throw_failure(label, status, in_time, limits);
-    }
-    return SealedBytes{output.get()};
+    return SealedBytes{ended.output.get()};
 }
 
 } // namespace gnomon::scene

@@ -49,6 +49,7 @@ private:
 ///
 /// A small file gets 5 s of computing, 8 s by the clock and 1 GiB; every 4 MB opened add 2 s, 1 s
 /// and 1 GB, up to `limits`. Sound meshes are read at 30 MB/s and take 12 bytes of memory a byte.
+/// A child whose time ran out while it waited is replaced by another, once.
 /// @param label  begins the error message: the scene file's name.
 /// @throws InputError        if the child crashed, hung or exceeded a limit.
 /// @throws EnvironmentError  if no process or memory file could be had.

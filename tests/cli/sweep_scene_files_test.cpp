@@ -56,7 +56,7 @@ TEST(Sweep, ComputesScenesOfEqualContentOnce)
     const std::vector<std::string> axes{"--axis", "scene.file=a.obj,b.obj", "--axis",
                                         "bias.constant=0,0.01"};
     for (const char* const pixels : {"--keep-pixels", "--no-keep-pixels"}) {
-        const path run = folder.path() / pixels;
+        const path run = folder.path() / fmt::format("run{}", pixels);
         const Ending ending = swept(sweep(job, run, with(axes, {pixels})));
         EXPECT_THAT(ending.out, HasSubstr("4 of 4 configurations done"));
         EXPECT_THAT(ending.out, HasSubstr("now: 1 scene, 1 truth, 1 receiver pass, 1 shadow map"));

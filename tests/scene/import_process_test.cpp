@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -92,6 +93,31 @@ TEST(RunInChild, KillsAChildThatWaitsForTooLong)
     const ImportLimits limits{.time = std::chrono::seconds{1}};
     EXPECT_THAT(failure_of([](int, ImportAllowance&) { (void)::sleep(60); }, limits),
                 HasSubstr("took longer than 1 s"));
+}
+
+TEST(RunInChild, ReplacesAChildThatHung)
+{
+    // The children share this count of their starts.
+    void* page = ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
+                        -1, 0);
+    ASSERT_NE(page, MAP_FAILED);
+    auto& starts = *static_cast<volatile int*>(page);
+    const auto hang_at_first = [&](int output, ImportAllowance&) {
+        ImportWriter writer{output};
+        writer.put(std::int64_t{starts});
+        writer.flush();
+        starts = starts + 1;
+        if (starts == 1) {
+            (void)::sleep(60);
+        }
+    };
+    const ImportLimits limits{.time = std::chrono::seconds{1}};
+    const SealedBytes result = run_in_child("file.obj", limits, hang_at_first);
+    ImportReader reader{result.bytes()};
+    EXPECT_EQ(reader.take<std::int64_t>(), 1);
+    EXPECT_EQ(reader.bytes_left(), 0U);
+    EXPECT_EQ(starts, 2);
+    ::munmap(page, sizeof(int));
 }
 
 TEST(RunInChild, StopsAChildThatComputesForTooLong)
