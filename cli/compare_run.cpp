@@ -29,7 +29,7 @@ CompareRun::CompareRun(std::filesystem::path folder)
 void CompareRun::record(scene::JobSource source, std::string_view case_name,
                         const analysis::Comparison& comparison,
                         const scene::SceneDefaults& defaults, std::string job_text,
-                        std::string command)
+                        const std::string& command)
 {
     source.sweep = {};
     if (case_name.empty()) {
@@ -44,7 +44,7 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
                        });
     const analysis::Configuration& own = configurations.front();
     // Another driver's results in the folder are replaced, not mixed with.
-    store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), std::move(command)},
+    store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), command, command},
                 configurations, reports::Environments::several);
     keep_pixels(folder_, own.id, comparison);
     store_.record(

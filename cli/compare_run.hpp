@@ -25,7 +25,7 @@ public:
     /// @throws scene::EnvironmentError  if the disk fails.
     void record(scene::JobSource source, std::string_view case_name,
                 const analysis::Comparison& comparison, const scene::SceneDefaults& defaults,
-                std::string job_text, std::string command);
+                std::string job_text, const std::string& command);
 
 private:
     std::filesystem::path folder_;

@@ -2,6 +2,8 @@
 
 #include "reference_rt/truth.hpp"
 #include "reports/aov_exr.hpp"
+#include "reports/comparison_json.hpp"
+#include "reports/output_file.hpp"
 #include "reports/run/pixels.hpp"
 
 namespace gnomon::cli {
@@ -11,6 +13,9 @@ void keep_pixels(const std::filesystem::path& folder, std::string_view id,
 {
     const auto points = reference_rt::receiver_points(*comparison.triangles, comparison.view,
                                                       comparison.receivers.triangle);
+    reports::make_pixels_folder(folder);
+    // The image last: whoever finds it finds both.
+    reports::write_file(reports::detail_path(folder, id), reports::comparison_json(comparison));
     reports::write_aov(reports::pixels_path(folder, id), comparison, points);
 }
 

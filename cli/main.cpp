@@ -6,6 +6,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/process.hpp"
+#include "cli/report_command.hpp"
 #include "cli/simple_commands.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/status_command.hpp"
@@ -57,6 +58,7 @@ void describe(CLI::App& program)
     gnomon::cli::add_sweep_command(program);
     gnomon::cli::add_merge_command(program);
     gnomon::cli::add_status_command(program);
+    gnomon::cli::add_report_command(program);
     gnomon::cli::add_depth_command(program);
     gnomon::cli::add_scenes_command(program);
     gnomon::cli::add_init_command(program);

@@ -182,6 +182,7 @@ void sweep(const SweepOptions& options)
     run.allows_mixed = options.allows_mixed;
     run.job_text = job_text(options.job);
     run.command = command_text("sweep", options.job, options.axes) + flags_text(options);
+    run.compare_command = command_text("compare", options.job);
     run.session = options.session;
     const SweepOutcome outcome = run_sweep_command(space, run);
     print(outcome_text(options, outcome));

@@ -196,6 +196,7 @@ private:
         }
         description.job = options_.job_text;
         description.command = options_.command;
+        description.compare_command = options_.compare_command;
         return description;
     }
 

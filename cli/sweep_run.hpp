@@ -24,6 +24,7 @@ struct SweepRunOptions {
     bool allows_mixed = false; ///< results of several environments in one run
     std::string job_text;
     std::string command;
+    std::string compare_command; ///< as in `reports::RunDescription`
     SessionOptions session;
 };
 

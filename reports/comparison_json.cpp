@@ -103,6 +103,16 @@ Json scene_object(const analysis::SceneSummary& scene)
             {"hash", scene.hash}};
 }
 
+Json frustum_object(const scene::LightFrustum& frustum, int resolution_texels)
+{
+    const bool is_perspective = frustum.projection == scene::Projection::perspective;
+    return {{"projection", is_perspective ? "perspective" : "orthographic"},
+            {"near_m", frustum.near_m},
+            {"far_m", frustum.far_m},
+            {"reversed", frustum.reversed},
+            {"texel_m", frustum.texel_width_m(1.0, resolution_texels)}};
+}
+
 Json exact_inputs_object(const scene::View& view)
 {
     Json json = Json::object();
@@ -128,6 +138,8 @@ std::string comparison_json(const analysis::Comparison& comparison)
     json["seconds"] = seconds(comparison.seconds);
     json["scene"] = scene_object(comparison.scene);
     json["job"] = job_object(comparison.job);
+    json["frustum"] =
+        frustum_object(comparison.view.frustum, comparison.job.shadow_map.resolution_texels);
     json["truth_method"] = comparison.truth_method;
     json["truth_signs"] = truth_signs(comparison.truth.signs);
     json["float_audit"] = float_audit(comparison.float_audit);

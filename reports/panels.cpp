@@ -1,5 +1,6 @@
 #include "reports/panels.hpp"
 
+#include "reports/facing_normal.hpp"
 #include "scene/camera.hpp"
 
 #include <glm/geometric.hpp>
@@ -46,16 +47,10 @@ Vec3d towards_light(const scene::Light& light, const Vec3d& point)
 Shade shade_pixel(const analysis::Comparison& comparison, std::uint32_t triangle, int x, int y,
                   PixelClass pixel_class)
 {
-    const auto [a, b, c] = comparison.triangles->corners(triangle);
-    const Vec3d origin{a};
-    Vec3d normal = glm::cross(Vec3d{b} - origin, Vec3d{c} - origin);
-    const double area = glm::length(normal);
-    normal = area > 0 ? normal / area : Vec3d{0, 1, 0};
+    const Vec3d origin{comparison.triangles->corners(triangle)[0]};
     const scene::Ray ray = scene::pixel_ray(comparison.view.camera, comparison.view.image, x, y);
     const Vec3d view = -glm::normalize(ray.direction);
-    if (glm::dot(normal, view) < 0) {
-        normal = -normal;
-    }
+    const Vec3d normal = facing_normal(comparison, x, y);
     const double along = glm::dot(normal, ray.direction);
     const double distance = along != 0 ? glm::dot(normal, origin - ray.origin) / along : 0;
     const Vec3d light = towards_light(comparison.view.light, ray.origin + distance * ray.direction);

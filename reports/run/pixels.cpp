@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <system_error>
 
@@ -11,7 +13,33 @@ namespace gnomon::reports {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr std::array<std::string_view, 2> kept_extensions{".exr", ".json"};
+
+fs::path kept_path(const fs::path& folder, std::string_view name)
+{
+    return folder / "pixels" / name;
+}
+
+bool is_kept_extension(std::string_view text)
+{
+    return std::find(kept_extensions.begin(), kept_extensions.end(), text) != kept_extensions.end();
+}
+
+} // namespace
+
 fs::path pixels_path(const fs::path& folder, std::string_view id)
+{
+    return kept_path(folder, fmt::format("{}.exr", id));
+}
+
+fs::path detail_path(const fs::path& folder, std::string_view id)
+{
+    return kept_path(folder, fmt::format("{}.json", id));
+}
+
+void make_pixels_folder(const fs::path& folder)
 {
     const fs::path pixels = folder / "pixels";
     std::error_code error;
@@ -20,13 +48,12 @@ fs::path pixels_path(const fs::path& folder, std::string_view id)
         throw scene::EnvironmentError(fmt::format("{}: cannot be made: {}; check the folder",
                                                   pixels.string(), error.message()));
     }
-    return pixels / fmt::format("{}.exr", id);
 }
 
 bool is_pixels_name(std::string_view name)
 {
     constexpr std::size_t id_digits = 16;
-    return name.size() > id_digits && name.substr(id_digits) == ".exr" &&
+    return name.size() > id_digits && is_kept_extension(name.substr(id_digits)) &&
            name.find_first_not_of("0123456789abcdef") == id_digits;
 }
 
@@ -34,10 +61,12 @@ void take_pixels(const fs::path& folder, const fs::path& other)
 {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator{other / "pixels", none}) {
-        const fs::path target = pixels_path(folder, entry.path().stem().string());
-        if (entry.path().extension() != ".exr" || fs::exists(target)) {
+        const std::string name = entry.path().filename().string();
+        const fs::path target = kept_path(folder, name);
+        if (!is_pixels_name(name) || fs::exists(target)) {
             continue;
         }
+        make_pixels_folder(folder);
         std::error_code error;
         fs::create_hard_link(entry.path(), target, error);
         if (error) {

@@ -5,13 +5,18 @@
 
 namespace gnomon::reports {
 
-/// Where a run keeps a configuration's layers (docs/aov.md): RUN/pixels/ID.exr. Makes the folder
-/// where there is none.
-/// @throws scene::EnvironmentError  if it cannot be made.
+/// Where a run keeps a configuration's layers (docs/aov.md): RUN/pixels/ID.exr.
 [[nodiscard]] std::filesystem::path pixels_path(const std::filesystem::path& folder,
                                                 std::string_view id);
+/// Where it keeps what `gnomon compare --json` prints for it: RUN/pixels/ID.json.
+[[nodiscard]] std::filesystem::path detail_path(const std::filesystem::path& folder,
+                                                std::string_view id);
 
-/// Whether that is the name of a file in RUN/pixels: ID.exr, with ID as in
+/// Makes RUN/pixels where there is none.
+/// @throws scene::EnvironmentError  if it cannot be made.
+void make_pixels_folder(const std::filesystem::path& folder);
+
+/// Whether that is the name of a file in RUN/pixels: ID.exr or ID.json, with ID as in
 /// `analysis::Configuration`.
 [[nodiscard]] bool is_pixels_name(std::string_view name);
 

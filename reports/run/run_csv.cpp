@@ -215,6 +215,19 @@ std::string error_vs_z_query()
 
 } // namespace
 
+std::string cell_text(const sqlite::ValueView& value)
+{
+    std::string text;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        text = fmt::format("{}", *integer);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        append_csv_number(text, *real);
+    } else if (const auto* words = std::get_if<std::string_view>(&value)) {
+        text = *words;
+    }
+    return text;
+}
+
 void write_run_csv(const Database& database, const std::filesystem::path& folder)
 {
     Transaction moment{database, Transaction::Kind::read};

@@ -254,6 +254,7 @@ void write_description(const Database& database, const RunDescription& descripti
     write_value(database, "axes", text(Json(description.axes)));
     write_value(database, "job", description.job);
     write_value(database, "command", description.command);
+    write_value(database, "compare_command", description.compare_command);
 }
 
 PlanOutcome write_plan(const Database& database, const RunDescription& description,
@@ -311,6 +312,7 @@ RunDescription read_description(const Database& database)
     }
     description.job = read_text(database, "job");
     description.command = read_text(database, "command");
+    description.compare_command = read_text(database, "compare_command");
     return description;
 }
 

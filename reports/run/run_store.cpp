@@ -1,6 +1,5 @@
 #include "reports/run/run_store.hpp"
 
-#include "reports/run/csv_text.hpp"
 #include "reports/run/run_columns.hpp"
 #include "reports/run/run_csv.hpp"
 #include "reports/run/run_plan.hpp"
@@ -61,19 +60,6 @@ std::vector<std::uint64_t> integers(Statement find)
         all.push_back(static_cast<std::uint64_t>(find.integer(0)));
     }
     return all;
-}
-
-std::string shown(const sqlite::ValueView& value)
-{
-    std::string text;
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-        text = fmt::format("{}", *integer);
-    } else if (const auto* real = std::get_if<double>(&value)) {
-        append_csv_number(text, *real);
-    } else if (const auto* words = std::get_if<std::string_view>(&value)) {
-        text = *words;
-    }
-    return text;
 }
 
 } // namespace
@@ -170,7 +156,7 @@ std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
                    find.text(3),
                    {}};
         for (std::size_t i = 0; i < axes.size(); ++i) {
-            row.axes.emplace_back(axes[i], shown(find.value(4 + static_cast<int>(i))));
+            row.axes.emplace_back(axes[i], cell_text(find.value(4 + static_cast<int>(i))));
         }
         rows.push_back(std::move(row));
     }

@@ -34,6 +34,9 @@ struct RunDescription {
     /// The command that computes it, quoted for a shell, without --out and --shard:
     /// "gnomon sweep job.toml --axis bias.slope=[0,1]".
     std::string command;
+    /// The command that computes one configuration, but for its case and its values of the axes:
+    /// "gnomon compare job.toml".
+    std::string compare_command = {};
 };
 
 /// How a configuration stands.

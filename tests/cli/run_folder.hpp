@@ -104,6 +104,21 @@ inline std::size_t entry_count(const std::filesystem::path& folder)
     return missing ? 0 : static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
 }
 
+/// How many configurations' layers a run keeps, each with what is known of it in JSON.
+inline std::size_t kept_images(const std::filesystem::path& run)
+{
+    std::size_t count = 0;
+    std::error_code missing;
+    for (const auto& entry : std::filesystem::directory_iterator{run / "pixels", missing}) {
+        if (entry.path().extension() == ".exr") {
+            ++count;
+            EXPECT_TRUE(exists(std::filesystem::path{entry.path()}.replace_extension(".json")))
+                << entry.path();
+        }
+    }
+    return count;
+}
+
 /// A spot and the sun over the same spheres.
 inline const std::string two_lights = R"(
 scene.builtin = "sphere-cube"

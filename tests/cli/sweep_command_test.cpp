@@ -71,7 +71,7 @@ TEST(Sweep, MakesUpForPixelsThatWereNotKept)
     EXPECT_FALSE(std::filesystem::exists(run / "pixels"));
     const RunCsv first{run};
     swept(sweep(job, run, {"--keep-pixels"}));
-    EXPECT_EQ(entry_count(run / "pixels"), 2U);
+    EXPECT_EQ(kept_images(run), 2U);
     expect_same(RunCsv{run}, first);
     const Json status = Json::parse(gnomon({"status", run, "--json"}).out);
     EXPECT_THAT(status.at("resume").get<std::string>(), HasSubstr(" --keep-pixels"));
@@ -90,7 +90,7 @@ TEST(Sweep, IsNotReplacedByAComparison)
     swept({"compare", job, "--case", "sun", "--out", single});
     swept({"compare", job, "--case", "sun", "--out", single});
     EXPECT_EQ(csv_rows(single / "results.csv").size(), 1U);
-    EXPECT_EQ(entry_count(single / "pixels"), 1U);
+    EXPECT_EQ(kept_images(single), 1U);
 }
 
 TEST(Sweep, RecordsWhatFails)

@@ -98,8 +98,8 @@ TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
     const path bare = folder.path() / "bare";
     swept(sweep(job, kept, with(axes, {"--keep-pixels"})));
     swept(sweep(job, bare, axes)); // more than twenty keep none
-    EXPECT_EQ(entry_count(kept / "pixels"), 24U);
-    EXPECT_EQ(entry_count(bare / "pixels"), 0U);
+    EXPECT_EQ(kept_images(kept), 24U);
+    EXPECT_EQ(kept_images(bare), 0U);
     expect_same(RunCsv{kept}, RunCsv{bare});
     for (const auto& row : csv_rows(kept / "results.csv")) {
         EXPECT_TRUE(std::filesystem::exists(kept / "pixels" / (row.at("id") + ".exr")))

@@ -58,7 +58,7 @@ TEST(Sweep, ResumesWheneverItIsKilled)
         SCOPED_TRACE(fmt::format("killed {} times, after{} ms", killed, moments));
         swept(sweep(job, run, with(axes, {pixels})));
         expect_same(RunCsv{run}, RunCsv{whole});
-        EXPECT_EQ(entry_count(run / "pixels"), entry_count(whole / "pixels"));
+        EXPECT_EQ(kept_images(run), kept_images(whole));
         std::filesystem::remove_all(run);
         std::filesystem::remove_all(whole);
     }
@@ -75,7 +75,7 @@ std::vector<std::string> slow_sweep(const path& job, const path& run)
 /// Waits until the run's first configuration is kept.
 void wait_for_pixels(const path& run)
 {
-    wait_until([&] { return entry_count(run / "pixels") > 0; });
+    wait_until([&] { return kept_images(run) > 0; });
 }
 
 TEST(Sweep, FinishesWhatHasBegunWhenItIsInterrupted)
@@ -100,7 +100,7 @@ TEST(Sweep, FinishesWhatHasBegunWhenItIsInterrupted)
         rows.begin(), rows.end(), [](const auto& row) { return row.at("status") == "done"; }));
     EXPECT_GE(done, 1U);
     EXPECT_LT(done, 24U);
-    EXPECT_EQ(entry_count(run / "pixels"), done) << "what has begun is kept and recorded";
+    EXPECT_EQ(kept_images(run), done) << "what has begun is kept and recorded";
     EXPECT_EQ(gnomon({"status", run}).exit_code, incomplete);
     const Ending rest = swept(slow_sweep(job, run));
     EXPECT_THAT(rest.err, HasSubstr("24/24 done"));
@@ -220,7 +220,7 @@ TEST(Sweep, ResumesWhenADiskHasRoomAgain)
         disk.resize(64 * 1024);
         swept(slow_sweep(job, run));
         expect_same(RunCsv{run}, RunCsv{whole});
-        EXPECT_EQ(entry_count(run / "pixels"), 24U);
+        EXPECT_EQ(kept_images(run), 24U);
     }
     EXPECT_GE(refusals, 2) << "the disks are too large to say anything";
 }

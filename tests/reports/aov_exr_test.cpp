@@ -77,8 +77,9 @@ TEST(WriteAov, NamesItsChannels)
     const ReadLayers layers = written_and_read(example());
     EXPECT_THAT(layers.spec().channelnames,
                 UnorderedElementsAre("truth", "class", "verdict", "prim", "P.X", "P.Y", "P.Z",
-                                     "witness", "receiver_depth", "map_depth"));
-    for (const char* name : {"class", "prim", "witness"}) {
+                                     "N.X", "N.Y", "N.Z", "object", "witness", "receiver_depth",
+                                     "map_depth", "tan_theta"));
+    for (const char* name : {"class", "prim", "object", "witness"}) {
         EXPECT_EQ(layers.type(name), OIIO::TypeDesc::UINT32) << name;
     }
     for (const char* name : {"truth", "verdict", "P.X", "receiver_depth", "map_depth"}) {

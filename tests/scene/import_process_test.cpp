@@ -98,8 +98,8 @@ TEST(RunInChild, KillsAChildThatWaitsForTooLong)
 TEST(RunInChild, ReplacesAChildThatHung)
 {
     // The children share this count of their starts.
-    void* page = ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                        -1, 0);
+    void* page =
+        ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     ASSERT_NE(page, MAP_FAILED);
     auto& starts = *static_cast<volatile int*>(page);
     const auto hang_at_first = [&](int output, ImportAllowance&) {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "scene/vec.hpp"
+
+namespace gnomon::reports {
+
+/// The unit normal of the triangle that a pixel shows, on the side that the camera sees.
+/// Precondition: the pixel shows a triangle of the scene.
+[[nodiscard]] scene::Vec3d facing_normal(const analysis::Comparison& comparison, int x, int y);
+
+} // namespace gnomon::reports

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "scene/image.hpp"
+#include "scene/pixel_class.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace gnomon::reports {
+
+/// An EXR file of `write_aov` (docs/aov.md), whose channels are read by their names.
+///
+/// The file may be hostile: its header is checked before anything is decoded or memory taken.
+/// Every function throws scene::InputError, one line, if the file is missing, no EXR file of
+/// scanlines, damaged or truncated, or if the channel is missing or of another type.
+class LayerFile {
+public:
+    /// Reads no more than the header.
+    explicit LayerFile(const std::filesystem::path& path);
+    LayerFile(LayerFile&&) noexcept;
+    LayerFile& operator=(LayerFile&&) noexcept;
+    ~LayerFile();
+
+    [[nodiscard]] scene::ImageSize size() const { return size_; }
+    [[nodiscard]] bool has(const std::string& name);
+    [[nodiscard]] scene::Image<float> floats(const std::string& name);
+    [[nodiscard]] scene::Image<std::uint32_t> integers(const std::string& name);
+    /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
+    [[nodiscard]] scene::Image<scene::PixelClass> classes();
+    /// The header's texts that begin with "gnomon:", by their names without it: "eye", "job", ….
+    [[nodiscard]] std::map<std::string, std::string> texts();
+
+private:
+    struct Reader;
+    [[nodiscard]] Reader& reader();
+    template <typename Value>
+    [[nodiscard]] scene::Image<Value> channel(const std::string& name);
+
+    std::filesystem::path path_;
+    scene::ImageSize size_;
+    std::unique_ptr<Reader> reader_;
+};
+
+} // namespace gnomon::reports

@@ -1,0 +1,364 @@
+#include "reports/page/page_html.hpp"
+
+#include "reports/page/base64.hpp"
+#include "reports/page/page_assets.hpp"
+#include "reports/run/run_status.hpp"
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr std::size_t most_objects = 40;
+
+/// A cell of numbers, which a reader compares down a column.
+std::string number_cell(std::string_view text)
+{
+    return fmt::format("<td class=\"number\">{}</td>", escaped(text));
+}
+
+std::string row_heading(std::string_view text)
+{
+    return fmt::format("<th scope=\"row\"><bdi>{}</bdi></th>", escaped(text));
+}
+
+std::string table_head(std::string_view caption, std::initializer_list<std::string_view> columns)
+{
+    std::string html = fmt::format(
+        "<div class=\"scroll\"><table><caption>{}</caption>\n<thead><tr>", escaped(caption));
+    bool is_first = true;
+    for (const std::string_view column : columns) {
+        html += fmt::format("<th scope=\"col\"{}>{}</th>", is_first ? "" : " class=\"number\"",
+                            escaped(column));
+        is_first = false;
+    }
+    return html + "</tr></thead>\n<tbody>\n";
+}
+
+constexpr std::string_view table_end = "</tbody></table></div>\n";
+
+std::string count_cells(const ResultRow& row)
+{
+    return number_cell(grouped(row.count("false_shadow"))) +
+           number_cell(percent(row.number("false_shadow_rate"))) +
+           number_cell(grouped(row.count("false_lit"))) +
+           number_cell(percent(row.number("false_lit_rate"))) +
+           number_cell(percent(row.number("error_rate")));
+}
+
+/// "" for one configuration, else its settings.
+std::string row_name(const OverviewRow& row)
+{
+    return row.settings.empty() ? "this shadow map" : row.settings;
+}
+
+std::string headline_table(const RunOverview& overview)
+{
+    std::string html = table_head(
+        overview.rows.size() > 1 ? "Lowest error rates, and the highest"
+                                 : "Errors among the scored pixels",
+        {"configuration", "false shadow", "of lit", "false lit", "of blocked", "error rate"});
+    for (const OverviewRow& row : overview.rows) {
+        html += "<tr>" + row_heading(row_name(row)) + count_cells(row.result) + "</tr>\n";
+    }
+    return html + std::string{table_end};
+}
+
+std::string limit_text(const ResultRow& row, std::string_view column)
+{
+    const std::optional<double> limit = row.number(column);
+    return limit ? fmt::format("{:.6g}", *limit) : std::string{"none"};
+}
+
+/// What the bias curve says of the headline configuration.
+std::string bias_table(const ResultRow& row)
+{
+    if (row.text("bias_source") != "curve") {
+        return {};
+    }
+    std::string html = table_head("Constant biases, in depth units", {"bias", "value"});
+    for (const auto& [name, column] : {std::pair{"best, from", "bias_curve.best_interval.lo"},
+                                       {"best, to", "bias_curve.best_interval.hi"},
+                                       {"smallest without acne", "bias_curve.acne_free"},
+                                       {"largest without peter-panning", "bias_curve.panning_free"},
+                                       {"the same, but for what is lit without any bias",
+                                        "bias_curve.panning_free_beyond_zero"}}) {
+        html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
+    }
+    html += "<tr>" + row_heading("wrong pixels at the best") +
+            number_cell(grouped(row.count("bias_curve.best_errors"))) + "</tr>\n";
+    return html + std::string{table_end};
+}
+
+std::string verdict_section(const RunOverview& overview)
+{
+    std::string html = "<section id=\"verdict\" aria-labelledby=\"verdict-heading\">\n"
+                       "<h2 id=\"verdict-heading\">Verdict</h2>\n";
+    for (const std::string& sentence : overview.sentences) {
+        html += fmt::format("<p><bdi>{}</bdi></p>\n", escaped(sentence));
+    }
+    if (overview.headline) {
+        html += headline_table(overview) + bias_table(overview.headline->result);
+    }
+    return html + "</section>\n";
+}
+
+std::string figures_section(const ReportOptions& options, std::span<const std::string> pictures)
+{
+    std::string html = "<section id=\"figures\" aria-labelledby=\"figures-heading\">\n"
+                       "<h2 id=\"figures-heading\">Figures</h2>\n";
+    if (!options.no_figures.empty()) {
+        html += fmt::format("<p>There are none: {}</p>\n", escaped(options.no_figures));
+    }
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const ReportFigure& figure = options.figures[i];
+        html += fmt::format("<figure><img src=\"{}\" alt=\"{}\" loading=\"lazy\">"
+                            "<figcaption><b>{}</b> {}</figcaption></figure>\n",
+                            pictures[i], escaped(figure.alt), escaped(figure.title),
+                            escaped(figure.caption));
+    }
+    return html + "</section>\n";
+}
+
+/// An empty section that scripts fill.
+std::string script_section(std::string_view id, std::string_view heading)
+{
+    return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-heading\" hidden>\n"
+                       "<h2 id=\"{0}-heading\">{1}</h2>\n</section>\n",
+                       id, heading);
+}
+
+std::uint64_t member(const Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+std::optional<double> rate(const Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    return found != object.end() && found->is_number() ? std::optional{found->get<double>()}
+                                                       : std::nullopt;
+}
+
+std::string objects_table(const Json& detail)
+{
+    std::vector<const Json*> objects;
+    if (detail.is_object() && detail.contains("by_object") && detail["by_object"].is_array()) {
+        for (const Json& object : detail["by_object"]) {
+            if (object.is_object() && member(object, "lit") + member(object, "blocked") > 0) {
+                objects.push_back(&object);
+            }
+        }
+    }
+    if (objects.empty()) {
+        return "<p>No layers were kept of this configuration: by object nothing is known.</p>\n";
+    }
+    const auto wrong = [](const Json* object) {
+        return member(*object, "false_shadow") + member(*object, "false_lit");
+    };
+    std::stable_sort(objects.begin(), objects.end(),
+                     [&](const Json* a, const Json* b) { return wrong(a) > wrong(b); });
+    std::string html = table_head("By object, most errors first",
+                                  {"object", "false shadow", "of lit", "false lit", "of blocked"});
+    for (std::size_t i = 0; i < std::min(objects.size(), most_objects); ++i) {
+        const Json& object = *objects[i];
+        const auto name = object.find("object");
+        html += "<tr>" +
+                row_heading(name != object.end() && name->is_string() ? name->get<std::string>()
+                                                                      : std::string{}) +
+                number_cell(grouped(member(object, "false_shadow"))) +
+                number_cell(percent(rate(object, "false_shadow_rate"))) +
+                number_cell(grouped(member(object, "false_lit"))) +
+                number_cell(percent(rate(object, "false_lit_rate"))) + "</tr>\n";
+    }
+    html += table_end;
+    if (objects.size() > most_objects) {
+        html += fmt::format("<p>{} more objects are in the data.</p>\n",
+                            grouped(objects.size() - most_objects));
+    }
+    return html;
+}
+
+std::string counts_table(std::string_view caption, const ResultRow& row,
+                         const std::vector<std::pair<std::string, std::string>>& columns)
+{
+    const std::uint64_t all = row.count("false_shadow") + row.count("false_lit");
+    std::string html = table_head(caption, {"what", "pixels", "of the wrong"});
+    for (const auto& [column, name] : columns) {
+        const std::uint64_t count = row.count(column);
+        html +=
+            "<tr>" + row_heading(name) + number_cell(grouped(count)) +
+            number_cell(all == 0 ? std::string{"-"}
+                                 : percent(static_cast<double>(count) / static_cast<double>(all))) +
+            "</tr>\n";
+    }
+    return html + std::string{table_end};
+}
+
+std::string objects_section(const RunOverview& overview)
+{
+    if (!overview.headline) {
+        return {};
+    }
+    const OverviewRow& row = *overview.headline;
+    return fmt::format("<section id=\"objects\" aria-labelledby=\"objects-heading\">\n"
+                       "<h2 id=\"objects-heading\">By cause and by object</h2>\n"
+                       "<p id=\"objects-of\">Of <bdi>{}</bdi>.</p>\n",
+                       escaped(row_name(row))) +
+           counts_table("By cause", row.result, cause_columns()) +
+           counts_table("By name", row.result, label_columns()) + objects_table(overview.detail) +
+           "</section>\n";
+}
+
+std::string definition(std::string_view term, std::string_view text)
+{
+    return fmt::format("<dt>{}</dt><dd><bdi>{}</bdi></dd>\n", escaped(term), escaped(text));
+}
+
+std::string environment_section(const RunReader& run, const RunOverview& overview)
+{
+    const RunDescription& description = run.description();
+    const analysis::Environment& environment = description.environment;
+    std::string html = "<section id=\"environment\" aria-labelledby=\"environment-heading\">\n"
+                       "<h2 id=\"environment-heading\">Where, and how to repeat it</h2>\n<dl>\n";
+    html += definition("GL", environment.gl_renderer) +
+            definition("GL version", environment.gl_version) +
+            definition("ray tracer", environment.embree) +
+            definition("gnomon", environment.gnomon) + "</dl>\n";
+    html += fmt::format("<p>All of it:</p>\n<pre><code>{} --out RUN\ngnomon report RUN</code>"
+                        "</pre>\n",
+                        escaped(description.command));
+    if (overview.headline) {
+        const std::string command = compare_command(description, overview.headline->result);
+        html += command.empty() ? std::string{}
+                                : fmt::format("<p>One configuration, {}:</p>\n<pre><code>{}</code>"
+                                              "</pre>\n<h3>Its job</h3>\n<dl class=\"job\">\n",
+                                              overview.rows.size() > 1 ? "here the best" : "alone",
+                                              escaped(command));
+        for (const auto& [key, value] : job_settings(overview.headline->result)) {
+            html += definition(key, value);
+        }
+        html += "</dl>\n";
+    }
+    return html + "</section>\n";
+}
+
+std::string header(const RunReader& run, const RunOverview& overview)
+{
+    const analysis::Environment& environment = run.description().environment;
+    return fmt::format("<header>\n<p class=\"kind\">Shadow-map accuracy</p>\n<h1><bdi>{}</bdi></h1>"
+                       "\n<p>{} compared with exact shadow rays, pixel by pixel; {}, gnomon {}."
+                       "</p>\n</header>\n",
+                       escaped(overview.scene.empty() ? "several scenes" : overview.scene),
+                       counted(run.outcome().done, "shadow-map configuration"),
+                       escaped(environment.gl_renderer), escaped(environment.gnomon));
+}
+
+/// A hash as Content-Security-Policy names it.
+std::string csp_hash(const PageAsset& asset)
+{
+    std::vector<std::byte> bytes;
+    for (std::size_t i = 0; i + 1 < asset.sha256.size(); i += 2) {
+        std::uint8_t byte = 0;
+        std::from_chars(asset.sha256.data() + i, asset.sha256.data() + i + 2, byte, 16);
+        bytes.push_back(std::byte{byte});
+    }
+    return fmt::format("'sha256-{}'", base64(bytes));
+}
+
+std::string head(std::string_view title)
+{
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {} "
+        "{}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<title>{}</title>\n<style>{}</style>\n</head>\n",
+        csp_hash(page_charts()), csp_hash(page_script()), csp_hash(page_style()), escaped(title),
+        page_style().text);
+}
+
+/// JSON in which no text can end the script that it stands in.
+std::string script_safe(const Json& data)
+{
+    std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+        text.replace(at, 1, "\\u003c");
+    }
+    return text;
+}
+
+} // namespace
+
+std::string escaped(std::string_view text)
+{
+    std::string html;
+    html.reserve(text.size());
+    for (const char c : text) {
+        switch (c) {
+        case '&':
+            html += "&amp;";
+            break;
+        case '<':
+            html += "&lt;";
+            break;
+        case '>':
+            html += "&gt;";
+            break;
+        case '"':
+            html += "&quot;";
+            break;
+        case '\'':
+            html += "&#39;";
+            break;
+        default:
+            html += c;
+        }
+    }
+    return html;
+}
+
+std::string page_body(const RunReader& run, const RunOverview& overview,
+                      const ReportOptions& options, std::span<const std::string> pictures)
+{
+    return "<body>\n<a class=\"skip\" href=\"#verdict\">To the verdict</a>\n" +
+           header(run, overview) + "<main>\n" + verdict_section(overview) +
+           script_section("inspector", "Pixel by pixel") + figures_section(options, pictures) +
+           script_section("distance", "By distance from the light") +
+           script_section("slope", "By the receiver's slope") +
+           script_section("sweep", "All configurations") + objects_section(overview) +
+           environment_section(run, overview) +
+           "<noscript><p>With JavaScript this page also shows every pixel, every bias and every "
+           "configuration.</p></noscript>\n</main>\n";
+}
+
+std::string whole_page(std::string_view title, std::string_view body, const Json& data,
+                       std::span<const std::string> blocks)
+{
+    std::string page = head(title);
+    page += body;
+    page += "<script type=\"application/json\" id=\"gnomon-data\">";
+    page += script_safe(data);
+    page += "</script>\n";
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        page += fmt::format("<script type=\"text/plain\" class=\"block\" id=\"b{}\">", i);
+        page += blocks[i];
+        page += "</script>\n";
+    }
+    for (const PageAsset& script : {page_charts(), page_script()}) {
+        page += "<script>";
+        page += script.text;
+        page += "</script>\n";
+    }
+    return page + "</body>\n</html>\n";
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "reports/page/report.hpp"
+#include "reports/page/run_overview.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace gnomon::reports {
+
+/// A text in HTML, also within quotes.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// The part of a page that can be read without JavaScript: from the header to the end of main.
+/// @param pictures  data: addresses of the figures, in their order.
+[[nodiscard]] std::string page_body(const RunReader& run, const RunOverview& overview,
+                                    const ReportOptions& options,
+                                    std::span<const std::string> pictures);
+
+/// The whole page: a head with a Content-Security-Policy that names its style and scripts alone,
+/// the body, data and scripts.
+/// @param blocks  the packed texts "b0", "b1", ….
+[[nodiscard]] std::string whole_page(std::string_view title, std::string_view body,
+                                     const Json& data, std::span<const std::string> blocks);
+
+} // namespace gnomon::reports

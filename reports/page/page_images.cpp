@@ -1,0 +1,384 @@
+#include "reports/page/page_images.hpp"
+
+#include "analysis/bias_order.hpp"
+#include "analysis/bias_units.hpp"
+#include "analysis/critical_bias.hpp"
+#include "reports/layer_file.hpp"
+#include "reports/run/pixels.hpp"
+#include "scene/error.hpp"
+#include "scene/infinity.hpp"
+#include "scene/job.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+using scene::Image;
+using scene::PixelClass;
+
+/// A layer on its way into a page.
+struct NamedLayer {
+    std::string name;
+    std::function<PackedArray()> pack;
+    PackedArray packed = {};
+};
+
+/// Whether two floats are the same, NaN and NaN too.
+bool are_same(float a, float b)
+{
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
+}
+
+float with_11_bits(float value)
+{
+    if (!std::isfinite(value)) {
+        return value;
+    }
+    int exponent = 0;
+    const float fraction = std::frexp(value, &exponent);
+    return std::ldexp(std::round(std::ldexp(fraction, 11)), exponent - 11);
+}
+
+/// What the numbers of a configuration's pixels follow from.
+struct PixelRules {
+    explicit PixelRules(const Json& detail)
+        : frustum{detail.at("frustum")},
+          filter{detail.at("job").at("lookup.filter").get<std::string>()},
+          slope{detail.at("job").at("bias.slope").get<double>()},
+          outside{detail.at("job").at("lookup.outside").get<std::string>()},
+          bias{bias_of(detail)}
+    {
+        const auto& job = detail.at("job");
+        format =
+            scene::depth_format_from_name(job.at("shadow_map.depth_format").get<std::string>());
+        light.projection = frustum.at("projection") == "perspective"
+                               ? scene::Projection::perspective
+                               : scene::Projection::orthographic;
+        light.near_m = frustum.at("near_m").get<double>();
+        light.far_m = frustum.at("far_m").get<double>();
+        light.reversed = frustum.at("reversed").get<bool>();
+    }
+
+    /// The constant bias in depth units, which is a float32 there.
+    static double bias_of(const Json& detail)
+    {
+        const auto text = detail.at("exact_inputs").at("bias_constant").get<std::string>();
+        return std::strtod(text.c_str(), nullptr);
+    }
+    [[nodiscard]] bool compares_once() const
+    {
+        return (filter == "nearest" || filter == "linear") && slope == 0;
+    }
+    [[nodiscard]] double texel_m(double zeta_m) const
+    {
+        const double side = frustum.at("texel_m").get<double>();
+        return light.projection == scene::Projection::perspective ? side * zeta_m : side;
+    }
+
+    const Json& frustum;
+    std::string filter;
+    double slope;
+    std::string outside;
+    double bias;
+    std::optional<scene::DepthFormat> format;
+    scene::LightFrustum light;
+};
+
+/// The layers of a file that pages show, and what of them follows from the others.
+class ImageLayers {
+public:
+    ImageLayers(LayerFile& file, const PixelRules& rules)
+        : rules_{rules},
+          classes_{file.classes()},
+          receiver_depth_{file.floats("receiver_depth")},
+          map_depth_{file.floats("map_depth")},
+          has_biases_{file.has("critical_bias")},
+          has_diagnosis_{file.has("light_distance_m")}
+    {
+        if (has_diagnosis_) {
+            light_distance_m_ = file.floats("light_distance_m");
+        }
+        if (has_biases_) {
+            critical_ = file.floats("critical_bias");
+            needed_m_ = file.floats("needed_bias_m");
+            needed_texels_ = file.floats("needed_bias_texels");
+        }
+    }
+
+    [[nodiscard]] const Image<PixelClass>& classes() const { return classes_; }
+    [[nodiscard]] const Image<float>& receiver_depth() const { return receiver_depth_; }
+    [[nodiscard]] const Image<float>& map_depth() const { return map_depth_; }
+    [[nodiscard]] const Image<float>& light_distance_m() const { return light_distance_m_; }
+    [[nodiscard]] const Image<float>& critical() const { return critical_; }
+    [[nodiscard]] const Image<float>& needed_m() const { return needed_m_; }
+    [[nodiscard]] const Image<float>& needed_texels() const { return needed_texels_; }
+    [[nodiscard]] bool has_biases() const { return has_biases_; }
+    [[nodiscard]] bool has_diagnosis() const { return has_diagnosis_; }
+
+    [[nodiscard]] bool can_derive_critical() const
+    {
+        if (!has_biases_ || !rules_.compares_once()) {
+            return false;
+        }
+        const float policy = rules_.outside == "shadowed" ? scene::infinity : -scene::infinity;
+        return all_scored([&](std::size_t i) {
+            const float critical = std::isnan(map_depth_[i])
+                                       ? policy
+                                       : analysis::critical_bias(receiver_depth_[i], map_depth_[i],
+                                                                 0, rules_.light.reversed);
+            return are_same(critical, critical_[i]);
+        });
+    }
+    [[nodiscard]] bool can_derive_lengths() const
+    {
+        return has_biases_ && has_diagnosis_ && all_scored([&](std::size_t i) {
+                   const double bias{limit(i)};
+                   const double zeta_m{light_distance_m_[i]};
+                   const double length_m = analysis::bias_length_m(rules_.light, bias, zeta_m);
+                   const double texels = length_m / rules_.texel_m(zeta_m);
+                   return are_same(static_cast<float>(length_m), needed_m_[i]) &&
+                          are_same(static_cast<float>(texels), needed_texels_[i]);
+               });
+    }
+
+private:
+    /// The bias that a lit pixel needs, or the largest that a blocked one allows.
+    [[nodiscard]] float limit(std::size_t i) const
+    {
+        const bool is_allowed =
+            classes_[i] == PixelClass::blocked && critical_[i] != scene::infinity;
+        return is_allowed ? analysis::previous_bias(critical_[i]) : critical_[i];
+    }
+    template <typename Holds>
+    [[nodiscard]] bool all_scored(const Holds& holds) const
+    {
+        for (std::size_t i = 0; i < classes_.pixel_count(); ++i) {
+            if (scene::is_scored(classes_[i]) && !holds(i)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    const PixelRules& rules_;
+    Image<PixelClass> classes_;
+    Image<float> receiver_depth_;
+    Image<float> map_depth_;
+    Image<float> light_distance_m_;
+    Image<float> critical_;
+    Image<float> needed_m_;
+    Image<float> needed_texels_;
+    bool has_biases_;
+    bool has_diagnosis_;
+};
+
+template <typename Value, typename From, typename Convert>
+NamedLayer converted(std::string name, const Image<From>& image, const Convert& convert)
+{
+    std::vector<Value> values;
+    values.reserve(image.pixel_count());
+    for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+        values.push_back(convert(image[i]));
+    }
+    return {std::move(name),
+            [values = std::move(values)] { return pack(std::span<const Value>{values}); }};
+}
+
+NamedLayer unchanged(std::string name, const Image<float>& image)
+{
+    return converted<float>(std::move(name), image, [](float value) { return value; });
+}
+
+NamedLayer small(std::string name, const Image<std::uint32_t>& image)
+{
+    return converted<std::uint8_t>(std::move(name), image, [](std::uint32_t value) {
+        return static_cast<std::uint8_t>(value);
+    });
+}
+
+/// A fraction as 0…255; NaN is 0.
+std::uint8_t level(float fraction)
+{
+    return std::isnan(fraction)
+               ? std::uint8_t{0}
+               : static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(fraction, 0.0F, 1.0F)));
+}
+
+/// What shades the scene: the cosine to the light, and how far a surface faces the sky.
+void add_shading(std::vector<NamedLayer>& layers, LayerFile& file)
+{
+    if (!file.has("tan_theta") || !file.has("N.Y")) {
+        return;
+    }
+    layers.push_back(
+        converted<std::uint8_t>("cos_theta", file.floats("tan_theta"), [](float tangent) {
+            return level(1.0F / std::sqrt(1.0F + tangent * tangent));
+        }));
+    layers.push_back(converted<std::uint8_t>("sky", file.floats("N.Y"), [](float upwards) {
+        return level(std::isnan(upwards) ? upwards : 0.5F + 0.5F * upwards);
+    }));
+}
+
+void add_indices(std::vector<NamedLayer>& layers, LayerFile& file)
+{
+    const auto same = [](std::uint32_t value) { return value; };
+    layers.push_back(converted<std::uint32_t>("prim", file.integers("prim"), same));
+    layers.push_back(converted<std::uint32_t>("witness", file.integers("witness"), same));
+    if (file.has("object")) {
+        layers.push_back(
+            converted<std::uint16_t>("object", file.integers("object"), [](std::uint32_t object) {
+                constexpr std::uint32_t none = std::numeric_limits<std::uint16_t>::max();
+                return static_cast<std::uint16_t>(std::min(object, none));
+            }));
+    }
+    for (const char* const name : {"cause", "label"}) {
+        if (file.has(name)) {
+            layers.push_back(small(name, file.integers(name)));
+        }
+    }
+}
+
+std::vector<NamedLayer> page_layers(LayerFile& file, const ImageLayers& image, const Json& derive)
+{
+    std::vector<NamedLayer> layers;
+    layers.push_back(small("class", file.integers("class")));
+    layers.push_back(unchanged("verdict", file.floats("verdict")));
+    layers.push_back(unchanged("receiver_depth", image.receiver_depth()));
+    layers.push_back(unchanged("map_depth", image.map_depth()));
+    add_indices(layers, file);
+    add_shading(layers, file);
+    if (image.has_diagnosis()) {
+        layers.push_back(unchanged("light_distance_m", image.light_distance_m()));
+        layers.push_back(converted<float>("map_error_m", file.floats("map_error_m"), with_11_bits));
+    }
+    if (image.has_biases()) {
+        for (const auto& [name, values] :
+             {std::pair{"critical_bias", &image.critical()},
+              std::pair{"needed_bias_m", &image.needed_m()},
+              std::pair{"needed_bias_texels", &image.needed_texels()}}) {
+            if (!derive.at(name).get<bool>()) {
+                layers.push_back(unchanged(name, *values));
+            }
+        }
+    }
+    return layers;
+}
+
+Json packed_layers(std::vector<NamedLayer> layers, PackedBlocks& blocks)
+{
+    tbb::parallel_for(std::size_t{0}, layers.size(),
+                      [&](std::size_t i) { layers[i].packed = layers[i].pack(); });
+    Json json = Json::object();
+    for (NamedLayer& layer : layers) {
+        json[layer.name] = blocks.add(std::move(layer.packed));
+    }
+    return json;
+}
+
+Json depth_step(const std::optional<scene::DepthFormat>& format)
+{
+    if (!format) {
+        return nullptr;
+    }
+    return {{"is_float", format->is_float()}, {"step", analysis::depth_step(*format, 1.0F)}};
+}
+
+Json object_names(const Json& detail)
+{
+    Json names = Json::array();
+    for (const Json& object : detail.at("by_object")) {
+        names.push_back(object.at("object"));
+    }
+    return names;
+}
+
+Json image_entry(LayerFile& file, const Json& detail, PackedBlocks& blocks)
+{
+    const PixelRules rules{detail};
+    const ImageLayers image{file, rules};
+    const bool derives_lengths = image.can_derive_lengths();
+    const Json derive{{"critical_bias", image.can_derive_critical()},
+                      {"needed_bias_m", derives_lengths},
+                      {"needed_bias_texels", derives_lengths}};
+    Json frustum = rules.frustum;
+    frustum["range_m"] = rules.light.range_m();
+    frustum["inverse_range_per_m"] = 1.0 / rules.light.near_m - 1.0 / rules.light.far_m;
+    return {{"width", file.size().width_px},
+            {"height", file.size().height_px},
+            {"layers", packed_layers(page_layers(file, image, derive), blocks)},
+            {"derive", derive},
+            {"frustum", std::move(frustum)},
+            {"outside", rules.outside},
+            {"filter", rules.filter},
+            {"slope", rules.slope},
+            {"bias_constant", rules.bias},
+            {"depth_step", depth_step(rules.format)},
+            {"objects", object_names(detail)},
+            {"detail", detail}};
+}
+
+[[noreturn]] void refuse_detail(const std::filesystem::path& path)
+{
+    throw scene::InputError(fmt::format("{}: is damaged; remove it and the image beside it, and "
+                                        "run the sweep again",
+                                        scene::one_line(path.string())));
+}
+
+} // namespace
+
+bool has_image(const std::filesystem::path& folder, std::string_view id)
+{
+    std::error_code error;
+    return std::filesystem::exists(pixels_path(folder, id), error) &&
+           std::filesystem::exists(detail_path(folder, id), error);
+}
+
+Json read_detail(const std::filesystem::path& folder, std::string_view id)
+{
+    const auto path = detail_path(folder, id);
+    std::ifstream file{path};
+    Json detail = Json::parse(file, nullptr, false);
+    if (detail.is_discarded() || !detail.is_object()) {
+        refuse_detail(path);
+    }
+    return detail;
+}
+
+Json read_image(const std::filesystem::path& folder, std::string_view id, std::uint64_t row,
+                PackedBlocks& blocks)
+{
+    LayerFile file{pixels_path(folder, id)};
+    const Json detail = read_detail(folder, id);
+    try {
+        // Before memory is taken for as many pixels as the image says that it has.
+        const Json& job = detail.at("job");
+        if (job.at("image.width") != file.size().width_px ||
+            job.at("image.height") != file.size().height_px) {
+            refuse_detail(pixels_path(folder, id));
+        }
+        Json entry{{"row", row}};
+        entry.update(image_entry(file, detail, blocks));
+        return entry;
+    } catch (const Json::exception&) {
+        refuse_detail(detail_path(folder, id));
+    }
+}
+
+} // namespace gnomon::reports

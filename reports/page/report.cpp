@@ -1,0 +1,156 @@
+#include "reports/page/report.hpp"
+
+#include "reports/output_file.hpp"
+#include "reports/page/base64.hpp"
+#include "reports/page/page_html.hpp"
+#include "reports/page/page_images.hpp"
+#include "reports/page/page_tables.hpp"
+#include "reports/page/run_overview.hpp"
+#include "reports/page/summary.hpp"
+#include "reports/run/run_csv.hpp"
+#include "reports/run/run_schema.hpp"
+#include "scene/error.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <span>
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr std::size_t most_image_bytes = 11'000'000;
+
+std::string data_address(const std::filesystem::path& png)
+{
+    std::ifstream file{png, std::ios::binary};
+    const std::string bytes{std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
+    if (bytes.empty()) {
+        throw scene::EnvironmentError(
+            fmt::format("{}: cannot be read; check the folder", png.string()));
+    }
+    return "data:image/png;base64," + base64(std::as_bytes(std::span{bytes}));
+}
+
+/// A configuration whose layers were kept.
+struct KeptImage {
+    std::string id;
+    std::uint64_t row = 0;
+};
+
+/// The headline's, then the others in the order of the sweep; or those that are asked for.
+std::vector<KeptImage> kept_images(const RunReader& run, const RunOverview& overview,
+                                   const ReportOptions& options)
+{
+    std::vector<KeptImage> kept;
+    sqlite::Statement find{run.database(), "SELECT id FROM results ORDER BY ordinal"};
+    for (std::uint64_t row = 0; find.step(); ++row) {
+        const std::string id = find.text(0);
+        const bool is_asked_for =
+            options.only.empty() ||
+            std::find(options.only.begin(), options.only.end(), id) != options.only.end();
+        if (is_asked_for && has_image(run.folder(), id)) {
+            kept.push_back({id, row});
+        }
+    }
+    std::stable_partition(kept.begin(), kept.end(), [&](const KeptImage& image) {
+        return overview.headline && image.row == overview.headline->row;
+    });
+    return kept;
+}
+
+void require_kept(const std::vector<KeptImage>& kept, const ReportOptions& options)
+{
+    for (const std::string& id : options.only) {
+        if (std::none_of(kept.begin(), kept.end(),
+                         [&](const KeptImage& image) { return image.id == id; })) {
+            throw scene::InputError(fmt::format(
+                "--configuration {}: {} keeps no layers of it; results.csv has the ids, and "
+                "`gnomon sweep --keep-pixels` keeps layers",
+                scene::one_line(id), scene::one_line(options.folder.string())));
+        }
+    }
+}
+
+/// As many as fit, at least one.
+Json read_images(const RunReader& run, const std::vector<KeptImage>& kept, PackedBlocks& blocks,
+                 ReportOutcome& outcome)
+{
+    Json images = Json::array();
+    const std::size_t before = blocks.byte_count();
+    for (const KeptImage& image : kept) {
+        const std::size_t block_count = blocks.texts().size();
+        Json entry = read_image(run.folder(), image.id, image.row, blocks);
+        if (!images.empty() && blocks.byte_count() - before > most_image_bytes) {
+            blocks.keep_first(block_count);
+            ++outcome.images_left_out;
+        } else {
+            images.push_back(std::move(entry));
+            ++outcome.images;
+        }
+    }
+    return images;
+}
+
+Json run_object(const RunReader& run)
+{
+    const RunDescription& description = run.description();
+    const PlanOutcome& outcome = run.outcome();
+    return {{"folder", run.folder().string()},
+            {"command", description.command},
+            {"compare_command", description.compare_command},
+            {"axes", description.axes},
+            {"size", outcome.done + outcome.failed + outcome.planned},
+            {"done", outcome.done},
+            {"failed", outcome.failed},
+            {"planned", outcome.planned}};
+}
+
+Json page_data(const RunReader& run, const RunOverview& overview,
+               const std::vector<KeptImage>& kept, PackedBlocks& blocks, ReportOutcome& outcome)
+{
+    PageTable table = read_table(run, blocks);
+    const std::vector<std::string> curves = curve_ids(run);
+    Json data{{"schema", 1},
+              {"gnomon", run.description().environment.gnomon},
+              {"run", run_object(run)},
+              {"headline", overview.headline ? Json(overview.headline->row) : Json(nullptr)},
+              {"table", std::move(table.columns)},
+              {"constants", std::move(table.constants)}};
+    data["curves"] = read_curves(run, curves, blocks);
+    data["error_vs_z"] = read_error_vs_z(run, curves, blocks);
+    data["images"] = read_images(run, kept, blocks, outcome);
+    return data;
+}
+
+} // namespace
+
+ReportOutcome write_report(const ReportOptions& options)
+{
+    const RunReader run{options.folder};
+    const RunOverview overview = read_overview(run);
+    const std::vector<KeptImage> kept = kept_images(run, overview, options);
+    require_kept(kept, options);
+    std::vector<std::string> pictures;
+    for (const ReportFigure& figure : options.figures) {
+        pictures.push_back(data_address(options.out / "figures" / figure.png));
+    }
+    write_run_csv(sqlite::Database{results_path(options.folder), sqlite::Database::Access::read},
+                  options.out);
+    ReportOutcome outcome;
+    PackedBlocks blocks;
+    const Json data = page_data(run, overview, kept, blocks, outcome);
+    const std::string title = fmt::format(
+        "Shadow-map accuracy: {}", overview.scene.empty() ? "several scenes" : overview.scene);
+    write_file(
+        options.out / "report.html",
+        whole_page(title, page_body(run, overview, options, pictures), data, blocks.texts()));
+    write_file(options.out / "summary.md", summary_text(run, overview, options));
+    return outcome;
+}
+
+} // namespace gnomon::reports

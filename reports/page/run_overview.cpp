@@ -1,0 +1,227 @@
+#include "reports/page/run_overview.hpp"
+
+#include "analysis/cause.hpp"
+#include "reports/page/page_images.hpp"
+#include "reports/run/run_columns.hpp"
+#include "reports/shell_text.hpp"
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr const char* measured = "WHERE status = 'done' AND error_rate IS NOT NULL";
+constexpr std::size_t most_rows_shown = 10;
+
+/// "shadow_map.resolution = 2048, bias.constant = 0", after the case.
+std::string settings_text(const RunDescription& description, const ResultRow& row)
+{
+    std::string text;
+    const auto add = [&](std::string_view name, const std::string& value) {
+        if (!value.empty()) {
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
+        }
+    };
+    add("case", row.text("case"));
+    for (const std::string& axis : description.axes) {
+        add(axis, row.text(axis));
+    }
+    return text;
+}
+
+std::uint64_t place_of(const RunReader& run, std::uint64_t ordinal)
+{
+    return static_cast<std::uint64_t>(run.database().integer(
+        fmt::format("SELECT count(*) FROM part WHERE ordinal < {}", ordinal)));
+}
+
+std::vector<OverviewRow> ranked_rows(const RunReader& run)
+{
+    std::vector<ResultRow> found = run.rows(
+        fmt::format("{} ORDER BY error_rate, ordinal LIMIT {}", measured, most_rows_shown));
+    const auto worst =
+        run.rows(fmt::format("{} ORDER BY error_rate DESC, ordinal DESC LIMIT 1", measured));
+    if (!worst.empty() && found.size() == most_rows_shown) {
+        found.back() = worst.front();
+    }
+    std::vector<OverviewRow> rows;
+    for (ResultRow& row : found) {
+        const std::uint64_t place = place_of(run, row.count("ordinal"));
+        std::string settings = settings_text(run.description(), row);
+        rows.push_back({place, std::move(settings), std::move(row)});
+    }
+    return rows;
+}
+
+std::string rates_text(const ResultRow& row)
+{
+    return fmt::format("{} of the scored pixels wrong: {} false shadow, {} false lit",
+                       percent(row.number("error_rate")), grouped(row.count("false_shadow")),
+                       grouped(row.count("false_lit")));
+}
+
+std::string completeness(const RunReader& run)
+{
+    const PlanOutcome& outcome = run.outcome();
+    const std::uint64_t all = outcome.done + outcome.failed + outcome.planned;
+    std::string text =
+        fmt::format("{} of {} measured", grouped(outcome.done), counted(all, "configuration"));
+    if (outcome.failed > 0) {
+        text += fmt::format(", {} failed", grouped(outcome.failed));
+    }
+    if (outcome.planned > 0) {
+        text += fmt::format(", {} not computed yet", grouped(outcome.planned));
+    }
+    return text + ".";
+}
+
+void add_extremes(std::vector<std::string>& sentences, const std::vector<OverviewRow>& rows)
+{
+    const OverviewRow& best = rows.front();
+    const OverviewRow& worst = rows.back();
+    sentences.push_back(
+        fmt::format("The best has {}, with {}.", rates_text(best.result), best.settings));
+    sentences.push_back(
+        fmt::format("The worst has {}, with {}.", rates_text(worst.result), worst.settings));
+}
+
+/// How many bias curves no constant bias serves.
+void add_curve_verdict(std::vector<std::string>& sentences, const RunReader& run)
+{
+    const auto curves = [&](std::string_view condition) {
+        return static_cast<std::uint64_t>(run.database().integer(
+            fmt::format("SELECT count(DISTINCT curve) FROM results WHERE status = 'done' AND"
+                        " \"bias_curve.no_constant_bias_serves\" {}",
+                        condition)));
+    };
+    const std::uint64_t all = curves("IS NOT NULL");
+    const std::uint64_t unserved = curves("= 'true'");
+    if (all > 0) {
+        sentences.push_back(
+            unserved == 0
+                ? fmt::format("In every one of {} some constant bias keeps both acne and "
+                              "peter-panning below 0.1 % of the scored pixels.",
+                              counted(all, "bias curve"))
+                : fmt::format("In {} of {} no constant bias does: at 0.1 % of the scored pixels "
+                              "acne needs more bias than peter-panning allows.",
+                              grouped(unserved), counted(all, "bias curve")));
+    }
+}
+
+void add_findings(std::vector<std::string>& sentences, const Json& detail, bool is_one)
+{
+    const Json* const findings =
+        detail.is_object() && detail.contains("findings") ? &detail["findings"] : nullptr;
+    if (findings == nullptr || !findings->is_array()) {
+        return;
+    }
+    bool is_first = true;
+    for (const Json& finding : *findings) {
+        if (finding.is_string()) {
+            const auto& words = finding.get_ref<const std::string&>();
+            sentences.push_back(is_first && !is_one ? "Of the best: " + words : words);
+            is_first = false;
+        }
+    }
+}
+
+/// The scene's name, where all configurations share it.
+std::string common_scene(const RunReader& run)
+{
+    for (const char* const key : {"scene.builtin", "scene.file"}) {
+        sqlite::Statement find{
+            run.database(),
+            fmt::format("SELECT {0}, count(DISTINCT {0}) FROM results", sqlite::sql_name(key))};
+        if (find.step() && find.integer(1) == 1) {
+            return find.text(0);
+        }
+    }
+    return {};
+}
+
+std::vector<std::pair<std::string, std::string>> named_columns(std::string_view group,
+                                                               const auto& names)
+{
+    std::vector<std::pair<std::string, std::string>> columns;
+    for (std::size_t i = 1; i < names.size(); ++i) { // the first is "none"
+        std::string words{names[i]};
+        std::replace(words.begin(), words.end(), '_', '-');
+        columns.emplace_back(fmt::format("{}.{}", group, names[i]), std::move(words));
+    }
+    return columns;
+}
+
+} // namespace
+
+RunOverview read_overview(const RunReader& run)
+{
+    RunOverview overview;
+    overview.scene = common_scene(run);
+    overview.rows = ranked_rows(run);
+    const PlanOutcome& outcome = run.outcome();
+    const bool is_one = outcome.done == 1 && outcome.failed + outcome.planned == 0;
+    if (!is_one) {
+        overview.sentences.push_back(completeness(run));
+    }
+    if (overview.rows.empty()) {
+        return overview;
+    }
+    overview.headline = overview.rows.front();
+    const std::string id = overview.headline->result.text("id");
+    if (has_image(run.folder(), id)) {
+        overview.detail = read_detail(run.folder(), id);
+    }
+    if (is_one && overview.detail.is_null()) {
+        overview.sentences.push_back(rates_text(overview.headline->result) + ".");
+    } else if (!is_one) {
+        add_extremes(overview.sentences, overview.rows);
+        add_curve_verdict(overview.sentences, run);
+    }
+    add_findings(overview.sentences, overview.detail, is_one);
+    return overview;
+}
+
+std::string compare_command(const RunDescription& description, const ResultRow& row)
+{
+    if (description.compare_command.empty()) {
+        return {};
+    }
+    std::vector<std::string> words;
+    if (const std::string name = row.text("case"); !name.empty()) {
+        words.insert(words.end(), {"--case", name});
+    }
+    for (const std::string& axis : description.axes) {
+        words.insert(words.end(), {"--set", fmt::format("{}={}", axis, row.text(axis))});
+    }
+    words.insert(words.end(), {"--out", "DIR"});
+    return fmt::format("{} {}", description.compare_command, shell_text(words));
+}
+
+std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row)
+{
+    std::vector<std::pair<std::string, std::string>> settings;
+    for (const JobColumn& column : job_columns()) {
+        if (std::string value = row.text(column.name); !value.empty()) {
+            settings.emplace_back(column.name, std::move(value));
+        }
+    }
+    return settings;
+}
+
+const std::vector<std::pair<std::string, std::string>>& cause_columns()
+{
+    static const auto columns = named_columns("causes", analysis::cause_names);
+    return columns;
+}
+
+const std::vector<std::pair<std::string, std::string>>& label_columns()
+{
+    static const auto columns = named_columns("labels", analysis::label_names);
+    return columns;
+}
+
+} // namespace gnomon::reports

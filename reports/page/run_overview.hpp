@@ -1,0 +1,46 @@
+#pragma once
+
+#include "reports/json_values.hpp"
+#include "reports/page/run_reader.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::reports {
+
+/// A configuration that a report names.
+struct OverviewRow {
+    std::uint64_t row = 0; ///< its place among the run's configurations, from 0
+    std::string settings;  ///< "shadow_map.resolution = 2048, bias.constant = 0"; empty: one only
+    ResultRow result;
+};
+
+/// What a report says first of a run.
+struct RunOverview {
+    std::string scene; ///< of the scene that all share; empty if they differ
+    std::vector<std::string> sentences;
+    /// The configuration with the lowest error rate; empty if none was measured.
+    std::optional<OverviewRow> headline;
+    Json detail; ///< what `compare --json` says of it; null if its layers were not kept
+    /// Those of the headline table, lowest error rate first; the last has the highest.
+    std::vector<OverviewRow> rows;
+};
+
+[[nodiscard]] RunOverview read_overview(const RunReader& run);
+
+/// The command that computes one configuration with all its layers.
+[[nodiscard]] std::string compare_command(const RunDescription& description, const ResultRow& row);
+
+/// The settings of a configuration that are not its own alone: scene, camera, light, map, lookup,
+/// bias, as the job's keys and values.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row);
+
+/// The names by which people know counts: {"causes.bias", "bias"}, … and {"labels.acne", "acne"},
+/// ….
+[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& cause_columns();
+[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& label_columns();
+
+} // namespace gnomon::reports

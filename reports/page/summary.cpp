@@ -1,0 +1,107 @@
+#include "reports/page/summary.hpp"
+
+#include "reports/text.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr std::size_t longest_text = 400;
+
+/// A block of code whose fence no line of it can close.
+std::string code_block(const std::string& text)
+{
+    std::string fence = "```";
+    while (text.find(fence) != std::string::npos) {
+        fence += '`';
+    }
+    return fmt::format("{0}sh\n{1}\n{0}\n", fence, text);
+}
+
+std::string table(const RunOverview& overview)
+{
+    std::string text =
+        "| configuration | false shadow | of lit | false lit | of blocked | error rate "
+        "|\n|---|---:|---:|---:|---:|---:|\n";
+    for (const OverviewRow& row : overview.rows) {
+        text += fmt::format(
+            "| {} | {} | {} | {} | {} | {} |\n",
+            row.settings.empty() ? "this shadow map" : markdown_text(row.settings),
+            grouped(row.result.count("false_shadow")),
+            percent(row.result.number("false_shadow_rate")), grouped(row.result.count("false_lit")),
+            percent(row.result.number("false_lit_rate")), percent(row.result.number("error_rate")));
+    }
+    return text + "\n";
+}
+
+std::string counts(const ResultRow& row)
+{
+    std::string text;
+    for (const auto* const columns : {&cause_columns(), &label_columns()}) {
+        text += columns == &cause_columns() ? "By cause: " : "By name: ";
+        bool is_first = true;
+        for (const auto& [column, name] : *columns) {
+            text += fmt::format("{}{} {}", is_first ? "" : ", ", name, grouped(row.count(column)));
+            is_first = false;
+        }
+        text += ".\n\n";
+    }
+    return text;
+}
+
+} // namespace
+
+std::string markdown_text(std::string_view text)
+{
+    constexpr std::string_view with_backslash = "\\`*_{}[]<>#!|~$";
+    const std::string_view shown = first_columns(text, longest_text);
+    std::string markdown;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const char c = shown[i];
+        const bool begins_a_word = i + 1 < shown.size() && shown[i + 1] != ' ';
+        if (static_cast<unsigned char>(c) < ' ') {
+            markdown += ' ';
+        } else if (c == '&' || c == '@' || (c == ':' && begins_a_word)) {
+            // A character reference, a mention, an address or an emoji's name.
+            markdown += fmt::format("&#{};", static_cast<int>(c));
+        } else {
+            markdown += with_backslash.find(c) != std::string_view::npos ? "\\" : "";
+            markdown += c;
+        }
+    }
+    return markdown;
+}
+
+std::string summary_text(const RunReader& run, const RunOverview& overview,
+                         const ReportOptions& options)
+{
+    std::string text =
+        fmt::format("# Shadow-map accuracy: {}\n\n",
+                    overview.scene.empty() ? "several scenes" : markdown_text(overview.scene));
+    for (const std::string& sentence : overview.sentences) {
+        text += markdown_text(sentence) + "\n";
+    }
+    text += "\n";
+    if (overview.headline) {
+        text += table(overview);
+        text += overview.rows.size() > 1 ? "Of the best:\n\n" : "";
+        text += counts(overview.headline->result);
+    }
+    for (const ReportFigure& figure : options.figures) {
+        text += fmt::format("![{}](figures/{})\n\n", markdown_text(figure.alt), figure.png);
+    }
+    text += "Every pixel, bias and configuration: [report.html](report.html). The numbers: "
+            "[results.csv](results.csv), [error_vs_z.csv](error_vs_z.csv), "
+            "[bias_curves.csv](bias_curves.csv).\n\n";
+    const analysis::Environment& environment = run.description().environment;
+    text += fmt::format("{}, {}, {}, gnomon {}\n\n", markdown_text(environment.gl_renderer),
+                        markdown_text(environment.gl_version), markdown_text(environment.embree),
+                        markdown_text(environment.gnomon));
+    return text + code_block(run.description().command + " --out RUN\ngnomon report RUN");
+}
+
+} // namespace gnomon::reports
