@@ -11,11 +11,11 @@ const errorColours = {
   indeterminate: okabeIto.black,
 };
 const surfaceColours = {
-  background: "#E4E9F0", attached: "#5B6068", outOfLight: "#A9B4C4", lit: "#EFE7D6", shadowed: "#6C7078",
+  background: "#E4E9F0", attached: "#4A4F58", outOfLight: "#A9B4C4", lit: "#EFE7D6", shadowed: "#7F8794",
 };
 /** Beneath marks: right pixels, faded so that only marks are coloured. */
 const fadedColours = {
-  background: "#F7F8FA", attached: "#CDCFD2", outOfLight: "#E2E6EC", lit: "#F4F1EA", shadowed: "#D5D7DA",
+  background: "#F7F8FA", attached: "#C6C9CD", outOfLight: "#E2E6EC", lit: "#F4F1EA", shadowed: "#D7DADE",
 };
 const causeColours = {
   bias: okabeIto.purple, precision: okabeIto.yellow, resolution: okabeIto.green, coverage: okabeIto.black,

@@ -6,10 +6,10 @@ const curveSamples = 400;
 function sliderLayout(scale) {
   return {
     forward: (bias) => scale.positionOf(bias),
-    inverse: (position) => (Number.isInteger(position) ? scale.biasAt(position) : scale.biasAt(Math.round(position))),
+    inverse: (position) => scale.realAt(position),
     ticks: (low, high) => {
-      const positive = decadeTicks(scale.step, high, 6);
-      const negative = low < -scale.step ? decadeTicks(scale.step, -low, 3).map((bias) => -bias).reverse() : [];
+      const positive = decadeTicks(10 * scale.step, high, 7);
+      const negative = low < -scale.step ? decadeTicks(10 * scale.step, -low, 3).map((bias) => -bias).reverse() : [];
       return [...negative, 0, ...positive];
     },
     format: (bias) => formatTick(Number(bias.toPrecision(3))),

@@ -27,7 +27,7 @@ class ParetoChart {
     const x = { label: "false-shadow rate", layout: rateLayout(), low: 0, high: 1 };
     this.chart = new PageChart(this.host, {
       title: "Pareto front of all configurations", isScatter: true, x, y: { ...x, label: "false-lit rate" },
-      summary: `${grouped(front.length)} of ${grouped(this.table.count)} configurations are on the front.`,
+      summary: `On the front: ${grouped(front.length)} of ${grouped(this.table.count)} configurations.`,
       series: [
         { name: "Pareto front", colour: okabeIto.vermilion, points: pointsOf(front), radius: 3, stepped: "before" },
         { name: dots.length < this.table.count ? `${grouped(dots.length)} of ${grouped(this.table.count)} configurations` : "configurations",
@@ -44,6 +44,6 @@ class ParetoChart {
       { title: "false-shadow rate", numeric: true, format: percent }, { title: "false-lit rate", numeric: true, format: percent }];
     const rows = shown.map((row) => [row, ...this.axes.map((name) => columns.get(name).at(row)), first[row], second[row]]);
     const title = shown.length < front.length ? `The front: ${shown.length} of its ${grouped(front.length)} configurations` : "The front";
-    return element("details", { class: "chart-data" }, element("summary", { text: `The front’s ${grouped(front.length)} configurations` }), sortedTable(title, heads, rows));
+    return element("details", { class: "chart-data" }, element("summary", { text: front.length === 1 ? "The configuration on the front" : `The ${grouped(front.length)} configurations on the front` }), sortedTable(title, heads, rows));
   }
 }

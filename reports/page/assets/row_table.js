@@ -2,7 +2,8 @@
 
 const rowHeightPx = 32;
 const spareRows = 8;
-const columnWidthPx = 150;
+const narrowestColumnPx = 104;
+const widestColumnPx = 240;
 
 /**
  * Orders rows by a column; what has no value stands last in either direction.
@@ -23,6 +24,12 @@ function sortRows(rows, column, descending) {
     const order = sign * (keys[a] - keys[b]);
     return Number.isNaN(order) ? Number.isNaN(keys[a]) - Number.isNaN(keys[b]) || a - b : order || a - b;
   });
+}
+
+/** A width in which most columns' headings can be read. */
+function columnWidthPx({ name, isText }) {
+  const wanted = Math.max(isText ? 160 : 0, 44 + 8 * name.length);
+  return Math.min(widestColumnPx, Math.max(narrowestColumnPx, wanted));
 }
 
 /** A virtualised table; calls onOpen(row) at a click or Enter. */
@@ -87,10 +94,12 @@ class RowTable {
     const headings = this.columns.map((column) => {
       const direction = this.sorted?.name !== column.name ? null : this.sorted.descending ? "descending" : "ascending";
       const control = button(column.name, () => this.sortBy(column.name), { class: "sort", "data-column": column.name, title: column.name });
-      return element("th", { scope: "col", class: column.isText ? null : "number", "aria-sort": direction }, control);
+      const heading = element("th", { scope: "col", class: column.isText ? null : "number", "aria-sort": direction }, control);
+      heading.style.width = `${columnWidthPx(column)}px`;
+      return heading;
     });
     this.head.replaceChildren(element("tr", { "aria-rowindex": 1 }, ...headings));
-    this.grid.style.width = `${Math.max(this.columns.length * columnWidthPx, 300)}px`;
+    this.grid.style.width = `${this.columns.reduce((sum, column) => sum + columnWidthPx(column), 0)}px`;
     this.grid.setAttribute("aria-colcount", this.columns.length);
     if (focused !== undefined) {
       [...this.head.querySelectorAll("button")].find((made) => made.dataset.column === focused)?.focus();

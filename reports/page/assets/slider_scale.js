@@ -28,15 +28,18 @@ class SliderScale {
     return positivePositions;
   }
 
-  /** @return {number}  the float32 bias at a position */
+  /** @return {number}  the float32 bias at a whole position */
   biasAt(position) {
-    if (position === 0) {
-      return 0;
-    }
+    return Math.fround(this.realAt(position));
+  }
+
+  /** @return {number}  the bias at any position; linear within a position of 0 */
+  realAt(position) {
     const [side, decades] = position < 0 ? [negativePositions, this.negativeDecades]
       : [positivePositions, this.positiveDecades];
-    const size = this.step * 10 ** ((decades * Math.abs(position)) / side);
-    return Math.fround(position < 0 ? -size : size);
+    const places = Math.abs(position);
+    const size = places < 1 ? places * this.step : this.step * 10 ** ((decades * (places - 1)) / (side - 1));
+    return position < 0 ? -size : size;
   }
 
   /** @return {number}  where a bias stands, a real number within the slider's ends */
@@ -44,8 +47,8 @@ class SliderScale {
     const size = Math.abs(bias);
     const [side, decades] = bias < 0 ? [negativePositions, this.negativeDecades]
       : [positivePositions, this.positiveDecades];
-    const share = size < this.step ? size / this.step / side : Math.log10(size / this.step) / decades;
-    const position = Math.min(side, side * share);
+    const places = size < this.step ? size / this.step : 1 + ((side - 1) * Math.log10(size / this.step)) / decades;
+    const position = Math.min(side, places);
     return bias < 0 ? -position : position;
   }
 }
