@@ -1,0 +1,101 @@
+// The bias slider: a range over the biases that matter, a field for any float32, and buttons.
+
+/** Where a curve's limits are, and why there is none. */
+function biasGoals(image) {
+  const curve = image.detail.bias_curve;
+  const [low, high] = curve.best_interval;
+  const best = low === null ? high : high === null ? low : (low + high) / 2;
+  return [
+    { name: "Job’s bias", bias: image.jobBias, reason: "" },
+    { name: "Best bias", bias: best, reason: "every bias is as good as any other" },
+    { name: "Acne-free", bias: curve.acne_free, reason: "no pixel counts as acne, or no bias removes it all" },
+    { name: "Panning-free", bias: curve.panning_free, reason: "no pixel is blocked, or some are lit with every bias" },
+  ];
+}
+
+/** A bias in metres and texels; of a perspective light these depend on the distance. */
+function biasLengths(image, bias) {
+  const { frustum } = image;
+  if (frustum.projection === "perspective") {
+    const zetaM = Math.sqrt(frustum.near_m * frustum.far_m);
+    const lengthM = biasLengthM(frustum, bias, zetaM);
+    return `${readable(lengthM)} m or ${readable(lengthM / texelWidthM(frustum, zetaM))} texels at ${readable(zetaM)} m from the light`;
+  }
+  const lengthM = biasLengthM(frustum, bias, 0);
+  return `${readable(lengthM)} m along the light, ${readable(lengthM / texelWidthM(frustum, 0))} texels`;
+}
+
+/** The slider of one image with a bias curve; calls onBias(float32) whenever the bias changes. */
+class BiasSlider {
+  constructor(image, onBias) {
+    this.image = image;
+    this.onBias = onBias;
+    this.scale = new SliderScale(image.depthStep.step, image.counts.finiteRange);
+    this.range = element("input", {
+      type: "range", min: this.scale.lowestPosition, max: this.scale.highestPosition, step: 1, class: "bias-range",
+      on: { input: () => this.setBias(this.scale.biasAt(Number(this.range.value)), this.range) },
+    });
+    this.field = element("input", {
+      type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false", class: "bias-field",
+      on: { change: () => this.readField(), keydown: (event) => event.key === "Enter" && this.readField() },
+    });
+    this.problem = element("p", { class: "problem", role: "alert", hidden: true, text: "Type a number that a float32 can hold, such as 0.0012 or -3e-5." });
+    this.counts = element("p", { class: "bias-counts", role: "status", "aria-live": "polite" });
+    this.lengths = element("p", { class: "hint" });
+    this.goals = biasGoals(image).map((goal) => this.goalButton(goal));
+    this.root = element("div", { class: "bias" },
+      element("div", { class: "bias-row" }, labelled("Constant bias", this.range, "control grow"), labelled("Exactly", this.field)),
+      element("div", { class: "buttons" }, ...this.goals), this.problem, this.counts, this.lengths);
+  }
+
+  goalButton({ name, bias, reason }) {
+    const exists = bias !== null;
+    const made = button(name, () => this.setBias(bias), { title: exists ? `${shortestFloat32(Math.fround(bias))}` : `None: ${reason}` });
+    if (!exists) {
+      made.disabled = true;
+      made.append(element("span", { class: "reason", text: ` (none: ${reason})` }));
+    }
+    return made;
+  }
+
+  readField() {
+    const bias = Math.fround(Number(this.field.value.trim().replace(minus, "-") || NaN));
+    const isBias = Number.isFinite(bias);
+    this.problem.hidden = isBias;
+    this.field.setAttribute("aria-invalid", String(!isBias));
+    if (isBias) {
+      this.setBias(bias, this.field);
+    }
+  }
+
+  /**
+   * @param {number} bias  rounded to float32
+   * @param {?HTMLElement} source  the control that asked, and keeps its own position
+   */
+  setBias(bias, source = null) {
+    this.bias = Math.fround(bias);
+    const text = shortestFloat32(this.bias);
+    if (source !== this.range) {
+      this.range.value = Math.round(this.scale.positionOf(this.bias));
+    }
+    this.field.value = text;
+    this.field.setAttribute("aria-invalid", "false");
+    this.problem.hidden = true;
+    this.range.setAttribute("aria-valuetext", `bias ${text}`);
+    this.showCounts();
+    this.onBias(this.bias);
+  }
+
+  showCounts() {
+    const { image } = this;
+    const { falseShadow, falseLit } = image.countsAt(this.bias);
+    const { lit, blocked } = image.detail.pixels;
+    const part = (name, key, count, whole, noun) => element("span", { class: `count count-${key}` },
+      element("span", { class: `swatch swatch-${key}`, "aria-hidden": "true" }), `${name} `,
+      element("strong", { "data-count": key, text: grouped(count) }),
+      ` of ${grouped(whole)} ${noun}, ${percent(rate(count, whole))}`);
+    this.counts.replaceChildren(part("false shadow", "false_shadow", falseShadow, lit, "lit"),
+      element("span", { class: "visually-hidden", text: "; " }), part("false lit", "false_lit", falseLit, blocked, "blocked"));
+    this.lengths.textContent = `A bias of ${shortestFloat32(this.bias)} is ${biasLengths(image, this.bias)}.`;
+  }
+}

@@ -1,0 +1,132 @@
+// Charts over bins: errors by distance and by angle, depth error by distance with the formula's envelope.
+
+const middleOf = (bin) => (bin.lower + bin.upper) / 2;
+
+/** A series over bins; bins without the value are left out. */
+function binSeries(name, colour, bins, valueOf, more = {}) {
+  const points = bins.map((bin) => [middleOf(bin), valueOf(bin) ?? null]).filter(([, value]) => value !== null);
+  return { name, colour, points, radius: 2, ...more };
+}
+
+/** The largest of the values that exist, else 0. */
+function largestOf(values) {
+  return values.reduce((most, value) => Math.max(most, value ?? 0), 0);
+}
+
+/** Where a rate is largest, in words. */
+function worstBin(bins, valueOf, unit) {
+  const worst = bins.reduce((a, b) => ((valueOf(b) ?? -1) > (valueOf(a) ?? -1) ? b : a), bins[0]);
+  return `${percent(valueOf(worst) ?? 0)} at ${readable(middleOf(worst))} ${unit}`;
+}
+
+function rateChart(host, title, bins, x) {
+  return new PageChart(host, {
+    title,
+    summary: `Largest false-shadow rate ${worstBin(bins, (bin) => bin.falseShadowRate, x.unit)}, largest false-lit rate ${worstBin(bins, (bin) => bin.falseLitRate, x.unit)}.`,
+    x, y: { label: "share of the bin’s lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },
+    series: [
+      binSeries("false shadow, of the lit", errorColours.falseShadow, bins, (bin) => bin.falseShadowRate),
+      binSeries("false lit, of the blocked", errorColours.falseLit, bins, (bin) => bin.falseLitRate, { dash: [6, 3] }),
+    ],
+  });
+}
+
+function neededChart(host, title, bins, x, step) {
+  const largest = largestOf(bins.flatMap(({ needed }) => [needed.p95, needed.median]));
+  return new PageChart(host, {
+    title, summary: `95 % of a bin’s lit pixels need a bias of at most ${readable(largest)}.`,
+    x, y: { label: "needed bias [depth units]", layout: symlogLayout(step) },
+    series: [
+      binSeries("95th percentile", okabeIto.vermilion, bins, ({ needed }) => needed.p95),
+      binSeries("median", okabeIto.black, bins, ({ needed }) => needed.median, { dash: [2, 3] }),
+    ],
+  });
+}
+
+/** |stored − exact| depth over distance: median, p95 and the largest, above the envelope of the formula. */
+function depthErrorChart(host, bins, x) {
+  const absolute = (value) => (value === null || value === undefined ? null : Math.abs(value));
+  const largest = largestOf(bins.flatMap(({ mapError }) => [absolute(mapError.min), absolute(mapError.max)]));
+  const [factor, unit] = lengthUnit(largest || 1);
+  const scaled = (valueOf) => (bin) => (valueOf(bin) === null ? null : factor * valueOf(bin));
+  const withEnvelope = bins.filter((bin) => bin.envelope !== null);
+  const envelope = largestOf(bins.map((bin) => bin.envelope));
+  const smallest = withEnvelope.reduce((least, bin) => Math.min(least, bin.envelope || least), envelope || largest || 1);
+  return new PageChart(host, {
+    title: "Depth error by light distance",
+    summary: `Largest depth error ${readable(factor * largest)} ${unit}; storing depths alone makes up for at most ${readable(factor * envelope)} ${unit}.`,
+    x, y: { label: `|stored − exact depth| [${unit}]`, layout: symlogLayout(10 ** Math.floor(Math.log10(factor * smallest))), low: 0 },
+    series: [
+      binSeries("largest beyond", okabeIto.vermilion, bins, scaled(({ mapError }) => absolute(mapError.max))),
+      binSeries("largest before", okabeIto.blue, bins, scaled(({ mapError }) => absolute(mapError.min)), { dash: [6, 3] }),
+      binSeries("95th percentile", okabeIto.orange, bins, scaled(({ mapError }) => absolute(mapError.p95)), { dash: [8, 2, 2, 2] }),
+      binSeries("median", okabeIto.black, bins, scaled(({ mapError }) => absolute(mapError.median)), { dash: [2, 3] }),
+    ],
+    bands: withEnvelope.length === 0 ? [] : [{
+      name: "the formula’s envelope: storage alone", colour: okabeIto.green,
+      points: withEnvelope.map((bin) => [middleOf(bin), 0, factor * bin.envelope]),
+    }],
+  });
+}
+
+function distanceAxis(bins) {
+  return { label: "distance ζ from the light’s camera plane [m]", name: "distance [m]", unit: "m", layout: linearLayout(),
+    low: bins[0].lower, high: bins[bins.length - 1].upper };
+}
+
+/** Bins by angle in degrees: radians are for the program. */
+function inDegrees(bins) {
+  const degrees = (angleRad) => Number(((angleRad * 180) / Math.PI).toPrecision(6));
+  return bins.map((bin) => ({ ...bin, lower: degrees(bin.lower), upper: degrees(bin.upper) }));
+}
+
+function angleAxis() {
+  return { label: "angle between receiver and light [°]", name: "angle [°]", unit: "°", layout: linearLayout((x) => `${readable(x)}°`), low: 0, high: 90 };
+}
+
+/** Fills section#distance for a configuration. */
+class DistanceCharts {
+  constructor(section) {
+    this.section = section;
+  }
+
+  /**
+   * @param {?Bin[]} job  bins at the job's bias
+   * @param {?{bias: number, bins: Bin[]}} best  at the best bias
+   * @param {string} caption
+   */
+  show(job, best, caption) {
+    this.section.hidden = !job?.length && !best?.bins.length;
+    if (this.section.hidden) {
+      return;
+    }
+    const hosts = [1, 2, 3].map(() => element("div", { class: "chart-host" }));
+    const draw = (at) => {
+      const bins = at === "best" ? best.bins : job;
+      const x = distanceAxis(bins);
+      const where = at === "best" ? `the best bias, ${readable(best.bias)}` : "the job’s bias";
+      rateChart(hosts[0], `Errors by light distance, at ${where}`, bins, x);
+      neededChart(hosts[1], "Bias that lit pixels need, by light distance", bins, x, 1e-6);
+      depthErrorChart(hosts[2], bins, x);
+      dropDeadCharts();
+    };
+    const options = [...(job?.length ? [["job", "the job’s bias"]] : []), ...(best?.bins.length ? [["best", "the best bias"]] : [])];
+    const select = labelled("Errors at", choice(options, options[0][0], draw));
+    refill(this.section, element("p", { class: "caption name", text: caption }), element("div", { class: "bar" }, select),
+      element("div", { class: "chart-grid" }, ...hosts));
+    draw(options[0][0]);
+  }
+}
+
+/** Fills section#slope for a configuration; hides it without bins. */
+function showSlopeCharts(section, bins, caption) {
+  section.hidden = !bins?.length;
+  if (section.hidden) {
+    return;
+  }
+  const hosts = [1, 2].map(() => element("div", { class: "chart-host" }));
+  refill(section, element("p", { class: "caption name", text: caption }), element("div", { class: "chart-grid" }, ...hosts));
+  const degrees = inDegrees(bins);
+  rateChart(hosts[0], "Errors by receiver angle, at the job’s bias", degrees, angleAxis());
+  neededChart(hosts[1], "Bias that lit pixels need, by receiver angle", degrees, angleAxis(), 1e-6);
+}

@@ -1,0 +1,72 @@
+// One configuration of a sweep: its values, its causes, and how to see its pixels.
+
+/** Titles of the groups of values, by how their columns begin. */
+const valueGroups = [
+  ["Settings", ["scene.", "camera.", "image.", "light.", "shadow_map.", "lookup.", "bias."]],
+  ["Errors", ["false_", "error_rate", "mean_abs_error", "peter_panning_gap"]],
+  ["Bias curve", ["bias_curve."]],
+  ["Pixels", ["pixels.", "unmatched_kinds.", "indeterminate_kinds."]],
+];
+
+function groupOf(name) {
+  return valueGroups.find(([, starts]) => starts.some((start) => name.startsWith(start)))?.[0] ?? "Other";
+}
+
+function valueText(name, value) {
+  return typeof value === "number" ? (name.endsWith("_rate") ? `${value} (${percent(value)})` : String(value)) : value;
+}
+
+/** A definition list of names and values. */
+function valueList(title, entries) {
+  const facts = entries.map(([name, value]) => element("div", { class: "fact" }, element("dt", { text: name }),
+    element("dd", { "data-column": name }, nameElement(valueText(name, value)))));
+  return element("details", { class: "values", open: title === "Settings" || title === "Errors" }, element("summary", { text: title }), element("dl", { class: "facts" }, ...facts));
+}
+
+/** Counts of columns `stem.…` by what follows; null without any. */
+function countsOf(values, stem) {
+  const entries = [...values].filter(([name, value]) => name.startsWith(stem) && value !== null);
+  return entries.length === 0 ? null : Object.fromEntries(entries.map(([name, value]) => [name.slice(stem.length), value]));
+}
+
+/** The part of section#sweep that shows the clicked configuration. */
+class ConfigurationDetail {
+  /**
+   * @param {Table} table
+   * @param {Object<string, string>} constants  the keys that are the same in every configuration
+   */
+  constructor(table, constants) {
+    this.table = table;
+    this.constants = constants;
+    this.heading = element("h3", { tabindex: -1, text: "Configuration" });
+    this.host = element("div");
+    this.root = element("div", { class: "configuration", hidden: true }, this.heading, this.host);
+  }
+
+  /** @param {boolean} hasImage  whether the inspector shows its pixels */
+  async show(row, title, hasImage) {
+    const columns = await this.table.select(this.table.names);
+    const values = new Map([...columns].map(([name, column]) => [name, column.at(row)]));
+    const groups = new Map(valueGroups.map(([name]) => [name, []]).concat([["Other", []]]));
+    const shown = [...Object.entries(this.constants), ...values].filter(([name, value]) => value !== null && !/^(causes|labels)\.|^command$/.test(name));
+    shown.forEach(([name, value]) => groups.get(groupOf(name)).push([name, value]));
+    const causes = countsOf(values, "causes.");
+    const labels = countsOf(values, "labels.");
+    this.heading.textContent = title;
+    this.host.replaceChildren(this.pixelsLine(values, hasImage), ...(causes && labels ? [kindTables(causes, labels)] : []),
+      ...[...groups].filter(([, entries]) => entries.length > 0).map(([name, entries]) => valueList(name, entries)));
+    this.root.hidden = false;
+  }
+
+  pixelsLine(values, hasImage) {
+    if (hasImage) {
+      return element("p", {}, "Its pixels are in the ", element("a", { href: "#inspector", text: "pixel inspector" }), ", and the charts by distance and angle are its own.");
+    }
+    const command = values.get("command") ?? null;
+    if (values.get("status") === "failed" || command === null) {
+      return element("p", { text: values.get("status") === "failed" ? "It failed; the message is below." : "Its pixels were not kept." });
+    }
+    const code = element("code", { text: command });
+    return element("div", {}, element("p", { text: "Its pixels were not kept. This makes its layers:" }), scroller("Command", element("pre", {}, code)));
+  }
+}

@@ -1,0 +1,96 @@
+// Two axes of a sweep at once: the median error of each cell on the fixed scale of rates.
+
+const mostTableColumns = 12;
+const mostTableRows = 24;
+const mostCanvasCells = 240;
+
+/** Black or white, whichever is read more easily on a colour. */
+function inkOn([red, green, blue]) {
+  const linear = (value) => ((value / 255 + 0.055) / 1.055) ** 2.4;
+  return 0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue) > 0.179 ? "#000000" : "#FFFFFF";
+}
+
+/** A table with a coloured cell for each pair of values. */
+function heatTable(across, down, cells, title) {
+  const head = element("tr", {}, element("th", { scope: "col", text: `${down.name} ↓  ${across.name} →` }),
+    ...across.values.map((value) => element("th", { scope: "col", class: "number", text: axisText(across, value) })));
+  const rows = down.values.map((value, rowIndex) => {
+    const tds = across.values.map((_, column) => {
+      const cell = cells[column * down.values.length + rowIndex];
+      const td = element("td", { class: "number heat", text: cell === null ? noValue : percent(cell.median) });
+      if (cell !== null) {
+        const colour = mixStops(rateScale.stops, shareOnScale(rateScale, cell.median));
+        td.style.backgroundColor = cssColour(colour);
+        td.style.color = inkOn(colour);
+      }
+      return td;
+    });
+    return element("tr", {}, element("th", { scope: "row", text: axisText(down, value) }), ...tds);
+  });
+  return scroller(title, element("table", { class: "heat-table" }, element("caption", { text: title }),
+    element("thead", {}, head), element("tbody", {}, ...rows)));
+}
+
+/** A canvas of one pixel a cell, stretched; the cell under the pointer is told beneath. */
+function heatCanvas(across, down, cells, title) {
+  const canvas = element("canvas", { width: across.values.length, height: down.values.length, class: "heat-canvas", role: "img", "aria-label": `${title}. The same numbers are in the table below.` });
+  const context = canvas.getContext("2d");
+  cells.forEach((cell, i) => {
+    const row = i % down.values.length;
+    context.fillStyle = cell === null ? noValueColour : cssColour(mixStops(rateScale.stops, shareOnScale(rateScale, cell.median)));
+    context.fillRect(Math.floor(i / down.values.length), down.values.length - 1 - row, 1, 1);
+  });
+  const told = element("p", { class: "hint", text: `${across.name} to the right, ${down.name} upwards. Point at a cell for its number.` });
+  canvas.addEventListener("pointermove", (event) => {
+    const column = Math.min(across.values.length - 1, Math.floor((event.offsetX / canvas.clientWidth) * across.values.length));
+    const row = down.values.length - 1 - Math.min(down.values.length - 1, Math.floor((event.offsetY / canvas.clientHeight) * down.values.length));
+    const cell = cells[column * down.values.length + row];
+    told.textContent = `${across.name} = ${axisText(across, across.values[column])}, ${down.name} = ${axisText(down, down.values[row])}: ${cell ? percent(cell.median) : noValue}`;
+  });
+  return element("div", {}, canvas, told);
+}
+
+/** The part of section#sweep with the heat map of two axes. */
+class HeatMap {
+  constructor(table, axes) {
+    this.table = table;
+    this.axes = axes;
+    const names = [...axes.keys()];
+    const options = names.map((name) => [name, name]);
+    const rates = measures.filter((measure) => measure.isRate && table.has(measure.name));
+    this.chosen = { measure: rates[0].name, across: names[0], down: names[1] };
+    this.host = element("div");
+    const select = (key, choices) => choice(choices, this.chosen[key], (value) => this.choose(key, value));
+    this.root = element("div", {}, element("h3", { text: "Two axes at once" }),
+      element("div", { class: "bar" }, labelled("Median of the", select("measure", rates.map(({ name, title }) => [name, title]))),
+        labelled("across", select("across", options)), labelled("down", select("down", options))),
+      this.host, rampLegend(rateScale, { low: "no errors", high: "all wrong" }));
+  }
+
+  choose(key, value) {
+    this.chosen[key] = value;
+    return this.draw();
+  }
+
+  summarise(values, mostAcross, mostDown) {
+    const across = joinValues(this.axes.get(this.chosen.across), mostAcross);
+    const down = joinValues(this.axes.get(this.chosen.down), mostDown);
+    return { across, down, cells: summariseGroups(values, cellCodes(across, down), across.values.length * down.values.length) };
+  }
+
+  async draw() {
+    const { values } = await this.table.column(this.chosen.measure);
+    const title = `${measures.find(({ name }) => name === this.chosen.measure).title}, median of each cell`;
+    const small = this.summarise(values, mostTableColumns, mostTableRows);
+    const table = heatTable(small.across, small.down, small.cells, title);
+    const isWhole = this.axes.get(this.chosen.across).values.length <= mostTableColumns
+      && this.axes.get(this.chosen.down).values.length <= mostTableRows;
+    if (isWhole) {
+      this.host.replaceChildren(table);
+      return;
+    }
+    const fine = this.summarise(values, mostCanvasCells, mostCanvasCells);
+    this.host.replaceChildren(heatCanvas(fine.across, fine.down, fine.cells, title),
+      element("details", { class: "chart-data" }, element("summary", { text: "Data, neighbouring values joined" }), table));
+  }
+}

@@ -1,0 +1,63 @@
+// An image of the page with what follows from its layers.
+
+/** The layers of one configuration's pixels, decoded and derived. */
+class PixelImage {
+  /**
+   * @param {object} stored  an entry of "images" in the page's data
+   * @param {Object<string, TypedArray>} layers  decoded, each (width × height), row 0 at the top
+   */
+  constructor(stored, layers) {
+    Object.assign(this, {
+      row: stored.row, width: stored.width, height: stored.height, layers, frustum: stored.frustum,
+      objects: stored.objects, detail: stored.detail, filter: stored.filter,
+      jobBias: Math.fround(stored.bias_constant), depthStep: stored.depth_step, derive: stored.derive,
+    });
+    this.outside = stored.outside;
+    this.deriveLayers();
+    this.counts = this.hasCurve ? new BiasCounts(layers.class, layers.critical_bias) : null;
+  }
+
+  /** Whether other biases than the job's are known. */
+  get hasCurve() {
+    return this.layers.critical_bias !== undefined;
+  }
+
+  deriveLayers() {
+    const { layers, derive, frustum } = this;
+    if (derive.critical_bias) {
+      layers.critical_bias = criticalBiases(layers.class, layers.receiver_depth, layers.map_depth,
+        { reversed: frustum.reversed, outside: this.outside });
+    }
+    if (layers.critical_bias !== undefined && (derive.needed_bias_m || derive.needed_bias_texels)) {
+      const { metres, texels } = neededBiases(layers.class, layers.critical_bias, layers.light_distance_m, frustum);
+      layers.needed_bias_m ??= metres;
+      layers.needed_bias_texels ??= texels;
+    }
+  }
+
+  /** @return {boolean}  whether the shadow map says that a pixel is lit, at a float32 bias */
+  isShownLit(index, bias) {
+    const { critical_bias: criticals, class: classes, verdict } = this.layers;
+    return criticals !== undefined && isScored(classes[index]) ? criticals[index] <= bias
+      : verdict[index] >= 0.5;
+  }
+
+  /** Wrong pixels at a bias; of an image without a curve, at the job's. */
+  countsAt(bias) {
+    if (this.counts !== null) {
+      return this.counts.at(bias);
+    }
+    return { falseShadow: this.detail.false_shadow, falseLit: this.detail.false_lit };
+  }
+}
+
+/**
+ * @param {object} stored  an entry of "images"
+ * @param {BlockReader} reader
+ * @return {Promise<PixelImage>}
+ */
+async function loadImage(stored, reader) {
+  const names = Object.keys(stored.layers);
+  const decoded = await Promise.all(names.map((name) => reader.read(stored.layers[name])));
+  return new PixelImage(stored, Object.fromEntries(names.map((name, i) => [name, decoded[i]])));
+}

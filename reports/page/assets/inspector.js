@@ -1,0 +1,171 @@
+// The pixel inspector: two layers with a wipe between them, the bias slider and a pixel's numbers.
+
+const biasLine = "The filter hardware has no critical bias: the weights are the driver’s own, so other biases are not known from this one lookup. The layers show the job’s bias.";
+
+/** Fills section#inspector. */
+class Inspector {
+  /** @param {HTMLElement} section */
+  constructor(section) {
+    this.section = section;
+    this.pinned = null;
+    this.hovered = null;
+    this.chosen = ["gl", "errors"];
+    this.stage = new Stage({
+      onPixel: (pixel) => this.point(pixel), onPin: (pixel) => this.pin(pixel), onChange: () => this.showView(),
+    });
+    this.details = new PixelDetails();
+    this.caption = element("p", { class: "caption name" });
+    this.selects = element("div", { class: "bar" });
+    this.legends = element("div", { class: "legends" });
+    this.biasHost = element("div", { class: "bias-host" });
+    this.curveHost = element("div", { class: "chart-host" });
+    this.recolour = oncePerFrame(() => this.recolourNow());
+    refill(section, this.caption, this.selects, this.makeTools(),
+      element("div", { class: "inspector-body" },
+        element("div", { class: "inspector-image" }, this.stage.root, this.legends), this.details.root),
+      this.biasHost, this.curveHost);
+    section.hidden = false;
+  }
+
+  makeTools() {
+    this.wipeRange = element("input", {
+      type: "range", min: 0, max: 100, step: 1, on: { input: () => this.stage.setWipe(Number(this.wipeRange.value) / 100) },
+    });
+    this.zoomText = element("output", { class: "zoom-text", "aria-label": "Zoom" });
+    this.goTo = element("input", {
+      type: "text", class: "go-to", placeholder: "x,y", autocomplete: "off",
+      on: { keydown: (event) => event.key === "Enter" && this.goToPixel(), change: () => this.goToPixel() },
+    });
+    return element("div", { class: "bar" },
+      labelled("Wipe", this.wipeRange),
+      element("div", { class: "buttons", role: "group", "aria-label": "Zoom" },
+        button("−", () => this.stage.zoomBy(1 / 1.5), { "aria-label": "Zoom out" }), this.zoomText,
+        button("+", () => this.stage.zoomBy(1.5), { "aria-label": "Zoom in" }),
+        button("Show all", () => this.stage.showAll())),
+      labelled("Go to pixel", this.goTo));
+  }
+
+  /**
+   * Shows an image.
+   * @param {PixelImage} image
+   * @param {string} caption  which configuration it is
+   */
+  show(image, caption) {
+    this.image = image;
+    this.caption.textContent = caption;
+    this.layers = imageLayers(image);
+    this.painters = [new LayerPainter(image), new LayerPainter(image)];
+    this.chosen = this.chosen.map((id, side) => (this.layerOf(id) ? id : ["gl", "errors"][side]));
+    if (this.pinned !== null && (this.pinned.x >= image.width || this.pinned.y >= image.height)) {
+      this.pinned = null;
+    }
+    this.hovered = null;
+    this.makeSelects();
+    this.stage.setImage(image);
+    this.makeBias();
+    this.chooseLayers();
+  }
+
+  layerOf(id) {
+    return this.layers.find((layer) => layer.id === id);
+  }
+
+  makeSelects() {
+    const options = this.layers.map(({ id, title }) => [id, title]);
+    const selects = ["A", "B"].map((side, i) => labelled(`Layer ${side}`, choice(options, this.chosen[i], (id) => {
+      this.chosen[i] = id;
+      this.chooseLayers();
+    })));
+    const swap = button("Swap", () => {
+      this.chosen.reverse();
+      this.makeSelects();
+      this.chooseLayers();
+    }, { "aria-label": "Swap layers A and B" });
+    this.selects.replaceChildren(...selects, swap);
+  }
+
+  makeBias() {
+    this.bias = this.image.jobBias;
+    if (!this.image.hasCurve || this.image.detail.bias_curve === null) {
+      this.biasHost.replaceChildren(element("h3", { text: "Bias" }), element("p", { class: "hint", text: biasLine }));
+      this.curveHost.replaceChildren();
+      this.slider = null;
+      return;
+    }
+    this.slider = new BiasSlider(this.image, (bias) => {
+      this.bias = bias;
+      this.recolour();
+    });
+    this.biasHost.replaceChildren(element("h3", { text: "Bias" }), this.slider.root);
+    this.curve = new CurveChart(this.curveHost, this.image, this.slider.scale);
+    this.slider.setBias(this.bias);
+  }
+
+  chooseLayers() {
+    const layers = this.chosen.map((id) => this.layerOf(id));
+    this.legends.replaceChildren(...layers.map((layer, i) => element("div", { class: "legend" },
+      element("p", {}, element("strong", { text: `${"AB"[i]}: ${layer.title}` }), `, ${layer.note}`), layer.legend())));
+    layers.forEach((layer, i) => this.painters[i].paint(layer, this.bias));
+    this.stage.setSides(layers.map(({ title }, i) => ({ canvas: this.painters[i].canvas, title })));
+  }
+
+  recolourNow() {
+    this.chosen.forEach((id, i) => {
+      const layer = this.layerOf(id);
+      if (layer.followsBias) {
+        this.painters[i].paint(layer, this.bias);
+      }
+    });
+    this.curve?.moveCursor(this.bias);
+    this.stage.drawNow();
+    this.showDetails();
+  }
+
+  point(pixel) {
+    this.hovered = pixel;
+    this.showDetails();
+    if (pixel !== null && pixel === this.stage.cursor) {
+      this.details.say(this.image, pixel, this.bias);
+    }
+  }
+
+  pin(pixel) {
+    const isSame = this.pinned?.x === pixel.x && this.pinned?.y === pixel.y;
+    this.pinned = isSame ? null : pixel;
+    if (isSame) {
+      this.stage.setCursor(null);
+    }
+    this.showDetails();
+  }
+
+  showDetails() {
+    this.details.show(this.image, this.pinned ?? this.hovered, this.bias, this.pinned !== null);
+  }
+
+  showView() {
+    this.wipeRange.value = Math.round(100 * this.stage.wipe);
+    if (this.stage.view !== undefined) {
+      const { zoom } = this.stage.view;
+      this.zoomText.textContent = `${Number((100 * zoom).toPrecision(zoom >= 1 ? 3 : 2))} %`;
+    }
+  }
+
+  goToPixel() {
+    const match = /^\s*(\d+)\s*[,; ]\s*(\d+)\s*$/.exec(this.goTo.value);
+    const [x, y] = match === null ? [NaN, NaN] : [Number(match[1]), Number(match[2])];
+    const isInside = x < this.image.width && y < this.image.height;
+    this.goTo.setAttribute("aria-invalid", String(!isInside && this.goTo.value !== ""));
+    if (!isInside) {
+      return;
+    }
+    this.pinned = { x, y };
+    if (this.stage.view.zoom < 4) {
+      this.stage.zoomBy(8 / this.stage.view.zoom);
+    }
+    const { stage, zoom } = this.stage.view;
+    this.stage.view.left = stage.width / 2 - (x + 0.5) * zoom;
+    this.stage.view.top = stage.height / 2 - (y + 0.5) * zoom;
+    this.stage.view.keepInside();
+    this.stage.setCursor(this.pinned);
+  }
+}

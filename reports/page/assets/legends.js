@@ -1,0 +1,32 @@
+// Legends in HTML: swatches for categories, a ramp with ticks for fixed scales.
+
+/** @param {{name: string, colour: string}[]} entries */
+function swatchLegend(entries) {
+  const items = entries.map(({ name, colour }) => {
+    const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
+    swatch.style.backgroundColor = colour;
+    return element("li", {}, swatch, name);
+  });
+  return element("ul", { class: "swatches" }, ...items);
+}
+
+/**
+ * @param {ColourScale} scale
+ * @param {{low: string, high: string}} ends  what the two ends mean, may be empty
+ */
+function rampLegend(scale, ends) {
+  const ramp = element("div", { class: "ramp", "aria-hidden": "true" });
+  const colours = Array.from({ length: 33 }, (_, i) => cssColour(mixStops(scale.stops, i / 32)));
+  ramp.style.backgroundImage = `linear-gradient(to right, ${colours.join(", ")})`;
+  const ticks = element("div", { class: "ramp-ticks", "aria-hidden": "true" });
+  for (const value of scale.layout.ticks(scale.low, scale.high)) {
+    const tick = element("span", { text: scale.layout.format(value) });
+    tick.style.left = `${100 * shareOnScale(scale, value)}%`;
+    ticks.append(tick);
+  }
+  const words = element("p", { class: "ramp-ends" }, element("span", { text: ends.low }),
+    element("span", { text: scale.unit }), element("span", { text: ends.high }));
+  const format = (value) => `${scale.layout.format(value)} ${scale.unit}`;
+  const said = `Colour scale from ${format(scale.low)} to ${format(scale.high)}`;
+  return element("div", { class: "ramp-legend", role: "img", "aria-label": said }, ramp, ticks, words);
+}

@@ -1,0 +1,119 @@
+// Reads the page's data and fills its sections.
+
+/** Everything that the sections share: the tables, the images, and which configuration is shown. */
+class ReportPage {
+  constructor(data) {
+    this.data = data;
+    this.reader = new BlockReader((id) => document.getElementById(id).textContent);
+    this.table = new Table(data.table, this.reader);
+    const empty = { count: 0, columns: [] };
+    this.bins = new DistanceBins(new Table(data.error_vs_z ?? empty, this.reader), new Table(data.curves ?? empty, this.reader));
+    this.images = new Map((data.images ?? []).map((image) => [image.row, image]));
+    const section = (id) => document.getElementById(id);
+    this.inspector = this.images.size > 0 ? new Inspector(section("inspector")) : null;
+    this.distance = new DistanceCharts(section("distance"));
+    this.slope = section("slope");
+    this.objects = new ObjectTables(section("objects"), data.headline);
+  }
+
+  async open() {
+    const first = this.images.has(this.data.headline) || this.images.size === 0 ? this.data.headline : [...this.images.keys()][0];
+    await this.show(first);
+    if (this.table.count > 1) {
+      await this.openSweep();
+    }
+  }
+
+  async openSweep() {
+    const section = document.getElementById("sweep");
+    section.hidden = false;
+    this.sweep = new SweepSection(section, this, (row) => this.show(row));
+    await this.sweep.open();
+  }
+
+  /** What a configuration is called: its place, and the values of the axes. */
+  async caption(row) {
+    if (this.table.count === 1) {
+      return "";
+    }
+    const axes = await this.table.select(this.data.run.axes);
+    const values = [...axes].map(([name, column]) => `${name} = ${column.at(row) ?? noValue}`);
+    return [`Configuration ${row}`, ...values].join(", ");
+  }
+
+  /** Shows a configuration in every section that has something of it. */
+  async show(row) {
+    this.shown = row;
+    const caption = await this.caption(row);
+    const stored = this.images.get(row);
+    const curveId = this.table.has("curve") ? (await this.table.column("curve")).at(row) : null;
+    const [job, best] = await Promise.all([0, 1].map((at) => this.bins.of(curveId, at)));
+    const image = stored === undefined ? null : await loadImage(stored, this.reader);
+    if (this.shown !== row) {
+      return;
+    }
+    const detail = stored?.detail ?? null;
+    if (image !== null) {
+      this.inspector.show(image, caption);
+    }
+    this.distance.show(detail?.by_light_distance_m?.map(binOfJson) ?? job?.bins ?? null, best, caption);
+    showSlopeCharts(this.slope, detail?.by_receiver_angle_rad?.map(binOfJson), caption);
+    this.objects.show(row, detail, caption);
+    await this.sweep?.showDetail(row, caption, image !== null);
+    dropDeadCharts();
+  }
+}
+
+/** Fills section#sweep. */
+class SweepSection {
+  constructor(section, page, onShow) {
+    Object.assign(this, { section, page, onShow, table: page.table });
+  }
+
+  async open() {
+    const { data } = this.page;
+    const columns = await this.table.select(data.run.axes);
+    const axes = new Map([...columns].map(([name, column]) => [name, axisOfColumn(column)]).filter(([, axis]) => axis.values.length > 1));
+    const names = [...columns.keys()];
+    this.detail = new ConfigurationDetail(this.table, data.constants ?? {});
+    this.rows = new ConfigurationTable(this.table, names, data.run.failed > 0, this.onShow);
+    const hasRates = this.table.has("error_rate");
+    const parts = [
+      hasRates && axes.size > 0 ? new AxisCharts(this.table, axes) : null,
+      hasRates && axes.size > 1 ? new HeatMap(this.table, axes) : null,
+      this.table.has("false_shadow_rate") && this.table.has("false_lit_rate") ? new ParetoChart(this.table, names, this.onShow) : null,
+    ].filter((part) => part !== null);
+    refill(this.section, ...parts.map((part) => part.root), this.rows.root, this.detail.root);
+    await this.rows.load();
+    this.rows.rows.setOpen(this.page.shown);
+    for (const part of parts) {
+      await part.draw();
+    }
+  }
+
+  async showDetail(row, caption, hasImage) {
+    this.rows.rows.setOpen(row);
+    await this.detail.show(row, caption, hasImage);
+  }
+}
+
+/** Says in words why the page stays as it came. */
+function reportFailure(text) {
+  document.querySelector("main").prepend(element("p", { role: "alert", class: "problem", text }));
+}
+
+async function startPage() {
+  if (window.DecompressionStream === undefined || window.ResizeObserver === undefined) {
+    reportFailure("This browser cannot unpack the page’s data (it has no DecompressionStream): the inspector and the interactive charts are left out. Any browser since 2023 has it.");
+    return;
+  }
+  try {
+    await new ReportPage(JSON.parse(document.getElementById("gnomon-data").textContent)).open();
+    document.documentElement.dataset.ready = "true";
+  } catch (error) {
+    reportFailure(`The interactive parts of the page could not be made: ${error.message}`);
+    throw error;
+  }
+}
+
+startPage();

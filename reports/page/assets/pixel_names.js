@@ -1,0 +1,19 @@
+// Names of the values of the layers class, cause and label; docs/aov.md.
+
+const classNames = ["background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked"];
+const causeNames = ["none", "bias", "precision", "resolution", "coverage"];
+const labelNames = ["right", "acne", "peter_panning", "leak", "edge", "overshadow"];
+const classLit = 5;
+const classBlocked = 6;
+const noTriangle = 0xFFFFFFFF;
+const noObject = 0xFFFF;
+
+/** Whether a pixel of this class takes part in rates. */
+function isScored(pixelClass) {
+  return pixelClass === classLit || pixelClass === classBlocked;
+}
+
+/** A name as people read it: peter_panning as "peter panning". */
+function spoken(name) {
+  return name.replaceAll("_", " ");
+}

@@ -1,0 +1,125 @@
+// Error against an axis of a sweep: one chart, or small ones by a second axis.
+
+const mostPoints = 400;
+const mostPanels = 12;
+
+const isRate = true;
+const measures = [
+  { name: "error_rate", title: "error rate", isRate }, { name: "false_shadow_rate", title: "false-shadow rate", isRate },
+  { name: "false_lit_rate", title: "false-lit rate", isRate }, { name: "mean_abs_error", title: "mean absolute error", isRate },
+  { name: "false_shadow", title: "false shadow [pixels]" }, { name: "false_lit", title: "false lit [pixels]" },
+  { name: "bias_curve.best_errors", title: "errors at the best bias [pixels]" },
+  { name: "labels.acne", title: "acne [pixels]" }, { name: "labels.peter_panning", title: "peter panning [pixels]" },
+  { name: "labels.leak", title: "leaks [pixels]" }, { name: "labels.edge", title: "edge errors [pixels]" },
+];
+
+/** A value of an axis as text. */
+function axisText(axis, value) {
+  return axis.isText ? String(value) : readable(value);
+}
+
+/** How an axis lies on a chart: numbers by their size, texts evenly spaced. */
+function axisSpec(axis) {
+  const last = axis.values.length - 1;
+  if (axis.isText) {
+    const short = (place) => axis.values[Math.round(place)]?.slice(0, 18) ?? "";
+    const layout = { ...linearLayout(short), ticks: () => axis.values.map((_, i) => i) };
+    return { label: axis.name, layout, low: -0.5, high: last + 0.5, at: (code) => code };
+  }
+  const ends = last > 0 ? { low: axis.values[0], high: axis.values[last] } : {};
+  return { label: axis.name, layout: layoutForValues(axis.values), ...ends, at: (code) => axis.values[code] };
+}
+
+function measureSpec(measure, largest) {
+  return measure.isRate ? { label: measure.title, layout: rateLayout(), low: 0, high: 1 }
+    : { label: measure.title, layout: symlogLayout(1), low: 0, high: Math.max(1, largest) };
+}
+
+/** One chart: the median line and the range band of summaries along an axis. */
+function axisChart(host, axis, measure, groups, more) {
+  const x = axisSpec(axis);
+  const present = groups.map((group, code) => ({ group, at: x.at(code) })).filter(({ group }) => group !== null);
+  const colour = measure.name.startsWith("false_lit") ? errorColours.falseLit
+    : measure.name.startsWith("false_shadow") ? errorColours.falseShadow : okabeIto.green;
+  const points = (key) => present.map(({ group, at }) => [at, group[key]]);
+  const isSpread = present.some(({ group }) => group.least < group.most);
+  const range = { name: "range over the others", colour, points: present.map(({ group, at }) => [at, group.least, group.most]) };
+  const ends = ["least", "most"].map((key) => ({ name: key === "least" ? "smallest" : "largest", colour, points: points(key), isLine: false, radius: 4, mark: "line" }));
+  const median = { name: isSpread ? "median" : measure.title, colour, points: points("median"), radius: present.length <= 40 ? 3 : 0 };
+  const lowest = present.reduce((a, b) => (b.group.median < a.group.median ? b : a), present[0]);
+  return new PageChart(host, {
+    x, y: measureSpec(measure, more.largest), isSmall: more.isSmall, hasLegend: !more.isSmall && isSpread,
+    title: more.title,
+    summary: lowest === undefined ? "No values." : `The median is lowest, ${measure.isRate ? percent(lowest.group.median) : readable(lowest.group.median)}, at ${x.layout.format(lowest.at)}.`,
+    series: [{ ...median, isBar: axis.isText }, ...(axis.isText && isSpread ? ends : [])],
+    bands: axis.isText || !isSpread ? [] : [range],
+  });
+}
+
+/** The part of section#sweep with error against one axis. */
+class AxisCharts {
+  /**
+   * @param {Table} table
+   * @param {Map<string, Axis>} axes
+   */
+  constructor(table, axes) {
+    this.table = table;
+    this.axes = axes;
+    const names = [...axes.keys()];
+    this.measures = measures.filter(({ name }) => table.has(name));
+    this.chosen = { axis: this.mostInteresting(), measure: this.measures[0].name, by: "" };
+    this.controls = element("div", { class: "bar" });
+    this.host = element("div", { class: "panels" });
+    this.note = element("p", { class: "hint" });
+    this.controls.append(
+      labelled("Error", choice(this.measures.map(({ name, title }) => [name, title]), this.chosen.measure, (name) => this.choose({ measure: name }))),
+      labelled("against", choice(names.map((name) => [name, name]), this.chosen.axis, (name) => this.choose({ axis: name }))),
+      labelled("one panel for each", choice([["", "– (one chart)"], ...names.map((name) => [name, name])], "", (name) => this.choose({ by: name }))));
+    this.root = element("div", {}, element("h3", { text: "Error against an axis" }), this.controls, this.note, this.host);
+  }
+
+  /** The axis with the most values, which is the one that is a curve. */
+  mostInteresting() {
+    return [...this.axes.values()].reduce((a, b) => (b.values.length > a.values.length ? b : a)).name;
+  }
+
+  choose(change) {
+    Object.assign(this.chosen, change);
+    return this.draw();
+  }
+
+  async draw() {
+    const { axis: name, measure: measureName, by } = this.chosen;
+    const measure = this.measures.find((candidate) => candidate.name === measureName);
+    const axis = joinValues(this.axes.get(name), mostPoints);
+    const { values } = await this.table.column(measureName);
+    const panels = by === "" || by === name ? null : joinValues(this.axes.get(by), mostPanels);
+    this.describe(axis, panels);
+    if (panels === null) {
+      const groups = summariseGroups(values, axis.codes, axis.values.length);
+      this.drawPanels([{ groups, title: `${measure.title} against ${name}` }], axis, measure, false);
+    } else {
+      const cells = summariseGroups(values, cellCodes(panels, axis), panels.values.length * axis.values.length);
+      const of = (i) => cells.slice(i * axis.values.length, (i + 1) * axis.values.length);
+      this.drawPanels(panels.values.map((value, i) => ({ groups: of(i), title: `${by} = ${axisText(panels, value)}` })), axis, measure, true);
+    }
+    dropDeadCharts();
+  }
+
+  describe(axis, panels) {
+    const others = [...this.axes.keys()].filter((name) => name !== axis.name && name !== panels?.name);
+    const spread = others.length === 0 ? "" : ` Median and range over ${others.join(", ")}.`;
+    const whole = this.axes.get(axis.name).values.length;
+    const joined = whole > axis.values.length ? ` ${grouped(whole)} values are joined to ${axis.values.length}.` : "";
+    this.note.textContent = `${spread}${joined}`.trim();
+    this.note.hidden = this.note.textContent === "";
+  }
+
+  drawPanels(panels, axis, measure, isSmall) {
+    const hosts = panels.map(() => element("div", { class: "chart-host" }));
+    this.host.className = isSmall ? "panels panels-small" : "panels";
+    this.host.replaceChildren(...hosts);
+    const largest = largestOf(panels.flatMap(({ groups }) => groups.map((group) => group?.most)));
+    panels.forEach(({ groups, title }, i) => axisChart(hosts[i], axis, measure, groups, { title, isSmall, largest }));
+  }
+}

@@ -1,0 +1,114 @@
+// A sweep's rows, grouped along its axes. Nothing here draws.
+
+/**
+ * An axis of a sweep: its distinct values in order, and which of them each row has.
+ * @typedef {{name: string, isText: boolean, values: Array, codes: Int32Array}} Axis
+ *     codes (rows) are indices into values; −1 where the row has no value
+ */
+
+/** @return {Axis}  of a column; numbers ascend, texts stand in the order of the sweep */
+function axisOfColumn(column) {
+  const { name, values, dictionary, isText } = column;
+  if (isText) {
+    return { name, isText, values: dictionary, codes: Int32Array.from(values, (code) => (code === noIndex ? -1 : code)) };
+  }
+  const codeOf = new Map();
+  const codes = new Int32Array(values.length);
+  for (let row = 0; row < values.length; ++row) {
+    const value = values[row];
+    if (!codeOf.has(value)) {
+      codeOf.set(value, codeOf.size);
+    }
+    codes[row] = codeOf.get(value);
+  }
+  const distinct = [...codeOf.keys()];
+  const order = distinct.map((_, code) => code).filter((code) => !Number.isNaN(distinct[code]));
+  order.sort((a, b) => distinct[a] - distinct[b]);
+  const rankOf = new Int32Array(distinct.length).fill(-1);
+  order.forEach((code, rank) => { rankOf[code] = rank; });
+  return { name, isText, values: order.map((code) => distinct[code]), codes: codes.map((code) => rankOf[code]) };
+}
+
+/**
+ * The axis with neighbouring values joined until there are at most `most`; each group is named by its
+ * middle value.
+ * @return {Axis}
+ */
+function joinValues(axis, most) {
+  const count = axis.values.length;
+  if (count <= most) {
+    return axis;
+  }
+  const groupOf = Int32Array.from(axis.values, (_, rank) => Math.floor((rank * most) / count));
+  const values = Array.from({ length: most }, (_, group) => {
+    const first = Math.ceil((group * count) / most);
+    const next = Math.ceil(((group + 1) * count) / most);
+    return axis.values[Math.floor((first + next - 1) / 2)];
+  });
+  return { ...axis, values, codes: axis.codes.map((rank) => (rank < 0 ? -1 : groupOf[rank])) };
+}
+
+/**
+ * Median and range of a measure in each group.
+ * @param {TypedArray} values  (rows); NaN is left out
+ * @param {Int32Array} groups  (rows); −1 is left out
+ * @param {number} count  of groups
+ * @return {?{median: number, least: number, most: number, count: number}[]}  null for an empty group
+ */
+function summariseGroups(values, groups, count) {
+  const sizes = new Int32Array(count + 1);
+  const isUsed = (row) => groups[row] >= 0 && !Number.isNaN(values[row]);
+  for (let row = 0; row < values.length; ++row) {
+    sizes[isUsed(row) ? groups[row] + 1 : 0] += 1;
+  }
+  sizes[0] = 0;
+  for (let group = 0; group < count; ++group) {
+    sizes[group + 1] += sizes[group];
+  }
+  const next = sizes.slice();
+  const sorted = new Float64Array(sizes[count]);
+  for (let row = 0; row < values.length; ++row) {
+    if (isUsed(row)) {
+      sorted[next[groups[row]]++] = values[row];
+    }
+  }
+  return Array.from({ length: count }, (_, group) => {
+    const part = sorted.subarray(sizes[group], sizes[group + 1]).sort();
+    // A percentile is one of the values: the smallest that at least half of them do not exceed.
+    const middle = part[Math.ceil(part.length / 2) - 1];
+    return part.length === 0 ? null : { median: middle, least: part[0], most: part[part.length - 1], count: part.length };
+  });
+}
+
+/** @return {Int32Array}  (rows): the cell of two axes that a row is in, column by column; −1 none */
+function cellCodes(across, down) {
+  return across.codes.map((column, row) => (column < 0 || down.codes[row] < 0 ? -1 : column * down.values.length + down.codes[row]));
+}
+
+/**
+ * The rows of which no other has less of one without more of the other, by ascending first measure;
+ * of equal rows the first.
+ * @param {TypedArray} first  (rows)
+ * @param {TypedArray} second  (rows)
+ * @return {number[]}
+ */
+function paretoFront(first, second) {
+  const rows = Uint32Array.from(first.keys()).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
+  rows.sort((a, b) => first[a] - first[b] || second[a] - second[b] || a - b);
+  const front = [];
+  let least = Infinity;
+  for (const row of rows) {
+    if (second[row] < least) {
+      least = second[row];
+      front.push(row);
+    }
+  }
+  return front;
+}
+
+/** At most `most` rows with both measures, evenly spaced through the sweep. */
+function thinnedRows(first, second, most) {
+  const rows = [...first.keys()].filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
+  const step = rows.length / Math.min(rows.length, most);
+  return Array.from({ length: Math.min(rows.length, most) }, (_, i) => rows[Math.floor(i * step)]);
+}

@@ -1,0 +1,152 @@
+// Critical biases, their units and counts, against their definitions in float32.
+
+import assert from "node:assert/strict";
+import { describe, it } from "node:test";
+import { loadScripts, seededRandom } from "./scripts.mjs";
+
+const page = loadScripts(
+  ["pixel_names.js", "critical_bias.js", "bias_units.js", "bias_counts.js", "numbers.js", "slider_scale.js"],
+  ["criticalBias", "criticalBiases", "searchCriticalBias", "guessCriticalBias", "previousBias", "biasRank", "biasOfRank",
+    "biasLengthM", "neededBiases", "BiasCounts", "SliderScale", "shortestFloat32"]);
+
+/** Whether the lookup is lit, as the shader computes it. */
+function isLit(r, d, bias, reversed) {
+  return reversed ? Math.fround(r + bias) >= d : Math.fround(r - bias) <= d;
+}
+
+/** A float32 from a few kinds that make trouble. */
+function troublesomeDepth(random) {
+  const kinds = [() => random(), () => 1 - random() * 1e-6, () => random() * 1e-6, () => Math.round(random() * 65535) / 65535,
+    () => 2 ** Math.floor(-140 * random()), () => Math.floor(2 * random()), () => 2 * random() - 0.5];
+  return Math.fround(kinds[Math.floor(kinds.length * random())]());
+}
+
+describe("A critical bias", () => {
+  it("is the difference where it is exact", () => {
+    assert.equal(page.criticalBias(0.75, 0.5, false), page.searchCriticalBias(-0.75, -0.5));
+    assert.ok(isLit(0.75, 0.5, page.criticalBias(0.75, 0.5, false), false));
+    assert.equal(page.criticalBias(0, 0, false), 0);
+    assert.ok(Object.is(page.criticalBias(0, 0, true), 0));
+  });
+
+  it("is the smallest bias that is lit, for 20,000 random pairs of depths", () => {
+    const random = seededRandom(20261122);
+    for (let i = 0; i < 20000; ++i) {
+      const [r, d, reversed] = [troublesomeDepth(random), troublesomeDepth(random), random() < 0.5];
+      const critical = page.criticalBias(r, d, reversed);
+      const told = `r = ${r}, d = ${d}, reversed = ${reversed}, critical = ${critical}`;
+      assert.ok(isLit(r, d, critical, reversed), told);
+      assert.ok(!isLit(r, d, page.previousBias(critical), reversed), told);
+      assert.ok(critical === 0 || Math.abs(critical) >= 2 ** -126, told);
+    }
+  });
+
+  it("is what bisection finds, for random pairs", () => {
+    const random = seededRandom(7);
+    for (let i = 0; i < 2000; ++i) {
+      const [r, d] = [troublesomeDepth(random), troublesomeDepth(random)];
+      assert.ok(Object.is(page.criticalBias(r, d, false), page.searchCriticalBias(-r, d === 0 ? -0 : -d)), `r = ${r}, d = ${d}`);
+    }
+  });
+
+  it("is infinite where no bias decides", () => {
+    assert.equal(page.criticalBias(NaN, 0.5, false), Infinity);
+    assert.equal(page.criticalBias(0.5, Infinity, false), -Infinity);
+    const classes = Uint8Array.of(5, 6, 0);
+    const [r, d] = [new Float32Array(3).fill(0.5), new Float32Array(3).fill(NaN)];
+    const of = (outside) => [...page.criticalBiases(classes, r, d, { reversed: false, outside })];
+    assert.deepEqual(of("lit"), [-Infinity, -Infinity, NaN]);
+    assert.deepEqual(of("shadowed"), [Infinity, Infinity, NaN]);
+  });
+});
+
+describe("The order of biases", () => {
+  it("has no gaps, and no subnormals", () => {
+    const smallestNormal = 2 ** -126;
+    assert.equal(page.previousBias(smallestNormal), 0);
+    assert.equal(page.previousBias(0), -smallestNormal);
+    assert.equal(page.previousBias(-Infinity), -Infinity);
+    const random = seededRandom(1);
+    for (let i = 0; i < 1000; ++i) {
+      const rank = Math.floor((2 * random() - 1) * 0x7F000000);
+      assert.equal(page.biasRank(page.biasOfRank(rank)), rank);
+      assert.ok(page.previousBias(page.biasOfRank(rank)) < page.biasOfRank(rank), `rank ${rank}`);
+    }
+  });
+});
+
+describe("Lengths of biases", () => {
+  const orthographic = { projection: "orthographic", range_m: 20, texel_m: 0.5 };
+  const perspective = { projection: "perspective", inverse_range_per_m: 2, texel_m: 0.01 };
+
+  it("are the range's share of a directional light", () => {
+    assert.equal(page.biasLengthM(orthographic, 0.25, 3), 5);
+  });
+
+  it("follow A b ζ² / (1 + A b ζ) of a spot, to minus infinity", () => {
+    assert.equal(page.biasLengthM(perspective, 0.25, 2), 1);
+    assert.equal(page.biasLengthM(perspective, -0.25, 2), -Infinity);
+    assert.equal(page.biasLengthM(perspective, Infinity, 2), Infinity);
+  });
+
+  it("take the bias below the critical one for blocked pixels, and none elsewhere", () => {
+    const critical = new Float32Array(4).fill(0.25);
+    critical[3] = Infinity;
+    const { metres, texels } = page.neededBiases(Uint8Array.of(5, 6, 2, 6), critical, new Float32Array(4).fill(1), orthographic);
+    const below = Math.fround(20 * page.previousBias(0.25));
+    assert.deepEqual([...metres], [5, below, NaN, Infinity]);
+    assert.deepEqual([...texels], [10, Math.fround((20 * page.previousBias(0.25)) / 0.5), NaN, Infinity]);
+  });
+});
+
+describe("Counts at a bias", () => {
+  it("are those of counting every pixel, for random images and biases", () => {
+    const random = seededRandom(3);
+    for (let round = 0; round < 50; ++round) {
+      const classes = Uint8Array.from({ length: 200 }, () => Math.floor(7 * random()));
+      const special = [-Infinity, Infinity, 0, NaN];
+      const criticals = Float32Array.from({ length: 200 }, () => (random() < 0.2 ? special[Math.floor(4 * random())] : random() - 0.5));
+      const counts = new page.BiasCounts(classes, criticals);
+      for (const bias of [random() - 0.5, criticals[Math.floor(200 * random())], 0]) {
+        const limit = Math.fround(bias);
+        const count = (wanted, lit) => classes.reduce((sum, of, i) => sum + (of === wanted && criticals[i] <= limit === lit ? 1 : 0), 0);
+        assert.deepEqual(counts.at(bias), { falseShadow: count(5, false), falseLit: count(6, true) }, `round ${round}, bias ${bias}`);
+      }
+    }
+  });
+});
+
+describe("The slider", () => {
+  const scale = new page.SliderScale(2 ** -24, { lowest: -0.1, highest: 0.5 });
+
+  it("has the bias 0 at position 0, and biases that rise with it", () => {
+    assert.equal(scale.biasAt(0), 0);
+    for (let position = scale.lowestPosition; position < scale.highestPosition; ++position) {
+      assert.ok(scale.biasAt(position) < scale.biasAt(position + 1), `position ${position}`);
+    }
+  });
+
+  it("finds the position of its biases again", () => {
+    for (let position = scale.lowestPosition; position <= scale.highestPosition; ++position) {
+      // Rounding a bias to float32 moves it by 6e-8 of itself, far less than a position.
+      assert.ok(Math.abs(scale.positionOf(scale.biasAt(position)) - position) < 0.01, `position ${position}`);
+    }
+  });
+
+  it("reaches all biases that matter", () => {
+    assert.ok(Math.abs(scale.biasAt(scale.highestPosition) - 0.5) < 1e-6);
+    assert.ok(Math.abs(scale.biasAt(scale.lowestPosition) + 0.1) < 1e-6);
+  });
+});
+
+describe("A float32 as text", () => {
+  it("reads back as the same number, and is short", () => {
+    assert.equal(page.shortestFloat32(Math.fround(0.1)), "0.1");
+    assert.equal(page.shortestFloat32(-Infinity), "\u2212\u221E");
+    const random = seededRandom(5);
+    for (let i = 0; i < 5000; ++i) {
+      const value = Math.fround((random() - 0.5) * 10 ** (60 * random() - 30));
+      assert.equal(Math.fround(Number(page.shortestFloat32(value))), value);
+    }
+  });
+});

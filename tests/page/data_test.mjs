@@ -1,0 +1,165 @@
+// Packed blocks, the filter's language, and the grouping of a sweep.
+
+import assert from "node:assert/strict";
+import { describe, it } from "node:test";
+import { deflateSync } from "node:zlib";
+import { loadScripts, seededRandom } from "./scripts.mjs";
+
+const page = loadScripts(
+  ["blocks.js", "columns.js", "numbers.js", "filter_language.js", "sweep_data.js", "scales.js"],
+  ["BlockReader", "Table", "parseFilter", "resolveColumn", "filterRows", "axisOfColumn", "joinValues", "summariseGroups",
+    "cellCodes", "paretoFront", "thinnedRows", "symlogLayout", "noIndex", "arrayOfType"]);
+
+/** Packs values as the page's writer does. */
+function pack(values, delta) {
+  const size = values.BYTES_PER_ELEMENT;
+  const whole = new { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array, 8: BigUint64Array }[size](values.slice().buffer);
+  for (let pass = 0; pass < delta; ++pass) {
+    for (let i = whole.length - 1; i > 0; --i) {
+      whole[i] -= whole[i - 1];
+    }
+  }
+  const bytes = new Uint8Array(whole.buffer);
+  const planes = Uint8Array.from(bytes, (_, i) => bytes[(i % values.length) * size + Math.floor(i / values.length)]);
+  return deflateSync(planes).toString("base64");
+}
+
+/** A table of number arrays and text arrays, by name. */
+function tableOf(columns) {
+  const texts = [];
+  const stored = Object.entries(columns).map(([name, values]) => {
+    const isText = typeof values[0] === "string" || values[0] === null;
+    const dictionary = [...new Set(values.filter((value) => value !== null))];
+    const packed = isText ? Uint32Array.from(values, (value) => (value === null ? page.noIndex : dictionary.indexOf(value))) : Float64Array.from(values);
+    texts.push(pack(packed, 0));
+    return { name, block: String(texts.length - 1), count: values.length, delta: 0, ...(isText ? { type: "text", dictionary } : { type: "f64" }) };
+  });
+  return new page.Table({ count: Object.values(columns)[0].length, columns: stored }, new page.BlockReader((id) => texts[id]));
+}
+
+describe("A packed block", () => {
+  for (const [type, delta] of [["u8", 0], ["u8", 1], ["u16", 2], ["u32", 1], ["u32", 2], ["f32", 0], ["f32", 1], ["f32", 2], ["f64", 0]]) {
+    it(`gives the same bits of ${type} after ${delta} differences`, async () => {
+      const random = seededRandom(11);
+      const bytes = Uint8Array.from({ length: 8 * 257 }, () => 256 * random());
+      const values = new page.arrayOfType[type](bytes.buffer);
+      const reader = new page.BlockReader(() => pack(values, delta));
+      const read = await reader.read({ block: "b0", type, count: values.length, delta });
+      assert.deepEqual(new Uint8Array(read.buffer), bytes);
+    });
+  }
+
+  it("is decoded once", async () => {
+    let asked = 0;
+    const reader = new page.BlockReader(() => { asked += 1; return pack(Uint8Array.of(1, 2), 0); });
+    const block = { block: "b0", type: "u8", count: 2, delta: 0 };
+    assert.equal(await reader.read(block), await reader.read({ ...block }));
+    assert.equal(asked, 1);
+  });
+
+  it("of another length is refused", async () => {
+    const reader = new page.BlockReader(() => pack(Uint8Array.of(1, 2), 0));
+    await assert.rejects(reader.read({ block: "b0", type: "u8", count: 3, delta: 0 }), /2 bytes for 3 values/);
+  });
+});
+
+describe("The filter", () => {
+  const table = tableOf({
+    false_lit: [5, 200, 50, NaN], "shadow_map.resolution": [512, 2048, 2048, 512], error_rate: [0.5, 0.002, 0.01, NaN],
+    "lookup.filter": ["nearest", "pcf3", "nearest", null], "scene.file": ["a b.obj", "</script>", "ünïcode", "a.obj"],
+  });
+  const keeps = async (text) => [...await page.filterRows(table, ["shadow_map.resolution", "lookup.filter", "scene.file"], text)].flatMap((kept, row) => (kept ? [row] : []));
+
+  it("takes all rows where it is empty", async () => assert.deepEqual(await keeps("  "), [0, 1, 2, 3]));
+  it("compares, with or without spaces, and joins terms", async () => {
+    assert.deepEqual(await keeps("false_lit < 100 shadow_map.resolution=2048"), [2]);
+    assert.deepEqual(await keeps("false_lit<100"), [0, 2]);
+    assert.deepEqual(await keeps("error_rate <= 1%"), [1, 2]);
+    assert.deepEqual(await keeps("resolution != 512"), [1, 2]);
+  });
+  it("finds words in texts whatever their case, and numbers whole", async () => {
+    assert.deepEqual(await keeps("NEAR"), [0, 2]);
+    assert.deepEqual(await keeps("\"a b\""), [0]);
+    assert.deepEqual(await keeps("2048"), [1, 2]);
+    assert.deepEqual(await keeps("filter~pcf"), [1]);
+    assert.deepEqual(await keeps("filter=nearest obj"), [0]);
+    assert.deepEqual(await keeps("\"</script>\""), [1]);
+  });
+  it("never takes a row without the value, but for !=", async () => {
+    assert.deepEqual(await keeps("false_lit >= 0"), [0, 1, 2]);
+    assert.deepEqual(await keeps("filter != nearest"), [1, 3]);
+  });
+  it("says what it does not understand", async () => {
+    await assert.rejects(keeps("< 5"), /no column before/);
+    await assert.rejects(keeps("false_lit <"), /no value behind/);
+    await assert.rejects(keeps("falselit < 5"), /no column “falselit”/);
+    await assert.rejects(keeps("false_lit < many"), /is a number/);
+    assert.throws(() => page.resolveColumn(["a.x", "b.x"], "x"), /may be a.x or b.x/);
+  });
+});
+
+describe("Groups of a sweep", () => {
+  it("have the median, which is one of the values, and the range", async () => {
+    const table = tableOf({ axis: [2, 1, 2, 1, 2, NaN], error: [5, 1, 3, NaN, 4, 9] });
+    const axis = page.axisOfColumn(await table.column("axis"));
+    assert.deepEqual(axis.values, [1, 2]);
+    assert.deepEqual([...axis.codes], [1, 0, 1, 0, 1, -1]);
+    const groups = page.summariseGroups((await table.column("error")).values, axis.codes, 2);
+    assert.deepEqual(groups, [{ median: 1, least: 1, most: 1, count: 1 }, { median: 4, least: 3, most: 5, count: 3 }]);
+  });
+
+  it("agree with sorting, for random rows", () => {
+    const random = seededRandom(17);
+    const values = Float64Array.from({ length: 500 }, () => (random() < 0.1 ? NaN : random()));
+    const codes = Int32Array.from({ length: 500 }, () => Math.floor(8 * random()) - 1);
+    page.summariseGroups(values, codes, 7).forEach((group, code) => {
+      const part = [...values].filter((value, row) => codes[row] === code && !Number.isNaN(value)).sort((a, b) => a - b);
+      assert.deepEqual(group, { median: part[Math.ceil(part.length / 2) - 1], least: part[0], most: part.at(-1), count: part.length });
+    });
+  });
+
+  it("join neighbouring values where there are too many", () => {
+    const axis = { name: "x", isText: false, values: [...Array(10).keys()], codes: Int32Array.from(Array(10).keys()) };
+    const joined = page.joinValues(axis, 3);
+    assert.equal(joined.values.length, 3);
+    assert.deepEqual([...joined.codes], [0, 0, 0, 0, 1, 1, 1, 2, 2, 2]);
+    joined.values.forEach((value, group) => assert.equal(joined.codes[value], group));
+  });
+
+  it("have a cell for each pair of values", () => {
+    const axis = (codes, count) => ({ values: Array(count), codes: Int32Array.from(codes) });
+    assert.deepEqual([...page.cellCodes(axis([0, 1, -1], 2), axis([2, 0, 1], 3))], [2, 3, -1]);
+  });
+});
+
+describe("The Pareto front", () => {
+  it("is what no row beats, for random rows", () => {
+    const random = seededRandom(23);
+    const measure = () => Float64Array.from({ length: 300 }, () => (random() < 0.05 ? NaN : Math.floor(40 * random())));
+    const [first, second] = [measure(), measure()];
+    const front = page.paretoFront(first, second);
+    const beats = (a, b) => first[a] <= first[b] && second[a] <= second[b] && (first[a] < first[b] || second[a] < second[b]);
+    const rows = [...first.keys()].filter((row) => !Number.isNaN(first[row] + second[row]));
+    const unbeaten = new Set(rows.filter((row) => !rows.some((other) => beats(other, row))).map((row) => `${first[row]} ${second[row]}`));
+    assert.deepEqual(new Set(front.map((row) => `${first[row]} ${second[row]}`)), unbeaten);
+    assert.equal(front.length, unbeaten.size);
+  });
+
+  it("is empty without rows", () => {
+    assert.deepEqual(page.paretoFront(Float64Array.of(NaN), Float64Array.of(1)), []);
+    assert.deepEqual(page.thinnedRows(Float64Array.of(NaN), Float64Array.of(1), 10), []);
+  });
+});
+
+describe("A symmetric logarithmic axis", () => {
+  it("is undone by its inverse and rises everywhere", () => {
+    const layout = page.symlogLayout(1e-3);
+    const values = [-100, -1, -1e-3, -1e-5, 0, 1e-4, 1e-3, 2, 1e3];
+    values.forEach((value) => assert.ok(Math.abs(layout.inverse(layout.forward(value)) - value) <= 1e-12 * Math.abs(value), `${value}`));
+    values.slice(1).forEach((value, i) => assert.ok(layout.forward(value) > layout.forward(values[i])));
+  });
+
+  it("has ticks within its ends, 0 among them", () => {
+    assert.deepEqual(page.symlogLayout(0.01).ticks(-1, 1), [-1, -0.1, -0.01, 0, 0.01, 0.1, 1]);
+  });
+});
