@@ -25,8 +25,8 @@ def read(paths):
         raise csv_tables.InputError(
             f"{len(paths)} files given; error_vs_z.csv and results.csv of one run are needed"
         )
-    bins = csv_tables.read(paths[0], BINS, TEXTS)
-    results = csv_tables.read(paths[1], SETTINGS, SETTING_TEXTS)
+    bins = csv_tables.read_table(paths[0], BINS, TEXTS)
+    results = csv_tables.read_table(paths[1], SETTINGS, SETTING_TEXTS)
     if not set(bins["curve"]) <= set(results["curve"]):
         raise csv_tables.InputError(f"{paths[1]}: not of the same run as {paths[0]}")
     return [bins, results]

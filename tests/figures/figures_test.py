@@ -322,7 +322,7 @@ class CommandLine(unittest.TestCase):
         output = self.folder / "figure.png"
         header, *rows = (HERE / "d16.csv").read_text().splitlines()
         for text, reason in (
-            ("", "the file is empty"),
+            ("", "cannot be read as CSV: the file is empty"),
             (header + "\n", "no rows under the header"),
             (header.replace("envelope_m", "envelope") + "\n" + rows[0] + "\n",
              "no column envelope_m"),
