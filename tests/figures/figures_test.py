@@ -344,7 +344,7 @@ class CommandLine(unittest.TestCase):
         self.assert_refused("cannot be read as CSV", "error-vs-z", self.folder, "-o", output)
         self.assert_refused("invalid choice: 'pie'", "pie", d16, "-o", output)
         self.assert_refused("required: -o", "error-vs-z", d16)
-        self.assert_refused("must end in .svg or .png", "error-vs-z", d16, "-o", "figure.gif")
+        self.assert_refused("must end in .pdf, .svg or .png", "error-vs-z", d16, "-o", "figure.gif")
         self.assert_refused("1 files given", "shadow-errors-on-depth-error", d16, "-o", output)
 
     def test_says_where_it_cannot_write(self):

@@ -80,7 +80,7 @@ def load_run(folder, columns=None):
     path = folder / "results.csv"
     if not path.exists():
         raise InputError(f"{path}: no such file; is {folder} a run of gnomon sweep?")
-    results = read_table(path, ("schema",), ("id", "scene_hash"), may_be_empty=True,
+    results = read_table(path, ("schema",), ("curve", "scene_hash"), may_be_empty=True,
                          columns=columns)
     if "map_near_m" not in results:
         raise InputError(f"{path}: no column map_near_m; see docs/csv_schema.md")
