@@ -7,22 +7,26 @@ import sys
 import warnings
 from pathlib import Path
 
-import gnomon
-import matplotlib
+try:
+    import gnomon
+    import matplotlib
 
-import bias_curve
-import causes
-import depth_error_vs_z
-import error_vs_axis
-import error_vs_z
-import errors_vs_z
-import heat_map
-import measured_against_formula
-import pareto
-import reversed_float
-import run_settings
-import shadow_errors_on_depth_error
-import style
+    import bias_curve
+    import causes
+    import depth_error_vs_z
+    import error_vs_axis
+    import error_vs_z
+    import errors_vs_z
+    import heat_map
+    import measured_against_formula
+    import pareto
+    import reversed_float
+    import run_settings
+    import shadow_errors_on_depth_error
+    import style
+except ModuleNotFoundError as missing:
+    print(f"make.py: {sys.executable} has no {missing.name}", file=sys.stderr)
+    sys.exit(3)
 
 # Of tables: read(paths) and draw(tables).
 TABLE_FIGURES = {
@@ -120,12 +124,17 @@ def draw_run(run, folder):
 
 
 def main(arguments):
-    """0 when the figures are written, 2 on bad input, 4 where the output cannot be written."""
+    """0 when the figures are written, 2 on bad input, 4 where the output cannot be written.
+
+    It is 3 where a Debian package is missing, before anything else.
+    """
     options = parse(arguments)
     # A scene's name may be in any script; what the font lacks is drawn as a box.
     warnings.filterwarnings("ignore", message="Glyph .* missing from current font")
     try:
-        with matplotlib.rc_context(style.RC):
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()  # no user's own
+            matplotlib.rcParams.update(style.RC)
             if options.out:
                 json.dump(draw_run(load(options.inputs), options.out), sys.stdout)
                 print()

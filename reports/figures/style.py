@@ -1,5 +1,6 @@
 """How every figure looks: sizes, colours that any colour vision can tell apart, files."""
 
+import os
 import textwrap
 
 import numpy
@@ -135,13 +136,24 @@ def length_text(length_m):
 
 
 def save(figure, path):
-    """Writes .svg or .png; the same figure gives the same bytes."""
-    if path.suffix == ".svg":
-        figure.savefig(path, metadata={"Date": None})
+    """Writes .pdf, .svg or .png, whole or not at all; the same figure gives the same bytes."""
+    unfinished = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        _write(figure, unfinished, path.suffix[1:])
+        unfinished.replace(path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def _write(figure, path, kind):
+    if kind != "png":
+        no_date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+        figure.savefig(path, format=kind, dpi=PNG_DPI, metadata=no_date[kind])
         return
     figure.set_dpi(PNG_DPI)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     # A palette, as dots make a PNG in full colour three times as large.
     pixels = Image.fromarray(numpy.asarray(canvas.buffer_rgba())).convert("RGB")
-    pixels.quantize(PNG_COLOURS, dither=Image.Dither.NONE).save(path, optimize=True)
+    pixels.quantize(PNG_COLOURS, dither=Image.Dither.NONE).save(path, "PNG",
+                                                                     optimize=True)
