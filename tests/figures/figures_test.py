@@ -345,7 +345,7 @@ class CommandLine(unittest.TestCase):
         self.assert_refused(f"{nowhere}: no such file", "error-vs-z", nowhere, "-o", output)
         self.assert_refused("results.csv: no such file; is .* a run", "error-vs-z", self.folder, "-o", output)
         self.assert_refused("invalid choice: 'pie'", "pie", d16, "-o", output)
-        self.assert_refused("required: -o", "error-vs-z", d16)
+        self.assert_refused("-o --out is required", "error-vs-z", d16)
         self.assert_refused("must end in .pdf, .svg or .png", "error-vs-z", d16, "-o", "figure.gif")
         self.assert_refused("1 files given", "shadow-errors-on-depth-error", d16, "-o", output)
 
