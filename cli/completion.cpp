@@ -1,5 +1,6 @@
 #include "cli/completion.hpp"
 
+#include "cli/figures.hpp"
 #include "cli/standard_output.hpp"
 #include "scene/builtin_scenes.hpp"
 #include "scene/job_file.hpp"
@@ -59,6 +60,15 @@ std::string key_names()
     return fmt::format("{}", fmt::join(names, " "));
 }
 
+std::string figure_names()
+{
+    std::vector<std::string_view> names;
+    for (const FigureKind& kind : figure_kinds()) {
+        names.push_back(kind.name);
+    }
+    return fmt::format("{}", fmt::join(names, " "));
+}
+
 std::string flag_names(const Command& command)
 {
     std::vector<std::string> names;
@@ -82,6 +92,7 @@ std::string bash_script(const std::vector<Command>& commands)
         --builtin) COMPREPLY=($(compgen -W "{}" -- "$current")); return ;;
         --set) COMPREPLY=($(compgen -W "{}" -- "$current")); compopt -o nospace; return ;;
         --truth) COMPREPLY=($(compgen -W "exact float" -- "$current")); return ;;
+        figure) COMPREPLY=($(compgen -W "{} --list --help" -- "$current")); return ;;
         completion) COMPREPLY=($(compgen -W "bash zsh fish" -- "$current")); return ;;
     esac
     if [ "$COMP_CWORD" -eq 1 ]; then
@@ -98,7 +109,7 @@ std::string bash_script(const std::vector<Command>& commands)
 }}
 complete -F _gnomon gnomon
 )",
-                       builtin_names(), key_names(), fmt::join(names, " "), cases);
+                       builtin_names(), key_names(), figure_names(), fmt::join(names, " "), cases);
 }
 
 /// A string in single quotes as fish reads it.
@@ -131,6 +142,8 @@ std::string fish_script(const std::vector<Command>& commands)
                 values.empty() ? "" : fmt::format(" -x -a {}", fish_quoted(values)));
         }
     }
+    script += fmt::format("complete -c gnomon -n '__fish_seen_subcommand_from figure' -a '{}'\n",
+                          figure_names());
     return script + "complete -c gnomon -f -n '__fish_seen_subcommand_from completion' -a 'bash "
                     "zsh fish'\n";
 }

@@ -4,6 +4,7 @@
 #include "cli/depth_command.hpp"
 #include "cli/doctor_command.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/figure_command.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/process.hpp"
 #include "cli/report_command.hpp"
@@ -59,6 +60,7 @@ void describe(CLI::App& program)
     gnomon::cli::add_merge_command(program);
     gnomon::cli::add_status_command(program);
     gnomon::cli::add_report_command(program);
+    gnomon::cli::add_figure_command(program);
     gnomon::cli::add_depth_command(program);
     gnomon::cli::add_scenes_command(program);
     gnomon::cli::add_init_command(program);

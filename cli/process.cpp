@@ -18,6 +18,8 @@ volatile pid_t owner = 0; ///< the process whose files these are; a fork has the
 volatile std::sig_atomic_t may_stop = 0;
 volatile std::sig_atomic_t must_stop = 0;
 
+volatile pid_t child_to_end = 0;
+
 void write_message(std::string_view message)
 {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
@@ -32,6 +34,9 @@ extern "C" void end_process(int signal)
         must_stop = 1;
         write_message("\ngnomon: interrupted; finishing what has begun (again: stop at once)\n");
         return;
+    }
+    if (child_to_end > 0) {
+        ::kill(child_to_end, SIGTERM);
     }
     reports::abandon_output_files();
     write_message("gnomon: interrupted; run it again\n");
@@ -68,6 +73,11 @@ void clean_up_on_signals()
             ::sigaction(signal, &action, nullptr);
         }
     }
+}
+
+void end_with_this_process(pid_t child)
+{
+    child_to_end = child;
 }
 
 void stop_on_signals()

@@ -1,5 +1,6 @@
 #include "cli/report_command.hpp"
 
+#include "cli/figures.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/page/report.hpp"
 #include "reports/text.hpp"
@@ -47,6 +48,24 @@ std::string outcome_text(const fs::path& out, const reports::ReportOutcome& outc
     return text + "\n";
 }
 
+/// Draws the figures, or says why there are none.
+void add_figures(reports::ReportOptions& report, const CommandOptions& options)
+{
+    if (options.has_no_figures) {
+        report.no_figures = "they were not asked for (--no-figures).";
+        return;
+    }
+    try {
+        for (const FigureFile& figure : draw_run_figures(report.out, report.out / "figures")) {
+            report.figures.push_back({figure.name, figure.title, figure.caption, figure.alt,
+                                      figure.svg, figure.png});
+        }
+    } catch (const PythonMissing& error) {
+        report.no_figures = error.what();
+        fmt::print(stderr, "gnomon: no figures: {}\n", error.what());
+    }
+}
+
 void report(const CommandOptions& options)
 {
     reports::ReportOptions report;
@@ -54,7 +73,8 @@ void report(const CommandOptions& options)
     report.out = options.out.empty() ? options.run : options.out;
     report.only = options.only;
     make_folder(report.out);
-    report.no_figures = "they were not asked for (--no-figures).";
+    reports::write_report_csv(report.folder, report.out);
+    add_figures(report, options);
     print(outcome_text(report.out, reports::write_report(report)));
 }
 

@@ -15,6 +15,8 @@ foreach(layer scene raster_gl analysis reports)
 endforeach()
 
 install(TARGETS gnomon RUNTIME)
+install(DIRECTORY reports/figures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/figures
+        FILES_MATCHING PATTERN "*.py")
 install(FILES LICENSE CHANGELOG.md CITATION.cff TYPE DOC)
 
 install(EXPORT gnomon-targets NAMESPACE gnomon:: DESTINATION ${gnomon_package_dir})

@@ -63,7 +63,7 @@ def draw(tables):
     curves = data(tables)
     zoomed = [(curve, colour) for curve, colour in zip(curves, _colours(curves))
               if curve["last_codes"][0].size > 0]
-    figure = style.new_figure(
+    figure = style.TitledFigure(
         "Error of a stored depth against distance",
         f"{curves[0]['frustum']}; ideal storage, nearest of 2ⁿ evenly spaced codes",
         6.8 if zoomed else 4.6,

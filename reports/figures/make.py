@@ -1,25 +1,51 @@
 #!/usr/bin/python3
-"""Draws a figure from CSV files that Gnomon wrote; docs/depth_precision.md#figures shows them."""
+"""Draws figures from CSV files that Gnomon wrote; docs/figures.md shows them."""
 
 import argparse
+import json
 import sys
+import warnings
 from pathlib import Path
 
-import matplotlib
+try:
+    import gnomon
+    import matplotlib
 
-import error_vs_z
-import measured_against_formula
-import reversed_float
-import shadow_errors_on_depth_error
-import style
-import tables
+    import bias_curve
+    import causes
+    import depth_error_vs_z
+    import error_vs_axis
+    import error_vs_z
+    import errors_vs_z
+    import heat_map
+    import measured_against_formula
+    import pareto
+    import reversed_float
+    import run_settings
+    import shadow_errors_on_depth_error
+    import style
+except ModuleNotFoundError as missing:
+    print(f"make.py: {sys.executable} has no {missing.name}", file=sys.stderr)
+    sys.exit(3)
 
-FIGURES = {
+# Of tables: read(paths) and draw(tables).
+TABLE_FIGURES = {
     "error-vs-z": error_vs_z,
     "reversed-float": reversed_float,
     "measured-against-formula": measured_against_formula,
     "shadow-errors-on-depth-error": shadow_errors_on_depth_error,
 }
+# Of a run: read(run), which raises DoesNotApply, draw(tables) and words(tables).
+RUN_FIGURES = {
+    "bias-curve": bias_curve,
+    "errors-vs-z": errors_vs_z,
+    "depth-error-vs-z": depth_error_vs_z,
+    "causes": causes,
+    "error-vs-axis": error_vs_axis,
+    "heat-map": heat_map,
+    "pareto": pareto,
+}
+SUFFIXES = (".pdf", ".svg", ".png")
 
 
 class Parser(argparse.ArgumentParser):
@@ -32,30 +58,93 @@ class Parser(argparse.ArgumentParser):
 def parse(arguments):
     """The command line, checked."""
     parser = Parser(description=__doc__)
-    parser.add_argument("name", metavar="NAME", choices=FIGURES, help=", ".join(FIGURES))
-    parser.add_argument("csv", metavar="CSV", nargs="+", type=Path,
-                        help="of `gnomon depth --csv`; for the last figure error_vs_z.csv and"
-                        " results.csv of a run")
-    parser.add_argument("-o", dest="output", metavar="FILE", type=Path, required=True,
-                        help=".svg or .png")
+    parser.add_argument("name", metavar="NAME", help=", ".join({**RUN_FIGURES, **TABLE_FIGURES})
+                        + "; or run: all that apply to a run, into a folder")
+    parser.add_argument("inputs", metavar="RUN|CSV", nargs="+", type=Path,
+                        help="a folder of gnomon sweep or compare --out, or its CSV files")
+    where = parser.add_mutually_exclusive_group(required=True)
+    where.add_argument("-o", dest="output", metavar="FILE", type=Path,
+                       help="the figure: .pdf, .svg or .png")
+    where.add_argument("--out", metavar="DIR", type=Path, help="the folder, for run")
     options = parser.parse_args(arguments)
-    if options.output.suffix not in (".svg", ".png"):
-        parser.error(f"-o {options.output}: the name must end in .svg or .png")
+    if options.name not in ("run", *RUN_FIGURES, *TABLE_FIGURES):
+        parser.error(f"invalid choice: '{options.name}'")
+    if (options.name == "run") != (options.out is not None):
+        parser.error("--out goes with run, and -o with a figure")
+    if options.output and options.output.suffix not in SUFFIXES:
+        parser.error(f"-o {options.output}: the name must end in .pdf, .svg or .png")
     return options
 
 
+def is_needed(column):
+    """Of results.csv: figures read no more, as a sweep may have 200,000 rows."""
+    return column not in ("id", "message") and not column.startswith(
+        ("bias_curve.allowances", "peter_panning_gap", "unmatched_kinds", "indeterminate_kinds",
+         "pixels.un", "pixels.in", "pixels.at", "pixels.out"))
+
+
+def load(inputs):
+    """The run in a folder, or whose results.csv is given."""
+    if len(inputs) != 1:
+        raise gnomon.InputError(f"{len(inputs)} files given; this figure needs one run")
+    folder = inputs[0].parent if inputs[0].name == "results.csv" else inputs[0]
+    return gnomon.load_run(folder, columns=is_needed)
+
+
+def draw(name, inputs):
+    """The figure of that name."""
+    is_run = len(inputs) == 1 and inputs[0].is_dir()
+    if name == "error-vs-z" and is_run:
+        name = "errors-vs-z"
+    if name in RUN_FIGURES:
+        figure = RUN_FIGURES[name]
+        return figure.draw(figure.read(load(inputs)))
+    if name == "shadow-errors-on-depth-error" and is_run:
+        inputs = [inputs[0] / "error_vs_z.csv", inputs[0] / "results.csv"]
+    figure = TABLE_FIGURES[name]
+    return figure.draw(figure.read(inputs))
+
+
+def draw_run(run, folder):
+    """Writes every figure that applies, as SVG and PNG; what they are, for a page."""
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, module in RUN_FIGURES.items():
+        try:
+            tables = module.read(run)
+        except run_settings.DoesNotApply:
+            continue
+        figure = module.draw(tables)
+        files = {kind: f"{name}.{kind}" for kind in ("svg", "png")}
+        for file in files.values():
+            style.save(figure, folder / file)
+        title, caption, alt = module.words(tables)
+        written.append({"name": name, "title": title, "caption": caption, "alt": alt, **files})
+    return written
+
+
 def main(arguments):
-    """0 when the figure is written, 2 on bad input, 4 where the output cannot be written."""
+    """0 when the figures are written, 2 on bad input, 4 where the output cannot be written.
+
+    It is 3 where a Debian package is missing, before anything else.
+    """
     options = parse(arguments)
-    figure = FIGURES[options.name]
+    # A scene's name may be in any script; what the font lacks is drawn as a box.
+    warnings.filterwarnings("ignore", message="Glyph .* missing from current font")
     try:
-        with matplotlib.rc_context(style.RC):
-            style.save(figure.draw(figure.read(options.csv)), options.output)
-    except tables.InputError as error:
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()  # no user's own
+            matplotlib.rcParams.update(style.RC)
+            if options.out:
+                json.dump(draw_run(load(options.inputs), options.out), sys.stdout)
+                print()
+            else:
+                style.save(draw(options.name, options.inputs), options.output)
+    except gnomon.InputError as error:
         print(f"make.py: {error}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"make.py: {options.output}: {error.strerror}", file=sys.stderr)
+        print(f"make.py: {options.out or options.output}: {error.strerror}", file=sys.stderr)
         return 4
     return 0
 

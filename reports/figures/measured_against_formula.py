@@ -31,7 +31,7 @@ def data(tables):
 def draw(tables):
     """A column a table: errors above, residuals below."""
     curves = data(tables)
-    figure = style.new_figure(
+    figure = style.TitledFigure(
         "Depth as GL stores it, against the formula",
         f"{curves[0]['frustum']}; {len(curves[0]['zeta']):,} planes",
         6.0,

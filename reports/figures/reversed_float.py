@@ -30,7 +30,7 @@ def draw(tables):
     """Left what the format can hold, right what GL stored, on the same axes."""
     curves = data(tables)
     storage = csv_tables.storage_of(tables[0])
-    figure = style.new_figure(
+    figure = style.TitledFigure(
         "Reversed depth makes float32 precise far away",
         f"{storage.frustum}; {len(curves[0]['zeta']):,} planes; lines: envelope, dots: |error|",
         4.6,

@@ -2,6 +2,7 @@
 
 import numpy
 
+import distance_panels
 import style
 import tables as csv_tables
 
@@ -25,8 +26,8 @@ def read(paths):
         raise csv_tables.InputError(
             f"{len(paths)} files given; error_vs_z.csv and results.csv of one run are needed"
         )
-    bins = csv_tables.read(paths[0], BINS, TEXTS)
-    results = csv_tables.read(paths[1], SETTINGS, SETTING_TEXTS)
+    bins = csv_tables.read_table(paths[0], BINS, TEXTS)
+    results = csv_tables.read_table(paths[1], SETTINGS, SETTING_TEXTS)
     if not set(bins["curve"]) <= set(results["curve"]):
         raise csv_tables.InputError(f"{paths[1]}: not of the same run as {paths[0]}")
     return [bins, results]
@@ -84,16 +85,19 @@ def _unite(block):
 def draw(tables):
     """A column a curve: rates above, the map's depth error below, on one axis of distance."""
     curves = data(tables)
-    figure = style.new_figure(_title(curves), _settings(curves), 6.2)
+    figure = style.TitledFigure(_title(curves), _settings(curves), 6.2)
     grid = style.lay_out(figure, top_in=1.35, nrows=2, ncols=len(curves), hspace=0.12,
                          wspace=0.26, height_ratios=(1, 1.2))
     shared = None
     for column, curve in enumerate(curves):
         rates = figure.add_subplot(grid[0, column], sharey=shared)
         shared = shared or rates
-        _draw_rates(rates, curve)
-        _draw_map_error(figure.add_subplot(grid[1, column], sharex=rates), curve)
-    _set_rate_axis(shared)
+        distance_panels.draw_rates(rates, curve["edges"], curve["false_shadow_rate"],
+                                   curve["false_lit_rate"])
+        rates.set_title(curve["name"])
+        rates.tick_params(labelbottom=False)
+        distance_panels.draw_map_errors(figure.add_subplot(grid[1, column], sharex=rates), curve)
+    style.set_rate_scale(shared)
     style.add_legend(figure, ncol=3)
     return figure
 
@@ -112,38 +116,3 @@ def _settings(curves):
         f" {settings['shadow_map.resolution']:g}² map, filter {settings['lookup.filter']};"
         f" constant bias {bias} depth units"
     )
-
-
-def _draw_rates(axes, curve):
-    for name, colour, label in (
-        ("false_shadow_rate", style.VERMILION, "false shadow, per lit pixel"),
-        ("false_lit_rate", style.BLUE, "false lit, per blocked pixel"),
-    ):
-        axes.stairs(100 * curve[name], curve["edges"], baseline=None, color=colour, linewidth=1.8,
-                    label=label)
-    axes.set_title(curve["name"])
-    axes.set_ylabel("wrong pixels [%]")
-    axes.tick_params(labelbottom=False)
-
-
-def _set_rate_axis(axes):
-    """Logarithmic beyond a hundredth of a percent, so that a rate of 0 has its place as well."""
-    axes.set_yscale("symlog", linthresh=0.01, linscale=0.5)
-    axes.set_ylim(-0.002, 100)
-    axes.set_yticks([0, 0.01, 0.1, 1, 10, 100], labels=["0", "0.01", "0.1", "1", "10", "100"])
-
-
-def _draw_map_error(axes, curve):
-    factor, unit = style.length_unit(max(curve["envelope"].max(), curve["max"].max()))
-    zeta = curve["zeta"]
-    axes.fill_between(zeta, factor * curve["min"], factor * curve["max"], color=style.SKY,
-                      alpha=0.45, linewidth=0, label="map error, smallest to largest")
-    axes.plot(zeta, factor * curve["p95"], color=style.GREEN, linewidth=1.5, linestyle="-.",
-              label="95 % are below")
-    axes.plot(zeta, factor * curve["median"], color=style.BLACK, linewidth=1.5, label="median")
-    axes.plot(curve["upper"], factor * curve["envelope"], color=style.ORANGE,
-              label="envelope (formula)")
-    axes.plot(curve["upper"], -factor * curve["envelope"], color=style.ORANGE)
-    axes.set_xlim(curve["edges"][0], curve["edges"][-1])
-    axes.set_xlabel("distance ζ from the light's plane [m]")
-    axes.set_ylabel(f"depth error [{unit}]")

@@ -1,5 +1,8 @@
 """How every figure looks: sizes, colours that any colour vision can tell apart, files."""
 
+import os
+import textwrap
+
 import numpy
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -14,6 +17,11 @@ BLUE = "#0072B2"
 VERMILION = "#D55E00"
 PURPLE = "#CC79A7"
 GREY = "#777777"
+
+# The same in every figure, picture and page.
+FALSE_SHADOW = VERMILION
+FALSE_LIT = BLUE
+CAUSES = {"bias": ORANGE, "precision": GREEN, "resolution": SKY, "coverage": PURPLE}
 
 WIDTH_IN = 8.0
 PNG_DPI = 150
@@ -40,14 +48,31 @@ RC = {
 }
 
 DISTANCE_LABEL = "distance ζ from the camera's plane [m]"
+LIGHT_DISTANCE_LABEL = "distance ζ from the light's plane [m]"
+
+LINE_IN = 0.19  # of the settings
+LETTERS_IN_A_LINE = 112
 
 
-def new_figure(title, settings, height_in):
-    """An empty figure with its title, and under it the settings that it was measured with."""
-    figure = Figure(figsize=(WIDTH_IN, height_in))
-    figure.text(0.012, 1 - 0.10 / height_in, title, size=13, weight="bold", va="top")
-    figure.text(0.012, 1 - 0.36 / height_in, settings, size=10, color="#444444", va="top")
-    return figure
+class TitledFigure(Figure):
+    """A figure with its title, and under it the settings that it was measured with.
+
+    Settings that need more than a line make it higher.
+    """
+
+    def __init__(self, title, settings, height_in):
+        lines = textwrap.wrap(settings, LETTERS_IN_A_LINE) or [""]
+        self.added_in = (len(lines) - 1) * LINE_IN
+        height_in += self.added_in
+        super().__init__(figsize=(WIDTH_IN, height_in))
+        self.text(0.012, 1 - 0.10 / height_in, plain(title), size=13, weight="bold", va="top")
+        self.text(0.012, 1 - 0.36 / height_in, plain("\n".join(lines)), size=10, color="#444444",
+                  va="top")
+
+
+def plain(text):
+    """Texts of a job or scene as they are, where matplotlib would take dollars for formulas."""
+    return text.replace("$", "\\$")
 
 
 def lay_out(figure, left_in=0.85, right_in=0.15, bottom_in=0.55, top_in=1.0, **spacing):
@@ -57,12 +82,12 @@ def lay_out(figure, left_in=0.85, right_in=0.15, bottom_in=0.55, top_in=1.0, **s
         left=left_in / width_in,
         right=1 - right_in / width_in,
         bottom=bottom_in / height_in,
-        top=1 - top_in / height_in,
+        top=1 - (top_in + figure.added_in) / height_in,
         **spacing,
     )
 
 
-def add_legend(figure, ncol):
+def add_legend(figure, ncol, markerscale=3):
     """One legend for all panels, under the settings; each label once."""
     entries = {}
     for axes in figure.axes:
@@ -70,8 +95,30 @@ def add_legend(figure, ncol):
             entries.setdefault(label, handle)
     height_in = figure.get_size_inches()[1]
     figure.legend(entries.values(), entries.keys(), loc="upper center", ncol=ncol,
-                  bbox_to_anchor=(0.5, 1 - 0.55 / height_in), columnspacing=1.4,
-                  handlelength=1.6, markerscale=3)
+                  bbox_to_anchor=(0.5, 1 - (0.55 + figure.added_in) / height_in),
+                  columnspacing=1.4, handlelength=1.6, markerscale=markerscale)
+
+
+def set_categories(axes, texts, letters):
+    """Names along the lower axis, upright where they would run into each other."""
+    axes.set_xticks(range(len(texts)), labels=[plain(text) for text in texts])
+    axes.set_xlim(-0.6, len(texts) - 0.4)
+    if len(texts) * max(map(len, texts)) > letters:
+        turn(axes)
+
+
+def turn(axes):
+    """The names along the lower axis, so that longer ones fit."""
+    for label in axes.get_xticklabels():
+        label.set(rotation=25, ha="right", rotation_mode="anchor")
+
+
+def set_rate_scale(axes, which="y"):
+    """Percent, logarithmic beyond a hundredth, so that a rate of 0 has its place as well."""
+    getattr(axes, f"set_{which}scale")("symlog", linthresh=0.01, linscale=0.5)
+    getattr(axes, f"set_{which}lim")(-0.002, 100)
+    getattr(axes, f"set_{which}ticks")([0, 0.01, 0.1, 1, 10, 100],
+                                       labels=["0", "0.01", "0.1", "1", "10", "100"])
 
 
 def length_unit(largest_m):
@@ -82,14 +129,31 @@ def length_unit(largest_m):
     return 1e9, "nm"
 
 
+def length_text(length_m):
+    """A length in its unit: "2.65 µm"."""
+    factor, unit = length_unit(abs(length_m))
+    return f"{factor * length_m:.3g} {unit}"
+
+
 def save(figure, path):
-    """Writes .svg or .png; the same figure gives the same bytes."""
-    if path.suffix == ".svg":
-        figure.savefig(path, metadata={"Date": None})
+    """Writes .pdf, .svg or .png, whole or not at all; the same figure gives the same bytes."""
+    unfinished = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        _write(figure, unfinished, path.suffix[1:])
+        unfinished.replace(path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def _write(figure, path, kind):
+    if kind != "png":
+        no_date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+        figure.savefig(path, format=kind, dpi=PNG_DPI, metadata=no_date[kind])
         return
     figure.set_dpi(PNG_DPI)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     # A palette, as dots make a PNG in full colour three times as large.
     pixels = Image.fromarray(numpy.asarray(canvas.buffer_rgba())).convert("RGB")
-    pixels.quantize(PNG_COLOURS, dither=Image.Dither.NONE).save(path, optimize=True)
+    pixels.quantize(PNG_COLOURS, dither=Image.Dither.NONE).save(path, "PNG",
+                                                                     optimize=True)

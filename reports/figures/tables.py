@@ -3,14 +3,10 @@
 from dataclasses import dataclass
 
 import numpy
-import pandas
+from gnomon import InputError, read_table
 
 FORMULA_COLUMNS = ("zeta_m", "depth", "envelope_m", "formula_code", "formula_error_m")
 MEASURED_COLUMNS = ("error_m", "transform_error_m", "model_m")
-
-
-class InputError(Exception):
-    """Bad input, in one line: which file, what about it, and what to do."""
 
 
 @dataclass(frozen=True)
@@ -34,38 +30,6 @@ class Storage:
         return f"perspective, near {self.near_m:g} m, far {self.far_m:g} m"
 
 
-def read(path, columns, texts=()):
-    """A table with numbers in `columns` (empty cells are NaN) and texts in `texts`.
-
-    Raises InputError where the file is missing, empty or lacks one of them.
-    """
-    try:
-        # The default parser of pandas is off by an ulp now and then.
-        table = pandas.read_csv(
-            path, dtype=dict.fromkeys(texts, str), float_precision="round_trip"
-        )
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file; docs/depth_precision.md says how to write it")
-    except pandas.errors.EmptyDataError:
-        raise InputError(f"{path}: the file is empty; write it again with gnomon")
-    except (OSError, ValueError) as error:
-        reason = " ".join(str(error).split())
-        raise InputError(f"{path}: cannot be read as CSV: {reason}")
-    missing = [name for name in (*texts, *columns) if name not in table]
-    if missing:
-        raise InputError(f"{path}: no column {missing[0]}; see docs/csv_schema.md")
-    if table.empty:
-        raise InputError(f"{path}: no rows under the header; write it again with gnomon")
-    for name in columns:
-        numbers = pandas.to_numeric(table[name], errors="coerce")
-        bad = numbers.isna() & table[name].notna()
-        if bad.any():
-            row = int(bad.to_numpy().argmax())
-            raise InputError(f"{path}: line {row + 2}: {name} is no number: {table[name][row]}")
-        table[name] = numbers.astype(float)
-    return table
-
-
 def read_formulas(paths):
     """Tables of `gnomon depth --csv`, with or without GL's part."""
     return [_read_depths(path, FORMULA_COLUMNS) for path in paths]
@@ -77,7 +41,7 @@ def read_measured(paths):
 
 
 def _read_depths(path, columns):
-    table = read(path, columns)
+    table = read_table(path, columns)
     rows = table.dropna(subset=list(columns)).reset_index(drop=True)
     if len(rows) < 3:
         raise InputError(

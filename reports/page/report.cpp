@@ -129,6 +129,12 @@ Json page_data(const RunReader& run, const RunOverview& overview,
 
 } // namespace
 
+void write_report_csv(const std::filesystem::path& folder, const std::filesystem::path& out)
+{
+    const RunReader run{folder};
+    write_run_csv(sqlite::Database{results_path(folder), sqlite::Database::Access::read}, out);
+}
+
 ReportOutcome write_report(const ReportOptions& options)
 {
     const RunReader run{options.folder};
@@ -139,8 +145,6 @@ ReportOutcome write_report(const ReportOptions& options)
     for (const ReportFigure& figure : options.figures) {
         pictures.push_back(data_address(options.out / "figures" / figure.png));
     }
-    write_run_csv(sqlite::Database{results_path(options.folder), sqlite::Database::Access::read},
-                  options.out);
     ReportOutcome outcome;
     PackedBlocks blocks;
     const Json data = page_data(run, overview, kept, blocks, outcome);

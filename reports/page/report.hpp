@@ -30,8 +30,11 @@ struct ReportOutcome {
     std::size_t images_left_out = 0; ///< whose layers were kept but did not fit
 };
 
-/// Writes report.html, summary.md and the CSV files of a run into DIR, each atomically
-/// (docs/report.md).
+/// Writes the CSV files of a run into DIR, from which figures are drawn.
+/// @throws  as `write_report`.
+void write_report_csv(const std::filesystem::path& folder, const std::filesystem::path& out);
+
+/// Writes report.html and summary.md of a run into DIR, each atomically (docs/report.md).
 ///
 /// The page needs no network and no server. Its layers take 11 MB at most, those of the headline
 /// configuration first.

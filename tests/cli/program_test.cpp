@@ -209,6 +209,8 @@ TEST(Completion, OffersCommandsOptionsAndNamesInBash)
                 IsSupersetOf({"--aov", "--json", "--picture", "--set"}));
     EXPECT_THAT(completions(script, "gnomon compare --set shadow_map.r"),
                 IsSupersetOf({"shadow_map.resolution=", "shadow_map.reversed="}));
+    EXPECT_EQ(completions(script, "gnomon figure error"),
+              (Words{"error-vs-axis", "error-vs-z", "errors-vs-z"}));
     EXPECT_EQ(completions(script, "gnomon completion ''"), (Words{"bash", "fish", "zsh"}));
 }
 

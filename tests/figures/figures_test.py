@@ -7,6 +7,7 @@ The CSV files are small ones of `gnomon depth --near 4 --far 50` and of a sweep 
 import contextlib
 import csv
 import io
+import re
 import sys
 import tempfile
 import unittest
@@ -16,6 +17,7 @@ import numpy
 from numpy.testing import assert_array_equal
 
 HERE = Path(__file__).resolve().parent
+CLI = HERE.parents[1] / "cli"
 sys.path.insert(0, str(HERE.parents[1] / "reports" / "figures"))
 
 import error_vs_z  # noqa: E402
@@ -322,7 +324,7 @@ class CommandLine(unittest.TestCase):
         output = self.folder / "figure.png"
         header, *rows = (HERE / "d16.csv").read_text().splitlines()
         for text, reason in (
-            ("", "the file is empty"),
+            ("", "cannot be read as CSV: the file is empty"),
             (header + "\n", "no rows under the header"),
             (header.replace("envelope_m", "envelope") + "\n" + rows[0] + "\n",
              "no column envelope_m"),
@@ -341,11 +343,17 @@ class CommandLine(unittest.TestCase):
         (d16,) = paths("d16")
         nowhere = self.folder / "nowhere.csv"
         self.assert_refused(f"{nowhere}: no such file", "error-vs-z", nowhere, "-o", output)
-        self.assert_refused("cannot be read as CSV", "error-vs-z", self.folder, "-o", output)
+        self.assert_refused("results.csv: no such file; is .* a run", "error-vs-z", self.folder, "-o", output)
         self.assert_refused("invalid choice: 'pie'", "pie", d16, "-o", output)
-        self.assert_refused("required: -o", "error-vs-z", d16)
-        self.assert_refused("must end in .svg or .png", "error-vs-z", d16, "-o", "figure.gif")
+        self.assert_refused("-o --out is required", "error-vs-z", d16)
+        self.assert_refused("must end in .pdf, .svg or .png", "error-vs-z", d16, "-o", "figure.gif")
         self.assert_refused("1 files given", "shadow-errors-on-depth-error", d16, "-o", output)
+
+    def test_knows_the_figures_that_the_program_lists(self):
+        listed = re.findall(r'{"([a-z-]+)", "(RUN|CSV)"', (CLI / "figures.cpp").read_text())
+        self.assertEqual([name for name, _ in listed], [
+            *make.RUN_FIGURES, "shadow-errors-on-depth-error",
+            *(name for name in make.TABLE_FIGURES if name != "shadow-errors-on-depth-error")])
 
     def test_says_where_it_cannot_write(self):
         output = self.folder / "nowhere" / "figure.svg"

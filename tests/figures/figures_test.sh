@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs figures_test.py with Debian's python3; ends with 77, which CTest takes for a skip, where
+# Runs the tests of figures with Debian's python3; ends with 77, which CTest takes for a skip, where
 # something is missing that only figures need.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -11,4 +11,4 @@ for module in matplotlib pandas; do
     }
 done
 # No bytecode is left in the checkout.
-exec /usr/bin/python3 -B -m unittest figures_test
+exec /usr/bin/python3 -B -m unittest figures_test run_figures_test

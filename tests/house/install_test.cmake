@@ -29,6 +29,16 @@ run(${WORK}/build/shadow_share sphere-plane)
 if(NOT output MATCHES "^sphere-plane: [1-9][0-9]* of [1-9][0-9]* pixels")
   message(FATAL_ERROR "shadow_share sphere-plane printed:\n${output}")
 endif()
+# Without a source tree's scripts: these are the installed ones, wherever Python has its packages.
+if(NOT EXISTS ${WORK}/prefix/share/gnomon/figures/make.py
+   OR NOT EXISTS ${WORK}/prefix/share/gnomon/figures/gnomon/run.py)
+  message(FATAL_ERROR "the scripts that draw figures were not installed")
+endif()
+execute_process(COMMAND ${WORK}/prefix/bin/gnomon figure bias-curve ${WORK}/none -o ${WORK}/f.svg
+                RESULT_VARIABLE status ERROR_VARIABLE output)
+if(NOT output MATCHES "^gnomon: .*(none/results.csv: no such file|apt-get install python3)")
+  message(FATAL_ERROR "the installed gnomon figure ended with ${status}:\n${output}")
+endif()
 run(${WORK}/prefix/bin/gnomon --version)
 if(NOT output MATCHES "^gnomon [0-9]+\\.[0-9]+\\.[0-9]+")
   message(FATAL_ERROR "the installed gnomon --version printed:\n${output}")

@@ -8,7 +8,7 @@ require_modules pandas=python3-pandas matplotlib=python3-matplotlib \
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cp -r "$root/notebooks" "$root/examples" "$work"
+cp -rL "$root/notebooks" "$root/examples" "$work"
 cd "$work/notebooks"
 export PYTHONDONTWRITEBYTECODE=1 PYDEVD_DISABLE_FILE_VALIDATION=1
 export IPYTHONDIR="$work/ipython" JUPYTER_CONFIG_DIR="$work/jupyter"

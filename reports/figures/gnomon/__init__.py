@@ -10,6 +10,7 @@
 docs/csv_schema.md says what the columns mean, docs/aov.md what the layers mean.
 """
 
+from .csv_table import read_table
 from .errors import InputError
 from .layers import CAUSES, CLASSES, LABELS, Layers, load_layers
 from .program import call
@@ -17,4 +18,5 @@ from .run import Run, load_run
 
 __all__ = [
     "CAUSES", "CLASSES", "LABELS", "InputError", "Layers", "Run", "call", "load_layers", "load_run",
+    "read_table",
 ]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .errors import InputError
 
-BUILT = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "gnomon"
+BUILT = Path(__file__).resolve().parents[3] / "build" / "release" / "bin" / "gnomon"
 
 
 def find():

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy
-import OpenImageIO
 
 from .errors import InputError
 
@@ -72,6 +71,9 @@ def load_layers(path):
 
     Raises InputError where the file is missing or is no such image.
     """
+    # Figures read tables alone, and do without this package.
+    import OpenImageIO
+
     path = Path(path)
     if not path.exists():
         raise InputError(f"{path}: no such file")

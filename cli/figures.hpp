@@ -1,0 +1,59 @@
+#pragma once
+
+#include "scene/error.hpp"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Figures by matplotlib: reports/figures/make.py, run as a program of its own.
+namespace gnomon::cli {
+
+/// The Python that draws: Debian's, whose packages are known.
+inline constexpr const char* system_python = "/usr/bin/python3";
+
+/// Python, or a package of it that figures need, is not installed; `what()` says how to get it.
+class PythonMissing : public scene::EnvironmentError {
+public:
+    using EnvironmentError::EnvironmentError;
+};
+
+/// A figure by its name in `gnomon figure NAME`.
+struct FigureKind {
+    std::string_view name;
+    std::string_view input; ///< "RUN" or "CSV"
+    std::string_view description;
+};
+
+/// Every figure, those of a run first.
+[[nodiscard]] std::span<const FigureKind> figure_kinds();
+
+/// A figure of a run: two files of the same picture, and its words.
+struct FigureFile {
+    std::string name; ///< as in `figure_kinds`
+    std::string title;
+    std::string caption; ///< the settings
+    std::string alt;     ///< what it shows, with its main numbers, for who cannot see it
+    std::string svg;     ///< file names in the folder
+    std::string png;
+};
+
+/// Draws one figure.
+///
+/// @param inputs  A run's folder, or CSV files.
+/// @param output  A path that ends in .pdf, .svg or .png.
+/// @throws PythonMissing, scene::InputError (bad input, or the figure does not apply to the run),
+///         scene::EnvironmentError (the output cannot be written).
+void draw_figure(const std::string& name, const std::vector<std::string>& inputs,
+                 const std::string& output, const std::string& python = system_python);
+
+/// Draws every figure that applies to a run, from its CSV files alone; makes the folder.
+///
+/// @throws as `draw_figure`.
+[[nodiscard]] std::vector<FigureFile> draw_run_figures(const std::filesystem::path& run,
+                                                       const std::filesystem::path& folder,
+                                                       const std::string& python = system_python);
+
+} // namespace gnomon::cli

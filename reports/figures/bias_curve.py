@@ -1,0 +1,154 @@
+"""False-shadow and false-lit rate at every constant bias, with the biases that matter marked."""
+
+from dataclasses import dataclass
+
+import numpy
+import pandas
+
+import run_settings
+import style
+
+TITLE = "Wrong pixels at every constant bias"
+DECADES_SHOWN = 9  # at most, on each side of zero
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A bias curve: rates in [0, 1] over constant biases [depth units], and its marked biases."""
+
+    name: str
+    bias: numpy.ndarray
+    false_shadow_rate: numpy.ndarray
+    false_lit_rate: numpy.ndarray
+    job_bias: float
+    best: tuple  # from, to
+    best_errors: float
+    acne_free: float
+    panning_free: float
+
+
+@dataclass(frozen=True)
+class Tables:
+    """The curves to draw, and the settings that they share."""
+
+    settings: str
+    curves: list
+
+
+def read(run):
+    """The curves of a run, or of a large one its best."""
+    rows = run_settings.done(run)
+    rows = rows[rows["bias_source"] == "curve"].reset_index(drop=True)
+    if rows.empty:
+        raise run_settings.DoesNotApply(f"{run.folder}: the filter hardware has no bias curve")
+    chosen, why = run_settings.curves_of(run, rows)
+    titles = run_settings.panel_titles(run, rows, chosen)
+    settings = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
+    curves = [_curve(run, row, title) for (_, row), title in zip(chosen.iterrows(), titles)]
+    return Tables("; ".join(filter(None, (settings, why))), curves)
+
+
+def _curve(run, row, name):
+    points = run.curve_of(row)
+    bins = run.error_vs_z
+    at_job = bins[(bins["curve"] == row["curve"]) & (bins["at"] == "job_bias")]["bias"]
+    return Curve(
+        name,
+        *(points[key].to_numpy(dtype=float)
+          for key in ("bias", "false_shadow_rate", "false_lit_rate")),
+        job_bias=at_job.iloc[0] if len(at_job) else row["bias.constant"],
+        best=(row["bias_curve.best_interval.lo"], row["bias_curve.best_interval.hi"]),
+        best_errors=row["bias_curve.best_errors"],
+        acne_free=row["bias_curve.acne_free"],
+        panning_free=row["bias_curve.panning_free"],
+    )
+
+
+def threshold(curve):
+    """Below this size a bias is drawn on a linear scale: a power of ten."""
+    marked = numpy.abs([curve.job_bias, *curve.best, curve.acne_free, curve.panning_free])
+    sizes = numpy.concatenate([numpy.abs(curve.bias), marked])
+    sizes = sizes[numpy.isfinite(sizes) & (sizes > 0)]
+    if len(sizes) == 0:
+        return 1e-6
+    smallest = numpy.quantile(sizes, 0.1)
+    marked = marked[numpy.isfinite(marked) & (marked > 0)]
+    smallest = min(smallest, marked.min()) if len(marked) else smallest
+    largest = sizes.max()
+    return 10.0 ** numpy.floor(numpy.log10(max(smallest, largest * 10.0**-DECADES_SHOWN)))
+
+
+def draw(tables):
+    """A row a curve."""
+    curves = tables.curves
+    figure = style.TitledFigure(TITLE, tables.settings, 1.85 + 2.75 * len(curves))
+    grid = style.lay_out(figure, top_in=1.45 if curves[0].name else 1.2, nrows=len(curves), ncols=1, hspace=0.42)
+    for row, curve in enumerate(curves):
+        axes = figure.add_subplot(grid[row])
+        _draw(axes, curve)
+        axes.set_title(style.plain(curve.name))
+    axes.set_xlabel("constant bias [depth units]")
+    style.add_legend(figure, ncol=3)
+    return figure
+
+
+def _draw(axes, curve):
+    for rate, colour, label in (
+        (curve.false_shadow_rate, style.FALSE_SHADOW, "false shadow, per lit pixel"),
+        (curve.false_lit_rate, style.FALSE_LIT, "false lit, per blocked pixel"),
+    ):
+        axes.plot(curve.bias, 100 * rate, color=colour, label=label, drawstyle="steps-post")
+    axes.axvspan(*curve.best, color=style.GREEN, alpha=0.35, linewidth=2, zorder=1,
+                 label="fewest errors")
+    for bias, line, colour, label in (
+        (curve.job_bias, "-", style.BLACK, "the job's bias"),
+        (curve.acne_free, "--", style.FALSE_SHADOW, "no acne from here"),
+        (curve.panning_free, ":", style.FALSE_LIT, "no peter-panning below"),
+    ):
+        if numpy.isfinite(bias):
+            axes.axvline(bias, color=colour, linestyle=line, linewidth=1.5, label=label, zorder=1.5)
+    linear = threshold(curve)
+    axes.set_xscale("symlog", linthresh=linear, linscale=0.4)
+    marked = [bias for bias in (curve.job_bias, *curve.best, curve.acne_free, curve.panning_free)
+              if numpy.isfinite(bias)]
+    axes.set_xlim(min(-3 * linear, *(3 * bias for bias in marked if bias < 0), -3 * linear),
+                  1.6 * max(curve.bias.max(initial=linear), *marked, linear))
+    axes.xaxis.set_major_locator(_ticks(linear, axes.get_xlim()))
+    style.set_rate_scale(axes)
+    axes.set_ylabel("wrong pixels [%]")
+
+
+def _ticks(linear, limits):
+    from matplotlib.ticker import FixedLocator
+
+    low, high = (numpy.floor(numpy.log10(max(linear, abs(limit)))) for limit in limits)
+    first = numpy.log10(linear)
+    step = max(1, int(numpy.ceil((high - first) / 8)))
+    right = 10.0 ** numpy.arange(high, first - 0.5, -step)[::-1]
+    left = [-10.0**low] if limits[0] <= -(10.0**low) else []
+    return FixedLocator([*left, 0, *right])
+
+
+def words(tables):
+    """Title, caption and text for who cannot see it."""
+    said = [
+        f"False-shadow and false-lit rate over the constant bias, {len(tables.curves)}"
+        f" {'curve' if len(tables.curves) == 1 else 'curves'}."
+    ]
+    for curve in tables.curves:
+        text = f"{curve.name}: " if curve.name else ""
+        if pandas.notna(curve.best_errors):
+            text += (f"Fewest errors, {curve.best_errors:.0f}, from bias"
+                     f" {run_settings.text_of(curve.best[0])} to {run_settings.text_of(curve.best[1])};")
+        shown = curve.false_shadow_rate[curve.bias <= curve.job_bias]
+        lit = curve.false_lit_rate[curve.bias <= curve.job_bias]
+        if len(shown):
+            text += (f" at the job's bias {run_settings.text_of(curve.job_bias)}"
+                     f" {run_settings.percent(shown[-1])} of the lit pixels are falsely in shadow and"
+                     f" {run_settings.percent(lit[-1])} of the blocked falsely lit;")
+        for bias, name in ((curve.acne_free, "no acne from"),
+                           (curve.panning_free, "no peter-panning below")):
+            if numpy.isfinite(bias):
+                text += f" {name} {run_settings.text_of(bias)};"
+        said.append(text.rstrip(";") + ".")
+    return TITLE, tables.settings, " ".join(said)

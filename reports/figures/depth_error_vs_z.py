@@ -1,0 +1,79 @@
+"""How far stored depths are from the exact ones, by distance from the light, and the formula's share."""
+
+from dataclasses import dataclass
+
+import numpy
+
+import distance_panels
+import run_settings
+import style
+
+TITLE = "Error of the shadow map's depths by distance from the light"
+COLUMNS = {"min": "map_error_m.min", "median": "map_error_m.median", "p95": "map_error_m.p95",
+           "max": "map_error_m.max", "envelope": "envelope_m", "upper": "upper_m"}
+
+
+# Times the largest of what nearly all pixels have: a pixel at an edge may be off by the whole scene.
+LARGEST_SHOWN = 3
+
+
+@dataclass(frozen=True)
+class Tables:
+    """The curves to draw, dictionaries of arrays [m], and the settings that they share."""
+
+    settings: str
+    curves: list
+
+
+def read(run):
+    """The maps of a run, or of a large one that of the best configuration."""
+    rows = run_settings.done(run)
+    bins = run.error_vs_z
+    measured = bins.dropna(subset=["map_error_m.median", "envelope_m"])["curve"]
+    rows = rows[rows["curve"].isin(measured)].reset_index(drop=True)
+    if rows.empty:
+        raise run_settings.DoesNotApply(f"{run.folder}: no depth errors by distance")
+    chosen, why = run_settings.curves_of(run, rows)
+    titles = run_settings.panel_titles(run, rows, chosen)
+    settings = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
+    curves = [_curve(bins[bins["curve"] == curve], title)
+              for curve, title in zip(chosen["curve"], titles)]
+    return Tables("; ".join(filter(None, (settings, why))), curves)
+
+
+def _curve(bins, name):
+    first = bins.iloc[0]
+    block = bins[(bins["at"] == first["at"]) & (bins["bias"] == first["bias"])]
+    return {
+        "name": name,
+        "zeta": 0.5 * (block["lower_m"] + block["upper_m"]).to_numpy(),
+        "edges": numpy.append(block["lower_m"], block["upper_m"].iloc[-1]),
+        **{key: block[column].to_numpy(dtype=float) for key, column in COLUMNS.items()},
+    }
+
+
+def draw(tables):
+    """A column a map."""
+    figure = style.TitledFigure(TITLE, tables.settings, 4.6)
+    grid = style.lay_out(figure, top_in=1.25 if tables.curves[0]["name"] else 1.0, nrows=1, ncols=len(tables.curves), wspace=0.3)
+    for column, curve in enumerate(tables.curves):
+        axes = figure.add_subplot(grid[column])
+        distance_panels.draw_map_errors(axes, curve, LARGEST_SHOWN)
+        axes.set_title(style.plain(curve["name"]))
+    style.add_legend(figure, ncol=4)
+    return figure
+
+
+def words(tables):
+    """Title, caption and text for who cannot see it."""
+    said = []
+    for curve in tables.curves:
+        largest = max(numpy.nanmax(curve["max"]), -numpy.nanmin(curve["min"]))
+        text = f"{curve['name']}: " if curve["name"] else ""
+        said.append(
+            f"{text}Stored depths are off by {style.length_text(largest)} at most, between"
+            f" {curve['edges'][0]:.3g} and {curve['edges'][-1]:.3g} m from the light, and 95 % of a"
+            f" bin by less than {style.length_text(numpy.nanmax(curve['p95']))}; the format alone"
+            f" may be off by {style.length_text(numpy.nanmax(curve['envelope']))}."
+        )
+    return TITLE, tables.settings, " ".join(said)

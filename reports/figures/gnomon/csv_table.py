@@ -1,0 +1,55 @@
+"""A CSV file that Gnomon wrote, as a table."""
+
+import io
+
+import pandas
+
+from .errors import InputError
+
+# Keys are hexadecimal digits, of which some have only decimal ones; a message may be any text.
+TEXTS = ("id", "curve", "case", "status", "message", "scene_hash", "at", "bias_source")
+
+
+def read_table(path, numbers=(), texts=(), may_be_empty=False, columns=None, lines=None):
+    """A table of a file's columns, of which `numbers` and `texts` must be there.
+
+    A cell without a value is NaN, in texts None; numbers are the doubles that Gnomon wrote, bit by
+    bit. `columns`: a predicate of the names to read, all by default; `lines`: the file's bytes, or
+    a part of them under its header, where they have been read. Raises InputError where the file is
+    missing, is no CSV, lacks a column or has another text than a number in `numbers`, and unless it
+    `may_be_empty` where it has no rows.
+    """
+    try:
+        table = pandas.read_csv(
+            path if lines is None else io.BytesIO(lines),
+            dtype=dict.fromkeys((*TEXTS, *texts), object),
+            usecols=columns,
+            low_memory=False,
+            # The default parser of pandas is off by an ulp now and then.
+            float_precision="round_trip",
+        )
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file; docs/csv_schema.md says which files a run has")
+    except pandas.errors.EmptyDataError:
+        raise InputError(f"{path}: cannot be read as CSV: the file is empty; write it again")
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read as CSV: {' '.join(str(error).split())}")
+    missing = [name for name in (*texts, *numbers) if name not in table]
+    if missing:
+        raise InputError(f"{path}: no column {missing[0]}; see docs/csv_schema.md")
+    if table.empty and not may_be_empty:
+        raise InputError(f"{path}: no rows under the header; write it again with gnomon")
+    for name in numbers:
+        table[name] = _numbers(path, table[name])
+    for name in table.columns.intersection((*TEXTS, *texts)):
+        table[name] = table[name].where(table[name].notna(), None)
+    return table
+
+
+def _numbers(path, column):
+    found = pandas.to_numeric(column, errors="coerce")
+    bad = found.isna() & column.notna()
+    if bad.any():
+        row = int(bad.to_numpy().argmax())
+        raise InputError(f"{path}: line {row + 2}: {column.name} is no number: {column[row]}")
+    return found.astype(float)

@@ -1,0 +1,226 @@
+"""What a run's configurations have in common and in what they differ, in words and as axes."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy
+import pandas
+from gnomon import InputError
+
+NAMES = {
+    "case": "case",
+    "image.width": "image width [px]",
+    "image.height": "image height [px]",
+    "shadow_map.resolution": "map resolution [texels]",
+    "shadow_map.depth_format": "depth format",
+    "shadow_map.near": "near plane [m]",
+    "shadow_map.far": "far plane [m]",
+    "shadow_map.roll_deg": "roll of the map [°]",
+    "shadow_map.cull": "culled faces",
+    "shadow_map.fit": "fit of the map",
+    "shadow_map.half_extent": "half extent of the map [m]",
+    "shadow_map.fov_deg": "field of view of the map [°]",
+    "shadow_map.reversed": "reversed depth",
+    "lookup.filter": "filter",
+    "lookup.outside": "outside the map",
+    "bias.constant": "constant bias [depth units]",
+    "bias.constant_m": "constant bias [m]",
+    "bias.slope": "slope bias [depth units]",
+    "bias.normal_texels": "normal offset [texels]",
+    "scene.builtin": "scene",
+    "scene.file": "scene",
+    "light.direction": "light direction",
+    "light.position": "light position [m]",
+}
+MOST_VALUES = 100  # more of them on one axis are united, by equal numbers of configurations
+MOST_CATEGORIES = 24
+LONGEST_TEXT = 28
+LEAST_RATIO_OF_A_LOG_AXIS = 20
+
+
+class DoesNotApply(InputError):
+    """The run has not what a figure shows; in one line: what."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A key in which configurations differ.
+
+    `values` ascend where they are numbers, else come as they appear; `codes` are their indices, one
+    a configuration.
+    """
+
+    key: str
+    values: list
+    codes: numpy.ndarray
+    is_numeric: bool
+
+    @property
+    def label(self):
+        return name_of(self.key)
+
+    @property
+    def scale(self):
+        """The keywords of set_xscale that spread the values."""
+        if not self.is_numeric or len(self.values) < 3:
+            return {"value": "linear"}
+        sizes = numpy.sort(numpy.abs([value for value in self.values if value != 0]))
+        ratios = sizes[1:] / sizes[:-1]
+        is_geometric = self.values[0] > 0 and ratios.min() > 0.99 * ratios.max() > 1.4
+        if not is_geometric and sizes[-1] < LEAST_RATIO_OF_A_LOG_AXIS * sizes[0]:
+            return {"value": "linear"}
+        if self.values[0] > 0:
+            return {"value": "log"}
+        return {"value": "symlog", "linthresh": sizes[0]}
+
+
+def name_of(key):
+    """A key as on an axis, with its unit."""
+    if key in NAMES:
+        return NAMES[key]
+    name = key.split(".")[-1]
+    for suffix, unit in (("_m", "m"), ("_deg", "°"), ("_px", "px")):
+        if name.endswith(suffix):
+            return f"{name.removesuffix(suffix).replace('_', ' ')} [{unit}]"
+    return name.replace("_", " ")
+
+
+def text_of(value):
+    """A value as a reader writes it; texts of any scene's author are kept short."""
+    if isinstance(value, (bool, numpy.bool_)):
+        return str(value).lower()
+    if isinstance(value, (int, float, numpy.number)):
+        return f"{value:.4g}".replace("e-0", "e-").replace("e+0", "e") if value == value else "auto"
+    if value is None:
+        return "auto"
+    text = "".join(c if c.isprintable() else "\ufffd" for c in str(value))
+    return text if len(text) <= LONGEST_TEXT else text[: LONGEST_TEXT - 1] + "…"
+
+
+@lru_cache(maxsize=1)
+def done(run):
+    """The configurations that have results; DoesNotApply where there are none."""
+    rows = run.results[run.results["status"] == "done"]
+    if rows.empty:
+        raise DoesNotApply(f"{run.folder}: no configuration is done")
+    return rows.reset_index(drop=True)
+
+
+def axes_of(run, rows):
+    """The axes of the rows, `case` first, without those that follow from an earlier one."""
+    found = []
+    for key in ("case", *run.job_keys):
+        axis = _axis(key, rows[key])
+        if axis and not any(_follows(axis, earlier) for earlier in found):
+            found.append(axis)
+    return found
+
+
+def _axis(key, column):
+    # Nearly all columns of a large sweep end here, which takes no look at what the values are.
+    if column.isna().all() or (column == column.iloc[0]).all():
+        return None
+    numbers = pandas.to_numeric(column, errors="coerce")
+    is_numeric = column.dtype != bool and not numbers.isna().any()
+    cells = (numbers if is_numeric else column).to_numpy()
+    codes, values = pandas.factorize(cells, sort=is_numeric, use_na_sentinel=False)
+    if len(values) < 2:
+        return None
+    if is_numeric and len(values) > MOST_VALUES:
+        codes, values = _unite(numbers.to_numpy())
+    return Axis(key, list(values), codes, is_numeric)
+
+
+def _unite(numbers):
+    edges = numpy.unique(numpy.quantile(numbers, numpy.linspace(0, 1, MOST_VALUES + 1)))
+    codes = numpy.clip(numpy.searchsorted(edges, numbers, side="right") - 1, 0, len(edges) - 2)
+    medians = pandas.Series(numbers).groupby(codes).median()
+    return numpy.searchsorted(medians.index, codes), medians.to_numpy()
+
+
+def _follows(axis, earlier):
+    pairs = earlier.codes.astype(numpy.int64) * len(axis.values) + axis.codes
+    return len(numpy.unique(pairs)) == len(earlier.values)
+
+
+def influence(axis, rate):
+    """How far the median rate moves along an axis, for choosing the one that matters most."""
+    medians = rate.groupby(axis.codes).median()
+    return medians.max() - medians.min()
+
+
+def by_influence(axes, rate):
+    """Axes with few enough categories to draw, those first that the rate depends on most."""
+    drawable = [axis for axis in axes if axis.is_numeric or len(axis.values) <= MOST_CATEGORIES]
+    return sorted(drawable, key=lambda axis: -numpy.nan_to_num(influence(axis, rate)))
+
+
+def differences(axes, index):
+    """What tells a row from the others: "2048, pcf3"."""
+    return ", ".join(text_of(axis.values[axis.codes[index]]) for axis in axes)
+
+
+def description(axes, index):
+    """A row's place on each axis, with the axes' names: "map resolution 2048, filter pcf3"."""
+    return ", ".join(f"{axis.label.split(' [')[0]} {text_of(axis.values[axis.codes[index]])}"
+                     for axis in axes)
+
+
+def settings_text(rows):
+    """The settings that all rows share, with units, in the order of the job file."""
+    def same(key):
+        return key in rows and rows[key].nunique(dropna=False) == 1
+
+    def value(key):
+        return text_of(rows[key].iloc[0])
+
+    def given(key):
+        return same(key) and pandas.notna(rows[key].iloc[0])
+
+    parts = []
+    scene = next((key for key in ("scene.builtin", "scene.file") if given(key)), None)
+    parts += [value(scene)] if scene else []
+    if same("image.width") and same("image.height"):
+        parts.append(f"{value('image.width')} × {value('image.height')} px")
+    parts += [f"{value('light.type')} light"] if given("light.type") else []
+    parts += [f"map {value('shadow_map.resolution')}²"] if given("shadow_map.resolution") else []
+    for key, text in (
+        ("shadow_map.depth_format", "{}"),
+        ("map_near_m", "near {} m"),
+        ("map_far_m", "far {} m"),
+        ("lookup.filter", "filter {}"),
+        ("bias.constant", "constant bias {} depth units"),
+        ("bias.constant_m", "constant bias {} m"),
+        ("bias.slope", "slope bias {}"),
+        ("bias.normal_texels", "normal offset {} texels"),
+    ):
+        if given(key) and not (key in ("bias.slope", "bias.normal_texels")
+                               and rows[key].iloc[0] == 0):
+            parts.append(text.format(value(key)))
+    return ", ".join(parts)
+
+
+def curves_of(run, rows, most=3):
+    """One row for each bias curve (slope and offset are its own) to draw, and why these.
+
+    All where they are few; else that of the configuration with the fewest errors.
+    """
+    curves = rows.drop_duplicates("curve")
+    if len(curves) <= most:
+        return curves, ""
+    best = rows.loc[[rows["error_rate"].fillna(numpy.inf).idxmin()]]
+    return best, f"of {len(curves)} bias curves that of the configuration with the fewest errors"
+
+
+def panel_titles(run, rows, chosen):
+    """What tells each chosen curve from the others; empty for a single one."""
+    if len(chosen) < 2:
+        return [""] * len(chosen)
+    axes = [axis for axis in axes_of(run, chosen.reset_index(drop=True))
+            if axis.key not in ("bias.constant", "bias.constant_m")]
+    return [differences(axes, index) for index in range(len(chosen))]
+
+
+def percent(rate):
+    """A rate in words."""
+    return "no pixel to count" if pandas.isna(rate) else f"{100 * rate:.3g} %"

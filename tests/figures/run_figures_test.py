@@ -1,0 +1,423 @@
+"""Figures of runs as numbers: what is plotted against the stored CSV files, axes, words, which apply.
+
+The runs are a comparison of sphere-plane with a map of 64 texels (64 x 48 pixels) and a sweep of two
+resolutions, two filters and five biases (24 x 16 pixels). Their bias_curves.csv have every eighth and
+every fourth line, the sweep's error_vs_z.csv two of four curves.
+"""
+
+import contextlib
+import csv
+import io
+import json
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+import pandas
+from numpy.testing import assert_allclose, assert_array_equal
+
+HERE = Path(__file__).resolve().parent
+SCRIPTS = HERE.parents[1] / "reports" / "figures"
+sys.path.insert(0, str(SCRIPTS))
+
+import bias_curve  # noqa: E402
+import causes  # noqa: E402
+import depth_error_vs_z  # noqa: E402
+import error_vs_axis  # noqa: E402
+import errors_vs_z  # noqa: E402
+import gnomon  # noqa: E402
+import heat_map  # noqa: E402
+import make  # noqa: E402
+import pareto  # noqa: E402
+import run_settings  # noqa: E402
+import style  # noqa: E402
+
+PERCENT_TICKS = [0, 0.01, 0.1, 1, 10, 100]
+
+
+def load(name):
+    return gnomon.load_run(HERE / name, columns=make.is_needed)
+
+
+def rows_of(name, file, **where):
+    """The rows of a stored file, read without the code under test; where: cells to have."""
+    with open(HERE / name / f"{file}.csv", newline="") as stored:
+        return [row for row in csv.DictReader(stored)
+                if all(row[key] == value for key, value in where.items())]
+
+
+def numbers(rows, key):
+    return numpy.array([float(row[key]) if row[key] else numpy.nan for row in rows])
+
+
+def by_label(axes):
+    """Lines, steps, areas and bars by their labels."""
+    handles, labels = axes.get_legend_handles_labels()
+    return dict(zip(labels, handles))
+
+
+def legend(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def best_row():
+    return min(rows_of("sweep", "results"), key=lambda row: float(row["error_rate"]))
+
+
+class BiasCurve(unittest.TestCase):
+    def setUp(self):
+        self.tables = bias_curve.read(load("compare"))
+        (self.axes,) = bias_curve.draw(self.tables).axes
+        (self.row,) = rows_of("compare", "results")
+
+    def test_draws_the_curve_in_percent(self):
+        points = rows_of("compare", "bias_curves")
+        drawn = by_label(self.axes)
+        for label, key in (("false shadow, per lit pixel", "false_shadow_rate"),
+                           ("false lit, per blocked pixel", "false_lit_rate")):
+            bias, percent = drawn[label].get_data()
+            assert_array_equal(bias, numbers(points, "bias"))
+            assert_array_equal(percent, 100 * numbers(points, key))
+            self.assertEqual(drawn[label].get_drawstyle(), "steps-post")
+
+    def test_marks_the_biases_of_the_results(self):
+        drawn = by_label(self.axes)
+        (job_bias,) = {row["bias"] for row in rows_of("compare", "error_vs_z", at="job_bias")}
+        for label, bias in (("the job's bias", job_bias),
+                            ("no acne from here", self.row["bias_curve.acne_free"]),
+                            ("no peter-panning below", self.row["bias_curve.panning_free"])):
+            assert_array_equal(drawn[label].get_xdata(), [float(bias)] * 2, label)
+        span = drawn["fewest errors"].get_xy()[:, 0]
+        self.assertEqual(span.min(), float(self.row["bias_curve.best_interval.lo"]))
+        self.assertEqual(span.max(), float(self.row["bias_curve.best_interval.hi"]))
+
+    def test_axes(self):
+        self.assertEqual(self.axes.get_xscale(), "symlog")
+        self.assertEqual(self.axes.get_yscale(), "symlog")
+        self.assertEqual(self.axes.get_xlabel(), "constant bias [depth units]")
+        self.assertEqual(self.axes.get_ylabel(), "wrong pixels [%]")
+        assert_array_equal(self.axes.get_yticks(), PERCENT_TICKS)
+        low, high = self.axes.get_xlim()
+        self.assertLess(low, float(self.row["bias_curve.panning_free"]))
+        self.assertGreater(high, numbers(rows_of("compare", "bias_curves"), "bias").max())
+        ticks = self.axes.get_xticks()
+        self.assertIn(0, ticks)
+        # Powers of ten on both sides.
+        powers = numpy.log10(numpy.abs(ticks[ticks != 0]))
+        assert_allclose(powers, numpy.round(powers), rtol=0, atol=1e-12)
+
+    def test_of_a_large_sweep_is_the_best_configurations(self):
+        tables = bias_curve.read(load("sweep"))
+        self.assertEqual(len(tables.curves), 1)
+        points = rows_of("sweep", "bias_curves", curve=best_row()["curve"])
+        assert_array_equal(tables.curves[0].bias, numbers(points, "bias"))
+        self.assertIn("of 4 bias curves that of the configuration with the fewest errors",
+                      tables.settings)
+
+    def test_says_its_numbers(self):
+        title, caption, alt = bias_curve.words(self.tables)
+        self.assertEqual(title, "Wrong pixels at every constant bias")
+        self.assertEqual(caption, "sphere-plane, 64 × 48 px, spot light, map 64², d24, near 0.5 m,"
+                                  " far 10 m, filter nearest")
+        self.assertIn(f"Fewest errors, {self.row['bias_curve.best_errors']}, from bias", alt)
+
+    def test_does_not_apply_to_hardware(self):
+        run = load("compare")
+        run.results["bias_source"] = "rerun"
+        with self.assertRaisesRegex(run_settings.DoesNotApply, "hardware has no bias curve"):
+            bias_curve.read(run)
+
+
+class ErrorsVsZ(unittest.TestCase):
+    def setUp(self):
+        self.tables = errors_vs_z.read(load("compare"))
+        self.figure = errors_vs_z.draw(self.tables)
+        self.job = rows_of("compare", "error_vs_z", at="job_bias")
+        self.best = rows_of("compare", "error_vs_z", at="best_bias")
+
+    def test_draws_rates_at_both_biases(self):
+        drawn = by_label(self.figure.axes[0])
+        edges = numpy.append(numbers(self.job, "lower_m"), numbers(self.job, "upper_m")[-1])
+        for label, key in (("false shadow, per lit pixel, job's bias", "false_shadow_rate"),
+                           ("false lit, per blocked pixel, job's bias", "false_lit_rate")):
+            steps = drawn[label].get_data()
+            assert_array_equal(steps.values, 100 * numbers(self.job, key))
+            assert_array_equal(steps.edges, edges)
+        for label, key in (("false shadow, best bias", "false_shadow_rate"),
+                           ("false lit, best bias", "false_lit_rate")):
+            zeta, percent = drawn[label].get_data()
+            assert_array_equal(percent, 100 * numbers(self.best, key))
+            assert_array_equal(zeta, 0.5 * (edges[1:] + edges[:-1]))
+
+    def test_draws_the_pixels_of_each_bin(self):
+        drawn = by_label(self.figure.axes[1])
+        for label, key in (("lit pixels", "lit"), ("blocked pixels", "blocked")):
+            assert_array_equal(drawn[label].get_data().values, numbers(self.job, key))
+
+    def test_axes(self):
+        rates, counts = self.figure.axes
+        assert_array_equal(rates.get_yticks(), PERCENT_TICKS)
+        self.assertEqual(rates.get_ylabel(), "wrong pixels [%]")
+        self.assertEqual(counts.get_ylabel(), "pixels in a bin")
+        self.assertEqual(counts.get_xlabel(), "distance ζ from the light's plane [m]")
+        self.assertEqual(counts.get_ylim()[0], 0)
+        self.assertGreater(counts.get_ylim()[1], numbers(self.job, "lit").max())
+
+    def test_has_a_column_for_each_of_few_curves(self):
+        figure = errors_vs_z.draw(errors_vs_z.read(load("sweep")))
+        self.assertEqual(len(figure.axes), 4)
+        self.assertEqual([axes.get_title() for axes in figure.axes[::2]],
+                         ["32, nearest", "64, pcf3"] if best_row()["lookup.filter"] == "pcf3"
+                         else ["32", "64"])
+
+
+class DepthErrorVsZ(unittest.TestCase):
+    def test_draws_the_runs_quantiles(self):
+        (axes,) = depth_error_vs_z.draw(depth_error_vs_z.read(load("compare"))).axes
+        rows = rows_of("compare", "error_vs_z", at="job_bias")
+        factor = {"m": 1, "mm": 1e3, "µm": 1e6}[axes.get_ylabel().split("[")[1][:-1]]
+        drawn = by_label(axes)
+        for label, key in (("median", "map_error_m.median"), ("95 % are below", "map_error_m.p95")):
+            assert_array_equal(drawn[label].get_ydata(), factor * numbers(rows, key))
+        upper, envelope = drawn["envelope (formula)"].get_data()
+        assert_array_equal(envelope, factor * numbers(rows, "envelope_m"))
+        assert_array_equal(upper, numbers(rows, "upper_m"))
+        self.assertEqual(axes.get_xlabel(), "distance ζ from the light's plane [m]")
+
+    def test_cuts_off_what_a_few_pixels_at_edges_have_and_says_so(self):
+        run = load("compare")
+        usual = numpy.nanmax(numpy.abs(run.error_vs_z[["map_error_m.p95", "map_error_m.median",
+                                                      "envelope_m"]].to_numpy()))
+        run.error_vs_z["map_error_m.max"] = numpy.where(
+            run.error_vs_z["map_error_m.max"].notna(), 2.5, numpy.nan)
+        (axes,) = depth_error_vs_z.draw(depth_error_vs_z.read(run)).axes
+        factor = {"mm": 1e3, "µm": 1e6}[axes.get_ylabel().split("[")[1][:-1]]
+        assert_allclose(axes.get_ylim(), [-3 * factor * usual, 3 * factor * usual])
+        self.assertEqual([text.get_text() for text in axes.texts],
+                         ["largest beyond the axis: 2.5 m"])
+
+
+class Causes(unittest.TestCase):
+    def test_of_one_configuration_are_its_counts(self):
+        (row,) = rows_of("compare", "results")
+        above, below = causes.draw(causes.read(load("compare"))).axes
+        for axes, names in ((above, [f"causes.{name}" for name in style.CAUSES]),
+                            (below, [f"labels.{name}" for name in causes.LABELS])):
+            counts = [int(row[name]) for name in names]
+            self.assertEqual([bar.get_width() for bar in axes.patches], counts)
+            self.assertEqual([text.get_text() for text in axes.texts],
+                             [f"{count:,}" for count in counts])
+            self.assertEqual([label.get_text() for label in axes.get_yticklabels()],
+                             [name.split(".")[1].replace("_", "-") for name in names])
+        self.assertEqual(below.get_xlabel(), "wrong pixels")
+
+    def test_of_a_sweep_are_means_along_the_axis_that_matters_most(self):
+        (axes,) = causes.draw(causes.read(load("sweep"))).axes
+        self.assertEqual(axes.get_xlabel(), "constant bias [depth units]")
+        self.assertEqual([label.get_text() for label in axes.get_xticklabels()],
+                         ["0", "0.001", "0.003", "0.01", "0.03"])
+        bottom = numpy.zeros(5)
+        for cause, bars in zip(style.CAUSES, axes.containers):
+            expected = [statistics.mean(
+                100 * int(row[f"causes.{cause}"]) / (int(row["pixels.lit"])
+                                                     + int(row["pixels.blocked"]))
+                for row in rows_of("sweep", "results", **{"bias.constant": bias}))
+                for bias in ("0", "0.001", "0.003", "0.01", "0.03")]
+            # Sums of four quotients in another order: some ulp.
+            assert_allclose([bar.get_height() for bar in bars], expected, rtol=1e-14, atol=1e-14)
+            assert_allclose([bar.get_y() for bar in bars], bottom, rtol=1e-14, atol=1e-14)
+            bottom = bottom + expected
+
+
+class ErrorVsAxis(unittest.TestCase):
+    def setUp(self):
+        self.tables = error_vs_axis.read(load("sweep"))
+        self.figure = error_vs_axis.draw(self.tables)
+
+    def test_has_a_panel_for_each_axis(self):
+        self.assertEqual({axes.get_xlabel() for axes in self.figure.axes},
+                         {"constant bias [depth units]", "map resolution [texels]", "filter"})
+        self.assertEqual(self.figure.axes[0].get_xlabel(), "constant bias [depth units]")
+
+    def test_draws_median_and_range_over_the_others(self):
+        for axes, panel in zip(self.figure.axes, self.tables.panels):
+            drawn = by_label(axes)
+            for name, key, rates in (("false shadow", "false_shadow_rate", panel.false_shadow),
+                                     ("false lit", "false_lit_rate", panel.false_lit)):
+                groups = [numbers([row for row in rows_of("sweep", "results")
+                                   if run_settings.text_of(value) == row[panel.axis.key]], key)
+                          for value in panel.axis.values]
+                # The median of an even number is the mean of two: an ulp.
+                assert_allclose(rates[0], [statistics.median(group) for group in groups], rtol=1e-15)
+                assert_array_equal(rates[1], [group.min() for group in groups])
+                assert_array_equal(rates[2], [group.max() for group in groups])
+                assert_array_equal(drawn[f"{name}, median"].get_ydata(), 100 * rates[0])
+
+    def test_axes(self):
+        scales = {axes.get_xlabel(): axes.get_xscale() for axes in self.figure.axes}
+        self.assertEqual(scales, {"constant bias [depth units]": "symlog",
+                                  "map resolution [texels]": "linear", "filter": "linear"})
+        for axes in self.figure.axes:
+            assert_array_equal(axes.get_yticks(), PERCENT_TICKS)
+        self.assertEqual(legend(self.figure), [
+            "false shadow, smallest to largest", "false shadow, median",
+            "false lit, smallest to largest", "false lit, median"])
+
+    def test_does_not_apply_without_an_axis(self):
+        with self.assertRaises(run_settings.DoesNotApply):
+            error_vs_axis.read(load("compare"))
+
+
+class HeatMap(unittest.TestCase):
+    def test_cells_are_medians_on_a_fixed_scale(self):
+        tables = heat_map.read(load("sweep"))
+        axes, bar = heat_map.draw(tables).axes
+        for (row, column), rate in numpy.ndenumerate(tables.rates):
+            cell = [float(one["error_rate"]) for one in rows_of("sweep", "results")
+                    if one[tables.y.key] == run_settings.text_of(tables.y.values[row])
+                    and one[tables.x.key] == run_settings.text_of(tables.x.values[column])]
+            # The median of an even number is the mean of two: an ulp.
+            assert_allclose(rate, statistics.median(cell), rtol=1e-15)
+        drawn = axes.collections[0]
+        assert_array_equal(drawn.get_array().ravel(),
+                           numpy.clip(100 * tables.rates.ravel(), 0.001, 100))
+        self.assertEqual(drawn.get_clim(), (0.001, 100))
+        self.assertEqual(axes.get_xlabel(), "constant bias [depth units]")
+        self.assertEqual([label.get_text() for label in axes.get_xticklabels()],
+                         ["0", "0.001", "0.003", "0.01", "0.03"])
+        self.assertEqual(bar.get_ylabel(), "error rate [%]")
+        self.assertEqual([label.get_text() for label in bar.get_yticklabels()],
+                         ["≤ 0.001", "0.01", "0.1", "1", "10", "100"])
+
+    def test_does_not_apply_with_fewer_than_two_axes(self):
+        run = load("sweep")
+        run.results = run.results[(run.results["lookup.filter"] == "nearest")
+                                  & (run.results["shadow_map.resolution"] == 32)]
+        with self.assertRaisesRegex(run_settings.DoesNotApply, "fewer than two axes"):
+            heat_map.read(run)
+
+
+class Pareto(unittest.TestCase):
+    def test_front_is_what_no_other_pair_dominates(self):
+        seed = 20261122
+        random = numpy.random.default_rng(seed)
+        for trial in range(50):
+            rates = random.integers(0, 12, (random.integers(1, 40), 2)) / 12
+            expected = sorted({(a, b) for a, b in rates
+                               if not any((c <= a and d <= b) and (c < a or d < b)
+                                          for c, d in rates)})
+            front = [tuple(pair) for pair in pareto.front_of(rates)]
+            self.assertEqual(front, expected, (seed, trial, rates.tolist()))
+
+    def test_draws_every_distinct_pair_and_the_best(self):
+        tables = pareto.read(load("sweep"))
+        (axes,) = pareto.draw(tables).axes
+        drawn = by_label(axes)
+        rows = rows_of("sweep", "results")
+        pairs = {(100 * float(row["false_shadow_rate"]), 100 * float(row["false_lit_rate"]))
+                 for row in rows}
+        self.assertLessEqual(set(zip(*drawn["a configuration"].get_data())), pairs)
+        assert_array_equal(numpy.transpose(drawn["front: none is better in both"].get_data()),
+                           100 * tables.front)
+        best = best_row()
+        self.assertEqual([line[0] for line in drawn["fewest errors"].get_data()],
+                         [100 * float(best["false_shadow_rate"]),
+                          100 * float(best["false_lit_rate"])])
+        self.assertEqual(axes.get_xlabel(), "false shadow [% of lit pixels]")
+        self.assertEqual(axes.get_ylabel(), "false lit [% of blocked pixels]")
+        assert_array_equal(axes.get_xticks(), PERCENT_TICKS)
+        assert_array_equal(axes.get_yticks(), PERCENT_TICKS)
+
+
+class Axes(unittest.TestCase):
+    def axes(self, **columns):
+        class Run:
+            job_keys = list(columns)
+        table = pandas.DataFrame({"case": [None] * len(next(iter(columns.values()))), **columns})
+        return run_settings.axes_of(Run, table)
+
+    def test_leave_out_what_follows_from_another(self):
+        (axis,) = self.axes(near=[1, 2, 1, 2], far=[10, 20, 10, 20], same=[3, 3, 3, 3])
+        self.assertEqual((axis.key, axis.values), ("near", [1, 2]))
+        self.assertEqual([axis.key for axis in self.axes(near=[1, 2, 1], far=[10, 20, 30])],
+                         ["near", "far"])
+
+    def test_tell_numbers_from_texts(self):
+        texts, mixed = self.axes(filter=["b", "a", "b", "a"], near=["auto", "auto", "1", "2"])
+        self.assertEqual((texts.values, texts.is_numeric), (["b", "a"], False))
+        self.assertEqual((mixed.values, mixed.is_numeric), (["auto", "1", "2"], False))
+
+    def test_spread_values_by_their_range(self):
+        for values, scale in (([1, 2, 3], "linear"), ([256, 512, 1024], "log"), ([0, 1], "linear"),
+                              ([1, 5, 100], "log"), ([0, 1, 100], "symlog")):
+            (axis,) = self.axes(key=values)
+            self.assertEqual(axis.scale["value"], scale, values)
+
+    def test_unite_many_values_into_classes_of_equal_numbers(self):
+        values = numpy.random.default_rng(1).permutation(10000) / 7
+        (axis,) = self.axes(key=values)
+        self.assertEqual(len(axis.values), 100)
+        self.assertEqual(set(numpy.bincount(axis.codes)), {100})
+        # Each class holds its own median.
+        order = numpy.argsort(values)
+        assert_array_equal(axis.values, numpy.median(values[order].reshape(100, 100), axis=1))
+
+
+class WholeRun(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def draw(self, run, folder):
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            self.assertEqual(make.main(["run", str(run), "--out", str(folder)]), 0)
+        return json.loads(printed.getvalue())
+
+    def draw_in_a_process(self, run, folder):
+        command = ["/usr/bin/python3", "-B", str(SCRIPTS / "make.py"), "run", str(run), "--out",
+                   str(folder)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return json.loads(done.stdout)
+
+    def test_draws_what_applies_the_same_twice(self):
+        names = ["bias-curve", "errors-vs-z", "depth-error-vs-z", "causes", "error-vs-axis",
+                 "heat-map", "pareto"]
+        once = self.draw(HERE / "sweep", self.folder / "a")
+        twice = self.draw_in_a_process(HERE / "sweep", self.folder / "b")
+        self.assertEqual([figure["name"] for figure in once], names)
+        self.assertEqual(once, twice)
+        self.assertEqual(len(list((self.folder / "a").iterdir())), 2 * len(names))
+        for figure in once:
+            self.assertEqual(list(figure), ["name", "title", "caption", "alt", "svg", "png"])
+            for kind in ("svg", "png"):
+                pictures = [(self.folder / one / figure[kind]).read_bytes() for one in ("a", "b")]
+                self.assertEqual(*pictures)
+
+    def test_of_a_comparison_has_no_figure_of_axes(self):
+        figures = self.draw(HERE / "compare", self.folder / "a")
+        self.assertEqual([figure["name"] for figure in figures],
+                         ["bias-curve", "errors-vs-z", "depth-error-vs-z", "causes"])
+
+    def test_takes_any_names(self):
+        shutil.copytree(HERE / "sweep", self.folder / "run")
+        hostile = '</script><img onerror=alert(1)> $x^2$ \u202eabc 😀 _ ' + 5000 * "long "
+        for path in (self.folder / "run").glob("results.csv"):
+            path.write_text(path.read_text().replace(",sphere-plane,", f',"{hostile}",')
+                            .replace(",pcf3,", f",{hostile}3,"))
+        figures = self.draw(self.folder / "run", self.folder / "a")
+        self.assertEqual(len(figures), 7)
+        for figure in figures:
+            svg = (self.folder / "a" / figure["svg"]).read_text()
+            self.assertNotIn("<img", svg)
+            self.assertLess(len(figure["caption"]), 300)
+
+
+if __name__ == "__main__":
+    unittest.main()
