@@ -57,8 +57,8 @@ void add_figures(reports::ReportOptions& report, const CommandOptions& options)
     }
     try {
         for (const FigureFile& figure : draw_run_figures(report.out, report.out / "figures")) {
-            report.figures.push_back({figure.name, figure.title, figure.caption, figure.alt,
-                                      figure.svg, figure.png});
+            report.figures.push_back(
+                {figure.name, figure.title, figure.caption, figure.alt, figure.svg, figure.png});
         }
     } catch (const PythonMissing& error) {
         report.no_figures = error.what();

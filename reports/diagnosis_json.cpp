@@ -183,10 +183,11 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
         json["peter_panning_gap_m"] = lengths(std::nullopt);
         json["peter_panning_gap_texels"] = lengths(std::nullopt);
         json["peter_panning_gap_pixels"] = nullptr;
-        json["bias_curve"] = nullptr;
-        json["bias_source"] = nullptr;
-        json["bias_reruns"] = nullptr;
-        json["verification"] = nullptr;
+        for (const char* const name :
+             {"bias_curve", "bias_source", "bias_reruns", "verification", "slope_curves",
+              "by_light_distance_m", "by_receiver_angle_rad", "by_object", "findings", "advice"}) {
+            json[name] = nullptr;
+        }
         return;
     }
     const analysis::CauseCounts& counts = diagnosis->causes.counts;

@@ -1,0 +1,278 @@
+#include "reports/page/report.hpp"
+
+#include "reports/aov_exr.hpp"
+#include "reports/comparison_json.hpp"
+#include "reports/layer_file.hpp"
+#include "reports/output_file.hpp"
+#include "reports/page/page_html.hpp"
+#include "reports/page/summary.hpp"
+#include "reports/run/pixels.hpp"
+#include "reports/run/run_store.hpp"
+#include "scene/error.hpp"
+
+#include "csv_table.hpp"
+#include "example_comparison.hpp"
+#include "example_run.hpp"
+#include "page_blocks.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon::reports {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string hostile = "</script><img src=x onerror=alert(1)> \"'&\u202e\U0001f600";
+
+ReadPage written_page(const std::filesystem::path& run, const std::filesystem::path& out)
+{
+    std::filesystem::create_directories(out);
+    write_report_csv(run, out);
+    write_report({run, out, {}, "python3-matplotlib is missing", {}});
+    return ReadPage{read_text(out / "report.html")};
+}
+
+/// The table's rows as the CSV file has them.
+std::vector<std::map<std::string, std::string>> table_rows(const ReadPage& page)
+{
+    const auto& data = page.data();
+    std::vector<std::map<std::string, std::string>> rows(
+        data.at("table").at("count").get<std::size_t>());
+    for (const auto& column : data.at("table").at("columns")) {
+        const std::vector<std::string> texts = page.texts(column);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            rows[i][column.at("name")] = texts[i];
+        }
+    }
+    for (const auto& [name, value] : data.at("constants").items()) {
+        for (auto& row : rows) {
+            row[name] = value;
+        }
+    }
+    return rows;
+}
+
+TEST(Report, HoldsEveryNumberOfTheResults)
+{
+    const TemporaryFolder folder;
+    ExampleRun{}.compute(folder / "run");
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    const CsvTable csv = read_csv(folder / "out/results.csv");
+    EXPECT_EQ(read_text(folder / "out/results.csv"), read_text(folder / "run/results.csv"));
+    const auto rows = table_rows(page);
+    ASSERT_EQ(rows.size(), 12U);
+    ASSERT_EQ(rows.size(), csv.rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (const auto& [name, value] : csv.rows[i]) {
+            const auto cell = rows[i].find(name);
+            EXPECT_EQ(cell == rows[i].end() ? "" : cell->second, value) << name << ", row " << i;
+        }
+    }
+}
+
+TEST(Report, HoldsEveryPointOfTheCurves)
+{
+    const TemporaryFolder folder;
+    ExampleRun{}.compute(folder / "run");
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    const auto& curves = page.data().at("curves");
+    const CsvTable csv = read_csv(folder / "out/bias_curves.csv");
+    const auto ids = page.texts(curves.at("columns").at(0));
+    const auto first = page.bits(curves.at("columns").at(1));
+    const auto counts = page.bits(curves.at("columns").at(2));
+    const auto biases = page.floats(curves.at("points").at("columns").at(0));
+    const auto false_shadow = page.bits(curves.at("points").at("columns").at(1));
+    const auto false_lit = page.bits(curves.at("points").at("columns").at(2));
+    ASSERT_EQ(biases.size(), csv.rows.size());
+    std::size_t i = 0;
+    for (std::size_t c = 0; c < ids.size(); ++c) {
+        ASSERT_EQ(first[c], i);
+        for (std::uint64_t k = 0; k < counts[c]; ++k, ++i) {
+            EXPECT_EQ(csv.rows[i].at("curve"), ids[c]);
+            EXPECT_EQ(std::stod(csv.rows[i].at("bias")), double{biases[i]});
+            EXPECT_EQ(csv.rows[i].at("false_shadow"), std::to_string(false_shadow[i]));
+            EXPECT_EQ(csv.rows[i].at("false_lit"), std::to_string(false_lit[i]));
+        }
+    }
+    EXPECT_EQ(i, csv.rows.size());
+    EXPECT_EQ(curves.at("thinned"), false);
+    const auto& bins = page.data().at("error_vs_z");
+    const CsvTable bins_csv = read_csv(folder / "out/error_vs_z.csv");
+    ASSERT_EQ(bins.at("count"), bins_csv.rows.size());
+    for (const auto& column : bins.at("columns")) {
+        if (column.at("name") != "curve") {
+            const auto texts = page.texts(column);
+            for (std::size_t row = 0; row < texts.size(); ++row) {
+                EXPECT_EQ(texts[row], bins_csv.rows[row].at(column.at("name")));
+            }
+        }
+    }
+}
+
+TEST(Report, NamesTheBestConfigurationAndItsCommand)
+{
+    const TemporaryFolder folder;
+    ExampleRun run;
+    RunDescription description = run.description();
+    description.compare_command = "gnomon compare job.toml";
+    std::filesystem::create_directories(folder / "run");
+    RunStore store{folder / "run", RunStore::Access::write};
+    store.plan(description, run.configurations());
+    run.record(store);
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    // Errors grow with the ordinal: 1000 + ordinal, and ordinal modulo 13.
+    EXPECT_EQ(page.data().at("headline"), 0);
+    EXPECT_THAT(page.html(), HasSubstr("The best has 0.186 % of the scored pixels wrong: 1,000 "
+                                       "false shadow, 0 false lit"));
+    EXPECT_THAT(page.html(), HasSubstr("gnomon compare job.toml --case noon --set "
+                                       "shadow_map.resolution=256 --set bias.constant="));
+    const std::string summary = read_text(folder / "out/summary.md");
+    EXPECT_THAT(summary, HasSubstr("12 of 12 configurations measured."));
+    EXPECT_THAT(summary, HasSubstr("| 1,000 | 0.263 % | 0 | 0 % | 0.186 % |"));
+    EXPECT_LT(summary.size(), 65'536U); // GitHub takes no longer a text
+}
+
+TEST(Report, OfARunThatFailedSaysSo)
+{
+    const TemporaryFolder folder;
+    const ExampleRun run;
+    std::filesystem::create_directories(folder / "run");
+    RunStore store{folder / "run", RunStore::Access::write};
+    store.plan(run.description(), run.configurations());
+    store.record_failure(std::vector<std::uint64_t>{0, 1}, hostile);
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    EXPECT_TRUE(page.data().at("headline").is_null());
+    EXPECT_THAT(page.html(),
+                HasSubstr("0 of 12 configurations measured, 2 failed, 10 not computed yet."));
+    EXPECT_THAT(page.html(), HasSubstr("python3-matplotlib is missing"));
+    EXPECT_THAT(page.html(), Not(HasSubstr("<img")));
+    EXPECT_EQ(table_rows(page).at(0).at("message"), hostile);
+}
+
+/// A run of one comparison, with its layers.
+void keep_example(const std::filesystem::path& folder)
+{
+    ExampleRun run;
+    run.curves = 1;
+    run.biases = 1;
+    RunDescription description = run.description();
+    description.axes = {};
+    std::filesystem::create_directories(folder);
+    RunStore store{folder, RunStore::Access::write};
+    store.plan(description, run.configurations());
+    run.record(store);
+    const std::string id = run.configurations().front().id;
+    make_pixels_folder(folder);
+    write_file(detail_path(folder, id), comparison_json(example().comparison));
+    write_aov(pixels_path(folder, id), example().comparison, example().points);
+}
+
+TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
+{
+    const TemporaryFolder folder;
+    keep_example(folder / "run");
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    ASSERT_EQ(page.data().at("images").size(), 1U);
+    const auto& image = page.data().at("images").at(0);
+    EXPECT_EQ(image.at("width"), 96);
+    EXPECT_EQ(image.at("height"), 64);
+    EXPECT_EQ(image.at("row"), 0);
+    const auto& layers = image.at("layers");
+    const analysis::Comparison& comparison = example().comparison;
+    const auto classes = page.bits(layers.at("class"));
+    const auto prims = page.bits(layers.at("prim"));
+    const auto depths = page.bits(layers.at("map_depth"));
+    const auto verdicts = page.floats(layers.at("verdict"));
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        ASSERT_EQ(classes[i], static_cast<std::uint64_t>(comparison.truth.pixel_class[i]));
+        ASSERT_EQ(prims[i], comparison.receivers.triangle[i]);
+        ASSERT_EQ(depths[i], std::bit_cast<std::uint32_t>(comparison.lookup.samples[i].map_depth));
+        ASSERT_EQ(verdicts[i], comparison.lookup.samples[i].verdict);
+    }
+    EXPECT_EQ(image.at("frustum").at("near_m"), comparison.view.frustum.near_m);
+}
+
+TEST(Report, RefusesAConfigurationWhoseLayersWereNotKept)
+{
+    const TemporaryFolder folder;
+    keep_example(folder / "run");
+    std::filesystem::create_directories(folder / "out");
+    ReportOptions options{folder / "run", folder / "out", {}, {}, {"0123456789abcdef"}};
+    try {
+        write_report(options);
+        FAIL() << "it was not refused";
+    } catch (const scene::InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("--configuration 0123456789abcdef: "));
+        EXPECT_THAT(error.what(), HasSubstr("--keep-pixels"));
+    }
+}
+
+TEST(Report, RefusesDamagedLayersInOneLine)
+{
+    const TemporaryFolder folder;
+    keep_example(folder / "run");
+    const std::string id = ExampleRun{1, 1}.configurations().front().id;
+    for (const std::string text : {"", "{", "[]", "{\"job\": 7}"}) {
+        write_file(detail_path(folder / "run", id), text);
+        try {
+            (void)written_page(folder / "run", folder / "out");
+            FAIL() << text << " was not refused";
+        } catch (const scene::InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(id + ".json: is damaged")) << text;
+            EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+        }
+    }
+}
+
+TEST(Report, RefusesAFolderThatIsNoRun)
+{
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_report({folder.path(), folder.path(), {}, {}, {}}), scene::InputError);
+}
+
+TEST(PageHtml, ShowsAnyTextAsItself)
+{
+    EXPECT_EQ(escaped("<a href=\"x\">'&"), "&lt;a href=&quot;x&quot;&gt;&#39;&amp;");
+    const nlohmann::ordered_json data{{"name", hostile}, {"bytes", "\xff</script"}};
+    const std::string page = whole_page(hostile, "<body>", data, {});
+    // No end of a script but those of the page's own.
+    std::size_t ends = 0;
+    for (std::size_t at = page.find("</script"); at != std::string::npos;
+         at = page.find("</script", at + 1)) {
+        ++ends;
+    }
+    EXPECT_EQ(ends, 3U);
+    EXPECT_THAT(page, Not(HasSubstr("<img")));
+    EXPECT_EQ(ReadPage{page}.data().at("name"), hostile);
+}
+
+TEST(PageHtml, AllowsItsOwnStyleAndScriptsAlone)
+{
+    const std::string page = whole_page("t", "<body>", {}, {});
+    EXPECT_THAT(page, HasSubstr("content=\"default-src 'none'; script-src 'sha256-"));
+    EXPECT_THAT(page, Not(HasSubstr("unsafe")));
+    EXPECT_THAT(page, Not(HasSubstr("http://")));
+}
+
+TEST(MarkdownText, HasNoMarkup)
+{
+    EXPECT_EQ(markdown_text("a_b|c"), "a\\_b\\|c");
+    EXPECT_EQ(markdown_text("<b>"), "\\<b\\>");
+    EXPECT_EQ(markdown_text("two\nlines"), "two lines");
+    EXPECT_EQ(markdown_text("@me http://x: y"), "&#64;me http&#58;//x: y");
+    EXPECT_EQ(markdown_text(std::string(1000, 'x')).size(), 400U);
+}
+
+} // namespace
+} // namespace gnomon::reports
