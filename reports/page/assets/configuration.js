@@ -67,6 +67,6 @@ class ConfigurationDetail {
       return element("p", { text: values.get("status") === "failed" ? "It failed; the message is below." : "Its pixels were not kept." });
     }
     const code = element("code", { text: command });
-    return element("div", {}, element("p", { text: "Its pixels were not kept. This makes its layers:" }), scroller("Command", element("pre", {}, code)));
+    return element("div", {}, element("p", { text: "Its pixels were not kept. This makes its layers:" }), element("pre", {}, code));
   }
 }
