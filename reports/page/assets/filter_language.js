@@ -133,7 +133,7 @@ async function filterRows(table, words, text) {
     if (term.name === null) {
       applyWord(kept, (await table.select(words)).values(), term);
     } else {
-      applyComparison(kept, await table.column(resolveColumn(table.names, term.name)), term);
+      applyComparison(kept, await table.column(resolveColumn(table.allNames, term.name)), term);
     }
   }
   return kept;
