@@ -95,6 +95,7 @@ describe("The filter", () => {
     await assert.rejects(keeps("falselit < 5"), /no column “falselit”/);
     await assert.rejects(keeps("false_lit < many"), /is a number/);
     assert.throws(() => page.resolveColumn(["a.x", "b.x"], "x"), /may be a.x or b.x/);
+    assert.equal(page.resolveColumn(["causes.resolution", "shadow_map.resolution"], "resolution"), "shadow_map.resolution");
   });
 });
 

@@ -30,7 +30,7 @@ class BiasSlider {
   constructor(image, onBias) {
     this.image = image;
     this.onBias = onBias;
-    this.scale = new SliderScale(image.depthStep.step, image.counts.finiteRange);
+    this.scale = new SliderScale(image.depthStep?.step ?? 2 ** -24, image.counts.finiteRange);
     this.range = element("input", {
       type: "range", min: this.scale.lowestPosition, max: this.scale.highestPosition, step: 1, class: "bias-range",
       on: { input: () => this.setBias(this.scale.biasAt(Number(this.range.value)), this.range) },

@@ -33,9 +33,9 @@ class DistanceBins {
       this.curveOfId = new Map(Array.from(values, (text, index) => [dictionary[text], index]));
       this.rowsOf = new Map();
       const curve = this.columns.get("curve")?.values ?? [];
-      const at = this.columns.get("at")?.values ?? [];
+      const at = this.columns.get("at");
       for (let row = 0; row < this.table.count; ++row) {
-        const key = `${curve[row]} ${at[row]}`;
+        const key = `${curve[row]} ${at.at(row)}`;
         this.rowsOf.set(key, [...(this.rowsOf.get(key) ?? []), row]);
       }
     }
@@ -43,7 +43,7 @@ class DistanceBins {
 
   /**
    * @param {?string} id  of a curve
-   * @param {number} at  0 the job's bias, 1 the best bias
+   * @param {string} at  "job_bias" or "best_bias"
    * @return {Promise<?{bias: number, bins: Bin[]}>}  null where the curve has none
    */
   async of(id, at) {

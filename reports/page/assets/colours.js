@@ -10,13 +10,6 @@ const errorColours = {
   falseShadow: okabeIto.vermilion, falseLit: okabeIto.blue, unmatched: okabeIto.purple,
   indeterminate: okabeIto.black,
 };
-const surfaceColours = {
-  background: "#E4E9F0", attached: "#4A4F58", outOfLight: "#A9B4C4", lit: "#EFE7D6", shadowed: "#7F8794",
-};
-/** Beneath marks: right pixels, faded so that only marks are coloured. */
-const fadedColours = {
-  background: "#F7F8FA", attached: "#C6C9CD", outOfLight: "#E2E6EC", lit: "#F4F1EA", shadowed: "#D7DADE",
-};
 const causeColours = {
   bias: okabeIto.purple, precision: okabeIto.yellow, resolution: okabeIto.green, coverage: okabeIto.black,
 };

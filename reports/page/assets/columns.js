@@ -32,17 +32,25 @@ class Table {
   /**
    * @param {{count: number, columns: object[]}} stored  as in the page's data
    * @param {BlockReader} reader
+   * @param {Object<string, string>} constants  columns that hold the same everywhere, as texts; they
+   *     are not among `names`
    */
-  constructor(stored, reader) {
+  constructor(stored, reader, constants = {}) {
     this.count = stored.count;
     this.names = stored.columns.map((column) => column.name);
     this.stored = new Map(stored.columns.map((column) => [column.name, column]));
+    this.constants = new Map(Object.entries(constants));
     this.reader = reader;
     this.columns = new Map();
   }
 
   has(name) {
-    return this.stored.has(name);
+    return this.stored.has(name) || this.constants.has(name);
+  }
+
+  /** Names of all columns, constant ones too. */
+  get allNames() {
+    return [...this.names, ...this.constants.keys()];
   }
 
   isText(name) {
@@ -50,16 +58,28 @@ class Table {
   }
 
   /**
-   * @param {string} name  one of `names`
+   * @param {string} name  one of `allNames`
    * @return {Promise<Column>}
    */
   async column(name) {
     if (!this.columns.has(name)) {
-      const stored = this.stored.get(name);
-      const values = await this.reader.read(stored);
-      this.columns.set(name, new Column(name, values, stored.dictionary ?? null));
+      this.columns.set(name, this.stored.has(name) ? await this.readColumn(name) : this.constantColumn(name));
     }
     return this.columns.get(name);
+  }
+
+  async readColumn(name) {
+    const stored = this.stored.get(name);
+    return new Column(name, await this.reader.read(stored), stored.dictionary ?? null);
+  }
+
+  constantColumn(name) {
+    const text = this.constants.get(name);
+    const number = Number(text);
+    // Ids are texts, whatever their digits.
+    const isNumber = text !== "" && Number.isFinite(number) && !["id", "curve", "scene_hash"].includes(name);
+    return isNumber ? new Column(name, new Float64Array(this.count).fill(number), null)
+      : new Column(name, new Uint32Array(this.count), [text]);
   }
 
   /**

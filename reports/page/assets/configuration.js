@@ -29,15 +29,28 @@ function countsOf(values, stem) {
   return entries.length === 0 ? null : Object.fromEntries(entries.map(([name, value]) => [name.slice(stem.length), value]));
 }
 
+/** A word as a shell reads it back. */
+function shellWord(word) {
+  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}
+
+/** The command that measures one configuration alone, with its layers. */
+function compareCommand(run, values) {
+  const chosen = values.get("case") ?? null;
+  const words = chosen === null ? [] : ["--case", String(chosen)];
+  run.axes.forEach((axis) => words.push("--set", `${axis}=${values.get(axis) ?? ""}`));
+  return [run.compare_command, ...words.map(shellWord), "--out DIR"].join(" ");
+}
+
 /** The part of section#sweep that shows the clicked configuration. */
 class ConfigurationDetail {
   /**
    * @param {Table} table
-   * @param {Object<string, string>} constants  the keys that are the same in every configuration
+   * @param {object} run  as in the page's data
    */
-  constructor(table, constants) {
+  constructor(table, run) {
     this.table = table;
-    this.constants = constants;
+    this.run = run;
     this.heading = element("h3", { tabindex: -1, text: "Configuration" });
     this.host = element("div");
     this.root = element("div", { class: "configuration", hidden: true }, this.heading, this.host);
@@ -45,10 +58,10 @@ class ConfigurationDetail {
 
   /** @param {boolean} hasImage  whether the inspector shows its pixels */
   async show(row, title, hasImage) {
-    const columns = await this.table.select(this.table.names);
+    const columns = await this.table.select(this.table.allNames);
     const values = new Map([...columns].map(([name, column]) => [name, column.at(row)]));
     const groups = new Map(valueGroups.map(([name]) => [name, []]).concat([["Other", []]]));
-    const shown = [...Object.entries(this.constants), ...values].filter(([name, value]) => value !== null && !/^(causes|labels)\.|^command$/.test(name));
+    const shown = [...values].filter(([name, value]) => value !== null && !/^(causes|labels)\./.test(name));
     shown.forEach(([name, value]) => groups.get(groupOf(name)).push([name, value]));
     const causes = countsOf(values, "causes.");
     const labels = countsOf(values, "labels.");
@@ -62,11 +75,10 @@ class ConfigurationDetail {
     if (hasImage) {
       return element("p", {}, "Its pixels are in the ", element("a", { href: "#inspector", text: "pixel inspector" }), ", and the charts by distance and angle are its own.");
     }
-    const command = values.get("command") ?? null;
-    if (values.get("status") === "failed" || command === null) {
-      return element("p", { text: values.get("status") === "failed" ? "It failed; the message is below." : "Its pixels were not kept." });
+    if (values.get("status") !== "done") {
+      return element("p", { text: values.get("message") ?? "It was not measured." });
     }
-    const code = element("code", { text: command });
-    return element("div", {}, element("p", { text: "Its pixels were not kept. This makes its layers:" }), scroller("Command", element("pre", {}, code)));
+    const command = element("pre", {}, element("code", { text: compareCommand(this.run, values) }));
+    return element("div", {}, element("p", { text: "The page has not its pixels. This makes its layers:" }), command);
   }
 }

@@ -12,9 +12,9 @@ class ConfigurationTable {
    */
   constructor(table, axes, hasFailures, onOpen) {
     this.table = table;
-    this.words = table.names.filter((name) => (table.isText(name) && !["id", "curve", "command"].includes(name)) || axes.includes(name));
+    this.words = table.names.filter((name) => (table.isText(name) && !["id", "curve"].includes(name)) || axes.includes(name));
     const first = [...(table.has("ordinal") ? ["ordinal"] : []), ...axes, ...(hasFailures ? ["status", "message"] : []), ...outcomeColumns];
-    this.rows = new RowTable(table, first.filter((name) => table.has(name)), "All configurations of the sweep", onOpen);
+    this.rows = new RowTable(table, first.filter((name) => table.has(name) && !(table.constants.has(name) && name === "status")), "All configurations of the sweep", onOpen);
     this.field = element("input", {
       type: "search", class: "filter", autocomplete: "off", spellcheck: "false",
       placeholder: "false_lit < 100 resolution=2048", on: { input: () => this.filterSoon() },
@@ -54,7 +54,8 @@ class ConfigurationTable {
   }
 
   columnChooser() {
-    const boxes = this.table.names.map((name) => {
+    const constant = this.rows.shown.filter((name) => this.table.constants.has(name));
+    const boxes = [...this.table.names, ...constant].map((name) => {
       const box = element("input", { type: "checkbox", value: name, on: { change: () => this.takeColumns(boxes) } });
       box.checked = this.rows.shown.includes(name);
       return element("label", { class: "check" }, box, name);

@@ -36,8 +36,12 @@ function parseFilter(text) {
   return terms;
 }
 
+/** How the keys of a job begin: they come first where a name's end is ambiguous. */
+const jobKey = /^(scene|camera|image|light|shadow_map|lookup|bias)\./;
+
 /**
- * The column that a name means: the name itself, or the only one that ends in it after a dot.
+ * The column that a name means: the name itself, or the only one that ends in it after a dot, or the
+ * only key of the job that does.
  * @param {string[]} names
  * @throws {Error}  in words, if there is none or more than one
  */
@@ -48,6 +52,10 @@ function resolveColumn(names, name) {
     return exact;
   }
   const ends = names.filter((candidate) => candidate.toLowerCase().endsWith(`.${wanted}`));
+  const keys = ends.filter((candidate) => jobKey.test(candidate));
+  if (ends.length !== 1 && keys.length === 1) {
+    return keys[0];
+  }
   if (ends.length !== 1) {
     throw new Error(ends.length === 0 ? `no column “${name}”` : `“${name}” may be ${ends.join(" or ")}`);
   }
@@ -125,7 +133,7 @@ async function filterRows(table, words, text) {
     if (term.name === null) {
       applyWord(kept, (await table.select(words)).values(), term);
     } else {
-      applyComparison(kept, await table.column(resolveColumn(table.names, term.name)), term);
+      applyComparison(kept, await table.column(resolveColumn(table.allNames, term.name)), term);
     }
   }
   return kept;

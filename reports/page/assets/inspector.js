@@ -38,7 +38,7 @@ class Inspector {
     });
     return element("div", { class: "bar" },
       labelled("Wipe", this.wipeRange),
-      element("div", { class: "buttons", role: "group", "aria-label": "Zoom" },
+      element("div", { class: "buttons", role: "group", "aria-label": "Zoom controls" },
         button("−", () => this.stage.zoomBy(1 / 1.5), { "aria-label": "Zoom out" }), this.zoomText,
         button("+", () => this.stage.zoomBy(1.5), { "aria-label": "Zoom in" }),
         button("Show all", () => this.stage.showAll())),

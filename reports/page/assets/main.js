@@ -5,7 +5,7 @@ class ReportPage {
   constructor(data) {
     this.data = data;
     this.reader = new BlockReader((id) => document.getElementById(id).textContent);
-    this.table = new Table(data.table, this.reader);
+    this.table = new Table(data.table, this.reader, data.constants);
     const empty = { count: 0, columns: [] };
     this.bins = new DistanceBins(new Table(data.error_vs_z ?? empty, this.reader), new Table(data.curves ?? empty, this.reader));
     this.images = new Map((data.images ?? []).map((image) => [image.row, image]));
@@ -17,8 +17,8 @@ class ReportPage {
   }
 
   async open() {
-    const first = this.images.has(this.data.headline) || this.images.size === 0 ? this.data.headline : [...this.images.keys()][0];
-    await this.show(first);
+    const [firstImage] = this.images.keys();
+    await this.show(this.images.has(this.data.headline) ? this.data.headline : firstImage ?? this.data.headline ?? 0);
     if (this.table.count > 1) {
       await this.openSweep();
     }
@@ -47,7 +47,7 @@ class ReportPage {
     const caption = await this.caption(row);
     const stored = this.images.get(row);
     const curveId = this.table.has("curve") ? (await this.table.column("curve")).at(row) : null;
-    const [job, best] = await Promise.all([0, 1].map((at) => this.bins.of(curveId, at)));
+    const [job, best] = await Promise.all(["job_bias", "best_bias"].map((at) => this.bins.of(curveId, at)));
     const image = stored === undefined ? null : await loadImage(stored, this.reader);
     if (this.shown !== row) {
       return;
@@ -75,7 +75,7 @@ class SweepSection {
     const columns = await this.table.select(data.run.axes);
     const axes = new Map([...columns].map(([name, column]) => [name, axisOfColumn(column)]).filter(([, axis]) => axis.values.length > 1));
     const names = [...columns.keys()];
-    this.detail = new ConfigurationDetail(this.table, data.constants ?? {});
+    this.detail = new ConfigurationDetail(this.table, data.run);
     this.rows = new ConfigurationTable(this.table, names, data.run.failed > 0, this.onShow);
     const hasRates = this.table.has("error_rate");
     const parts = [
@@ -97,12 +97,22 @@ class SweepSection {
   }
 }
 
+/** Lets the keyboard scroll the wide tables that the page came with. */
+function letTablesScroll() {
+  for (const wide of document.querySelectorAll(".scroll:not([tabindex])")) {
+    wide.tabIndex = 0;
+    wide.setAttribute("role", "region");
+    wide.setAttribute("aria-label", wide.querySelector("caption")?.textContent ?? "Table");
+  }
+}
+
 /** Says in words why the page stays as it came. */
 function reportFailure(text) {
   document.querySelector("main").prepend(element("p", { role: "alert", class: "problem", text }));
 }
 
 async function startPage() {
+  letTablesScroll();
   if (window.DecompressionStream === undefined || window.ResizeObserver === undefined) {
     reportFailure("This browser cannot unpack the page’s data (it has no DecompressionStream): the inspector and the interactive charts are left out. Any browser since 2023 has it.");
     return;

@@ -78,9 +78,9 @@ class AxisCharts {
     this.root = element("div", {}, element("h3", { text: "Error against an axis" }), this.controls, this.note, this.host);
   }
 
-  /** The axis with the most values, which is the one that is a curve. */
+  /** The axis with the most values, of several the last: the one that is most of a curve. */
   mostInteresting() {
-    return [...this.axes.values()].reduce((a, b) => (b.values.length > a.values.length ? b : a)).name;
+    return [...this.axes.values()].reduce((a, b) => (b.values.length >= a.values.length ? b : a)).name;
   }
 
   choose(change) {

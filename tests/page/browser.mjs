@@ -1,0 +1,102 @@
+// A headless Chromium, the program that $GNOMON names, and runs and reports made by it.
+
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const require = createRequire(join(process.env.GNOMON_PAGE_MODULES, "node_modules", "x"));
+const { chromium } = require("playwright-core");
+export const axeSource = require.resolve("axe-core/axe.min.js");
+
+const work = mkdtempSync(join(tmpdir(), "gnomon-page-"));
+process.on("exit", () => rmSync(work, { recursive: true, force: true }));
+
+/** What the program prints; throws where it fails. */
+export function gnomon(...words) {
+  return execFileSync(process.env.GNOMON, words, { encoding: "utf8", maxBuffer: 2 ** 28, stdio: ["ignore", "pipe", "pipe"] });
+}
+
+/** Words of a job with an image of this size. */
+export function sized(width, height, ...words) {
+  return [...words, "--set", `image.width=${width}`, "--set", `image.height=${height}`];
+}
+
+/**
+ * Makes a run and its page.
+ * @param {string} name  of the run's folder
+ * @param {string} command  compare or sweep
+ * @param {...string} words  of the command
+ * @return {{run: string, page: string}}
+ */
+export function makeReport(name, command, ...words) {
+  const run = join(work, name);
+  gnomon(command, ...words, "--out", run);
+  gnomon("report", run, "--out", `${run} report`);
+  return { run, page: join(`${run} report`, "report.html") };
+}
+
+let browser = null;
+
+/** The browser, started once a test file. */
+export async function startBrowser() {
+  const sandbox = process.getuid() === 0 ? ["--no-sandbox"] : [];
+  browser ??= await chromium.launch({ executablePath: process.env.GNOMON_CHROMIUM, args: sandbox });
+  return browser;
+}
+
+export async function stopBrowser() {
+  await browser?.close();
+  browser = null;
+}
+
+/**
+ * Opens a page from the disk and waits until its scripts have filled it.
+ * @return {Promise<Page>}  with `page.faults`: requests, messages of the console, errors and dialogs
+ */
+export async function openPage(file, { width = 1280, height = 900, colorScheme = "light" } = {}) {
+  const context = await (await startBrowser()).newContext({ viewport: { width, height }, colorScheme, reducedMotion: "reduce" });
+  const page = await context.newPage();
+  const address = pathToFileURL(file).href;
+  page.faults = [];
+  page.on("request", (request) => !/^(data|blob):/.test(request.url()) && request.url() !== address && page.faults.push(`request ${request.url()}`));
+  page.on("console", (message) => page.faults.push(`console ${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => page.faults.push(`error ${error.stack}`));
+  page.on("dialog", (dialog) => { page.faults.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
+  await page.goto(address);
+  await page.waitForSelector("html[data-ready=true]", { timeout: 60000 });
+  return page;
+}
+
+/** Two frames later: what listeners postponed to the next frame is done. */
+export function settle(page) {
+  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+/** Texts of the pixel's numbers by key. */
+export function readFacts(page) {
+  return page.evaluate(() => Object.fromEntries([...document.querySelectorAll("#inspector dd[data-key]")].map((dd) => [dd.dataset.key, dd.textContent])));
+}
+
+/** Where the middle of a pixel of an image that is wholly shown lies on the screen. */
+export async function pixelPoint(page, { width, height }, x, y) {
+  const box = await page.locator("#inspector .stage").boundingBox();
+  const zoom = Math.min(box.width / width, box.height / height);
+  return {
+    x: box.x + (box.width - width * zoom) / 2 + (x + 0.5) * zoom,
+    y: box.y + (box.height - height * zoom) / 2 + (y + 0.5) * zoom,
+  };
+}
+
+/** A number as the page writes it. */
+export function numberOf(text) {
+  const plain = text.replace("\u2212", "-").replace(" m", "").replaceAll(",", "");
+  return { "\u2013": NaN, "+\u221E": Infinity, "-\u221E": -Infinity }[plain] ?? Number(plain);
+}
+
+/** What the stage shows, as a picture. */
+export function stagePixels(page) {
+  return page.evaluate(() => document.querySelector("#inspector .stage canvas").toDataURL());
+}

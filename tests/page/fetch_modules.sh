@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# fetch_modules.sh DIR: puts the browser tests' two modules into DIR/node_modules, each of a fixed version
+# whose tarball has a fixed sha512. Neither depends on others. Ends with 77, which CTest takes for a skip,
+# where the registry cannot be reached.
+set -euo pipefail
+registry=https://registry.npmjs.org
+modules=(
+    "playwright-core 1.65.1 hqPpz7blSMPxWVdoeE1yiBSzXsKiVOd2k+kjCvmUywD2GPO2Dd9HfcWnq9NN0GHbNZDFgZ9JfBFr+X5/BLo0qw=="
+    "axe-core 4.14.1 FHfa+lmNjQZfJz1q8wKqIDwC6DExcHt/pkjNQb09a3NPjCKg2rhu5qb2S4r76ASyFNNtuFooJpZe37OgudVGtQ=="
+)
+folder=$1/node_modules
+mkdir -p "$folder"
+
+for module in "${modules[@]}"; do
+    read -r name version sha512 <<<"$module"
+    [[ -e "$folder/$name/.complete-$version" ]] && continue
+    work=$(mktemp -d "$folder/.fetch.XXXXXX")
+    trap 'rm -rf "$work"' EXIT
+    curl -fsSL --retry 2 --max-time 120 "$registry/$name/-/$name-$version.tgz" -o "$work/module.tgz" || {
+        echo "SKIPPED: $registry cannot be reached for $name $version"
+        exit 77
+    }
+    found=$(openssl dgst -sha512 -binary "$work/module.tgz" | base64 -w0)
+    [[ "$found" == "$sha512" ]] || {
+        echo "$name $version: sha512 is $found, not $sha512" >&2
+        exit 1
+    }
+    mkdir "$work/module"
+    tar -xzf "$work/module.tgz" -C "$work/module" --strip-components=1
+    touch "$work/module/.complete-$version"
+    rm -rf "${folder:?}/$name"
+    mv "$work/module" "$folder/$name"
+    rm -rf "$work"
+done

@@ -1,0 +1,74 @@
+// Names that anybody may have written: they appear as text and run nothing.
+
+import assert from "node:assert/strict";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { after, before, describe, it } from "node:test";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { makeReport, openPage, readFacts, sized, stopBrowser } from "./browser.mjs";
+
+const names = [
+  "</script><img src=x onerror=window.hostile=1>", "<!--<script>window.hostile=1</script>", "\u{1F525}\u{1F469}\u{200D}\u{1F680}",
+  "\u202Eright to left \u05E9\u05DC\u05D5\u05DD", `long ${"name ".repeat(2000)}`, "'\"&amp;{{constructor}}`${alert(1)}`",
+];
+
+/** An OBJ of squares above each other, one object a name. */
+function squares() {
+  const lines = [];
+  names.forEach((name, i) => {
+    lines.push(`o ${name}`);
+    const half = i === 0 ? 4 : 1 - 0.1 * i;
+    [[-1, -1], [-1, 1], [1, 1], [1, -1]].forEach(([x, z]) => lines.push(`v ${half * x + 0.2 * i} ${0.4 * i} ${half * z}`));
+    lines.push(`f ${[1, 2, 3, 4].map((corner) => 4 * i + corner).join(" ")}`);
+  });
+  return `${lines.join("\n")}\n`;
+}
+
+describe("A hostile scene", () => {
+  let page;
+  let folder;
+  before(async () => {
+    folder = mkdtempSync(join(tmpdir(), "gnomon-hostile-"));
+    const inside = join(folder, "<img src=x onerror=hostile()> & 'quotes' \u202E\u{1F525}");
+    mkdirSync(inside);
+    writeFileSync(join(inside, "<b>scene<b>.obj"), squares());
+    const { page: file } = makeReport("<img src=x onerror=window.hostile=1>'\" \u202E run", "compare", ...sized(64, 48, join(inside, "<b>scene<b>.obj")));
+    page = await openPage(file);
+  });
+  after(async () => {
+    rmSync(folder, { recursive: true });
+    await stopBrowser();
+  });
+
+  it("runs nothing", async () => {
+    assert.equal(await page.evaluate(() => window.hostile), undefined);
+    assert.deepEqual(page.faults, []);
+  });
+
+  it("makes no elements", async () => {
+    const foreign = await page.evaluate(() => [...document.querySelectorAll("img:not([src^='data:']), body script:not([type]):not(:nth-last-of-type(-n+2)), b")].map((made) => made.outerHTML.slice(0, 80)));
+    assert.deepEqual(foreign, []);
+  });
+
+  it("has its names as texts", async () => {
+    const texts = await page.locator("#objects tbody th").allTextContents();
+    for (const name of names.slice(0, 4)) {
+      assert.ok(texts.includes(name), `${name} is not in ${JSON.stringify(texts.map((text) => text.slice(0, 60)))}`);
+    }
+    assert.ok(texts.some((text) => text.startsWith("long name name")));
+  });
+
+  it("does not make the page wider, nor its lines taller", async () => {
+    const [page_px, window_px] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(page_px <= window_px, `${page_px} > ${window_px}`);
+    const heights = await page.locator("#objects tbody tr").evaluateAll((rows) => rows.map((row) => row.offsetHeight));
+    assert.ok(Math.max(...heights) < 80, String(heights));
+  });
+
+  it("is named under the pointer too", async () => {
+    await page.getByLabel("Go to pixel").fill("32,40");
+    await page.getByLabel("Go to pixel").press("Enter");
+    const { object } = await readFacts(page);
+    assert.ok(names.some((name) => name.trim() === object.trim()) || object === "\u2013", object.slice(0, 80));
+  });
+});

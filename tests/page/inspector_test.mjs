@@ -1,0 +1,169 @@
+// The pixel inspector: what it shows is what the EXR holds, and all of it can be reached.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { after, before, describe, it } from "node:test";
+import { fileURLToPath } from "node:url";
+import { makeReport, numberOf, openPage, pixelPoint, readFacts, settle, sized, stagePixels, stopBrowser } from "./browser.mjs";
+
+const seed = 20261122;
+const classes = ["background", "unmatched", "attached", "out of light", "indeterminate", "lit", "blocked"];
+const causes = ["none", "bias", "precision", "resolution", "coverage"];
+const labels = ["right", "acne", "peter panning", "leak", "edge", "overshadow"];
+const jobs = {
+  spot: sized(96, 64, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128"),
+  pcf: sized(96, 64, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128", "--set", "lookup.filter=pcf3"),
+  reversed: sized(96, 64, "--builtin", "two-distances", "--set", "shadow_map.depth_format=d32f", "--set", "shadow_map.reversed=true"),
+  directional: sized(96, 54, "--builtin", "columns", "--set", "shadow_map.resolution=512"),
+};
+
+function exrPixels(run, count) {
+  const script = fileURLToPath(new URL("exr_pixels.py", import.meta.url));
+  return JSON.parse(execFileSync("/usr/bin/python3", ["-B", script, run, String(count), String(seed)], { encoding: "utf8", maxBuffer: 2 ** 26 }));
+}
+
+/** Compares the texts of a pixel with the image's values, floats bit by bit. */
+function assertFacts(facts, pixel, told) {
+  assert.equal(facts.x, String(pixel.x), told);
+  assert.equal(facts.y, String(pixel.y), told);
+  assert.equal(facts.class, classes[pixel.class], told);
+  assert.equal(facts.cause, causes[pixel.cause], told);
+  assert.equal(facts.label, labels[pixel.label], told);
+  for (const name of ["prim", "witness"]) {
+    assert.equal(facts[name], pixel[name] === 0xFFFFFFFF ? "\u2013" : String(pixel[name]), `${told}: ${name}`);
+  }
+  for (const name of ["verdict", "receiver_depth", "map_depth", "critical_bias", "needed_bias_m", "needed_bias_texels"]) {
+    const wanted = { nan: NaN, inf: Infinity, "-inf": -Infinity }[pixel[name]] ?? pixel[name];
+    assert.equal(Math.fround(numberOf(facts[name])), wanted, `${told}: ${name} “${facts[name]}”`);
+  }
+}
+
+describe("The inspector", () => {
+  let report;
+  let page;
+  before(async () => {
+    report = makeReport("spot", "compare", ...jobs.spot);
+    page = await openPage(report.page);
+    await page.locator("#inspector .stage").scrollIntoViewIfNeeded();
+  });
+  after(stopBrowser);
+
+  const layer = (side) => page.getByLabel(`Layer ${side}`, { exact: true });
+
+  it("opens from the disk without a request, a message or an error", () => {
+    assert.deepEqual(page.faults, []);
+  });
+
+  it("shows other pixels for each layer", async () => {
+    const options = await layer("A").locator("option").evaluateAll((all) => all.map(({ value }) => value));
+    assert.ok(options.length >= 8, options.join());
+    await page.getByLabel("Wipe", { exact: true }).fill("100");
+    const seen = new Map();
+    for (const option of options) {
+      await layer("A").selectOption(option);
+      await settle(page);
+      const pixels = await stagePixels(page);
+      assert.ok(!seen.has(pixels), `${option} looks like ${seen.get(pixels)}`);
+      seen.set(pixels, option);
+    }
+    await layer("A").selectOption("gl");
+  });
+
+  it("has a wipe that moves by its range, by keys and by dragging", async () => {
+    const handle = page.getByRole("slider", { name: "Wipe between layers A and B" });
+    await page.getByLabel("Wipe", { exact: true }).fill("50");
+    await settle(page);
+    const half = await stagePixels(page);
+    await handle.focus();
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await handle.getAttribute("aria-valuenow"), "52");
+    await settle(page);
+    assert.notEqual(await stagePixels(page), half);
+    const from = await handle.boundingBox();
+    const stage = await page.locator("#inspector .stage").boundingBox();
+    await page.mouse.move(from.x + from.width / 2, from.y + 20);
+    await page.mouse.down();
+    await page.mouse.move(stage.x + 0.25 * stage.width, from.y + 20, { steps: 4 });
+    await page.mouse.up();
+    assert.equal(await handle.getAttribute("aria-valuenow"), "25");
+    await page.keyboard.press("Home");
+    assert.equal(await handle.getAttribute("aria-valuenow"), "0");
+    await page.keyboard.press("End");
+  });
+
+  it("zooms with keys, buttons and the wheel, pans, and shows all again", async () => {
+    const canvas = page.locator("#inspector .stage-canvas");
+    const zoom = async () => numberOf((await page.getByLabel("Zoom", { exact: true }).first().textContent()).replace(" %", ""));
+    const fitted = await zoom();
+    await canvas.focus();
+    await page.keyboard.press("+");
+    assert.ok(await zoom() > fitted);
+    await page.getByRole("button", { name: "Zoom in" }).click();
+    const closer = await zoom();
+    await settle(page);
+    const before = await stagePixels(page);
+    await canvas.focus();
+    await page.keyboard.press("Shift+ArrowRight");
+    await settle(page);
+    assert.notEqual(await stagePixels(page), before);
+    const box = await canvas.boundingBox();
+    await page.mouse.move(box.x + box.width / 3, box.y + box.height / 3);
+    await page.mouse.wheel(0, -300);
+    await page.waitForFunction((low) => parseFloat(document.querySelector("#inspector output").textContent) > low, closer);
+    await page.getByRole("button", { name: "Show all" }).click();
+    assert.equal(await zoom(), fitted);
+  });
+
+  it("moves a cursor by keys, pins with Enter, and goes to a pixel", async () => {
+    await page.locator("#inspector .stage-canvas").focus();
+    await page.keyboard.press("ArrowRight");
+    const first = await readFacts(page);
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowDown");
+    const second = await readFacts(page);
+    assert.deepEqual([Number(second.x), Number(second.y)], [Number(first.x) + 1, Number(first.y) + 1]);
+    await page.keyboard.press("Enter");
+    assert.match(await page.locator("#inspector .pixel h3").textContent(), /pinned/);
+    await page.keyboard.press("Enter");
+    await page.getByLabel("Go to pixel").fill("7, 60");
+    await page.getByLabel("Go to pixel").press("Enter");
+    assert.equal((await readFacts(page)).x, "7");
+    assert.equal((await readFacts(page)).y, "60");
+    await page.locator("#inspector .stage-canvas").focus();
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("0");
+    assert.deepEqual(page.faults, []);
+  });
+
+  it("pins the pixel that a finger taps", async () => {
+    const { page: file } = report;
+    const phone = await openPage(file, { width: 390, height: 800 });
+    await phone.locator("#inspector .stage").scrollIntoViewIfNeeded();
+    const at = await pixelPoint(phone, { width: 96, height: 64 }, 10, 50);
+    await phone.mouse.click(at.x, at.y);
+    assert.match(await phone.locator("#inspector .pixel h3").textContent(), /10, 50 \(pinned\)/);
+  });
+});
+
+describe("A hovered pixel", () => {
+  after(stopBrowser);
+  for (const [name, job] of Object.entries(jobs)) {
+    it(`shows the numbers of the EXR, float32 by float32: ${name}`, async () => {
+      const { run, page: file } = makeReport(`hover-${name}`, "compare", ...job);
+      const image = exrPixels(run, 200);
+      const page = await openPage(file);
+      await page.locator("#inspector .stage").scrollIntoViewIfNeeded();
+      // The wipe's handle is out of the way at either end; it covers but a few pixels there.
+      for (const [wipe, isHere] of [["0", (x) => x >= 8], ["100", (x) => x < 8]]) {
+        await page.getByLabel("Wipe", { exact: true }).fill(wipe);
+        for (const pixel of image.pixels.filter(({ x }) => isHere(x))) {
+          const at = await pixelPoint(page, image, pixel.x, pixel.y);
+          await page.mouse.move(at.x, at.y);
+          assertFacts(await readFacts(page), pixel, `${name}, seed ${seed}, pixel ${pixel.x}, ${pixel.y}`);
+        }
+      }
+      assert.deepEqual(page.faults, []);
+      await page.close();
+    });
+  }
+});

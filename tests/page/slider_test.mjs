@@ -1,0 +1,91 @@
+// The bias slider: its counts are those of the program at that bias, in 50 places.
+
+import assert from "node:assert/strict";
+import { after, describe, it } from "node:test";
+import { gnomon, makeReport, numberOf, openPage, settle, sized, stagePixels, stopBrowser } from "./browser.mjs";
+
+const jobs = {
+  "nearest, a spot": sized(64, 48, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128"),
+  "pcf5, a spot": sized(64, 48, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128", "--set", "lookup.filter=pcf5"),
+  "nearest, directional, d16": sized(64, 48, "--builtin", "wall", "--set", "shadow_map.depth_format=d16"),
+  "nearest, reversed float": sized(64, 48, "--builtin", "two-distances", "--set", "shadow_map.depth_format=d32f", "--set", "shadow_map.reversed=true"),
+  "linear, shadowed outside": sized(64, 48, "--builtin", "wall", "--set", "lookup.filter=linear", "--set", "lookup.outside=shadowed"),
+};
+const positions = [-590, -301, -1, 0, 1, 120, 433, 777, 1001, 1290];
+
+function shownCounts(page) {
+  return page.evaluate(() => Object.fromEntries([...document.querySelectorAll("#inspector [data-count]")].map((counted) => [counted.dataset.count, counted.textContent])));
+}
+
+describe("The bias slider", () => {
+  after(stopBrowser);
+  for (const [name, job] of Object.entries(jobs)) {
+    it(`counts as gnomon compare does, in ${positions.length} places: ${name}`, async () => {
+      const { page: file } = makeReport(`slider ${name}`, "compare", ...job);
+      const page = await openPage(file);
+      const range = page.getByLabel("Constant bias", { exact: true });
+      for (const position of positions) {
+        await range.fill(String(position));
+        const bias = numberOf(await page.getByLabel("Exactly").inputValue());
+        const said = JSON.parse(gnomon("compare", ...job, "--set", `bias.constant=${bias}`, "--json"));
+        const shown = await shownCounts(page);
+        for (const count of ["false_shadow", "false_lit"]) {
+          assert.equal(numberOf(shown[count]), said[count], `${name}: ${count} at ${bias}, position ${position}`);
+        }
+      }
+      assert.deepEqual(page.faults, []);
+      await page.close();
+    });
+  }
+
+  it("recolours the image, and has buttons for the biases of the curve", async () => {
+    const job = jobs["nearest, a spot"];
+    const { page: file } = makeReport("buttons", "compare", ...job);
+    const page = await openPage(file);
+    const said = JSON.parse(gnomon("compare", ...job, "--json"));
+    const press = async (name) => {
+      await page.getByRole("button", { name }).click();
+      await settle(page);
+      return { bias: numberOf(await page.getByLabel("Exactly").inputValue()), shown: await shownCounts(page), pixels: await stagePixels(page) };
+    };
+    const atJob = await press("Job’s bias");
+    const atBest = await press("Best bias");
+    assert.equal(numberOf(atJob.shown.false_shadow), said.false_shadow);
+    assert.equal(numberOf(atBest.shown.false_shadow) + numberOf(atBest.shown.false_lit), said.bias_curve.best_errors);
+    assert.notEqual(atJob.pixels, atBest.pixels);
+    for (const [name, limit] of [["Acne-free", said.bias_curve.acne_free], ["Panning-free", said.bias_curve.panning_free]]) {
+      if (limit === null) {
+        assert.ok(await page.getByRole("button", { name }).isDisabled(), name);
+      } else {
+        assert.equal(Math.fround((await press(name)).bias), Math.fround(limit), name);
+      }
+    }
+    await page.close();
+  });
+
+  it("takes any float32 and refuses the rest in words", async () => {
+    const { page: file } = makeReport("field", "compare", ...jobs["nearest, directional, d16"]);
+    const page = await openPage(file);
+    const field = page.getByLabel("Exactly");
+    for (const bad of ["", "much", "1e99"]) {
+      await field.fill(bad);
+      await field.press("Enter");
+      assert.equal(await field.getAttribute("aria-invalid"), "true", bad);
+      assert.ok(await page.getByText("a float32 can hold").isVisible(), bad);
+    }
+    await field.fill("-3.5e-5");
+    await field.press("Enter");
+    assert.equal(await field.getAttribute("aria-invalid"), "false");
+    assert.equal(await field.inputValue(), "-0.000035");
+    await page.close();
+  });
+
+  it("is not there for the filter hardware, and the page says why", async () => {
+    const job = sized(64, 48, "--builtin", "sphere-plane", "--set", "lookup.filter=hardware");
+    const page = await openPage(makeReport("hardware", "compare", ...job).page);
+    assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
+    assert.ok(await page.getByText("The filter hardware has no critical bias").isVisible());
+    assert.deepEqual(page.faults, []);
+    await page.close();
+  });
+});

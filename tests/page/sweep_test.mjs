@@ -1,0 +1,120 @@
+// A sweep's section: charts, heat map, front, and the table of all configurations.
+
+import assert from "node:assert/strict";
+import { after, before, describe, it } from "node:test";
+import { makeReport, numberOf, openPage, settle, sized, stopBrowser } from "./browser.mjs";
+
+const kept = sized(64, 48, "--builtin", "columns", "--axis", "shadow_map.resolution=128,256,512", "--axis", "bias.constant=0,0.001,0.01");
+const isFull = Boolean(process.env.GNOMON_FULL_TESTS);
+
+/** A sweep of the wall with 10 curves and this many biases on each. */
+function manyBiases(count) {
+  return sized(48, 32, "--builtin", "wall", "--quiet", "--no-keep-pixels", "--axis", "shadow_map.resolution=64,128,256,512,1024",
+    "--axis", "lookup.filter=nearest,pcf3", "--axis", `bias.constant={from=1e-6, to=0.1, count=${count}, scale="log"}`);
+}
+
+const cells = (page, column) => page.evaluate((name) => {
+  const headings = [...document.querySelectorAll(".rows thead button")].map((button) => button.dataset.column);
+  return [...document.querySelectorAll(".rows tr[data-place]")].map((row) => row.children[headings.indexOf(name)].textContent);
+}, column);
+
+describe("A small sweep with its pixels", () => {
+  let page;
+  before(async () => {
+    page = await openPage(makeReport("small sweep", "sweep", ...kept, "--keep-pixels", "--quiet").page);
+  });
+  after(stopBrowser);
+
+  it("opens without a request, a message or an error", () => assert.deepEqual(page.faults, []));
+
+  it("shows every configuration, sorted as its headings are asked", async () => {
+    assert.equal((await cells(page, "error_rate")).length, 9);
+    const heading = page.locator(".rows thead button[data-column=false_shadow]");
+    for (const [direction, way] of [["ascending", 1], ["descending", -1]]) {
+      await heading.click();
+      assert.equal(await page.locator(".rows th[aria-sort]").getAttribute("aria-sort"), direction);
+      const counts = (await cells(page, "false_shadow")).map(numberOf);
+      assert.deepEqual(counts, [...counts].sort((a, b) => way * (a - b)));
+    }
+  });
+
+  it("filters, and says what it does not understand", async () => {
+    const filter = page.getByLabel("Filter", { exact: true });
+    await filter.fill("resolution=256 constant > 0");
+    await page.waitForFunction(() => document.querySelectorAll(".rows tr[data-place]").length === 2);
+    assert.deepEqual(await cells(page, "shadow_map.resolution"), ["256", "256"]);
+    await filter.fill("nonsense = 4");
+    await page.getByText("no column “nonsense”").waitFor();
+    await filter.fill("");
+    await page.waitForFunction(() => document.querySelectorAll(".rows tr[data-place]").length === 9);
+  });
+
+  it("opens a configuration with Enter, its pixels and its charts", async () => {
+    await page.locator(".rows thead button[data-column=ordinal]").click();
+    await page.locator("table.rows").focus();
+    await page.keyboard.press("Home");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => document.querySelector("#sweep .configuration h3").textContent.startsWith("Configuration 2,"));
+    const caption = await page.locator("#inspector .caption").textContent();
+    assert.match(caption, /Configuration 2, .*bias\.constant = 0\.01/);
+    assert.equal(await page.locator("#distance .caption").textContent(), caption);
+    assert.equal(await page.locator("#objects .caption").textContent(), caption);
+    assert.equal(Math.fround(numberOf(await page.getByLabel("Exactly").inputValue())), Math.fround(0.01));
+    assert.equal(await page.locator(".rows tr[aria-selected=true]").getAttribute("data-place"), "2");
+  });
+
+  it("chooses columns", async () => {
+    await page.getByText("Columns", { exact: true }).click();
+    await page.getByLabel("labels.acne", { exact: true }).check();
+    assert.equal(await page.locator(".rows thead button[data-column='labels.acne']").count(), 1);
+    await page.getByLabel("labels.acne", { exact: true }).uncheck();
+    await settle(page);
+    assert.equal(await page.locator(".rows thead button[data-column='labels.acne']").count(), 0);
+  });
+
+  it("draws a panel for each value of a second axis, and a heat map of both", async () => {
+    await page.getByLabel("against").selectOption("bias.constant");
+    await page.getByLabel("one panel for each").selectOption("shadow_map.resolution");
+    await page.locator("#sweep .panels-small .chart-figure").nth(2).waitFor();
+    assert.equal(await page.locator("#sweep .panels-small .chart-figure").count(), 3);
+    assert.equal(await page.locator("#sweep .heat").count(), 9);
+    assert.deepEqual(page.faults, []);
+  });
+});
+
+describe("A large sweep", () => {
+  after(stopBrowser);
+  const sizes = isFull ? [10_000, 200_000] : [10_000];
+  for (const rows of sizes) {
+    it(`of ${rows} rows opens, with few of them on the page`, { timeout: 1_200_000 }, async (test) => {
+      const { page: file } = makeReport(`sweep of ${rows}`, "sweep", ...manyBiases(rows / 10));
+      const start = performance.now();
+      const page = await openPage(file);
+      test.diagnostic(`${rows} rows: usable after ${Math.round(performance.now() - start)} ms`);
+      assert.equal(await page.locator("table.rows").getAttribute("aria-rowcount"), String(rows + 1));
+      assert.ok(await page.locator(".rows tr[data-place]").count() < 60);
+      const filtered = await page.evaluate(async () => {
+        const field = document.querySelector("input.filter");
+        field.value = "false_lit < 2 resolution=512";
+        const before = performance.now();
+        field.dispatchEvent(new Event("input"));
+        while (!/ of /.test(document.querySelector("#sweep [role=status]").textContent)) {
+          await new Promise(requestAnimationFrame);
+        }
+        return performance.now() - before;
+      });
+      test.diagnostic(`${rows} rows: filtered after ${Math.round(filtered)} ms`);
+      await page.locator("table.rows").focus();
+      await page.keyboard.press("End");
+      await settle(page);
+      assert.ok(await page.locator(".rows tr[data-place]").count() < 60);
+      await page.keyboard.press("Enter");
+      await page.locator("#sweep .configuration dd[data-column='shadow_map.resolution']").waitFor();
+      assert.equal(await page.locator("#sweep .configuration dd[data-column='shadow_map.resolution']").textContent(), "512");
+      assert.deepEqual(page.faults, []);
+      await page.close();
+    });
+  }
+});
