@@ -120,7 +120,7 @@ std::string figures_section(const ReportOptions& options, std::span<const std::s
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const ReportFigure& figure = options.figures[i];
         html += fmt::format("<figure><img src=\"{}\" alt=\"{}\" loading=\"lazy\">"
-                            "<figcaption><b>{}</b> {}</figcaption></figure>\n",
+                            "<figcaption><strong>{}</strong> {}</figcaption></figure>\n",
                             pictures[i], escaped(figure.alt), escaped(figure.title),
                             escaped(figure.caption));
     }
