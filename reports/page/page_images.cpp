@@ -18,9 +18,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,8 +35,8 @@ using scene::PixelClass;
 /// A layer on its way into a page.
 struct NamedLayer {
     std::string name;
-    std::function<PackedArray()> pack;
-    PackedArray packed = {};
+    LayerValues values;
+    std::optional<PackedArray> packed = {};
 };
 
 /// Whether two floats are the same, NaN and NaN too.
@@ -197,8 +197,7 @@ NamedLayer converted(std::string name, const Image<From>& image, const Convert& 
     for (std::size_t i = 0; i < image.pixel_count(); ++i) {
         values.push_back(convert(image[i]));
     }
-    return {std::move(name),
-            [values = std::move(values)] { return pack(std::span<const Value>{values}); }};
+    return {std::move(name), std::move(values)};
 }
 
 NamedLayer unchanged(std::string name, const Image<float>& image)
@@ -281,15 +280,13 @@ std::vector<NamedLayer> page_layers(LayerFile& file, const ImageLayers& image, c
     return layers;
 }
 
-Json packed_layers(std::vector<NamedLayer> layers, PackedBlocks& blocks)
+/// Whether two layers are the same bit by bit.
+bool are_equal(const LayerValues& a, const LayerValues& b)
 {
-    tbb::parallel_for(std::size_t{0}, layers.size(),
-                      [&](std::size_t i) { layers[i].packed = layers[i].pack(); });
-    Json json = Json::object();
-    for (NamedLayer& layer : layers) {
-        json[layer.name] = blocks.add(std::move(layer.packed));
-    }
-    return json;
+    const auto bytes = [](const LayerValues& values) {
+        return std::visit([](const auto& all) { return std::as_bytes(std::span{all}); }, values);
+    };
+    return a.index() == b.index() && std::ranges::equal(bytes(a), bytes(b));
 }
 
 Json depth_step(const std::optional<scene::DepthFormat>& format)
@@ -298,6 +295,11 @@ Json depth_step(const std::optional<scene::DepthFormat>& format)
         return nullptr;
     }
     return {{"is_float", format->is_float()}, {"step", analysis::depth_step(*format, 1.0F)}};
+}
+
+PackedArray packed(const LayerValues& values)
+{
+    return std::visit([](const auto& all) { return pack(std::span{all}); }, values);
 }
 
 Json object_names(const Json& detail)
@@ -309,7 +311,9 @@ Json object_names(const Json& detail)
     return names;
 }
 
-Json image_entry(LayerFile& file, const Json& detail, PackedBlocks& blocks)
+/// @param pack  from layers to the JSON that names their blocks.
+template <typename Pack>
+Json image_entry(LayerFile& file, const Json& detail, const Pack& pack_layers)
 {
     const PixelRules rules{detail};
     const ImageLayers image{file, rules};
@@ -322,7 +326,7 @@ Json image_entry(LayerFile& file, const Json& detail, PackedBlocks& blocks)
     frustum["inverse_range_per_m"] = 1.0 / rules.light.near_m - 1.0 / rules.light.far_m;
     return {{"width", file.size().width_px},
             {"height", file.size().height_px},
-            {"layers", packed_layers(page_layers(file, image, derive), blocks)},
+            {"layers", pack_layers(page_layers(file, image, derive))},
             {"derive", derive},
             {"frustum", std::move(frustum)},
             {"outside", rules.outside},
@@ -361,23 +365,39 @@ Json read_detail(const std::filesystem::path& folder, std::string_view id)
     return detail;
 }
 
-Json read_image(const std::filesystem::path& folder, std::string_view id, std::uint64_t row,
-                PackedBlocks& blocks)
+Json PageImages::read(std::string_view id, std::uint64_t row)
 {
-    LayerFile file{pixels_path(folder, id)};
-    const Json detail = read_detail(folder, id);
+    LayerFile file{pixels_path(folder_, id)};
+    const Json detail = read_detail(folder_, id);
     try {
         // Before memory is taken for as many pixels as the image says that it has.
         const Json& job = detail.at("job");
         if (job.at("image.width") != file.size().width_px ||
             job.at("image.height") != file.size().height_px) {
-            refuse_detail(pixels_path(folder, id));
+            refuse_detail(pixels_path(folder_, id));
         }
         Json entry{{"row", row}};
-        entry.update(image_entry(file, detail, blocks));
+        const auto pack_layers = [&](std::vector<NamedLayer> layers) {
+            tbb::parallel_for(std::size_t{0}, layers.size(), [&](std::size_t i) {
+                const auto known = last_.find(layers[i].name);
+                if (known == last_.end() || !are_equal(known->second.values, layers[i].values)) {
+                    layers[i].packed = packed(layers[i].values);
+                }
+            });
+            Json json = Json::object();
+            for (NamedLayer& layer : layers) {
+                if (layer.packed) {
+                    last_[layer.name] = {std::move(layer.values),
+                                         blocks_.add(std::move(*layer.packed))};
+                }
+                json[layer.name] = last_.at(layer.name).block;
+            }
+            return json;
+        };
+        entry.update(image_entry(file, detail, pack_layers));
         return entry;
     } catch (const Json::exception&) {
-        refuse_detail(detail_path(folder, id));
+        refuse_detail(detail_path(folder_, id));
     }
 }
 

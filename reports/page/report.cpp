@@ -82,11 +82,13 @@ Json read_images(const RunReader& run, const std::vector<KeptImage>& kept, Packe
 {
     Json images = Json::array();
     const std::size_t before = blocks.byte_count();
+    PageImages layers{run.folder(), blocks};
     for (const KeptImage& image : kept) {
         const std::size_t block_count = blocks.texts().size();
-        Json entry = read_image(run.folder(), image.id, image.row, blocks);
+        Json entry = layers.read(image.id, image.row);
         if (!images.empty() && blocks.byte_count() - before > most_image_bytes) {
             blocks.keep_first(block_count);
+            layers.forget();
             ++outcome.images_left_out;
         } else {
             images.push_back(std::move(entry));

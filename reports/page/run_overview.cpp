@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace gnomon::reports {
 
@@ -132,15 +133,14 @@ void add_findings(std::vector<std::string>& sentences, const Json& detail, bool 
 /// The scene's name, where all configurations share it.
 std::string common_scene(const RunReader& run)
 {
-    for (const char* const key : {"scene.builtin", "scene.file"}) {
-        sqlite::Statement find{
-            run.database(),
-            fmt::format("SELECT {0}, count(DISTINCT {0}) FROM results", sqlite::sql_name(key))};
-        if (find.step() && find.integer(1) == 1) {
-            return find.text(0);
-        }
+    sqlite::Statement find{
+        run.database(), "SELECT DISTINCT \"scene.builtin\", \"scene.file\" FROM results LIMIT 2"};
+    if (!find.step()) {
+        return {};
     }
-    return {};
+    const std::string builtin = find.text(0);
+    const std::string file = std::filesystem::path{find.text(1)}.filename().string();
+    return find.step() ? std::string{} : builtin + file; // a job has one of them
 }
 
 std::vector<std::pair<std::string, std::string>> named_columns(std::string_view group,
