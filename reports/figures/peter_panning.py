@@ -57,7 +57,7 @@ def draw(tables):
         axes.plot(bias_m, width_m, marker, color=colour, markersize=6, markerfacecolor="none",
                   markeredgewidth=1.6, clip_on=False)
         axes.annotate(f"θ = {numpy.degrees(angle_rad):.3g}°",
-                      (line_m[1], line_m[1] * numpy.sin(angle_rad)), (6, 0), color=colour,
+                      (line_m[1], line_m[1] * numpy.sin(angle_rad)), (10, 0), color=colour,
                       textcoords="offset points", va="center", weight="bold", size=10,
                       annotation_clip=False)
     axes.plot([], [], "o", color=style.GREY, markerfacecolor="none", markeredgewidth=1.6,
