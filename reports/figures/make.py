@@ -121,15 +121,20 @@ def draw(name, inputs):
     return figure.draw(figure.read(inputs))
 
 
+def applying(run):
+    """The names, modules and tables of the figures that apply to a run."""
+    for name, module in RUN_FIGURES.items():
+        try:
+            yield name, module, module.read(run)
+        except run_settings.DoesNotApply:
+            continue
+
+
 def draw_run(run, folder):
     """Writes every figure that applies, as SVG and PNG; what they are, for a page."""
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for name, module in RUN_FIGURES.items():
-        try:
-            tables = module.read(run)
-        except run_settings.DoesNotApply:
-            continue
+    for name, module, tables in applying(run):
         figure = module.draw(tables)
         files = {kind: f"{name}.{kind}" for kind in ("svg", "png")}
         for file in files.values():
