@@ -335,6 +335,16 @@ class Pareto(unittest.TestCase):
         assert_array_equal(axes.get_yticks(), PERCENT_TICKS)
 
 
+class TextOfAValue(unittest.TestCase):
+    def test_is_short_and_keeps_whole_numbers(self):
+        for value, text in ((16384, "16384"), (2048.0, "2048"), (0, "0"), (-0.0, "0"), (0.1, "0.1"),
+                            (4e-6, "4e-6"), (1.23456e-5, "1.235e-5"), (2e9, "2e9"), (True, "true"),
+                            (None, "auto"), (float("nan"), "auto"), (float("inf"), "inf"),
+                            ("pcf3", "pcf3"), ("a\tb\u202e", "a\ufffdb\ufffd"),
+                            (50 * "x", 27 * "x" + "…")):
+            self.assertEqual(run_settings.text_of(value), text)
+
+
 class Axes(unittest.TestCase):
     def axes(self, **columns):
         class Run:
