@@ -9,18 +9,22 @@
 #include "reports/aov_exr.hpp"
 #include "reports/comparison_json.hpp"
 #include "reports/comparison_table.hpp"
+#include "reports/depth_map_exr.hpp"
 #include "reports/output_file.hpp"
 #include "reports/picture.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace gnomon::cli {
 namespace {
@@ -30,6 +34,7 @@ struct CompareOptions {
     bool json = false;
     std::string aov_path;
     std::string picture_path;
+    std::string depth_map_path;
     std::string folder; ///< RUN
     std::string truth = "exact";
     bool audit = false;
@@ -47,15 +52,29 @@ bool are_same_file(const std::string& a, const std::string& b)
            !unreachable;
 }
 
+/// An option that names a file, and the file.
+using Output = std::pair<const char*, const std::string&>;
+
+std::array<Output, 3> outputs(const CompareOptions& options)
+{
+    return {Output{"--aov", options.aov_path}, Output{"--picture", options.picture_path},
+            Output{"--depth-map", options.depth_map_path}};
+}
+
 /// One output would replace the other, or the job.
 void require_distinct_paths(const CompareOptions& options)
 {
-    if (are_same_file(options.aov_path, options.picture_path)) {
-        throw scene::InputError("--aov and --picture name the same file: name two");
-    }
-    for (const std::string& path : {options.aov_path, options.picture_path}) {
-        if (are_same_file(path, options.job.job_path)) {
-            throw scene::InputError(path + ": is both JOB and output: name another output");
+    const auto all = outputs(options);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t j = i + 1; j < all.size(); ++j) {
+            if (are_same_file(all[i].second, all[j].second)) {
+                throw scene::InputError(fmt::format("{} and {} name the same file: name two",
+                                                    all[i].first, all[j].first));
+            }
+        }
+        if (are_same_file(all[i].second, options.job.job_path)) {
+            throw scene::InputError(all[i].second +
+                                    ": is both JOB and output: name another output");
         }
     }
 }
@@ -63,7 +82,7 @@ void require_distinct_paths(const CompareOptions& options)
 /// Fails before the work, not after it, where an output cannot be written.
 void require_writable(const CompareOptions& options)
 {
-    for (const std::string& path : {options.aov_path, options.picture_path}) {
+    for (const auto& [option, path] : outputs(options)) {
         if (!path.empty()) {
             const reports::OutputFile probe{path};
         }
@@ -135,6 +154,15 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
     }
 }
 
+/// Before anything else is drawn into the map.
+void write_light_view(const CompareOptions& options, const analysis::Comparison& comparison,
+                      const analysis::Renderers& renderers)
+{
+    if (!options.depth_map_path.empty()) {
+        reports::write_depth_map(options.depth_map_path, comparison, renderers.read_map_depths());
+    }
+}
+
 void compare(const CompareOptions& options)
 {
     require_distinct_paths(options);
@@ -151,6 +179,7 @@ void compare(const CompareOptions& options)
                                                       : reference_rt::TruthMethod::plain;
     const ComparisonSession session{job, session_options};
     analysis::Comparison comparison = analysis::compare(job, session.file(), session.renderers());
+    write_light_view(options, comparison, session.renderers());
     comparison.seconds.scene += session.scene_seconds();
     comparison.seconds.bvh = session.bvh_seconds();
     if (options.audit) {
@@ -187,6 +216,8 @@ void add_compare_command(CLI::App& program)
                         "Write every layer into one EXR file (docs/aov.md)");
     command->add_option("--picture", options->picture_path,
                         "Write a labelled picture: GL's shadows, the true ones, the errors (PNG)");
+    command->add_option("--depth-map", options->depth_map_path,
+                        "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
     command->add_option("--out", options->folder,
                         "RUN, a folder for the result with all its layers, as of `gnomon sweep`");
     command

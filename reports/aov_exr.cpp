@@ -1,13 +1,11 @@
 #include "reports/aov_exr.hpp"
 
-#include "reports/comparison_json.hpp"
-#include "reports/exact_inputs.hpp"
+#include "reports/exr_header.hpp"
 #include "reports/facing_normal.hpp"
 #include "reports/image_encoding.hpp"
 #include "reports/output_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <bit>
 #include <initializer_list>
@@ -131,24 +129,6 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
     }
     return channels;
 }
-std::vector<ExrAttribute> attributes(const analysis::Comparison& comparison)
-{
-    const analysis::Environment& environment = comparison.environment;
-    std::vector<ExrAttribute> result{
-        {"gnomon:job", job_json(comparison.job)},
-        {"gnomon:scene", comparison.scene.name},
-        {"gnomon:scene_hash", comparison.scene.hash},
-        {"gnomon:truth_method", comparison.truth_method},
-        {"gnomon:gl_renderer", environment.gl_renderer},
-        {"gnomon:gl_version", environment.gl_version},
-        {"gnomon:embree", environment.embree},
-        {"gnomon:version", environment.gnomon},
-    };
-    for (const ExactInput& input : exact_inputs(comparison.view)) {
-        result.push_back({"gnomon:" + input.name, fmt::format("{}", fmt::join(input.values, " "))});
-    }
-    return result;
-}
 
 } // namespace
 
@@ -163,7 +143,7 @@ void write_aov(const std::filesystem::path& path, const analysis::Comparison& co
     }
     const Surface surface = seen_surface(comparison);
     write_file(path,
-               encode_exr(size, channels(comparison, points, surface), attributes(comparison)));
+               encode_exr(size, channels(comparison, points, surface), exr_header(comparison)));
 }
 
 } // namespace gnomon::reports

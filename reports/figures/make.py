@@ -11,15 +11,20 @@ try:
     import gnomon
     import matplotlib
 
+    import acne
     import bias_curve
     import causes
     import depth_error_vs_z
+    import depth_map
     import error_vs_axis
     import error_vs_z
     import errors_vs_z
     import heat_map
+    import map_resolution
     import measured_against_formula
     import pareto
+    import pcf_edge
+    import peter_panning
     import reversed_float
     import run_settings
     import shadow_errors_on_depth_error
@@ -34,6 +39,17 @@ TABLE_FIGURES = {
     "reversed-float": reversed_float,
     "measured-against-formula": measured_against_formula,
     "shadow-errors-on-depth-error": shadow_errors_on_depth_error,
+    "map-resolution": map_resolution,
+    "peter-panning": peter_panning,
+    "acne": acne,
+    "pcf-edge": pcf_edge,
+    "depth-map": depth_map,
+}
+# Of the former those whose tables a run has.
+TABLES_OF_A_RUN = {
+    "shadow-errors-on-depth-error": ("error_vs_z.csv", "results.csv"),
+    "map-resolution": ("results.csv",),
+    "peter-panning": ("results.csv",),
 }
 # Of a run: read(run), which raises DoesNotApply, draw(tables) and words(tables).
 RUN_FIGURES = {
@@ -99,21 +115,26 @@ def draw(name, inputs):
     if name in RUN_FIGURES:
         figure = RUN_FIGURES[name]
         return figure.draw(figure.read(load(inputs)))
-    if name == "shadow-errors-on-depth-error" and is_run:
-        inputs = [inputs[0] / "error_vs_z.csv", inputs[0] / "results.csv"]
+    if is_run:
+        inputs = [inputs[0] / file for file in TABLES_OF_A_RUN.get(name, ("results.csv",))]
     figure = TABLE_FIGURES[name]
     return figure.draw(figure.read(inputs))
+
+
+def applying(run):
+    """The names, modules and tables of the figures that apply to a run."""
+    for name, module in RUN_FIGURES.items():
+        try:
+            yield name, module, module.read(run)
+        except run_settings.DoesNotApply:
+            continue
 
 
 def draw_run(run, folder):
     """Writes every figure that applies, as SVG and PNG; what they are, for a page."""
     folder.mkdir(parents=True, exist_ok=True)
     written = []
-    for name, module in RUN_FIGURES.items():
-        try:
-            tables = module.read(run)
-        except run_settings.DoesNotApply:
-            continue
+    for name, module, tables in applying(run):
         figure = module.draw(tables)
         files = {kind: f"{name}.{kind}" for kind in ("svg", "png")}
         for file in files.values():

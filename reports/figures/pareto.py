@@ -56,7 +56,7 @@ def draw(tables):
     for which in ("x", "y"):
         style.set_rate_scale(axes, which)
     dots = _distinct(axes, 100 * tables.rates)
-    axes.plot(*dots.T, ".", color=style.GREY, alpha=0.55, markersize=5, markeredgewidth=0,
+    axes.plot(*dots.T, ".", color=style.GREY, alpha=0.7, markersize=6, markeredgewidth=0,
               label="a configuration", clip_on=False)
     axes.plot(*(100 * tables.front).T, "o-", color=style.FALSE_SHADOW, markersize=4.5,
               linewidth=1.3, drawstyle="steps-post", label="front: none is better in both",

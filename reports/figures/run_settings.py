@@ -35,6 +35,7 @@ NAMES = {
 MOST_VALUES = 100  # more of them on one axis are united, by equal numbers of configurations
 MOST_CATEGORIES = 24
 LONGEST_TEXT = 28
+LARGEST_WRITTEN_OUT = 10**7  # whole numbers; others have four digits
 LEAST_RATIO_OF_A_LOG_AXIS = 20
 
 
@@ -90,6 +91,8 @@ def text_of(value):
     if isinstance(value, (bool, numpy.bool_)):
         return str(value).lower()
     if isinstance(value, (int, float, numpy.number)):
+        if float(value).is_integer() and abs(value) < LARGEST_WRITTEN_OUT:
+            return str(int(value))
         return f"{value:.4g}".replace("e-0", "e-").replace("e+0", "e") if value == value else "auto"
     if value is None:
         return "auto"

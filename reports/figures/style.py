@@ -25,7 +25,7 @@ CAUSES = {"bias": ORANGE, "precision": GREEN, "resolution": SKY, "coverage": PUR
 
 WIDTH_IN = 8.0
 PNG_DPI = 150
-PNG_COLOURS = 96
+PNG_COLOURS = 256
 
 RC = {
     "font.family": "DejaVu Sans",

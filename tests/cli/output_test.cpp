@@ -50,8 +50,10 @@ TEST(Output, GoesToTheNamedFiles)
     const TemporaryFolder folder;
     const path aov = folder.path() / "a.exr";
     const path picture = folder.path() / "p.png";
-    expect_done(gnomon(small_comparison({"--aov", aov, "--picture", picture})));
-    EXPECT_EQ(entries(folder.path()), (std::vector<std::string>{"a.exr", "p.png"}));
+    const path map = folder.path() / "m.exr";
+    expect_done(gnomon(small_comparison({"--aov", aov, "--picture", picture, "--depth-map", map})));
+    EXPECT_EQ(entries(folder.path()), (std::vector<std::string>{"a.exr", "m.exr", "p.png"}));
+    EXPECT_THAT(text_of(map), StartsWith("\x76\x2f\x31\x01"));
     EXPECT_THAT(text_of(aov), StartsWith("\x76\x2f\x31\x01"));
     EXPECT_THAT(text_of(picture), StartsWith("\x89PNG"));
 }
@@ -64,7 +66,7 @@ TEST(Output, ThatCannotBeWrittenIsRefusedBeforeTheWork)
     const TemporaryFolder folder;
     const std::string file = folder.write("file", "text");
     const std::string place = folder.path();
-    for (const char* const option : {"--aov", "--picture"}) {
+    for (const char* const option : {"--aov", "--picture", "--depth-map"}) {
         for (const std::string& target :
              {place, place + "/none/a", file + "/a", std::string{"/proc/self/a"}}) {
             expect_refused(gnomon(small_comparison({option, target}), start), 4,
@@ -82,7 +84,9 @@ TEST(Output, DoesNotReplaceTheJobOrTheOtherOutput)
     expect_refused(gnomon({"compare", job, "--picture", place + "/./job.toml"}), 2,
                    "is both JOB and output");
     expect_refused(gnomon({"compare", job, "--aov", place + "/a", "--picture", place + "//a"}), 2,
-                   "the same file");
+                   "--aov and --picture name the same file");
+    expect_refused(gnomon({"compare", job, "--picture", place + "/a", "--depth-map", place + "/a"}),
+                   2, "--picture and --depth-map name the same file");
     EXPECT_EQ(entries(folder.path()), std::vector<std::string>{"job.toml"});
 }
 
@@ -116,7 +120,7 @@ TEST(Output, OnAFullDiskLeavesTheOldFileAndNoHalfOne)
         GTEST_SKIP() << "mounting a small disk needs root: " << std::strerror(errno);
     }
     const std::string old = folder.write("old", "old");
-    for (const char* const option : {"--aov", "--picture"}) {
+    for (const char* const option : {"--aov", "--picture", "--depth-map"}) {
         expect_refused(gnomon({"compare", "--builtin", "sphere-cube", "--set", "image.width=640",
                                "--set", "image.height=360", option, old}),
                        4, "No space left on device");
@@ -127,7 +131,7 @@ TEST(Output, OnAFullDiskLeavesTheOldFileAndNoHalfOne)
 
 TEST(Output, OnAFullDeviceFails)
 {
-    for (const char* const option : {"--aov", "--picture"}) {
+    for (const char* const option : {"--aov", "--picture", "--depth-map"}) {
         expect_refused(gnomon(small_comparison({option, "/dev/full"})), 4,
                        "cannot write /dev/full: write: No space left on device");
     }

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy
@@ -334,6 +335,16 @@ class Pareto(unittest.TestCase):
         assert_array_equal(axes.get_yticks(), PERCENT_TICKS)
 
 
+class TextOfAValue(unittest.TestCase):
+    def test_is_short_and_keeps_whole_numbers(self):
+        for value, text in ((16384, "16384"), (2048.0, "2048"), (0, "0"), (-0.0, "0"), (0.1, "0.1"),
+                            (4e-6, "4e-6"), (1.23456e-5, "1.235e-5"), (2e9, "2e9"), (True, "true"),
+                            (None, "auto"), (float("nan"), "auto"), (float("inf"), "inf"),
+                            ("pcf3", "pcf3"), ("a\tb\u202e", "a\ufffdb\ufffd"),
+                            (50 * "x", 27 * "x" + "…")):
+            self.assertEqual(run_settings.text_of(value), text)
+
+
 class Axes(unittest.TestCase):
     def axes(self, **columns):
         class Run:
@@ -401,8 +412,7 @@ class WholeRun(unittest.TestCase):
                 self.assertEqual(*pictures)
 
     def test_of_a_comparison_has_no_figure_of_axes(self):
-        figures = self.draw(HERE / "compare", self.folder / "a")
-        self.assertEqual([figure["name"] for figure in figures],
+        self.assertEqual([name for name, _, _ in make.applying(load("compare"))],
                          ["bias-curve", "errors-vs-z", "depth-error-vs-z", "causes"])
 
     def test_takes_any_names(self):
@@ -411,12 +421,18 @@ class WholeRun(unittest.TestCase):
         for path in (self.folder / "run").glob("results.csv"):
             path.write_text(path.read_text().replace(",sphere-plane,", f',"{hostile}",')
                             .replace(",pcf3,", f",{hostile}3,"))
-        figures = self.draw(self.folder / "run", self.folder / "a")
-        self.assertEqual(len(figures), 7)
-        for figure in figures:
-            svg = (self.folder / "a" / figure["svg"]).read_text()
-            self.assertNotIn("<img", svg)
-            self.assertLess(len(figure["caption"]), 300)
+        drawn = 0
+        for name, module, tables in make.applying(gnomon.load_run(self.folder / "run")):
+            _, caption, alt = module.words(tables)
+            self.assertLess(len(caption), 300, name)
+            self.assertLess(len(alt), 1000, name)
+            svg = self.folder / "figure.svg"
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of glyphs that the font lacks
+                style.save(module.draw(tables), svg)
+            self.assertNotIn("<img", svg.read_text(), name)
+            drawn += 1
+        self.assertEqual(drawn, 7)
 
 
 if __name__ == "__main__":

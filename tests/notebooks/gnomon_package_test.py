@@ -26,7 +26,7 @@ def setUpModule():
     global folder, run, layers, answer
     folder = Path(tempfile.mkdtemp())
     unittest.addModuleCleanup(shutil.rmtree, folder)
-    gnomon.call("compare", *JOB, "--out", folder / "view")
+    gnomon.call("compare", *JOB, "--out", folder / "view", "--depth-map", folder / "map.exr")
     run = gnomon.load_run(folder / "view")
     layers = run.layers_of(run.results.iloc[0])
     answer = compare()
@@ -111,6 +111,54 @@ class ImageLayers(unittest.TestCase):
         self.assertEqual(hardware.errors()["false_lit"], said["false_lit"])
         with self.assertRaisesRegex(gnomon.InputError, "no critical_bias"):
             hardware.errors(0.001)
+
+
+class Crops(unittest.TestCase):
+    def test_hold_the_pixels_of_their_box_bit_by_bit(self):
+        crop = layers.crop(["class", "critical_bias"], (30, 20, 7, 5), ["shadow_map.resolution"])
+        self.assertEqual(list(crop), ["x_px", "y_px", "class", "critical_bias",
+                                      "shadow_map.resolution"])
+        self.assertEqual(len(crop), 35)
+        path = folder / "crop.csv"
+        crop.to_csv(path, index=False)
+        for row in gnomon.read_table(path).itertuples(index=False):
+            x, y, pixel_class, critical, resolution = row
+            self.assertEqual(pixel_class, layers["class"][y, x])
+            # NaN where the pixel is not scored.
+            numpy.testing.assert_equal(numpy.float32(critical), layers["critical_bias"][y, x])
+            self.assertEqual(resolution, 128)
+
+    def test_are_of_the_whole_image_by_default(self):
+        crop = layers.crop(["verdict"])
+        numpy.testing.assert_array_equal(crop["verdict"].to_numpy().reshape(64, 96),
+                                         layers["verdict"])
+
+    def test_refuse_what_the_image_has_not(self):
+        for names, box, keys, message in (
+            (["colour"], None, (), "no colour"),
+            (["class"], None, ("scene.colour",), "no scene.colour"),
+            (["class"], (90, 0, 7, 1), (), "96 x 64 pixels"),
+            (["class"], (-1, 0, 7, 1), (), "96 x 64 pixels"),
+            (["class"], (0, 0, 0, 1), (), "96 x 64 pixels"),
+        ):
+            with self.subTest(message=message), self.assertRaisesRegex(gnomon.InputError, message):
+                layers.crop(names, box, keys)
+
+
+class DepthMap(unittest.TestCase):
+    def test_has_what_lookups_read(self):
+        depth_map = gnomon.load_depth_map(folder / "map.exr")
+        self.assertEqual(depth_map["depth"].shape, (128, 128))
+        stored = layers["map_depth"][layers.is_lit | layers.is_blocked]
+        self.assertTrue(numpy.isin(stored[~numpy.isnan(stored)], depth_map["depth"]).all())
+        distance = depth_map["light_distance_m"]
+        numpy.testing.assert_array_equal(numpy.isnan(distance), depth_map["depth"] == 1)
+        near, far = (depth_map.job[f"shadow_map.{end}"] for end in ("near", "far"))
+        self.assertTrue(near <= numpy.nanmin(distance) <= numpy.nanmax(distance) <= far)
+
+    def test_is_no_image_of_pixels(self):
+        with self.assertRaisesRegex(gnomon.InputError, "was not written by gnomon compare"):
+            gnomon.load_layers(folder / "map.exr")
 
 
 class BadInput(unittest.TestCase):

@@ -1,6 +1,8 @@
 #include "reports/aov_exr.hpp"
 
+#include "analysis/depth/depth_mapping.hpp"
 #include "example_comparison.hpp"
+#include "reports/depth_map_exr.hpp"
 #include "scene/error.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -9,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -193,6 +196,53 @@ TEST(WriteAov, RejectsPointsOfAnotherSize)
     EXPECT_THROW(write_aov(folder / "layers.exr", example().comparison,
                            scene::Image<scene::Vec3f>{scene::ImageSize{1, 1}}),
                  std::invalid_argument);
+}
+
+/// Depths from 0 to 1 over the example's map.
+scene::Image<float> ramp()
+{
+    const int side = example().comparison.job.shadow_map.resolution_texels;
+    scene::Image<float> depths{scene::ImageSize{side, side}, 0.0F};
+    for (std::size_t i = 0; i < depths.pixel_count(); ++i) {
+        depths[i] = static_cast<float>(i) / static_cast<float>(depths.pixel_count() - 1);
+    }
+    return depths;
+}
+
+TEST(WriteDepthMap, HoldsDepthsAndTheDistancesThatTheyStandFor)
+{
+    const TemporaryFolder folder;
+    const scene::Image<float> depths = ramp();
+    for (const bool is_reversed : {false, true}) {
+        Example changed;
+        changed.comparison.view.frustum.reversed = is_reversed;
+        write_depth_map(folder / "map.exr", changed.comparison, depths);
+        const ReadLayers map{folder / "map.exr"};
+        EXPECT_THAT(map.spec().channelnames, UnorderedElementsAre("depth", "light_distance_m"));
+        const analysis::DepthMapping mapping{changed.comparison.view.frustum.depth_range()};
+        const std::size_t last = depths.pixel_count() - 1;
+        const std::size_t farthest = is_reversed ? 0 : last;
+        for (std::size_t i = 0; i <= last; ++i) {
+            ASSERT_EQ(map.value("depth", i), depths[i]);
+            if (i != farthest) {
+                ASSERT_EQ(map.value("light_distance_m", i),
+                          static_cast<float>(mapping.zeta_m(double{depths[i]})));
+            }
+        }
+        EXPECT_TRUE(std::isnan(map.value("light_distance_m", farthest)));
+        EXPECT_EQ(map.value("light_distance_m", last - farthest),
+                  static_cast<float>(mapping.near_m()));
+        EXPECT_EQ(map.text("scene"), changed.comparison.scene.name);
+    }
+}
+
+TEST(WriteDepthMap, RefusesDepthsOfAnotherSize)
+{
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_depth_map(folder / "map.exr", example().comparison,
+                                 scene::Image<float>{scene::ImageSize{2, 2}, 0.0F}),
+                 std::invalid_argument);
+    EXPECT_EQ(folder.entry_count(), 0U);
 }
 
 } // namespace

@@ -12,11 +12,11 @@ docs/csv_schema.md says what the columns mean, docs/aov.md what the layers mean.
 
 from .csv_table import read_table
 from .errors import InputError
-from .layers import CAUSES, CLASSES, LABELS, Layers, load_layers
+from .layers import CAUSES, CLASSES, LABELS, Layers, load_depth_map, load_layers
 from .program import call
 from .run import Run, load_run
 
 __all__ = [
-    "CAUSES", "CLASSES", "LABELS", "InputError", "Layers", "Run", "call", "load_layers", "load_run",
-    "read_table",
+    "CAUSES", "CLASSES", "LABELS", "InputError", "Layers", "Run", "call", "load_depth_map",
+    "load_layers", "load_run", "read_table",
 ]

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import numpy
+import pandas
 
 from .errors import InputError
 
@@ -65,12 +66,49 @@ class Layers(Mapping):
             "false_lit": int(numpy.count_nonzero(self.is_blocked & shown)),
         }
 
+    def crop(self, names, box=None, keys=()):
+        """A table with a row a pixel: `x_px`, `y_px`, the layers named, and keys of the job.
+
+        box: left, top, width and height [px], the whole image by default; pixels are counted from
+        the top left of the image. Raises InputError for a layer, key or box that the image has not.
+        """
+        missing = [name for name in names if name not in self]
+        missing += [key for key in keys if key not in self.job]
+        if missing:
+            raise InputError(f"the image has no {missing[0]}; see docs/aov.md")
+        rows, columns = self[names[0]].shape[:2]
+        left, top, width, height = box or (0, 0, columns, rows)
+        if min(left, top, width - 1, height - 1) < 0 or left + width > columns or top + height > rows:
+            raise InputError(f"the image is {columns} x {rows} pixels, which does not hold"
+                             f" {width} x {height} at {left}, {top}")
+        y_px, x_px = numpy.mgrid[top : top + height, left : left + width]
+        table = {"x_px": x_px.ravel(), "y_px": y_px.ravel()}
+        for name in names:
+            layer = self[name][top : top + height, left : left + width].ravel()
+            # As doubles, floats are written with all their digits.
+            table[name] = layer.astype(float) if layer.dtype == numpy.float32 else layer
+        return pandas.DataFrame({**table, **{key: self.job[key] for key in keys}})
+
 
 def load_layers(path):
     """The layers of an EXR that `--aov`, `--out` or `--keep-pixels` wrote.
 
     Raises InputError where the file is missing or is no such image.
     """
+    arrays, attributes = _read(path, {"class", "verdict", "P.X", "P.Y", "P.Z"})
+    points = numpy.stack([arrays[f"P.{axis}"] for axis in "XYZ"], axis=-1)
+    return Layers({**arrays, "P": points}, attributes)
+
+
+def load_depth_map(path):
+    """The shadow map that `--depth-map` wrote: `depth` and `light_distance_m`.
+
+    Raises InputError where the file is missing or is no such image.
+    """
+    return Layers(*_read(path, {"depth", "light_distance_m"}))
+
+
+def _read(path, needed):
     # Figures read tables alone, and do without this package.
     import OpenImageIO
 
@@ -90,12 +128,10 @@ def load_layers(path):
             arrays[name] = pixels[:, :, 0]
     finally:
         image.close()
-    if not {"class", "verdict", "P.X", "P.Y", "P.Z"} <= arrays.keys():
+    if not needed <= arrays.keys():
         raise InputError(f"{path}: was not written by gnomon compare; see docs/aov.md")
-    arrays["P"] = numpy.stack([arrays.pop(f"P.{axis}") for axis in "XYZ"], axis=-1)
-    attributes = {
+    return arrays, {
         attribute.name.removeprefix("gnomon:"): attribute.value
         for attribute in spec.extra_attribs
         if attribute.name.startswith("gnomon:")
     }
-    return Layers(arrays, attributes)
