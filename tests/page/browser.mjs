@@ -34,7 +34,7 @@ export function sized(width, height, ...words) {
 export function makeReport(name, command, ...words) {
   const run = join(work, name);
   gnomon(command, ...words, "--out", run);
-  gnomon("report", run, "--out", `${run} report`);
+  gnomon("report", run, "--out", `${run} report`, "--no-figures");
   return { run, page: join(`${run} report`, "report.html") };
 }
 

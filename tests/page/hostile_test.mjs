@@ -12,16 +12,20 @@ const names = [
   "\u202Eright to left \u05E9\u05DC\u05D5\u05DD", `long ${"name ".repeat(2000)}`, "'\"&amp;{{constructor}}`${alert(1)}`",
 ];
 
-/** An OBJ of squares above each other, one object a name. */
+/** A glTF of squares above each other, one node a name. */
 function squares() {
-  const lines = [];
-  names.forEach((name, i) => {
-    lines.push(`o ${name}`);
-    const half = i === 0 ? 4 : 1 - 0.1 * i;
-    [[-1, -1], [-1, 1], [1, 1], [1, -1]].forEach(([x, z]) => lines.push(`v ${half * x + 0.2 * i} ${0.4 * i} ${half * z}`));
-    lines.push(`f ${[1, 2, 3, 4].map((corner) => 4 * i + corner).join(" ")}`);
+  const corners = Float32Array.of(-1, 0, -1, -1, 0, 1, 1, 0, 1, 1, 0, -1);
+  const triangles = Uint16Array.of(0, 1, 2, 0, 2, 3);
+  const bytes = Buffer.concat([Buffer.from(corners.buffer), Buffer.from(triangles.buffer)]);
+  const nodes = names.map((name, i) => ({ name, mesh: 0, translation: [0.2 * i, 0.4 * i, 0], scale: i === 0 ? [4, 1, 4] : [1 - 0.1 * i, 1, 1 - 0.1 * i] }));
+  return JSON.stringify({
+    asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [...nodes.keys()] }], nodes,
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: "VEC3", min: [-1, 0, -1], max: [1, 0, 1] },
+      { bufferView: 1, componentType: 5123, count: 6, type: "SCALAR" }],
+    bufferViews: [{ buffer: 0, byteLength: corners.byteLength }, { buffer: 0, byteOffset: corners.byteLength, byteLength: triangles.byteLength }],
+    buffers: [{ byteLength: bytes.length, uri: `data:application/octet-stream;base64,${bytes.toString("base64")}` }],
   });
-  return `${lines.join("\n")}\n`;
 }
 
 describe("A hostile scene", () => {
@@ -31,8 +35,8 @@ describe("A hostile scene", () => {
     folder = mkdtempSync(join(tmpdir(), "gnomon-hostile-"));
     const inside = join(folder, "<img src=x onerror=hostile()> & 'quotes' \u202E\u{1F525}");
     mkdirSync(inside);
-    writeFileSync(join(inside, "<b>scene<b>.obj"), squares());
-    const { page: file } = makeReport("<img src=x onerror=window.hostile=1>'\" \u202E run", "compare", ...sized(64, 48, join(inside, "<b>scene<b>.obj")));
+    writeFileSync(join(inside, "<i>scene<i>.gltf"), squares());
+    const { page: file } = makeReport("<img src=x onerror=window.hostile=1>'\" \u202E run", "compare", ...sized(64, 48, join(inside, "<i>scene<i>.gltf")));
     page = await openPage(file);
   });
   after(async () => {
@@ -46,7 +50,7 @@ describe("A hostile scene", () => {
   });
 
   it("makes no elements", async () => {
-    const foreign = await page.evaluate(() => [...document.querySelectorAll("img:not([src^='data:']), body script:not([type]):not(:nth-last-of-type(-n+2)), b")].map((made) => made.outerHTML.slice(0, 80)));
+    const foreign = await page.evaluate(() => [...document.querySelectorAll("img:not([src^='data:']), body script:not([type]):not(:nth-last-of-type(-n+2)), i")].map((made) => made.outerHTML.slice(0, 80)));
     assert.deepEqual(foreign, []);
   });
 

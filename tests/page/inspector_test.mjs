@@ -150,7 +150,7 @@ describe("A hovered pixel", () => {
   for (const [name, job] of Object.entries(jobs)) {
     it(`shows the numbers of the EXR, float32 by float32: ${name}`, async () => {
       const { run, page: file } = makeReport(`hover-${name}`, "compare", ...job);
-      const image = exrPixels(run, 200);
+      const image = exrPixels(run, 80);
       const page = await openPage(file);
       await page.locator("#inspector .stage").scrollIntoViewIfNeeded();
       // The wipe's handle is out of the way at either end; it covers but a few pixels there.

@@ -75,7 +75,7 @@ describe("A small sweep with its pixels", () => {
   });
 
   it("draws a panel for each value of a second axis, and a heat map of both", async () => {
-    await page.getByLabel("against").selectOption("bias.constant");
+    await page.getByLabel("against", { exact: true }).selectOption("bias.constant");
     await page.getByLabel("one panel for each").selectOption("shadow_map.resolution");
     await page.locator("#sweep .panels-small .chart-figure").nth(2).waitFor();
     assert.equal(await page.locator("#sweep .panels-small .chart-figure").count(), 3);

@@ -2,10 +2,9 @@
 
 const middleOf = (bin) => (bin.lower + bin.upper) / 2;
 
-/** A series over bins; bins without the value are left out. */
+/** A series over bins; bins without the value are gaps. */
 function binSeries(name, colour, bins, valueOf, more = {}) {
-  const points = bins.map((bin) => [middleOf(bin), valueOf(bin) ?? null]).filter(([, value]) => value !== null);
-  return { name, colour, points, radius: 2, ...more };
+  return { name, colour, points: bins.map((bin) => [middleOf(bin), valueOf(bin) ?? null]), radius: 2, ...more };
 }
 
 /** The largest of the values that exist, else 0. */

@@ -56,8 +56,7 @@ function bandDatasets(band, { x, y }) {
 
 function seriesDataset(series, { x, y }) {
   const colour = lineColour(series.colour);
-  const data = series.points.filter(([, value]) => value !== null)
-    .map(([at, value]) => ({ x: x.layout.forward(at), y: y.layout.forward(value) }));
+  const data = series.points.map(([at, value]) => ({ x: x.layout.forward(at), y: value === null ? NaN : y.layout.forward(value) }));
   return {
     type: series.isBar ? "bar" : "line", maxBarThickness: 56, order: series.isBar ? 1 : 0,
     label: series.name, data, borderColor: colour, backgroundColor: colour, borderWidth: 2, isLegend: true,

@@ -17,7 +17,12 @@ function scaleColours(scale, values) {
   const { forward } = scale.layout;
   const low = forward(scale.low);
   const factor = 254 / (forward(scale.high) - low);
-  return Uint32Array.from(values, (value) => palette[Number.isNaN(value) ? 0 : 1 + Math.round(Math.min(254, Math.max(0, (forward(value) - low) * factor)))]);
+  const colours = new Uint32Array(values.length);
+  for (let i = 0; i < colours.length; ++i) {
+    const place = Math.min(254, Math.max(0, (forward(values[i]) - low) * factor));
+    colours[i] = palette[Number.isNaN(place) ? 0 : 1 + Math.round(place)];
+  }
+  return colours;
 }
 
 /** A layer whose colours do not follow the slider: they are made when it is first shown. */
@@ -42,8 +47,11 @@ function surfaceLegend() {
  */
 function litFrom(image) {
   const { class: classes, critical_bias: criticals, verdict } = image.layers;
-  return Float32Array.from(verdict, (value, i) => (
-    criticals !== undefined && isScored(classes[i]) ? criticals[i] : value >= 0.5 ? -Infinity : Infinity));
+  const thresholds = new Float32Array(verdict.length);
+  for (let i = 0; i < thresholds.length; ++i) {
+    thresholds[i] = criticals !== undefined && isScored(classes[i]) ? criticals[i] : verdict[i] >= 0.5 ? -Infinity : Infinity;
+  }
+  return thresholds;
 }
 
 /** What the shadow map shows, at the slider's bias. */
@@ -63,11 +71,11 @@ function glLayer(image, scene, thresholds) {
 function errorLayer(image, scene, thresholds) {
   const { class: classes } = image.layers;
   const mark = Object.fromEntries(Object.entries(errorColours).map(([name, colour]) => [name, packedColour(channels(colour))]));
+  const unscored = classNames.map((name) => ({ unmatched: mark.unmatched, indeterminate: mark.indeterminate }[name] ?? 0));
   const base = scene.faded.slice();
-  classes.forEach((pixelClass, i) => {
-    const unscored = { unmatched: mark.unmatched, indeterminate: mark.indeterminate }[classNames[pixelClass]];
-    base[i] = unscored ?? base[i];
-  });
+  for (let i = 0; i < base.length; ++i) {
+    base[i] = unscored[classes[i]] || base[i];
+  }
   return {
     id: "errors", title: "Errors", note: image.hasCurve ? "at the slider’s bias" : jobBiasNote, followsBias: true,
     paint: (packed, bias) => {

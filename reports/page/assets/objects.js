@@ -7,7 +7,9 @@ const rateColumn = (title) => ({ title, numeric: true, format: percent });
 function objectTable(objects) {
   const columns = [{ title: "object" }, countColumn("lit"), countColumn("blocked"), countColumn("false shadow"),
     rateColumn("of its lit"), countColumn("false lit"), rateColumn("of its blocked")];
-  return sortedTable("Errors by object", columns, objects.map((object) => [object.object, object.lit, object.blocked,
+  const wrong = (object) => object.false_shadow + object.false_lit;
+  const seen = objects.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
+  return sortedTable("Errors by object, most first", columns, seen.map((object) => [object.object, object.lit, object.blocked,
     object.false_shadow, object.false_shadow_rate, object.false_lit, object.false_lit_rate]));
 }
 

@@ -43,17 +43,25 @@ class ShadedScene {
   constructor(image) {
     const { class: classes, cos_theta: cosines, sky } = image.layers;
     const cache = new Map();
-    for (const name of ["lit", "shadowed", "truth", "faded"]) {
-      this[name] = new Uint32Array(classes.length);
-    }
+    const [lit, shadowed, truth, faded] = [1, 2, 3, 4].map(() => new Uint32Array(classes.length));
+    Object.assign(this, { lit, shadowed, truth, faded });
+    let lastKey = -1;
+    let colours = null;
     for (let i = 0; i < classes.length; ++i) {
-      const key = (classes[i] << 16) | ((cosines?.[i] ?? 180) << 8) | (sky?.[i] ?? 190);
-      let colours = cache.get(key);
-      if (colours === undefined) {
-        colours = ShadedScene.coloursOf(classes[i], (cosines?.[i] ?? 180) / 255, (sky?.[i] ?? 190) / 255);
-        cache.set(key, colours);
+      const cosine = cosines === undefined ? 180 : cosines[i];
+      const upwards = sky === undefined ? 190 : sky[i];
+      const key = (classes[i] << 16) | (cosine << 8) | upwards;
+      if (key !== lastKey) {
+        if (!cache.has(key)) {
+          cache.set(key, ShadedScene.coloursOf(classes[i], cosine / 255, upwards / 255));
+        }
+        colours = cache.get(key);
+        lastKey = key;
       }
-      [this.lit[i], this.shadowed[i], this.truth[i], this.faded[i]] = colours;
+      lit[i] = colours[0];
+      shadowed[i] = colours[1];
+      truth[i] = colours[2];
+      faded[i] = colours[3];
     }
   }
 
