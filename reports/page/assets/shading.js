@@ -1,9 +1,9 @@
 // The scene in the light and in the shadow, shaded as the pictures of `gnomon compare --picture`.
 
 // Linear RGB. The light is a little warm and the ambient a little cool, as outdoors.
-const backgroundLight = [0.80, 0.84, 0.90];
+const backgroundLight = [0.8, 0.84, 0.9];
 const diffuseTint = [0.86, 0.81, 0.73];
-const ambientTint = [0.76, 0.80, 0.88];
+const ambientTint = [0.76, 0.8, 0.88];
 /** How much of the ambient light a shadow leaves. */
 const shadowedAmbient = 0.72;
 /** How far colours fade towards white beneath marks. */
@@ -27,8 +27,8 @@ function encodeLinear(colour) {
  * @param {number} lit  which fraction of the light arrives, 0 to 1
  */
 function surfaceLight(cosine, sky, lit) {
-  const ambient = (0.14 + 0.10 * sky) * (shadowedAmbient + (1 - shadowedAmbient) * lit);
-  return ambientTint.map((tint, i) => ambient * tint + 0.80 * cosine * lit * diffuseTint[i]);
+  const ambient = (0.14 + 0.1 * sky) * (shadowedAmbient + (1 - shadowedAmbient) * lit);
+  return ambientTint.map((tint, i) => ambient * tint + 0.8 * cosine * lit * diffuseTint[i]);
 }
 
 /** Fades a linear colour so that only marks are coloured. */
@@ -66,9 +66,13 @@ class ShadedScene {
   }
 
   static coloursOf(pixelClass, cosine, sky) {
-    const [background, attached, outOfLight] = ["background", "attached", "out_of_light"].map((name) => classNames.indexOf(name));
+    const [background, attached, outOfLight] = ["background", "attached", "out_of_light"].map((name) =>
+      classNames.indexOf(name),
+    );
     if (pixelClass === background) {
-      return [backgroundLight, backgroundLight, backgroundLight, fadedLight(backgroundLight)].map((colour) => packedColour(encodeLinear(colour)));
+      return [backgroundLight, backgroundLight, backgroundLight, fadedLight(backgroundLight)].map((colour) =>
+        packedColour(encodeLinear(colour)),
+      );
     }
     const receives = pixelClass !== attached && pixelClass !== outOfLight;
     const [lit, shadowed, half] = [1, 0, 0.5].map((share) => surfaceLight(cosine, sky, receives ? share : 0));
@@ -79,7 +83,15 @@ class ShadedScene {
 
 /** Colours for legends: what an upright wall in the light looks like, and the same in shadow. */
 const legendColours = (() => {
-  const hex = (colour) => `#${encodeLinear(colour).map((value) => value.toString(16).padStart(2, "0")).join("")}`;
+  const hex = (colour) =>
+    `#${encodeLinear(colour)
+      .map((value) => value.toString(16).padStart(2, "0"))
+      .join("")}`;
   const [lit, shadowed] = [surfaceLight(0.75, 0.8, 1), surfaceLight(0.75, 0.8, 0)];
-  return { lit: hex(lit), shadowed: hex(shadowed), background: hex(backgroundLight), faded: hex(fadedLight(shadowed)) };
+  return {
+    lit: hex(lit),
+    shadowed: hex(shadowed),
+    background: hex(backgroundLight),
+    faded: hex(fadedLight(shadowed)),
+  };
 })();

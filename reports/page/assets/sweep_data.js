@@ -10,7 +10,12 @@
 function axisOfColumn(column) {
   const { name, values, dictionary, isText } = column;
   if (isText) {
-    return { name, isText, values: dictionary, codes: Int32Array.from(values, (code) => (code === noIndex ? -1 : code)) };
+    return {
+      name,
+      isText,
+      values: dictionary,
+      codes: Int32Array.from(values, (code) => (code === noIndex ? -1 : code)),
+    };
   }
   const codeOf = new Map();
   const codes = new Int32Array(values.length);
@@ -25,8 +30,15 @@ function axisOfColumn(column) {
   const order = distinct.map((_, code) => code).filter((code) => !Number.isNaN(distinct[code]));
   order.sort((a, b) => distinct[a] - distinct[b]);
   const rankOf = new Int32Array(distinct.length).fill(-1);
-  order.forEach((code, rank) => { rankOf[code] = rank; });
-  return { name, isText, values: order.map((code) => distinct[code]), codes: codes.map((code) => rankOf[code]) };
+  order.forEach((code, rank) => {
+    rankOf[code] = rank;
+  });
+  return {
+    name,
+    isText,
+    values: order.map((code) => distinct[code]),
+    codes: codes.map((code) => rankOf[code]),
+  };
 }
 
 /**
@@ -76,13 +88,17 @@ function summariseGroups(values, groups, count) {
     const part = sorted.subarray(sizes[group], sizes[group + 1]).sort();
     // A percentile is one of the values: the smallest that at least half of them do not exceed.
     const middle = part[Math.ceil(part.length / 2) - 1];
-    return part.length === 0 ? null : { median: middle, least: part[0], most: part[part.length - 1], count: part.length };
+    return part.length === 0
+      ? null
+      : { median: middle, least: part[0], most: part[part.length - 1], count: part.length };
   });
 }
 
 /** @return {Int32Array}  (rows): the cell of two axes that a row is in, column by column; −1 none */
 function cellCodes(across, down) {
-  return across.codes.map((column, row) => (column < 0 || down.codes[row] < 0 ? -1 : column * down.values.length + down.codes[row]));
+  return across.codes.map((column, row) =>
+    column < 0 || down.codes[row] < 0 ? -1 : column * down.values.length + down.codes[row],
+  );
 }
 
 /**
@@ -93,7 +109,9 @@ function cellCodes(across, down) {
  * @return {number[]}
  */
 function paretoFront(first, second) {
-  const rows = Uint32Array.from(first.keys()).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
+  const rows = Uint32Array.from(first.keys()).filter(
+    (row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]),
+  );
   rows.sort((a, b) => first[a] - first[b] || second[a] - second[b] || a - b);
   const front = [];
   let least = Infinity;
