@@ -17,6 +17,7 @@ const page = loadScripts(
     "biasLengthM",
     "neededBiases",
     "BiasCounts",
+    "sortFloats",
     "SliderScale",
     "shortestFloat32",
   ],
@@ -128,6 +129,17 @@ describe("Lengths of biases", () => {
 });
 
 describe("Counts at a bias", () => {
+  it("sort as TypedArray.sort does, for random bits of floats", () => {
+    const random = seededRandom(9);
+    for (const count of [0, 1, 2, 5000]) {
+      const bits = Uint32Array.from({ length: count }, () => 2 ** 32 * random());
+      bits.set([0x7fc00000, 0xffc00001, 0x80000000, 0, 0x7f800000, 0xff800000].slice(0, count));
+      const values = new Float32Array(bits.buffer);
+      const wanted = [...values.slice().sort()].map((value) => (value === 0 ? 0 : value));
+      assert.deepEqual([...page.sortFloats(values)], wanted, `${count} values`);
+    }
+  });
+
   it("are those of counting every pixel, for random images and biases", () => {
     const random = seededRandom(3);
     for (let round = 0; round < 50; ++round) {
