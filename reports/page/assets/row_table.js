@@ -46,7 +46,7 @@ class RowTable {
    */
   constructor(table, columns, caption, onOpen) {
     Object.assign(this, { table, shown: columns, onOpen, active: 0, open: -1, sorted: null });
-    this.rows = Uint32Array.from({ length: table.count }, (_, row) => row);
+    this.rows = allRows(table.count);
     this.head = element("thead");
     this.body = element("tbody");
     this.grid = element(
@@ -78,9 +78,7 @@ class RowTable {
 
   /** Shows some rows only, (rows) of 0 and 1, in the order that was asked for. */
   async keep(kept) {
-    this.rows = Uint32Array.from({ length: this.table.count }, (_, row) => row).filter(
-      (row) => kept[row] === 1,
-    );
+    this.rows = allRows(this.table.count).filter((row) => kept[row] === 1);
     this.active = 0;
     this.scroll.scrollTop = 0;
     await this.order();

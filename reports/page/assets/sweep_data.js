@@ -17,28 +17,39 @@ function axisOfColumn(column) {
       codes: Int32Array.from(values, (code) => (code === noIndex ? -1 : code)),
     };
   }
-  const codeOf = new Map();
+  const distinct = distinctNumbers(values);
   const codes = new Int32Array(values.length);
-  for (let row = 0; row < values.length; ++row) {
-    const value = values[row];
-    if (!codeOf.has(value)) {
-      codeOf.set(value, codeOf.size);
-    }
-    codes[row] = codeOf.get(value);
+  for (let row = 0; row < codes.length; ++row) {
+    codes[row] = Number.isNaN(values[row]) ? -1 : rankIn(distinct, values[row]);
   }
-  const distinct = [...codeOf.keys()];
-  const order = distinct.map((_, code) => code).filter((code) => !Number.isNaN(distinct[code]));
-  order.sort((a, b) => distinct[a] - distinct[b]);
-  const rankOf = new Int32Array(distinct.length).fill(-1);
-  order.forEach((code, rank) => {
-    rankOf[code] = rank;
-  });
-  return {
-    name,
-    isText,
-    values: order.map((code) => distinct[code]),
-    codes: codes.map((code) => rankOf[code]),
-  };
+  return { name, isText, values: [...distinct], codes };
+}
+
+/** The different values of a column, ascending, without NaN. */
+function distinctNumbers(values) {
+  const sorted = new Float64Array(values).sort();
+  let count = 0;
+  for (const value of sorted) {
+    if (!Number.isNaN(value) && (count === 0 || value !== sorted[count - 1])) {
+      sorted[count++] = value;
+    }
+  }
+  return sorted.subarray(0, count);
+}
+
+/** Where a value stands among ascending ones, of which it is one. */
+function rankIn(sorted, value) {
+  let first = 0;
+  let last = sorted.length - 1;
+  while (first < last) {
+    const middle = (first + last) >>> 1;
+    if (sorted[middle] < value) {
+      first = middle + 1;
+    } else {
+      last = middle;
+    }
+  }
+  return first;
 }
 
 /**
@@ -101,6 +112,15 @@ function cellCodes(across, down) {
   );
 }
 
+/** @return {Uint32Array}  0, 1, … count − 1 */
+function allRows(count) {
+  const rows = new Uint32Array(count);
+  for (let row = 0; row < count; ++row) {
+    rows[row] = row;
+  }
+  return rows;
+}
+
 /**
  * The rows of which no other has less of one without more of the other, by ascending first measure;
  * of equal rows the first.
@@ -109,7 +129,7 @@ function cellCodes(across, down) {
  * @return {number[]}
  */
 function paretoFront(first, second) {
-  const rows = Uint32Array.from(first.keys()).filter(
+  const rows = allRows(first.length).filter(
     (row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]),
   );
   rows.sort((a, b) => first[a] - first[b] || second[a] - second[b] || a - b);
@@ -126,7 +146,7 @@ function paretoFront(first, second) {
 
 /** At most `most` rows with both measures, evenly spaced through the sweep. */
 function thinnedRows(first, second, most) {
-  const rows = [...first.keys()].filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
+  const rows = allRows(first.length).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
   const step = rows.length / Math.min(rows.length, most);
   return Array.from({ length: Math.min(rows.length, most) }, (_, i) => rows[Math.floor(i * step)]);
 }
