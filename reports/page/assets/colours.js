@@ -18,11 +18,12 @@ const errorColours = {
   unmatched: okabeIto.purple,
   indeterminate: okabeIto.black,
 };
+/** As in the figures. */
 const causeColours = {
-  bias: okabeIto.purple,
-  precision: okabeIto.yellow,
-  resolution: okabeIto.green,
-  coverage: okabeIto.black,
+  bias: okabeIto.orange,
+  precision: okabeIto.green,
+  resolution: okabeIto.sky,
+  coverage: okabeIto.purple,
 };
 const labelColours = {
   acne: okabeIto.vermilion,

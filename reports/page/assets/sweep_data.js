@@ -129,9 +129,7 @@ function allRows(count) {
  * @return {number[]}
  */
 function paretoFront(first, second) {
-  const rows = allRows(first.length).filter(
-    (row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]),
-  );
+  const rows = allRows(first.length).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
   rows.sort((a, b) => first[a] - first[b] || second[a] - second[b] || a - b);
   const front = [];
   let least = Infinity;
