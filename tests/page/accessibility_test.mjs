@@ -12,15 +12,40 @@ async function violations(page) {
   const { readFileSync } = await import("node:fs");
   await page.evaluate(readFileSync(axeSource, "utf8"));
   const result = await page.evaluate(() => axe.run(document, { resultTypes: ["violations"] }));
-  return result.violations.filter(({ impact }) => impact === "serious" || impact === "critical")
-    .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => `${node.target} ${node.failureSummary}`).join(" | ")}`);
+  return result.violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(
+      ({ id, nodes }) =>
+        `${id}: ${nodes
+          .slice(0, 3)
+          .map((node) => `${node.target} ${node.failureSummary}`)
+          .join(" | ")}`,
+    );
 }
 
 describe("The page", () => {
   before(() => {
-    reports.compare = makeReport("axe compare", "compare", ...sized(96, 64, "--builtin", "sphere-plane")).page;
-    reports.sweep = makeReport("axe sweep", "sweep", ...sized(64, 48, "--builtin", "wall", "--axis", "lookup.filter=nearest,pcf3",
-      "--axis", "bias.constant=0,0.001,0.01", "--keep-pixels", "--quiet")).page;
+    reports.compare = makeReport(
+      "axe compare",
+      "compare",
+      ...sized(96, 64, "--builtin", "sphere-plane"),
+    ).page;
+    reports.sweep = makeReport(
+      "axe sweep",
+      "sweep",
+      ...sized(
+        64,
+        48,
+        "--builtin",
+        "wall",
+        "--axis",
+        "lookup.filter=nearest,pcf3",
+        "--axis",
+        "bias.constant=0,0.001,0.01",
+        "--keep-pixels",
+        "--quiet",
+      ),
+    ).page;
   });
   after(stopBrowser);
 
@@ -30,7 +55,10 @@ describe("The page", () => {
         it(`of a ${kind} has no serious violation, ${colorScheme}, ${width} px wide`, async () => {
           const page = await openPage(reports[kind], { width, colorScheme });
           assert.deepEqual(await violations(page), []);
-          const [page_px, window_px] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+          const [page_px, window_px] = await page.evaluate(() => [
+            document.documentElement.scrollWidth,
+            innerWidth,
+          ]);
           assert.ok(page_px <= window_px, `the page is ${page_px} px wide in a window of ${window_px}`);
           await page.close();
         });
@@ -42,7 +70,11 @@ describe("The page", () => {
     const page = await openPage(reports.sweep);
     await page.locator(".rows tr[data-place]").nth(1).click();
     await page.locator("#sweep .configuration dl").first().waitFor();
-    await page.evaluate(() => document.querySelectorAll("details").forEach((details) => { details.open = true; }));
+    await page.evaluate(() =>
+      document.querySelectorAll("details").forEach((details) => {
+        details.open = true;
+      }),
+    );
     await page.getByLabel("Go to pixel").fill("10,10");
     await page.getByLabel("Go to pixel").press("Enter");
     assert.deepEqual(await violations(page), []);
@@ -52,7 +84,9 @@ describe("The page", () => {
 
   it("says in words that a browser is too old", async () => {
     const page = await openPage(reports.compare);
-    await page.addInitScript(() => { delete window.DecompressionStream; });
+    await page.addInitScript(() => {
+      delete window.DecompressionStream;
+    });
     await page.reload({ waitUntil: "load" });
     assert.match(await page.getByRole("alert").first().textContent(), /DecompressionStream/);
     assert.ok(await page.locator("#verdict").isVisible());

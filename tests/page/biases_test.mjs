@@ -6,8 +6,22 @@ import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
   ["pixel_names.js", "critical_bias.js", "bias_units.js", "bias_counts.js", "numbers.js", "slider_scale.js"],
-  ["criticalBias", "criticalBiases", "searchCriticalBias", "guessCriticalBias", "previousBias", "biasRank", "biasOfRank",
-    "biasLengthM", "neededBiases", "BiasCounts", "SliderScale", "shortestFloat32"]);
+  [
+    "criticalBias",
+    "criticalBiases",
+    "searchCriticalBias",
+    "guessCriticalBias",
+    "previousBias",
+    "biasRank",
+    "biasOfRank",
+    "biasLengthM",
+    "neededBiases",
+    "BiasCounts",
+    "sortFloats",
+    "SliderScale",
+    "shortestFloat32",
+  ],
+);
 
 /** Whether the lookup is lit, as the shader computes it. */
 function isLit(r, d, bias, reversed) {
@@ -16,8 +30,15 @@ function isLit(r, d, bias, reversed) {
 
 /** A float32 from a few kinds that make trouble. */
 function troublesomeDepth(random) {
-  const kinds = [() => random(), () => 1 - random() * 1e-6, () => random() * 1e-6, () => Math.round(random() * 65535) / 65535,
-    () => 2 ** Math.floor(-140 * random()), () => Math.floor(2 * random()), () => 2 * random() - 0.5];
+  const kinds = [
+    () => random(),
+    () => 1 - random() * 1e-6,
+    () => random() * 1e-6,
+    () => Math.round(random() * 65535) / 65535,
+    () => 2 ** Math.floor(-140 * random()),
+    () => Math.floor(2 * random()),
+    () => 2 * random() - 0.5,
+  ];
   return Math.fround(kinds[Math.floor(kinds.length * random())]());
 }
 
@@ -45,7 +66,10 @@ describe("A critical bias", () => {
     const random = seededRandom(7);
     for (let i = 0; i < 2000; ++i) {
       const [r, d] = [troublesomeDepth(random), troublesomeDepth(random)];
-      assert.ok(Object.is(page.criticalBias(r, d, false), page.searchCriticalBias(-r, d === 0 ? -0 : -d)), `r = ${r}, d = ${d}`);
+      assert.ok(
+        Object.is(page.criticalBias(r, d, false), page.searchCriticalBias(-r, d === 0 ? -0 : -d)),
+        `r = ${r}, d = ${d}`,
+      );
     }
   });
 
@@ -68,7 +92,7 @@ describe("The order of biases", () => {
     assert.equal(page.previousBias(-Infinity), -Infinity);
     const random = seededRandom(1);
     for (let i = 0; i < 1000; ++i) {
-      const rank = Math.floor((2 * random() - 1) * 0x7F000000);
+      const rank = Math.floor((2 * random() - 1) * 0x7f000000);
       assert.equal(page.biasRank(page.biasOfRank(rank)), rank);
       assert.ok(page.previousBias(page.biasOfRank(rank)) < page.biasOfRank(rank), `rank ${rank}`);
     }
@@ -92,7 +116,12 @@ describe("Lengths of biases", () => {
   it("take the bias below the critical one for blocked pixels, and none elsewhere", () => {
     const critical = new Float32Array(4).fill(0.25);
     critical[3] = Infinity;
-    const { metres, texels } = page.neededBiases(Uint8Array.of(5, 6, 2, 6), critical, new Float32Array(4).fill(1), orthographic);
+    const { metres, texels } = page.neededBiases(
+      Uint8Array.of(5, 6, 2, 6),
+      critical,
+      new Float32Array(4).fill(1),
+      orthographic,
+    );
     const below = Math.fround(20 * page.previousBias(0.25));
     assert.deepEqual([...metres], [5, below, NaN, Infinity]);
     assert.deepEqual([...texels], [10, Math.fround((20 * page.previousBias(0.25)) / 0.5), NaN, Infinity]);
@@ -100,17 +129,35 @@ describe("Lengths of biases", () => {
 });
 
 describe("Counts at a bias", () => {
+  it("sort as TypedArray.sort does, for random bits of floats", () => {
+    const random = seededRandom(9);
+    for (const count of [0, 1, 2, 5000]) {
+      const bits = Uint32Array.from({ length: count }, () => 2 ** 32 * random());
+      bits.set([0x7fc00000, 0xffc00001, 0x80000000, 0, 0x7f800000, 0xff800000].slice(0, count));
+      const values = new Float32Array(bits.buffer);
+      const wanted = [...values.slice().sort()].map((value) => (value === 0 ? 0 : value));
+      assert.deepEqual([...page.sortFloats(values)], wanted, `${count} values`);
+    }
+  });
+
   it("are those of counting every pixel, for random images and biases", () => {
     const random = seededRandom(3);
     for (let round = 0; round < 50; ++round) {
       const classes = Uint8Array.from({ length: 200 }, () => Math.floor(7 * random()));
       const special = [-Infinity, Infinity, 0, NaN];
-      const criticals = Float32Array.from({ length: 200 }, () => (random() < 0.2 ? special[Math.floor(4 * random())] : random() - 0.5));
+      const criticals = Float32Array.from({ length: 200 }, () =>
+        random() < 0.2 ? special[Math.floor(4 * random())] : random() - 0.5,
+      );
       const counts = new page.BiasCounts(classes, criticals);
       for (const bias of [random() - 0.5, criticals[Math.floor(200 * random())], 0]) {
         const limit = Math.fround(bias);
-        const count = (wanted, lit) => classes.reduce((sum, of, i) => sum + (of === wanted && criticals[i] <= limit === lit ? 1 : 0), 0);
-        assert.deepEqual(counts.at(bias), { falseShadow: count(5, false), falseLit: count(6, true) }, `round ${round}, bias ${bias}`);
+        const count = (wanted, lit) =>
+          classes.reduce((sum, of, i) => sum + (of === wanted && criticals[i] <= limit === lit ? 1 : 0), 0);
+        assert.deepEqual(
+          counts.at(bias),
+          { falseShadow: count(5, false), falseLit: count(6, true) },
+          `round ${round}, bias ${bias}`,
+        );
       }
     }
   });

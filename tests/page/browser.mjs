@@ -16,7 +16,11 @@ process.on("exit", () => rmSync(work, { recursive: true, force: true }));
 
 /** What the program prints; throws where it fails. */
 export function gnomon(...words) {
-  return execFileSync(process.env.GNOMON, words, { encoding: "utf8", maxBuffer: 2 ** 28, stdio: ["ignore", "pipe", "pipe"] });
+  return execFileSync(process.env.GNOMON, words, {
+    encoding: "utf8",
+    maxBuffer: 2 ** 28,
+    stdio: ["ignore", "pipe", "pipe"],
+  });
 }
 
 /** Words of a job with an image of this size. */
@@ -34,7 +38,7 @@ export function sized(width, height, ...words) {
 export function makeReport(name, command, ...words) {
   const run = join(work, name);
   gnomon(command, ...words, "--out", run);
-  gnomon("report", run, "--out", `${run} report`);
+  gnomon("report", run, "--out", `${run} report`, "--no-figures");
   return { run, page: join(`${run} report`, "report.html") };
 }
 
@@ -57,14 +61,25 @@ export async function stopBrowser() {
  * @return {Promise<Page>}  with `page.faults`: requests, messages of the console, errors and dialogs
  */
 export async function openPage(file, { width = 1280, height = 900, colorScheme = "light" } = {}) {
-  const context = await (await startBrowser()).newContext({ viewport: { width, height }, colorScheme, reducedMotion: "reduce" });
+  const context = await (
+    await startBrowser()
+  ).newContext({ viewport: { width, height }, colorScheme, reducedMotion: "reduce" });
   const page = await context.newPage();
   const address = pathToFileURL(file).href;
   page.faults = [];
-  page.on("request", (request) => !/^(data|blob):/.test(request.url()) && request.url() !== address && page.faults.push(`request ${request.url()}`));
+  page.on(
+    "request",
+    (request) =>
+      !/^(data|blob):/.test(request.url()) &&
+      request.url() !== address &&
+      page.faults.push(`request ${request.url()}`),
+  );
   page.on("console", (message) => page.faults.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => page.faults.push(`error ${error.stack}`));
-  page.on("dialog", (dialog) => { page.faults.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
+  page.on("dialog", (dialog) => {
+    page.faults.push(`dialog ${dialog.message()}`);
+    dialog.dismiss();
+  });
   await page.goto(address);
   await page.waitForSelector("html[data-ready=true]", { timeout: 60000 });
   return page;
@@ -77,7 +92,11 @@ export function settle(page) {
 
 /** Texts of the pixel's numbers by key. */
 export function readFacts(page) {
-  return page.evaluate(() => Object.fromEntries([...document.querySelectorAll("#inspector dd[data-key]")].map((dd) => [dd.dataset.key, dd.textContent])));
+  return page.evaluate(() =>
+    Object.fromEntries(
+      [...document.querySelectorAll("#inspector dd[data-key]")].map((dd) => [dd.dataset.key, dd.textContent]),
+    ),
+  );
 }
 
 /** Where the middle of a pixel of an image that is wholly shown lies on the screen. */

@@ -7,20 +7,40 @@ import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
   ["blocks.js", "columns.js", "numbers.js", "filter_language.js", "sweep_data.js", "scales.js"],
-  ["BlockReader", "Table", "parseFilter", "resolveColumn", "filterRows", "axisOfColumn", "joinValues", "summariseGroups",
-    "cellCodes", "paretoFront", "thinnedRows", "symlogLayout", "noIndex", "arrayOfType"]);
+  [
+    "BlockReader",
+    "Table",
+    "parseFilter",
+    "resolveColumn",
+    "filterRows",
+    "axisOfColumn",
+    "joinValues",
+    "summariseGroups",
+    "cellCodes",
+    "paretoFront",
+    "thinnedRows",
+    "symlogLayout",
+    "noIndex",
+    "arrayOfType",
+  ],
+);
 
 /** Packs values as the page's writer does. */
 function pack(values, delta) {
   const size = values.BYTES_PER_ELEMENT;
-  const whole = new { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array, 8: BigUint64Array }[size](values.slice().buffer);
+  const whole = new { 1: Uint8Array, 2: Uint16Array, 4: Uint32Array, 8: BigUint64Array }[size](
+    values.slice().buffer,
+  );
   for (let pass = 0; pass < delta; ++pass) {
     for (let i = whole.length - 1; i > 0; --i) {
       whole[i] -= whole[i - 1];
     }
   }
   const bytes = new Uint8Array(whole.buffer);
-  const planes = Uint8Array.from(bytes, (_, i) => bytes[(i % values.length) * size + Math.floor(i / values.length)]);
+  const planes = Uint8Array.from(
+    bytes,
+    (_, i) => bytes[(i % values.length) * size + Math.floor(i / values.length)],
+  );
   return deflateSync(planes).toString("base64");
 }
 
@@ -30,15 +50,36 @@ function tableOf(columns) {
   const stored = Object.entries(columns).map(([name, values]) => {
     const isText = typeof values[0] === "string" || values[0] === null;
     const dictionary = [...new Set(values.filter((value) => value !== null))];
-    const packed = isText ? Uint32Array.from(values, (value) => (value === null ? page.noIndex : dictionary.indexOf(value))) : Float64Array.from(values);
+    const packed = isText
+      ? Uint32Array.from(values, (value) => (value === null ? page.noIndex : dictionary.indexOf(value)))
+      : Float64Array.from(values);
     texts.push(pack(packed, 0));
-    return { name, block: String(texts.length - 1), count: values.length, delta: 0, ...(isText ? { type: "text", dictionary } : { type: "f64" }) };
+    return {
+      name,
+      block: String(texts.length - 1),
+      count: values.length,
+      delta: 0,
+      ...(isText ? { type: "text", dictionary } : { type: "f64" }),
+    };
   });
-  return new page.Table({ count: Object.values(columns)[0].length, columns: stored }, new page.BlockReader((id) => texts[id]));
+  return new page.Table(
+    { count: Object.values(columns)[0].length, columns: stored },
+    new page.BlockReader((id) => texts[id]),
+  );
 }
 
 describe("A packed block", () => {
-  for (const [type, delta] of [["u8", 0], ["u8", 1], ["u16", 2], ["u32", 1], ["u32", 2], ["f32", 0], ["f32", 1], ["f32", 2], ["f64", 0]]) {
+  for (const [type, delta] of [
+    ["u8", 0],
+    ["u8", 1],
+    ["u16", 2],
+    ["u32", 1],
+    ["u32", 2],
+    ["f32", 0],
+    ["f32", 1],
+    ["f32", 2],
+    ["f64", 0],
+  ]) {
     it(`gives the same bits of ${type} after ${delta} differences`, async () => {
       const random = seededRandom(11);
       const bytes = Uint8Array.from({ length: 8 * 257 }, () => 256 * random());
@@ -51,7 +92,10 @@ describe("A packed block", () => {
 
   it("is decoded once", async () => {
     let asked = 0;
-    const reader = new page.BlockReader(() => { asked += 1; return pack(Uint8Array.of(1, 2), 0); });
+    const reader = new page.BlockReader(() => {
+      asked += 1;
+      return pack(Uint8Array.of(1, 2), 0);
+    });
     const block = { block: "b0", type: "u8", count: 2, delta: 0 };
     assert.equal(await reader.read(block), await reader.read({ ...block }));
     assert.equal(asked, 1);
@@ -59,16 +103,25 @@ describe("A packed block", () => {
 
   it("of another length is refused", async () => {
     const reader = new page.BlockReader(() => pack(Uint8Array.of(1, 2), 0));
-    await assert.rejects(reader.read({ block: "b0", type: "u8", count: 3, delta: 0 }), /2 bytes for 3 values/);
+    await assert.rejects(
+      reader.read({ block: "b0", type: "u8", count: 3, delta: 0 }),
+      /2 bytes for 3 values/,
+    );
   });
 });
 
 describe("The filter", () => {
   const table = tableOf({
-    false_lit: [5, 200, 50, NaN], "shadow_map.resolution": [512, 2048, 2048, 512], error_rate: [0.5, 0.002, 0.01, NaN],
-    "lookup.filter": ["nearest", "pcf3", "nearest", null], "scene.file": ["a b.obj", "</script>", "ünïcode", "a.obj"],
+    false_lit: [5, 200, 50, NaN],
+    "shadow_map.resolution": [512, 2048, 2048, 512],
+    error_rate: [0.5, 0.002, 0.01, NaN],
+    "lookup.filter": ["nearest", "pcf3", "nearest", null],
+    "scene.file": ["a b.obj", "</script>", "ünïcode", "a.obj"],
   });
-  const keeps = async (text) => [...await page.filterRows(table, ["shadow_map.resolution", "lookup.filter", "scene.file"], text)].flatMap((kept, row) => (kept ? [row] : []));
+  const keeps = async (text) =>
+    [
+      ...(await page.filterRows(table, ["shadow_map.resolution", "lookup.filter", "scene.file"], text)),
+    ].flatMap((kept, row) => (kept ? [row] : []));
 
   it("takes all rows where it is empty", async () => assert.deepEqual(await keeps("  "), [0, 1, 2, 3]));
   it("compares, with or without spaces, and joins terms", async () => {
@@ -79,11 +132,11 @@ describe("The filter", () => {
   });
   it("finds words in texts whatever their case, and numbers whole", async () => {
     assert.deepEqual(await keeps("NEAR"), [0, 2]);
-    assert.deepEqual(await keeps("\"a b\""), [0]);
+    assert.deepEqual(await keeps('"a b"'), [0]);
     assert.deepEqual(await keeps("2048"), [1, 2]);
     assert.deepEqual(await keeps("filter~pcf"), [1]);
     assert.deepEqual(await keeps("filter=nearest obj"), [0]);
-    assert.deepEqual(await keeps("\"</script>\""), [1]);
+    assert.deepEqual(await keeps('"</script>"'), [1]);
   });
   it("never takes a row without the value, but for !=", async () => {
     assert.deepEqual(await keeps("false_lit >= 0"), [0, 1, 2]);
@@ -95,7 +148,32 @@ describe("The filter", () => {
     await assert.rejects(keeps("falselit < 5"), /no column “falselit”/);
     await assert.rejects(keeps("false_lit < many"), /is a number/);
     assert.throws(() => page.resolveColumn(["a.x", "b.x"], "x"), /may be a.x or b.x/);
-    assert.equal(page.resolveColumn(["causes.resolution", "shadow_map.resolution"], "resolution"), "shadow_map.resolution");
+    assert.equal(
+      page.resolveColumn(["causes.resolution", "shadow_map.resolution"], "resolution"),
+      "shadow_map.resolution",
+    );
+  });
+});
+
+describe("A table's constants", () => {
+  const table = new page.Table({ count: 2, columns: [] }, null, {
+    "image.width": "96",
+    id: "12345678",
+    "scene.builtin": "wall",
+  });
+
+  it("are columns like others, numbers where they are numbers", async () => {
+    assert.deepEqual(
+      [(await table.column("image.width")).at(1), (await table.column("id")).at(0)],
+      [96, "12345678"],
+    );
+    assert.deepEqual(table.names, []);
+    assert.ok(table.has("scene.builtin") && !table.has("scene.file"));
+  });
+
+  it("can be filtered by", async () => {
+    assert.deepEqual([...(await page.filterRows(table, [], "width=96 builtin~WALL"))], [1, 1]);
+    assert.deepEqual([...(await page.filterRows(table, [], "width<96"))], [0, 0]);
   });
 });
 
@@ -106,7 +184,10 @@ describe("Groups of a sweep", () => {
     assert.deepEqual(axis.values, [1, 2]);
     assert.deepEqual([...axis.codes], [1, 0, 1, 0, 1, -1]);
     const groups = page.summariseGroups((await table.column("error")).values, axis.codes, 2);
-    assert.deepEqual(groups, [{ median: 1, least: 1, most: 1, count: 1 }, { median: 4, least: 3, most: 5, count: 3 }]);
+    assert.deepEqual(groups, [
+      { median: 1, least: 1, most: 1, count: 1 },
+      { median: 4, least: 3, most: 5, count: 3 },
+    ]);
   });
 
   it("agree with sorting, for random rows", () => {
@@ -114,13 +195,25 @@ describe("Groups of a sweep", () => {
     const values = Float64Array.from({ length: 500 }, () => (random() < 0.1 ? NaN : random()));
     const codes = Int32Array.from({ length: 500 }, () => Math.floor(8 * random()) - 1);
     page.summariseGroups(values, codes, 7).forEach((group, code) => {
-      const part = [...values].filter((value, row) => codes[row] === code && !Number.isNaN(value)).sort((a, b) => a - b);
-      assert.deepEqual(group, { median: part[Math.ceil(part.length / 2) - 1], least: part[0], most: part.at(-1), count: part.length });
+      const part = [...values]
+        .filter((value, row) => codes[row] === code && !Number.isNaN(value))
+        .sort((a, b) => a - b);
+      assert.deepEqual(group, {
+        median: part[Math.ceil(part.length / 2) - 1],
+        least: part[0],
+        most: part.at(-1),
+        count: part.length,
+      });
     });
   });
 
   it("join neighbouring values where there are too many", () => {
-    const axis = { name: "x", isText: false, values: [...Array(10).keys()], codes: Int32Array.from(Array(10).keys()) };
+    const axis = {
+      name: "x",
+      isText: false,
+      values: [...Array(10).keys()],
+      codes: Int32Array.from(Array(10).keys()),
+    };
     const joined = page.joinValues(axis, 3);
     assert.equal(joined.values.length, 3);
     assert.deepEqual([...joined.codes], [0, 0, 0, 0, 1, 1, 1, 2, 2, 2]);
@@ -136,12 +229,18 @@ describe("Groups of a sweep", () => {
 describe("The Pareto front", () => {
   it("is what no row beats, for random rows", () => {
     const random = seededRandom(23);
-    const measure = () => Float64Array.from({ length: 300 }, () => (random() < 0.05 ? NaN : Math.floor(40 * random())));
+    const measure = () =>
+      Float64Array.from({ length: 300 }, () => (random() < 0.05 ? NaN : Math.floor(40 * random())));
     const [first, second] = [measure(), measure()];
     const front = page.paretoFront(first, second);
-    const beats = (a, b) => first[a] <= first[b] && second[a] <= second[b] && (first[a] < first[b] || second[a] < second[b]);
+    const beats = (a, b) =>
+      first[a] <= first[b] && second[a] <= second[b] && (first[a] < first[b] || second[a] < second[b]);
     const rows = [...first.keys()].filter((row) => !Number.isNaN(first[row] + second[row]));
-    const unbeaten = new Set(rows.filter((row) => !rows.some((other) => beats(other, row))).map((row) => `${first[row]} ${second[row]}`));
+    const unbeaten = new Set(
+      rows
+        .filter((row) => !rows.some((other) => beats(other, row)))
+        .map((row) => `${first[row]} ${second[row]}`),
+    );
     assert.deepEqual(new Set(front.map((row) => `${first[row]} ${second[row]}`)), unbeaten);
     assert.equal(front.length, unbeaten.size);
   });
@@ -156,7 +255,12 @@ describe("A symmetric logarithmic axis", () => {
   it("is undone by its inverse and rises everywhere", () => {
     const layout = page.symlogLayout(1e-3);
     const values = [-100, -1, -1e-3, -1e-5, 0, 1e-4, 1e-3, 2, 1e3];
-    values.forEach((value) => assert.ok(Math.abs(layout.inverse(layout.forward(value)) - value) <= 1e-12 * Math.abs(value), `${value}`));
+    values.forEach((value) =>
+      assert.ok(
+        Math.abs(layout.inverse(layout.forward(value)) - value) <= 1e-12 * Math.abs(value),
+        `${value}`,
+      ),
+    );
     values.slice(1).forEach((value, i) => assert.ok(layout.forward(value) > layout.forward(values[i])));
   });
 

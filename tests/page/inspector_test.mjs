@@ -4,7 +4,17 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, describe, it } from "node:test";
 import { fileURLToPath } from "node:url";
-import { makeReport, numberOf, openPage, pixelPoint, readFacts, settle, sized, stagePixels, stopBrowser } from "./browser.mjs";
+import {
+  makeReport,
+  numberOf,
+  openPage,
+  pixelPoint,
+  readFacts,
+  settle,
+  sized,
+  stagePixels,
+  stopBrowser,
+} from "./browser.mjs";
 
 const seed = 20261122;
 const classes = ["background", "unmatched", "attached", "out of light", "indeterminate", "lit", "blocked"];
@@ -12,14 +22,37 @@ const causes = ["none", "bias", "precision", "resolution", "coverage"];
 const labels = ["right", "acne", "peter panning", "leak", "edge", "overshadow"];
 const jobs = {
   spot: sized(96, 64, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128"),
-  pcf: sized(96, 64, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128", "--set", "lookup.filter=pcf3"),
-  reversed: sized(96, 64, "--builtin", "two-distances", "--set", "shadow_map.depth_format=d32f", "--set", "shadow_map.reversed=true"),
+  pcf: sized(
+    96,
+    64,
+    "--builtin",
+    "sphere-plane",
+    "--set",
+    "shadow_map.resolution=128",
+    "--set",
+    "lookup.filter=pcf3",
+  ),
+  reversed: sized(
+    96,
+    64,
+    "--builtin",
+    "two-distances",
+    "--set",
+    "shadow_map.depth_format=d32f",
+    "--set",
+    "shadow_map.reversed=true",
+  ),
   directional: sized(96, 54, "--builtin", "columns", "--set", "shadow_map.resolution=512"),
 };
 
 function exrPixels(run, count) {
   const script = fileURLToPath(new URL("exr_pixels.py", import.meta.url));
-  return JSON.parse(execFileSync("/usr/bin/python3", ["-B", script, run, String(count), String(seed)], { encoding: "utf8", maxBuffer: 2 ** 26 }));
+  return JSON.parse(
+    execFileSync("/usr/bin/python3", ["-B", script, run, String(count), String(seed)], {
+      encoding: "utf8",
+      maxBuffer: 2 ** 26,
+    }),
+  );
 }
 
 /** Compares the texts of a pixel with the image's values, floats bit by bit. */
@@ -30,9 +63,20 @@ function assertFacts(facts, pixel, told) {
   assert.equal(facts.cause, causes[pixel.cause], told);
   assert.equal(facts.label, labels[pixel.label], told);
   for (const name of ["prim", "witness"]) {
-    assert.equal(facts[name], pixel[name] === 0xFFFFFFFF ? "\u2013" : String(pixel[name]), `${told}: ${name}`);
+    assert.equal(
+      facts[name],
+      pixel[name] === 0xffffffff ? "\u2013" : String(pixel[name]),
+      `${told}: ${name}`,
+    );
   }
-  for (const name of ["verdict", "receiver_depth", "map_depth", "critical_bias", "needed_bias_m", "needed_bias_texels"]) {
+  for (const name of [
+    "verdict",
+    "receiver_depth",
+    "map_depth",
+    "critical_bias",
+    "needed_bias_m",
+    "needed_bias_texels",
+  ]) {
     const wanted = { nan: NaN, inf: Infinity, "-inf": -Infinity }[pixel[name]] ?? pixel[name];
     assert.equal(Math.fround(numberOf(facts[name])), wanted, `${told}: ${name} “${facts[name]}”`);
   }
@@ -55,7 +99,9 @@ describe("The inspector", () => {
   });
 
   it("shows other pixels for each layer", async () => {
-    const options = await layer("A").locator("option").evaluateAll((all) => all.map(({ value }) => value));
+    const options = await layer("A")
+      .locator("option")
+      .evaluateAll((all) => all.map(({ value }) => value));
     assert.ok(options.length >= 8, options.join());
     await page.getByLabel("Wipe", { exact: true }).fill("100");
     const seen = new Map();
@@ -93,11 +139,12 @@ describe("The inspector", () => {
 
   it("zooms with keys, buttons and the wheel, pans, and shows all again", async () => {
     const canvas = page.locator("#inspector .stage-canvas");
-    const zoom = async () => numberOf((await page.getByLabel("Zoom", { exact: true }).first().textContent()).replace(" %", ""));
+    const zoom = async () =>
+      numberOf((await page.getByLabel("Zoom", { exact: true }).first().textContent()).replace(" %", ""));
     const fitted = await zoom();
     await canvas.focus();
     await page.keyboard.press("+");
-    assert.ok(await zoom() > fitted);
+    assert.ok((await zoom()) > fitted);
     await page.getByRole("button", { name: "Zoom in" }).click();
     const closer = await zoom();
     await settle(page);
@@ -109,7 +156,10 @@ describe("The inspector", () => {
     const box = await canvas.boundingBox();
     await page.mouse.move(box.x + box.width / 3, box.y + box.height / 3);
     await page.mouse.wheel(0, -300);
-    await page.waitForFunction((low) => parseFloat(document.querySelector("#inspector output").textContent) > low, closer);
+    await page.waitForFunction(
+      (low) => parseFloat(document.querySelector("#inspector output").textContent) > low,
+      closer,
+    );
     await page.getByRole("button", { name: "Show all" }).click();
     assert.equal(await zoom(), fitted);
   });
@@ -150,11 +200,14 @@ describe("A hovered pixel", () => {
   for (const [name, job] of Object.entries(jobs)) {
     it(`shows the numbers of the EXR, float32 by float32: ${name}`, async () => {
       const { run, page: file } = makeReport(`hover-${name}`, "compare", ...job);
-      const image = exrPixels(run, 200);
+      const image = exrPixels(run, 80);
       const page = await openPage(file);
       await page.locator("#inspector .stage").scrollIntoViewIfNeeded();
       // The wipe's handle is out of the way at either end; it covers but a few pixels there.
-      for (const [wipe, isHere] of [["0", (x) => x >= 8], ["100", (x) => x < 8]]) {
+      for (const [wipe, isHere] of [
+        ["0", (x) => x >= 8],
+        ["100", (x) => x < 8],
+      ]) {
         await page.getByLabel("Wipe", { exact: true }).fill(wipe);
         for (const pixel of image.pixels.filter(({ x }) => isHere(x))) {
           const at = await pixelPoint(page, image, pixel.x, pixel.y);

@@ -2,19 +2,62 @@
 
 import assert from "node:assert/strict";
 import { after, describe, it } from "node:test";
-import { gnomon, makeReport, numberOf, openPage, settle, sized, stagePixels, stopBrowser } from "./browser.mjs";
+import {
+  gnomon,
+  makeReport,
+  numberOf,
+  openPage,
+  settle,
+  sized,
+  stagePixels,
+  stopBrowser,
+} from "./browser.mjs";
 
 const jobs = {
   "nearest, a spot": sized(64, 48, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128"),
-  "pcf5, a spot": sized(64, 48, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128", "--set", "lookup.filter=pcf5"),
+  "pcf5, a spot": sized(
+    64,
+    48,
+    "--builtin",
+    "sphere-plane",
+    "--set",
+    "shadow_map.resolution=128",
+    "--set",
+    "lookup.filter=pcf5",
+  ),
   "nearest, directional, d16": sized(64, 48, "--builtin", "wall", "--set", "shadow_map.depth_format=d16"),
-  "nearest, reversed float": sized(64, 48, "--builtin", "two-distances", "--set", "shadow_map.depth_format=d32f", "--set", "shadow_map.reversed=true"),
-  "linear, shadowed outside": sized(64, 48, "--builtin", "wall", "--set", "lookup.filter=linear", "--set", "lookup.outside=shadowed"),
+  "nearest, reversed float": sized(
+    64,
+    48,
+    "--builtin",
+    "two-distances",
+    "--set",
+    "shadow_map.depth_format=d32f",
+    "--set",
+    "shadow_map.reversed=true",
+  ),
+  "linear, shadowed outside": sized(
+    64,
+    48,
+    "--builtin",
+    "wall",
+    "--set",
+    "lookup.filter=linear",
+    "--set",
+    "lookup.outside=shadowed",
+  ),
 };
 const positions = [-590, -301, -1, 0, 1, 120, 433, 777, 1001, 1290];
 
 function shownCounts(page) {
-  return page.evaluate(() => Object.fromEntries([...document.querySelectorAll("#inspector [data-count]")].map((counted) => [counted.dataset.count, counted.textContent])));
+  return page.evaluate(() =>
+    Object.fromEntries(
+      [...document.querySelectorAll("#inspector [data-count]")].map((counted) => [
+        counted.dataset.count,
+        counted.textContent,
+      ]),
+    ),
+  );
 }
 
 describe("The bias slider", () => {
@@ -30,7 +73,11 @@ describe("The bias slider", () => {
         const said = JSON.parse(gnomon("compare", ...job, "--set", `bias.constant=${bias}`, "--json"));
         const shown = await shownCounts(page);
         for (const count of ["false_shadow", "false_lit"]) {
-          assert.equal(numberOf(shown[count]), said[count], `${name}: ${count} at ${bias}, position ${position}`);
+          assert.equal(
+            numberOf(shown[count]),
+            said[count],
+            `${name}: ${count} at ${bias}, position ${position}`,
+          );
         }
       }
       assert.deepEqual(page.faults, []);
@@ -46,14 +93,24 @@ describe("The bias slider", () => {
     const press = async (name) => {
       await page.getByRole("button", { name }).click();
       await settle(page);
-      return { bias: numberOf(await page.getByLabel("Exactly").inputValue()), shown: await shownCounts(page), pixels: await stagePixels(page) };
+      return {
+        bias: numberOf(await page.getByLabel("Exactly").inputValue()),
+        shown: await shownCounts(page),
+        pixels: await stagePixels(page),
+      };
     };
     const atJob = await press("Job’s bias");
     const atBest = await press("Best bias");
     assert.equal(numberOf(atJob.shown.false_shadow), said.false_shadow);
-    assert.equal(numberOf(atBest.shown.false_shadow) + numberOf(atBest.shown.false_lit), said.bias_curve.best_errors);
+    assert.equal(
+      numberOf(atBest.shown.false_shadow) + numberOf(atBest.shown.false_lit),
+      said.bias_curve.best_errors,
+    );
     assert.notEqual(atJob.pixels, atBest.pixels);
-    for (const [name, limit] of [["Acne-free", said.bias_curve.acne_free], ["Panning-free", said.bias_curve.panning_free]]) {
+    for (const [name, limit] of [
+      ["Acne-free", said.bias_curve.acne_free],
+      ["Panning-free", said.bias_curve.panning_free],
+    ]) {
       if (limit === null) {
         assert.ok(await page.getByRole("button", { name }).isDisabled(), name);
       } else {

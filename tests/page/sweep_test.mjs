@@ -4,19 +4,45 @@ import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
 import { makeReport, numberOf, openPage, settle, sized, stopBrowser } from "./browser.mjs";
 
-const kept = sized(64, 48, "--builtin", "columns", "--axis", "shadow_map.resolution=128,256,512", "--axis", "bias.constant=0,0.001,0.01");
+const kept = sized(
+  64,
+  48,
+  "--builtin",
+  "columns",
+  "--axis",
+  "shadow_map.resolution=128,256,512",
+  "--axis",
+  "bias.constant=0,0.001,0.01",
+);
 const isFull = Boolean(process.env.GNOMON_FULL_TESTS);
 
 /** A sweep of the wall with 10 curves and this many biases on each. */
 function manyBiases(count) {
-  return sized(48, 32, "--builtin", "wall", "--quiet", "--no-keep-pixels", "--axis", "shadow_map.resolution=64,128,256,512,1024",
-    "--axis", "lookup.filter=nearest,pcf3", "--axis", `bias.constant={from=1e-6, to=0.1, count=${count}, scale="log"}`);
+  return sized(
+    48,
+    32,
+    "--builtin",
+    "wall",
+    "--quiet",
+    "--no-keep-pixels",
+    "--axis",
+    "shadow_map.resolution=64,128,256,512,1024",
+    "--axis",
+    "lookup.filter=nearest,pcf3",
+    "--axis",
+    `bias.constant={from=1e-6, to=0.1, count=${count}, scale="log"}`,
+  );
 }
 
-const cells = (page, column) => page.evaluate((name) => {
-  const headings = [...document.querySelectorAll(".rows thead button")].map((button) => button.dataset.column);
-  return [...document.querySelectorAll(".rows tr[data-place]")].map((row) => row.children[headings.indexOf(name)].textContent);
-}, column);
+const cells = (page, column) =>
+  page.evaluate((name) => {
+    const headings = [...document.querySelectorAll(".rows thead button")].map(
+      (button) => button.dataset.column,
+    );
+    return [...document.querySelectorAll(".rows tr[data-place]")].map(
+      (row) => row.children[headings.indexOf(name)].textContent,
+    );
+  }, column);
 
 describe("A small sweep with its pixels", () => {
   let page;
@@ -30,11 +56,17 @@ describe("A small sweep with its pixels", () => {
   it("shows every configuration, sorted as its headings are asked", async () => {
     assert.equal((await cells(page, "error_rate")).length, 9);
     const heading = page.locator(".rows thead button[data-column=false_shadow]");
-    for (const [direction, way] of [["ascending", 1], ["descending", -1]]) {
+    for (const [direction, way] of [
+      ["ascending", 1],
+      ["descending", -1],
+    ]) {
       await heading.click();
       assert.equal(await page.locator(".rows th[aria-sort]").getAttribute("aria-sort"), direction);
       const counts = (await cells(page, "false_shadow")).map(numberOf);
-      assert.deepEqual(counts, [...counts].sort((a, b) => way * (a - b)));
+      assert.deepEqual(
+        counts,
+        [...counts].sort((a, b) => way * (a - b)),
+      );
     }
   });
 
@@ -56,7 +88,9 @@ describe("A small sweep with its pixels", () => {
     await page.keyboard.press("ArrowDown");
     await page.keyboard.press("ArrowDown");
     await page.keyboard.press("Enter");
-    await page.waitForFunction(() => document.querySelector("#sweep .configuration h3").textContent.startsWith("Configuration 2,"));
+    await page.waitForFunction(() =>
+      document.querySelector("#sweep .configuration h3").textContent.startsWith("Configuration 2,"),
+    );
     const caption = await page.locator("#inspector .caption").textContent();
     assert.match(caption, /Configuration 2, .*bias\.constant = 0\.01/);
     assert.equal(await page.locator("#distance .caption").textContent(), caption);
@@ -75,7 +109,7 @@ describe("A small sweep with its pixels", () => {
   });
 
   it("draws a panel for each value of a second axis, and a heat map of both", async () => {
-    await page.getByLabel("against").selectOption("bias.constant");
+    await page.getByLabel("against", { exact: true }).selectOption("bias.constant");
     await page.getByLabel("one panel for each").selectOption("shadow_map.resolution");
     await page.locator("#sweep .panels-small .chart-figure").nth(2).waitFor();
     assert.equal(await page.locator("#sweep .panels-small .chart-figure").count(), 3);
@@ -94,7 +128,7 @@ describe("A large sweep", () => {
       const page = await openPage(file);
       test.diagnostic(`${rows} rows: usable after ${Math.round(performance.now() - start)} ms`);
       assert.equal(await page.locator("table.rows").getAttribute("aria-rowcount"), String(rows + 1));
-      assert.ok(await page.locator(".rows tr[data-place]").count() < 60);
+      assert.ok((await page.locator(".rows tr[data-place]").count()) < 60);
       const filtered = await page.evaluate(async () => {
         const field = document.querySelector("input.filter");
         field.value = "false_lit < 2 resolution=512";
@@ -109,10 +143,13 @@ describe("A large sweep", () => {
       await page.locator("table.rows").focus();
       await page.keyboard.press("End");
       await settle(page);
-      assert.ok(await page.locator(".rows tr[data-place]").count() < 60);
+      assert.ok((await page.locator(".rows tr[data-place]").count()) < 60);
       await page.keyboard.press("Enter");
       await page.locator("#sweep .configuration dd[data-column='shadow_map.resolution']").waitFor();
-      assert.equal(await page.locator("#sweep .configuration dd[data-column='shadow_map.resolution']").textContent(), "512");
+      assert.equal(
+        await page.locator("#sweep .configuration dd[data-column='shadow_map.resolution']").textContent(),
+        "512",
+      );
       assert.deepEqual(page.faults, []);
       await page.close();
     });

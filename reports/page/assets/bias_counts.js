@@ -15,6 +15,42 @@ function countUpTo(sorted, limit) {
   return first;
 }
 
+const halfKeys = 0x10000;
+
+/** Sorts keys by 16 of their bits, and leaves equal ones in their order. */
+function sortByHalf(keys, shift) {
+  const starts = new Uint32Array(halfKeys + 1);
+  for (let i = 0; i < keys.length; ++i) {
+    starts[((keys[i] >>> shift) & 0xffff) + 1] += 1;
+  }
+  for (let half = 0; half < halfKeys; ++half) {
+    starts[half + 1] += starts[half];
+  }
+  const sorted = new Uint32Array(keys.length);
+  for (let i = 0; i < keys.length; ++i) {
+    sorted[starts[(keys[i] >>> shift) & 0xffff]++] = keys[i];
+  }
+  return sorted;
+}
+
+/**
+ * Sorts float32 in ascending order, NaN last; several times faster than TypedArray.sort.
+ * @param {Float32Array} values  overwritten
+ * @return {Float32Array}
+ */
+function sortFloats(values) {
+  for (let i = 0; i < values.length; ++i) {
+    // One NaN for all: those with a sign would stand first. And one zero.
+    values[i] = Number.isNaN(values[i]) ? NaN : values[i] + 0;
+  }
+  const bits = new Uint32Array(values.buffer, values.byteOffset, values.length);
+  // With the sign turned, and negative numbers complemented, bits are in the order of their floats.
+  const keys = bits.map((of) => (of >>> 31 ? ~of : of | 0x80000000));
+  const sorted = sortByHalf(sortByHalf(keys, 0), 16);
+  bits.set(sorted.map((key) => (key >>> 31 ? key & 0x7fffffff : ~key)));
+  return values;
+}
+
 /** Counts wrong pixels: false shadow and false lit, for every constant bias. */
 class BiasCounts {
   /**
@@ -37,7 +73,7 @@ class BiasCounts {
         sorted[to++] = criticals[i];
       }
     }
-    return sorted.sort();
+    return sortFloats(sorted);
   }
 
   /**

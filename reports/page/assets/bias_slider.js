@@ -8,8 +8,16 @@ function biasGoals(image) {
   return [
     { name: "Job’s bias", bias: image.jobBias, reason: "" },
     { name: "Best bias", bias: best, reason: "every bias is as good as any other" },
-    { name: "Acne-free", bias: curve.acne_free, reason: "no pixel counts as acne, or no bias removes it all" },
-    { name: "Panning-free", bias: curve.panning_free, reason: "no pixel is blocked, or some are lit with every bias" },
+    {
+      name: "Acne-free",
+      bias: curve.acne_free,
+      reason: "no pixel counts as acne, or no bias removes it all",
+    },
+    {
+      name: "Panning-free",
+      bias: curve.panning_free,
+      reason: "no pixel is blocked, or some are lit with every bias",
+    },
   ];
 }
 
@@ -19,7 +27,8 @@ function biasLengths(image, bias) {
   if (frustum.projection === "perspective") {
     const zetaM = Math.sqrt(frustum.near_m * frustum.far_m);
     const lengthM = biasLengthM(frustum, bias, zetaM);
-    return `${readable(lengthM)} m or ${readable(lengthM / texelWidthM(frustum, zetaM))} texels at ${readable(zetaM)} m from the light`;
+    const texels = readable(lengthM / texelWidthM(frustum, zetaM));
+    return `${readable(lengthM)} m or ${texels} texels at ${readable(zetaM)} m from the light`;
   }
   const lengthM = biasLengthM(frustum, bias, 0);
   return `${readable(lengthM)} m along the light, ${readable(lengthM / texelWidthM(frustum, 0))} texels`;
@@ -32,25 +41,51 @@ class BiasSlider {
     this.onBias = onBias;
     this.scale = new SliderScale(image.depthStep?.step ?? 2 ** -24, image.counts.finiteRange);
     this.range = element("input", {
-      type: "range", min: this.scale.lowestPosition, max: this.scale.highestPosition, step: 1, class: "bias-range",
+      type: "range",
+      min: this.scale.lowestPosition,
+      max: this.scale.highestPosition,
+      step: 1,
+      class: "bias-range",
       on: { input: () => this.setBias(this.scale.biasAt(Number(this.range.value)), this.range) },
     });
     this.field = element("input", {
-      type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false", class: "bias-field",
+      type: "text",
+      inputmode: "text",
+      autocomplete: "off",
+      spellcheck: "false",
+      class: "bias-field",
       on: { change: () => this.readField(), keydown: (event) => event.key === "Enter" && this.readField() },
     });
-    this.problem = element("p", { class: "problem", role: "alert", hidden: true, text: "Type a number that a float32 can hold, such as 0.0012 or -3e-5." });
+    this.problem = element("p", {
+      class: "problem",
+      role: "alert",
+      hidden: true,
+      text: "Type a number that a float32 can hold, such as 0.0012 or -3e-5.",
+    });
     this.counts = element("p", { class: "bias-counts", role: "status", "aria-live": "polite" });
     this.lengths = element("p", { class: "hint" });
-    this.goals = biasGoals(image).map((goal) => this.goalButton(goal));
-    this.root = element("div", { class: "bias" },
-      element("div", { class: "bias-row" }, labelled("Constant bias", this.range, "control grow"), labelled("Exactly", this.field)),
-      element("div", { class: "buttons" }, ...this.goals), this.problem, this.counts, this.lengths);
+    this.root = this.layOut();
+  }
+
+  layOut() {
+    const goals = biasGoals(this.image).map((goal) => this.goalButton(goal));
+    const range = labelled("Constant bias", this.range, "control grow");
+    return element(
+      "div",
+      { class: "bias" },
+      element("div", { class: "bias-row" }, range, labelled("Exactly", this.field)),
+      element("div", { class: "buttons" }, ...goals),
+      this.problem,
+      this.counts,
+      this.lengths,
+    );
   }
 
   goalButton({ name, bias, reason }) {
     const exists = bias !== null;
-    const made = button(name, () => this.setBias(bias), { title: exists ? `${shortestFloat32(Math.fround(bias))}` : `None: ${reason}` });
+    const made = button(name, () => this.setBias(bias), {
+      title: exists ? `${shortestFloat32(Math.fround(bias))}` : `None: ${reason}`,
+    });
     if (!exists) {
       made.disabled = true;
       made.append(element("span", { class: "reason", text: ` (none: ${reason})` }));
@@ -90,12 +125,20 @@ class BiasSlider {
     const { image } = this;
     const { falseShadow, falseLit } = image.countsAt(this.bias);
     const { lit, blocked } = image.detail.pixels;
-    const part = (name, key, count, whole, noun) => element("span", { class: `count count-${key}` },
-      element("span", { class: `swatch swatch-${key}`, "aria-hidden": "true" }), `${name} `,
-      element("strong", { "data-count": key, text: grouped(count) }),
-      ` of ${grouped(whole)} ${noun}, ${percent(rate(count, whole))}`);
-    this.counts.replaceChildren(part("false shadow", "false_shadow", falseShadow, lit, "lit"),
-      element("span", { class: "visually-hidden", text: "; " }), part("false lit", "false_lit", falseLit, blocked, "blocked"));
+    const part = (name, key, count, whole, noun) =>
+      element(
+        "span",
+        { class: `count count-${key}` },
+        element("span", { class: `swatch swatch-${key}`, "aria-hidden": "true" }),
+        `${name} `,
+        element("strong", { "data-count": key, text: grouped(count) }),
+        ` of ${grouped(whole)} ${noun}, ${percent(rate(count, whole))}`,
+      );
+    this.counts.replaceChildren(
+      part("false shadow", "false_shadow", falseShadow, lit, "lit"),
+      element("span", { class: "visually-hidden", text: "; " }),
+      part("false lit", "false_lit", falseLit, blocked, "blocked"),
+    );
     this.lengths.textContent = `A bias of ${shortestFloat32(this.bias)} is ${biasLengths(image, this.bias)}.`;
   }
 }

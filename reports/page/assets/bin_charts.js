@@ -2,10 +2,15 @@
 
 const middleOf = (bin) => (bin.lower + bin.upper) / 2;
 
-/** A series over bins; bins without the value are left out. */
+/** A series over bins; bins without the value are gaps. */
 function binSeries(name, colour, bins, valueOf, more = {}) {
-  const points = bins.map((bin) => [middleOf(bin), valueOf(bin) ?? null]).filter(([, value]) => value !== null);
-  return { name, colour, points, radius: 2, ...more };
+  return {
+    name,
+    colour,
+    points: bins.map((bin) => [middleOf(bin), valueOf(bin) ?? null]),
+    radius: 2,
+    ...more,
+  };
 }
 
 /** The largest of the values that exist, else 0. */
@@ -22,11 +27,16 @@ function worstBin(bins, valueOf, unit) {
 function rateChart(host, title, bins, x) {
   return new PageChart(host, {
     title,
-    summary: `Largest false-shadow rate ${worstBin(bins, (bin) => bin.falseShadowRate, x.unit)}, largest false-lit rate ${worstBin(bins, (bin) => bin.falseLitRate, x.unit)}.`,
-    x, y: { label: "share of the bin’s lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },
+    summary:
+      `Largest false-shadow rate ${worstBin(bins, (bin) => bin.falseShadowRate, x.unit)}, ` +
+      `largest false-lit rate ${worstBin(bins, (bin) => bin.falseLitRate, x.unit)}.`,
+    x,
+    y: { label: "share of the bin’s lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },
     series: [
       binSeries("false shadow, of the lit", errorColours.falseShadow, bins, (bin) => bin.falseShadowRate),
-      binSeries("false lit, of the blocked", errorColours.falseLit, bins, (bin) => bin.falseLitRate, { dash: [6, 3] }),
+      binSeries("false lit, of the blocked", errorColours.falseLit, bins, (bin) => bin.falseLitRate, {
+        dash: [6, 3],
+      }),
     ],
   });
 }
@@ -34,8 +44,10 @@ function rateChart(host, title, bins, x) {
 function neededChart(host, title, bins, x, step) {
   const largest = largestOf(bins.flatMap(({ needed }) => [needed.p95, needed.median]));
   return new PageChart(host, {
-    title, summary: `95 % of a bin’s lit pixels need a bias of at most ${readable(largest)}.`,
-    x, y: { label: "needed bias [depth units]", layout: symlogLayout(step) },
+    title,
+    summary: `95 % of a bin’s lit pixels need a bias of at most ${readable(largest)}.`,
+    x,
+    y: { label: "needed bias [depth units]", layout: symlogLayout(step) },
     series: [
       binSeries("95th percentile", okabeIto.vermilion, bins, ({ needed }) => needed.p95),
       binSeries("median", okabeIto.black, bins, ({ needed }) => needed.median, { dash: [2, 3] }),
@@ -43,35 +55,60 @@ function neededChart(host, title, bins, x, step) {
   });
 }
 
-/** |stored − exact| depth over distance: median, p95 and the largest, above the envelope of the formula. */
+/** The lines of the depth error, each in units of 1 m / factor. */
+function depthErrorSeries(bins, factor) {
+  const sized = (value) => (value === null || value === undefined ? null : factor * Math.abs(value));
+  const beyond = (value) => (value === null || value === undefined ? null : factor * Math.max(0, value));
+  const line = (name, colour, valueOf, dash) =>
+    binSeries(name, colour, bins, ({ mapError }) => valueOf(mapError), { dash });
+  return [
+    line("most beyond", okabeIto.vermilion, ({ max }) => beyond(max), []),
+    line("most before", okabeIto.blue, ({ min }) => (min === null ? null : beyond(-min)), [6, 3]),
+    line("|95th percentile|", okabeIto.orange, ({ p95 }) => sized(p95), [8, 2, 2, 2]),
+    line("|median|", okabeIto.black, ({ median }) => sized(median), [2, 3]),
+  ];
+}
+
+/** |stored − exact| depth over distance, above the envelope of the formula. */
 function depthErrorChart(host, bins, x) {
-  const absolute = (value) => (value === null || value === undefined ? null : Math.abs(value));
-  const largest = largestOf(bins.flatMap(({ mapError }) => [absolute(mapError.min), absolute(mapError.max)]));
+  const largest = largestOf(bins.flatMap(({ mapError: { min, max } }) => [-(min ?? 0), max]));
   const [factor, unit] = lengthUnit(largest || 1);
-  const scaled = (valueOf) => (bin) => (valueOf(bin) === null ? null : factor * valueOf(bin));
-  const withEnvelope = bins.filter((bin) => bin.envelope !== null);
+  const withEnvelope = bins.filter(({ envelope }) => envelope !== null && envelope > 0);
   const envelope = largestOf(bins.map((bin) => bin.envelope));
-  const smallest = withEnvelope.reduce((least, bin) => Math.min(least, bin.envelope || least), envelope || largest || 1);
+  const smallest = withEnvelope.reduce(
+    (least, bin) => Math.min(least, bin.envelope),
+    envelope || largest || 1,
+  );
+  const band = {
+    name: "the formula’s envelope: storage alone",
+    colour: okabeIto.green,
+    points: withEnvelope.map((bin) => [middleOf(bin), 0, factor * bin.envelope]),
+  };
   return new PageChart(host, {
     title: "Depth error by light distance",
-    summary: `Largest depth error ${readable(factor * largest)} ${unit}; storing depths alone makes up for at most ${readable(factor * envelope)} ${unit}.`,
-    x, y: { label: `|stored − exact depth| [${unit}]`, layout: symlogLayout(10 ** Math.floor(Math.log10(factor * smallest))), low: 0 },
-    series: [
-      binSeries("largest beyond", okabeIto.vermilion, bins, scaled(({ mapError }) => absolute(mapError.max))),
-      binSeries("largest before", okabeIto.blue, bins, scaled(({ mapError }) => absolute(mapError.min)), { dash: [6, 3] }),
-      binSeries("95th percentile", okabeIto.orange, bins, scaled(({ mapError }) => absolute(mapError.p95)), { dash: [8, 2, 2, 2] }),
-      binSeries("median", okabeIto.black, bins, scaled(({ mapError }) => absolute(mapError.median)), { dash: [2, 3] }),
-    ],
-    bands: withEnvelope.length === 0 ? [] : [{
-      name: "the formula’s envelope: storage alone", colour: okabeIto.green,
-      points: withEnvelope.map((bin) => [middleOf(bin), 0, factor * bin.envelope]),
-    }],
+    summary:
+      `Largest depth error ${readable(factor * largest)} ${unit}; ` +
+      `storing depths alone makes up for at most ${readable(factor * envelope)} ${unit}.`,
+    x,
+    y: {
+      label: `|stored − exact depth| [${unit}]`,
+      layout: symlogLayout(10 ** Math.floor(Math.log10(factor * smallest))),
+      low: 0,
+    },
+    series: depthErrorSeries(bins, factor),
+    bands: withEnvelope.length === 0 ? [] : [band],
   });
 }
 
 function distanceAxis(bins) {
-  return { label: "distance ζ from the light’s camera plane [m]", name: "distance [m]", unit: "m", layout: linearLayout(),
-    low: bins[0].lower, high: bins[bins.length - 1].upper };
+  return {
+    label: "distance ζ from the light’s camera plane [m]",
+    name: "distance [m]",
+    unit: "m",
+    layout: linearLayout(),
+    low: bins[0].lower,
+    high: bins[bins.length - 1].upper,
+  };
 }
 
 /** Bins by angle in degrees: radians are for the program. */
@@ -81,7 +118,14 @@ function inDegrees(bins) {
 }
 
 function angleAxis() {
-  return { label: "angle between receiver and light [°]", name: "angle [°]", unit: "°", layout: linearLayout((x) => `${readable(x)}°`), low: 0, high: 90 };
+  return {
+    label: "angle between receiver and light [°]",
+    name: "angle [°]",
+    unit: "°",
+    layout: linearLayout((x) => `${readable(x)}°`),
+    low: 0,
+    high: 90,
+  };
 }
 
 /** Fills section#distance for a configuration. */
@@ -110,10 +154,17 @@ class DistanceCharts {
       depthErrorChart(hosts[2], bins, x);
       dropDeadCharts();
     };
-    const options = [...(job?.length ? [["job", "the job’s bias"]] : []), ...(best?.bins.length ? [["best", "the best bias"]] : [])];
+    const options = [
+      ...(job?.length ? [["job", "the job’s bias"]] : []),
+      ...(best?.bins.length ? [["best", "the best bias"]] : []),
+    ];
     const select = labelled("Errors at", choice(options, options[0][0], draw));
-    refill(this.section, element("p", { class: "caption name", text: caption }), element("div", { class: "bar" }, select),
-      element("div", { class: "chart-grid" }, ...hosts));
+    refill(
+      this.section,
+      element("p", { class: "caption name", text: caption }),
+      element("div", { class: "bar" }, select),
+      element("div", { class: "chart-grid" }, ...hosts),
+    );
     draw(options[0][0]);
   }
 }
@@ -125,7 +176,11 @@ function showSlopeCharts(section, bins, caption) {
     return;
   }
   const hosts = [1, 2].map(() => element("div", { class: "chart-host" }));
-  refill(section, element("p", { class: "caption name", text: caption }), element("div", { class: "chart-grid" }, ...hosts));
+  refill(
+    section,
+    element("p", { class: "caption name", text: caption }),
+    element("div", { class: "chart-grid" }, ...hosts),
+  );
   const degrees = inDegrees(bins);
   rateChart(hosts[0], "Errors by receiver angle, at the job’s bias", degrees, angleAxis());
   neededChart(hosts[1], "Bias that lit pixels need, by receiver angle", degrees, angleAxis(), 1e-6);

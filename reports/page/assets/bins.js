@@ -9,9 +9,15 @@
 /** @return {Bin}  from a bin of `gnomon compare --json` */
 function binOfJson(bin) {
   return {
-    lower: bin.lower, upper: bin.upper, lit: bin.lit, blocked: bin.blocked,
-    falseShadowRate: bin.false_shadow_rate, falseLitRate: bin.false_lit_rate,
-    needed: bin.needed_bias ?? {}, mapError: bin.map_error_m ?? {}, envelope: bin.envelope_m ?? null,
+    lower: bin.lower,
+    upper: bin.upper,
+    lit: bin.lit,
+    blocked: bin.blocked,
+    falseShadowRate: bin.false_shadow_rate,
+    falseLitRate: bin.false_lit_rate,
+    needed: bin.needed_bias ?? {},
+    mapError: bin.map_error_m ?? {},
+    envelope: bin.envelope_m ?? null,
   };
 }
 
@@ -29,7 +35,9 @@ class DistanceBins {
   async load() {
     if (this.columns === undefined) {
       this.columns = await this.table.select(this.table.names);
-      const { dictionary, values } = this.curves.has("id") ? await this.curves.column("id") : { dictionary: [], values: [] };
+      const { dictionary, values } = this.curves.has("id")
+        ? await this.curves.column("id")
+        : { dictionary: [], values: [] };
       this.curveOfId = new Map(Array.from(values, (text, index) => [dictionary[text], index]));
       this.rowsOf = new Map();
       const curve = this.columns.get("curve")?.values ?? [];
@@ -55,15 +63,29 @@ class DistanceBins {
     const value = (name, row) => this.columns.get(name)?.at(row) ?? null;
     const bias = value("bias", rows[0]);
     // Several cases may share a curve, each with a block at its own bias: the first one is shown.
-    return { bias, bins: rows.filter((row) => value("bias", row) === bias).map((row) => this.bin((name) => value(name, row))) };
+    return {
+      bias,
+      bins: rows
+        .filter((row) => value("bias", row) === bias)
+        .map((row) => this.bin((name) => value(name, row))),
+    };
   }
 
   bin(value) {
-    const five = (stem) => Object.fromEntries(["count", "min", "median", "p95", "max"].map((name) => [name, value(`${stem}.${name}`)]));
+    const five = (stem) =>
+      Object.fromEntries(
+        ["count", "min", "median", "p95", "max"].map((name) => [name, value(`${stem}.${name}`)]),
+      );
     return {
-      lower: value("lower_m"), upper: value("upper_m"), lit: value("lit"), blocked: value("blocked"),
-      falseShadowRate: value("false_shadow_rate"), falseLitRate: value("false_lit_rate"),
-      needed: five("needed_bias"), mapError: five("map_error_m"), envelope: value("envelope_m"),
+      lower: value("lower_m"),
+      upper: value("upper_m"),
+      lit: value("lit"),
+      blocked: value("blocked"),
+      falseShadowRate: value("false_shadow_rate"),
+      falseLitRate: value("false_lit_rate"),
+      needed: five("needed_bias"),
+      mapError: five("map_error_m"),
+      envelope: value("envelope_m"),
     };
   }
 }

@@ -2,10 +2,14 @@
 
 const bytesOfType = { u8: 1, u16: 2, u32: 4, f32: 4, f64: 8 };
 const arrayOfType = {
-  u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array,
+  u8: Uint8Array,
+  u16: Uint16Array,
+  u32: Uint32Array,
+  f32: Float32Array,
+  f64: Float64Array,
 };
 /** No value, in integer columns. */
-const noIndex = 0xFFFFFFFF;
+const noIndex = 0xffffffff;
 
 /**
  * @param {string} text  base64, without line ends

@@ -4,7 +4,7 @@ const darkMode = window.matchMedia("(prefers-color-scheme: dark)");
 const liveCharts = new Set();
 const tableRowsShown = 400;
 
-/** A colour of page.css. */
+/** A colour of base.css. */
 function themeColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
@@ -17,7 +17,12 @@ function lineColour(colour) {
   if (!darkMode.matches) {
     return colour === okabeIto.yellow ? "#B7A600" : colour;
   }
-  const lighter = { [okabeIto.black]: "#C9CCD1", [okabeIto.blue]: "#4FA3DB", [okabeIto.vermilion]: "#F0803C", [okabeIto.green]: "#2CC79B" };
+  const lighter = {
+    [okabeIto.black]: "#C9CCD1",
+    [okabeIto.blue]: "#4FA3DB",
+    [okabeIto.vermilion]: "#F0803C",
+    [okabeIto.green]: "#2CC79B",
+  };
   return lighter[colour] ?? colour;
 }
 
@@ -29,12 +34,15 @@ function withAlpha(colour, alpha) {
 function axisOptions({ layout, label, low, high }) {
   return {
     type: "linear",
+    offset: false,
     min: low === undefined ? undefined : layout.forward(low),
     max: high === undefined ? undefined : layout.forward(high),
     title: { display: true, text: label, color: themeColour("ink") },
     grid: { color: themeColour("rule"), borderColor: themeColour("faint") },
     ticks: {
-      color: themeColour("faint"), maxRotation: 0, autoSkipPadding: 8,
+      color: themeColour("faint"),
+      maxRotation: 0,
+      autoSkipPadding: 8,
       callback: (position) => layout.format(layout.inverse(position)),
     },
     afterBuildTicks: (axis) => {
@@ -47,22 +55,53 @@ function axisOptions({ layout, label, low, high }) {
 /** The two datasets of a band between y and its upper end. */
 function bandDatasets(band, { x, y }) {
   const colour = lineColour(band.colour);
-  const shared = { borderWidth: 0, pointRadius: 0, pointHitRadius: 0, isBand: true, stepped: band.stepped ?? false };
+  const shared = {
+    borderWidth: 0,
+    pointRadius: 0,
+    pointHitRadius: 0,
+    isBand: true,
+    stepped: band.stepped ?? false,
+  };
   const lower = band.points.map(([at, low]) => ({ x: x.layout.forward(at), y: y.layout.forward(low) }));
   const upper = band.points.map(([at, , high]) => ({ x: x.layout.forward(at), y: y.layout.forward(high) }));
-  return [{ ...shared, label: band.name, data: lower, fill: false },
-    { ...shared, label: band.name, data: upper, fill: "-1", backgroundColor: withAlpha(colour, 0.22), isLegend: true }];
+  return [
+    { ...shared, label: band.name, data: lower, fill: false },
+    {
+      ...shared,
+      label: band.name,
+      data: upper,
+      fill: "-1",
+      backgroundColor: withAlpha(colour, 0.22),
+      isLegend: true,
+    },
+  ];
 }
 
 function seriesDataset(series, { x, y }) {
   const colour = lineColour(series.colour);
-  const data = series.points.filter(([, value]) => value !== null)
-    .map(([at, value]) => ({ x: x.layout.forward(at), y: y.layout.forward(value) }));
+  const data = series.points.map(([at, value]) => ({
+    x: x.layout.forward(at),
+    y: value === null ? NaN : y.layout.forward(value),
+  }));
   return {
-    type: series.isBar ? "bar" : "line", maxBarThickness: 56, order: series.isBar ? 1 : 0,
-    label: series.name, data, borderColor: colour, backgroundColor: colour, borderWidth: 2, isLegend: true,
-    borderDash: series.dash ?? [], pointRadius: series.radius ?? 0, pointStyle: series.mark ?? "circle",
-    pointHitRadius: 8, pointHoverRadius: 5, showLine: series.isLine ?? true, stepped: series.stepped ?? false, tension: 0,
+    type: series.isBar ? "bar" : "line",
+    maxBarThickness: 56,
+    order: series.isBar ? 1 : 0,
+    label: series.name,
+    data,
+    borderColor: colour,
+    backgroundColor: colour,
+    borderWidth: 2,
+    isLegend: true,
+    borderDash: series.dash ?? [],
+    pointRadius: series.radius ?? 0,
+    pointStyle: series.mark ?? "circle",
+    pointHitRadius: 8,
+    pointHoverRadius: 5,
+    showLine: series.isLine ?? true,
+    clip: 6,
+    stepped: series.stepped ?? false,
+    tension: 0,
   };
 }
 
@@ -88,18 +127,33 @@ const cursorPlugin = {
 };
 
 function chartOptions(spec) {
-  const said = (item) => `${item.dataset.label}: ${spec.y.layout.format(spec.y.layout.inverse(item.parsed.y))}`;
-  const heading = (items) => (items.length === 0 ? "" : `${spec.x.name ?? spec.x.label}: ${spec.x.layout.format(spec.x.layout.inverse(items[0].parsed.x))}`);
+  const said = (item) =>
+    `${item.dataset.label}: ${spec.y.layout.format(spec.y.layout.inverse(item.parsed.y))}`;
+  const heading = (items) =>
+    items.length === 0
+      ? ""
+      : `${spec.x.name ?? spec.x.label}: ${spec.x.layout.format(spec.x.layout.inverse(items[0].parsed.x))}`;
   return {
-    animation: false, responsive: true, maintainAspectRatio: false, parsing: false,
-    interaction: { mode: spec.isScatter ? "nearest" : "index", axis: spec.isScatter ? "xy" : "x", intersect: false },
+    animation: false,
+    responsive: true,
+    maintainAspectRatio: false,
+    parsing: false,
+    interaction: {
+      mode: spec.isScatter ? "nearest" : "index",
+      axis: spec.isScatter ? "xy" : "x",
+      intersect: false,
+    },
     scales: { x: axisOptions(spec.x), y: axisOptions(spec.y) },
     onClick: (event, items) => items.length > 0 && spec.onPick?.(items[0].datasetIndex, items[0].index),
     plugins: {
       legend: {
-        display: spec.hasLegend ?? true, position: "top", align: "start",
+        display: spec.hasLegend ?? true,
+        position: "top",
+        align: "start",
         labels: {
-          color: themeColour("ink"), boxWidth: 18, boxHeight: 2,
+          color: themeColour("ink"),
+          boxWidth: 18,
+          boxHeight: 2,
           filter: (item, data) => data.datasets[item.datasetIndex].isLegend === true,
         },
       },
@@ -111,13 +165,21 @@ function chartOptions(spec) {
 function chartConfig(spec) {
   const bands = (spec.bands ?? []).flatMap((band) => bandDatasets(band, spec));
   const lines = spec.series.map((series) => seriesDataset(series, spec));
-  return { type: "line", data: { datasets: [...lines, ...bands] }, options: chartOptions(spec), plugins: [cursorPlugin] };
+  return {
+    type: "line",
+    data: { datasets: [...lines, ...bands] },
+    options: chartOptions(spec),
+    plugins: [cursorPlugin],
+  };
 }
 
 /** The numbers of a chart as a table, at most 400 rows. */
 function dataTable(spec) {
-  const columns = [spec.x.name ?? spec.x.label, ...spec.series.map((series) => series.name),
-    ...(spec.bands ?? []).flatMap((band) => [`${band.name}, from`, `${band.name}, to`])];
+  const columns = [
+    spec.x.name ?? spec.x.label,
+    ...spec.series.map((series) => series.name),
+    ...(spec.bands ?? []).flatMap((band) => [`${band.name}, from`, `${band.name}, to`]),
+  ];
   const rows = new Map();
   const cell = (x, index, value) => {
     if (!rows.has(x)) {
@@ -126,15 +188,22 @@ function dataTable(spec) {
     rows.get(x)[index] = value;
   };
   spec.series.forEach((series, i) => series.points.forEach(([x, y]) => cell(x, i + 1, y)));
-  (spec.bands ?? []).forEach((band, i) => band.points.forEach(([x, low, high]) => {
-    cell(x, spec.series.length + 1 + 2 * i, low);
-    cell(x, spec.series.length + 2 + 2 * i, high);
-  }));
+  (spec.bands ?? []).forEach((band, i) =>
+    band.points.forEach(([x, low, high]) => {
+      cell(x, spec.series.length + 1 + 2 * i, low);
+      cell(x, spec.series.length + 2 + 2 * i, high);
+    }),
+  );
   const ordered = [...rows.values()].sort((a, b) => a[0] - b[0]);
   const shown = ordered.filter((_, i) => i % Math.ceil(ordered.length / tableRowsShown) === 0);
   const format = (value) => (typeof value === "number" ? String(Number(value.toPrecision(9))) : value);
-  const title = shown.length < ordered.length ? `${spec.title}: ${shown.length} of ${ordered.length} points` : spec.title;
-  return sortedTable(title, columns.map((name) => ({ title: name, numeric: true, format })), shown);
+  const title =
+    shown.length < ordered.length ? `${spec.title}: ${shown.length} of ${ordered.length} points` : spec.title;
+  return sortedTable(
+    title,
+    columns.map((name) => ({ title: name, numeric: true, format })),
+    shown,
+  );
 }
 
 /**
@@ -150,11 +219,22 @@ class PageChart {
     this.spec = spec;
     const canvas = element("canvas", { role: "img", "aria-label": `${spec.title}. ${spec.summary}` });
     const area = element("div", { class: `chart ${spec.isSmall ? "chart-small" : ""}` }, canvas);
-    const figure = element("figure", { class: "chart-figure" }, element("figcaption", { text: spec.title }), area, this.disclosure());
+    const figure = element(
+      "figure",
+      { class: "chart-figure" },
+      element("figcaption", { text: spec.title }),
+      area,
+      this.disclosure(),
+    );
     host.replaceChildren(figure);
     this.figure = figure;
     if (window.Chart === undefined) {
-      area.replaceChildren(element("p", { class: "hint", text: "Charts are not drawn: Chart.js was not there when Gnomon was built. The data are below." }));
+      area.replaceChildren(
+        element("p", {
+          class: "hint",
+          text: "Charts are not drawn: Chart.js was not there when Gnomon was built. The data are below.",
+        }),
+      );
       return;
     }
     Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;

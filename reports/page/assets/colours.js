@@ -1,31 +1,72 @@
 // Colours: Okabe and Ito's, which any colour vision can tell apart; the same for a thing everywhere.
 
 const okabeIto = {
-  black: "#000000", orange: "#E69F00", sky: "#56B4E9", green: "#009E73",
-  yellow: "#F0E442", blue: "#0072B2", vermilion: "#D55E00", purple: "#CC79A7",
+  black: "#000000",
+  orange: "#E69F00",
+  sky: "#56B4E9",
+  green: "#009E73",
+  yellow: "#F0E442",
+  blue: "#0072B2",
+  vermilion: "#D55E00",
+  purple: "#CC79A7",
 };
 
 /** As in the pictures of `gnomon compare --picture`. */
 const errorColours = {
-  falseShadow: okabeIto.vermilion, falseLit: okabeIto.blue, unmatched: okabeIto.purple,
+  falseShadow: okabeIto.vermilion,
+  falseLit: okabeIto.blue,
+  unmatched: okabeIto.purple,
   indeterminate: okabeIto.black,
 };
+/** As in the figures. */
 const causeColours = {
-  bias: okabeIto.purple, precision: okabeIto.yellow, resolution: okabeIto.green, coverage: okabeIto.black,
+  bias: okabeIto.orange,
+  precision: okabeIto.green,
+  resolution: okabeIto.sky,
+  coverage: okabeIto.purple,
 };
 const labelColours = {
-  acne: okabeIto.vermilion, peter_panning: okabeIto.blue, leak: okabeIto.sky, edge: okabeIto.green,
+  acne: okabeIto.vermilion,
+  peter_panning: okabeIto.blue,
+  leak: okabeIto.sky,
+  edge: okabeIto.green,
   overshadow: okabeIto.orange,
 };
 const classColours = {
-  background: "#E4E9F0", unmatched: okabeIto.purple, attached: "#5B6068", out_of_light: okabeIto.sky,
-  indeterminate: okabeIto.black, lit: okabeIto.yellow, blocked: okabeIto.blue,
+  background: "#E4E9F0",
+  unmatched: okabeIto.purple,
+  attached: "#5B6068",
+  out_of_light: okabeIto.sky,
+  indeterminate: okabeIto.black,
+  lit: okabeIto.yellow,
+  blocked: okabeIto.blue,
 };
 const noValueColour = "#E9E9E7";
 
 // From blue over white to vermilion, and from dark to light: both change in lightness all the way.
-const divergingStops = ["#08306B", "#0072B2", "#6BAED6", "#C6DBEF", "#FAFAF8", "#FBD3B4", "#F09A5C", "#D55E00", "#7A2E00"];
-const sequentialStops = ["#00224E", "#123570", "#3B496C", "#575D6D", "#707173", "#8A8678", "#A59C74", "#C3B369", "#E1CC55", "#FEE838"];
+const divergingStops = [
+  "#08306B",
+  "#0072B2",
+  "#6BAED6",
+  "#C6DBEF",
+  "#FAFAF8",
+  "#FBD3B4",
+  "#F09A5C",
+  "#D55E00",
+  "#7A2E00",
+];
+const sequentialStops = [
+  "#00224E",
+  "#123570",
+  "#3B496C",
+  "#575D6D",
+  "#707173",
+  "#8A8678",
+  "#A59C74",
+  "#C3B369",
+  "#E1CC55",
+  "#FEE838",
+];
 const errorStops = ["#FFFFF8", "#FEE6B8", "#FDBE6F", "#F08A3C", "#D55E00", "#9C3A00", "#5A1E00"];
 
 /** @return {number[]}  red, green, blue of "#RRGGBB", 0 to 255 */
@@ -50,7 +91,8 @@ const isLittleEndian = new Uint8Array(Uint32Array.of(1).buffer)[0] === 1;
 
 /** @return {number}  a colour as a pixel of ImageData seen as uint32 */
 function packedColour([red, green, blue]) {
-  const packed = isLittleEndian ? (255 << 24) | (blue << 16) | (green << 8) | red
+  const packed = isLittleEndian
+    ? (255 << 24) | (blue << 16) | (green << 8) | red
     : (red << 24) | (green << 16) | (blue << 8) | 255;
   return packed >>> 0;
 }
@@ -61,7 +103,13 @@ function packedColour([red, green, blue]) {
  */
 
 /** Texels, logarithmic beyond 0.01, from −100 to 100. */
-const texelScale = { layout: symlogLayout(0.01), low: -100, high: 100, stops: divergingStops, unit: "texels" };
+const texelScale = {
+  layout: symlogLayout(0.01),
+  low: -100,
+  high: 100,
+  stops: divergingStops,
+  unit: "texels",
+};
 /** Depth errors in metres, logarithmic beyond 1 µm, from −1 m to 1 m. */
 const depthErrorScale = { layout: symlogLayout(1e-6), low: -1, high: 1, stops: divergingStops, unit: "m" };
 /** Error rates, logarithmic beyond 0.001 %. */
@@ -69,7 +117,13 @@ const rateScale = { layout: rateLayout(), low: 0, high: 1, stops: errorStops, un
 
 /** Distances between the planes of the shadow map. */
 function distanceScale(frustum) {
-  return { layout: linearLayout(), low: frustum.near_m, high: frustum.far_m, stops: sequentialStops, unit: "m" };
+  return {
+    layout: linearLayout(),
+    low: frustum.near_m,
+    high: frustum.far_m,
+    stops: sequentialStops,
+    unit: "m",
+  };
 }
 
 /** @return {number}  where a value stands on a colour scale, 0 to 1 */

@@ -78,7 +78,8 @@ class Table {
     const number = Number(text);
     // Ids are texts, whatever their digits.
     const isNumber = text !== "" && Number.isFinite(number) && !["id", "curve", "scene_hash"].includes(name);
-    return isNumber ? new Column(name, new Float64Array(this.count).fill(number), null)
+    return isNumber
+      ? new Column(name, new Float64Array(this.count).fill(number), null)
       : new Column(name, new Uint32Array(this.count), [text]);
   }
 

@@ -13,20 +13,37 @@ function groupOf(name) {
 }
 
 function valueText(name, value) {
-  return typeof value === "number" ? (name.endsWith("_rate") ? `${value} (${percent(value)})` : String(value)) : value;
+  return typeof value === "number"
+    ? name.endsWith("_rate")
+      ? `${value} (${percent(value)})`
+      : String(value)
+    : value;
 }
 
 /** A definition list of names and values. */
 function valueList(title, entries) {
-  const facts = entries.map(([name, value]) => element("div", { class: "fact" }, element("dt", { text: name }),
-    element("dd", { "data-column": name }, nameElement(valueText(name, value)))));
-  return element("details", { class: "values", open: title === "Settings" || title === "Errors" }, element("summary", { text: title }), element("dl", { class: "facts" }, ...facts));
+  const facts = entries.map(([name, value]) =>
+    element(
+      "div",
+      { class: "fact" },
+      element("dt", { text: name }),
+      element("dd", { "data-column": name }, nameElement(valueText(name, value))),
+    ),
+  );
+  return element(
+    "details",
+    { class: "values", open: title === "Settings" || title === "Errors" },
+    element("summary", { text: title }),
+    element("dl", { class: "facts" }, ...facts),
+  );
 }
 
 /** Counts of columns `stem.…` by what follows; null without any. */
 function countsOf(values, stem) {
   const entries = [...values].filter(([name, value]) => name.startsWith(stem) && value !== null);
-  return entries.length === 0 ? null : Object.fromEntries(entries.map(([name, value]) => [name.slice(stem.length), value]));
+  return entries.length === 0
+    ? null
+    : Object.fromEntries(entries.map(([name, value]) => [name.slice(stem.length), value]));
 }
 
 /** A word as a shell reads it back. */
@@ -66,19 +83,35 @@ class ConfigurationDetail {
     const causes = countsOf(values, "causes.");
     const labels = countsOf(values, "labels.");
     this.heading.textContent = title;
-    this.host.replaceChildren(this.pixelsLine(values, hasImage), ...(causes && labels ? [kindTables(causes, labels)] : []),
-      ...[...groups].filter(([, entries]) => entries.length > 0).map(([name, entries]) => valueList(name, entries)));
+    this.host.replaceChildren(
+      this.pixelsLine(values, hasImage),
+      ...(causes && labels ? [kindTables(causes, labels)] : []),
+      ...[...groups]
+        .filter(([, entries]) => entries.length > 0)
+        .map(([name, entries]) => valueList(name, entries)),
+    );
     this.root.hidden = false;
   }
 
   pixelsLine(values, hasImage) {
     if (hasImage) {
-      return element("p", {}, "Its pixels are in the ", element("a", { href: "#inspector", text: "pixel inspector" }), ", and the charts by distance and angle are its own.");
+      return element(
+        "p",
+        {},
+        "Its pixels are in the ",
+        element("a", { href: "#inspector", text: "pixel inspector" }),
+        ", and the charts by distance and angle are its own.",
+      );
     }
     if (values.get("status") !== "done") {
       return element("p", { text: values.get("message") ?? "It was not measured." });
     }
     const command = element("pre", {}, element("code", { text: compareCommand(this.run, values) }));
-    return element("div", {}, element("p", { text: "The page has not its pixels. This makes its layers:" }), command);
+    return element(
+      "div",
+      {},
+      element("p", { text: "The page has not its pixels. This makes its layers:" }),
+      command,
+    );
   }
 }

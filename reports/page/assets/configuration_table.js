@@ -1,6 +1,13 @@
 // The sweep's table with its filter and its choice of columns.
 
-const outcomeColumns = ["false_shadow", "false_lit", "false_shadow_rate", "false_lit_rate", "error_rate", "bias_curve.best_errors"];
+const outcomeColumns = [
+  "false_shadow",
+  "false_lit",
+  "false_shadow_rate",
+  "false_lit_rate",
+  "error_rate",
+  "bias_curve.best_errors",
+];
 
 /** The part of section#sweep with the table of configurations. */
 class ConfigurationTable {
@@ -12,18 +19,44 @@ class ConfigurationTable {
    */
   constructor(table, axes, hasFailures, onOpen) {
     this.table = table;
-    this.words = table.names.filter((name) => (table.isText(name) && !["id", "curve"].includes(name)) || axes.includes(name));
-    const first = [...(table.has("ordinal") ? ["ordinal"] : []), ...axes, ...(hasFailures ? ["status", "message"] : []), ...outcomeColumns];
-    this.rows = new RowTable(table, first.filter((name) => table.has(name) && !(table.constants.has(name) && name === "status")), "All configurations of the sweep", onOpen);
+    this.words = table.names.filter(
+      (name) => (table.isText(name) && !["id", "curve"].includes(name)) || axes.includes(name),
+    );
+    const first = [
+      ...(table.has("ordinal") ? ["ordinal"] : []),
+      ...axes,
+      ...(hasFailures ? ["status", "message"] : []),
+      ...outcomeColumns,
+    ];
+    this.rows = new RowTable(
+      table,
+      first.filter((name) => table.has(name) && !(table.constants.has(name) && name === "status")),
+      "All configurations of the sweep",
+      onOpen,
+    );
     this.field = element("input", {
-      type: "search", class: "filter", autocomplete: "off", spellcheck: "false",
-      placeholder: "false_lit < 100 resolution=2048", on: { input: () => this.filterSoon() },
+      type: "search",
+      class: "filter",
+      autocomplete: "off",
+      spellcheck: "false",
+      placeholder: "false_lit < 100 resolution=2048",
+      on: { input: () => this.filterSoon() },
     });
     this.said = element("p", { class: "hint", role: "status" });
     this.filterSoon = oncePerFrame(() => this.filter());
-    this.root = element("div", {}, element("h3", { text: "All configurations" }),
-      element("div", { class: "bar" }, labelled("Filter", this.field, "control grow")), this.columnChooser(), this.said, this.rows.scroll,
-      element("p", { class: "hint", text: "Click a row, or press Enter on it, to see the configuration. Headings sort." }));
+    this.root = element(
+      "div",
+      {},
+      element("h3", { text: "All configurations" }),
+      element("div", { class: "bar" }, labelled("Filter", this.field, "control grow")),
+      this.columnChooser(),
+      this.said,
+      this.rows.scroll,
+      element("p", {
+        class: "hint",
+        text: "Click a row, or press Enter on it, to see the configuration. Headings sort.",
+      }),
+    );
   }
 
   async load() {
@@ -33,7 +66,10 @@ class ConfigurationTable {
 
   sayCount() {
     const shown = this.rows.rows.length;
-    this.said.textContent = shown === this.table.count ? `${grouped(shown)} configurations` : `${grouped(shown)} of ${grouped(this.table.count)} configurations`;
+    this.said.textContent =
+      shown === this.table.count
+        ? `${grouped(shown)} configurations`
+        : `${grouped(shown)} of ${grouped(this.table.count)} configurations`;
     this.said.classList.remove("problem");
   }
 
@@ -56,16 +92,32 @@ class ConfigurationTable {
   columnChooser() {
     const constant = this.rows.shown.filter((name) => this.table.constants.has(name));
     const boxes = [...this.table.names, ...constant].map((name) => {
-      const box = element("input", { type: "checkbox", value: name, on: { change: () => this.takeColumns(boxes) } });
+      const box = element("input", {
+        type: "checkbox",
+        value: name,
+        on: { change: () => this.takeColumns(boxes) },
+      });
       box.checked = this.rows.shown.includes(name);
       return element("label", { class: "check" }, box, name);
     });
-    return element("details", { class: "columns" }, element("summary", { text: "Columns" }),
-      element("fieldset", {}, element("legend", { class: "visually-hidden", text: "Columns of the table" }), ...boxes));
+    return element(
+      "details",
+      { class: "columns" },
+      element("summary", { text: "Columns" }),
+      element(
+        "fieldset",
+        {},
+        element("legend", { class: "visually-hidden", text: "Columns of the table" }),
+        ...boxes,
+      ),
+    );
   }
 
   takeColumns(boxes) {
-    const checked = boxes.map((label) => label.firstChild).filter((box) => box.checked).map((box) => box.value);
+    const checked = boxes
+      .map((label) => label.firstChild)
+      .filter((box) => box.checked)
+      .map((box) => box.value);
     const before = this.rows.shown.filter((name) => checked.includes(name));
     return this.rows.showColumns([...before, ...checked.filter((name) => !before.includes(name))]);
   }

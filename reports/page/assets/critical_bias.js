@@ -3,8 +3,8 @@
 const floatScratch = new Float32Array(1);
 const bitScratch = new Uint32Array(floatScratch.buffer);
 /** Rank of the largest finite float32; infinity follows it. */
-const largestBiasRank = 0x7F000000;
-const largestSubnormalBits = 0x007FFFFF;
+const largestBiasRank = 0x7f000000;
+const largestSubnormalBits = 0x007fffff;
 
 /** @return {number}  the bits of a float32 */
 function bitsOfFloat(value) {
@@ -24,7 +24,7 @@ function floatOfBits(bits) {
  */
 function biasRank(bias) {
   const bits = bitsOfFloat(bias);
-  const magnitude = bits & 0x7FFFFFFF;
+  const magnitude = bits & 0x7fffffff;
   const rank = Math.max(0, magnitude - largestSubnormalBits);
   return bits >>> 31 ? -rank : rank;
 }
@@ -51,7 +51,7 @@ function isLitWith(bias, addend, threshold) {
 /** The critical bias, in nearly every case; else NaN. Doubles guess, float32 tries the guess. */
 function guessCriticalBias(addend, threshold) {
   const bits = bitsOfFloat(threshold);
-  if ((bits & 0x7FFFFFFF) >= 0x7F800000) {
+  if ((bits & 0x7fffffff) >= 0x7f800000) {
     return NaN;
   }
   // A threshold of 0 is −0, so that the float below it is the next one of its sign.
@@ -64,11 +64,13 @@ function guessCriticalBias(addend, threshold) {
   if (Number.isNaN(sum)) {
     return NaN;
   }
-  const isSubnormal = (bitsOfFloat(sum) & 0x7FFFFFFF) <= largestSubnormalBits;
+  const isSubnormal = (bitsOfFloat(sum) & 0x7fffffff) <= largestSubnormalBits;
   const rank = isSubnormal ? (sum > 0 ? 1 : 0) : biasRank(sum);
   const guess = biasOfRank(rank);
-  const isRight = Math.abs(guess) < 2 ** 126 && isLitWith(guess, addend, threshold)
-    && !isLitWith(biasOfRank(rank - 1), addend, threshold);
+  const isRight =
+    Math.abs(guess) < 2 ** 126 &&
+    isLitWith(guess, addend, threshold) &&
+    !isLitWith(biasOfRank(rank - 1), addend, threshold);
   return isRight ? guess : NaN;
 }
 

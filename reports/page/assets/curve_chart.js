@@ -9,7 +9,12 @@ function sliderLayout(scale) {
     inverse: (position) => scale.realAt(position),
     ticks: (low, high) => {
       const positive = decadeTicks(10 * scale.step, high, 7);
-      const negative = low < -scale.step ? decadeTicks(10 * scale.step, -low, 3).map((bias) => -bias).reverse() : [];
+      const negative =
+        low < -scale.step
+          ? decadeTicks(10 * scale.step, -low, 3)
+              .map((bias) => -bias)
+              .reverse()
+          : [];
       return [...negative, 0, ...positive];
     },
     format: (bias) => formatTick(Number(bias.toPrecision(3))),
@@ -36,12 +41,22 @@ class CurveChart {
     this.chart = new PageChart(host, {
       title: "Wrong pixels at every constant bias",
       summary: `False shadow falls and false lit rises with the bias; fewest errors, ${grouped(image.detail.bias_curve.best_errors)} pixels, at the best bias.`,
-      x: { label: "constant bias [depth units], the slider’s axis", name: "bias", layout: sliderLayout(scale),
-        low: scale.biasAt(scale.lowestPosition), high: scale.biasAt(scale.highestPosition) },
+      x: {
+        label: "constant bias [depth units], the slider’s axis",
+        name: "bias",
+        layout: sliderLayout(scale),
+        low: scale.biasAt(scale.lowestPosition),
+        high: scale.biasAt(scale.highestPosition),
+      },
       y: { label: "share of the lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },
       series: [
         { name: "false shadow, of the lit", colour: errorColours.falseShadow, points: points.falseShadow },
-        { name: "false lit, of the blocked", colour: errorColours.falseLit, points: points.falseLit, dash: [6, 3] },
+        {
+          name: "false lit, of the blocked",
+          colour: errorColours.falseLit,
+          points: points.falseLit,
+          dash: [6, 3],
+        },
       ],
     });
   }

@@ -1,8 +1,12 @@
 // The language of the table's filter: words and comparisons that must all hold; docs/report.md.
 
 const comparisons = {
-  "<": (a, b) => a < b, "<=": (a, b) => a <= b, ">": (a, b) => a > b, ">=": (a, b) => a >= b,
-  "=": (a, b) => a === b, "!=": (a, b) => a !== b,
+  "<": (a, b) => a < b,
+  "<=": (a, b) => a <= b,
+  ">": (a, b) => a > b,
+  ">=": (a, b) => a >= b,
+  "=": (a, b) => a === b,
+  "!=": (a, b) => a !== b,
 };
 
 /**
@@ -16,7 +20,10 @@ function parseFilter(text) {
   const parts = [];
   for (let match = token.exec(text); match !== null; match = token.exec(text)) {
     const quoted = match[2] !== undefined;
-    parts.push({ text: quoted ? match[2] : match[1], isOperator: !quoted && /^(<=|>=|!=|[<>=~])$/.test(match[1]) });
+    parts.push({
+      text: quoted ? match[2] : match[1],
+      isOperator: !quoted && /^(<=|>=|!=|[<>=~])$/.test(match[1]),
+    });
   }
   const terms = [];
   for (let i = 0; i < parts.length; ++i) {
@@ -74,8 +81,10 @@ function numberOfText(text) {
 /** Which texts of a dictionary a term takes, (texts) of 0 and 1, or null if it is of no use. */
 function dictionaryMatches(dictionary, term) {
   const wanted = term.value.toLowerCase();
-  const takes = term.operator === "~" ? (text) => text.includes(wanted)
-    : (text) => comparisons[term.operator](text, wanted);
+  const takes =
+    term.operator === "~"
+      ? (text) => text.includes(wanted)
+      : (text) => comparisons[term.operator](text, wanted);
   return Uint8Array.from(dictionary, (text) => (takes(text.toLowerCase()) ? 1 : 0));
 }
 
@@ -111,7 +120,7 @@ function applyWord(kept, columns, term) {
       continue;
     }
     for (let row = 0; row < kept.length; ++row) {
-      found[row] |= matches === null ? values[row] === wanted : matches[values[row]] ?? 0;
+      found[row] |= matches === null ? values[row] === wanted : (matches[values[row]] ?? 0);
     }
   }
   for (let row = 0; row < kept.length; ++row) {

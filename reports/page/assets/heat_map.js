@@ -7,17 +7,28 @@ const mostCanvasCells = 240;
 /** Black or white, whichever is read more easily on a colour. */
 function inkOn([red, green, blue]) {
   const linear = (value) => ((value / 255 + 0.055) / 1.055) ** 2.4;
-  return 0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue) > 0.179 ? "#000000" : "#FFFFFF";
+  return 0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue) > 0.179
+    ? "#000000"
+    : "#FFFFFF";
 }
 
 /** A table with a coloured cell for each pair of values. */
 function heatTable(across, down, cells, title) {
-  const head = element("tr", {}, element("th", { scope: "col", text: `${down.name} ↓  ${across.name} →` }),
-    ...across.values.map((value) => element("th", { scope: "col", class: "number", text: axisText(across, value) })));
+  const head = element(
+    "tr",
+    {},
+    element("th", { scope: "col", text: `${down.name} ↓  ${across.name} →` }),
+    ...across.values.map((value) =>
+      element("th", { scope: "col", class: "number", text: axisText(across, value) }),
+    ),
+  );
   const rows = down.values.map((value, rowIndex) => {
     const tds = across.values.map((_, column) => {
       const cell = cells[column * down.values.length + rowIndex];
-      const td = element("td", { class: "number heat", text: cell === null ? noValue : percent(cell.median) });
+      const td = element("td", {
+        class: "number heat",
+        text: cell === null ? noValue : percent(cell.median),
+      });
       if (cell !== null) {
         const colour = mixStops(rateScale.stops, shareOnScale(rateScale, cell.median));
         td.style.backgroundColor = cssColour(colour);
@@ -27,25 +38,56 @@ function heatTable(across, down, cells, title) {
     });
     return element("tr", {}, element("th", { scope: "row", text: axisText(down, value) }), ...tds);
   });
-  return scroller(title, element("table", { class: "heat-table" }, element("caption", { text: title }),
-    element("thead", {}, head), element("tbody", {}, ...rows)));
+  return scroller(
+    title,
+    element(
+      "table",
+      { class: "heat-table" },
+      element("caption", { text: title }),
+      element("thead", {}, head),
+      element("tbody", {}, ...rows),
+    ),
+  );
 }
 
 /** A canvas of one pixel a cell, stretched; the cell under the pointer is told beneath. */
 function heatCanvas(across, down, cells, title) {
-  const canvas = element("canvas", { width: across.values.length, height: down.values.length, class: "heat-canvas", role: "img", "aria-label": `${title}. The same numbers are in the table below.` });
+  const canvas = element("canvas", {
+    width: across.values.length,
+    height: down.values.length,
+    class: "heat-canvas",
+    role: "img",
+    "aria-label": `${title}. The same numbers are in the table below.`,
+  });
   const context = canvas.getContext("2d");
   cells.forEach((cell, i) => {
     const row = i % down.values.length;
-    context.fillStyle = cell === null ? noValueColour : cssColour(mixStops(rateScale.stops, shareOnScale(rateScale, cell.median)));
+    context.fillStyle =
+      cell === null
+        ? noValueColour
+        : cssColour(mixStops(rateScale.stops, shareOnScale(rateScale, cell.median)));
     context.fillRect(Math.floor(i / down.values.length), down.values.length - 1 - row, 1, 1);
   });
-  const told = element("p", { class: "hint", text: `${across.name} to the right, ${down.name} upwards. Point at a cell for its number.` });
+  const ends = (axis) => `from ${axisText(axis, axis.values[0])} to ${axisText(axis, axis.values.at(-1))}`;
+  const told = element("p", {
+    class: "hint",
+    text: `${across.name} ${ends(across)} to the right, ${down.name} ${ends(down)} upwards. Point at a cell for its number.`,
+  });
   canvas.addEventListener("pointermove", (event) => {
-    const column = Math.min(across.values.length - 1, Math.floor((event.offsetX / canvas.clientWidth) * across.values.length));
-    const row = down.values.length - 1 - Math.min(down.values.length - 1, Math.floor((event.offsetY / canvas.clientHeight) * down.values.length));
+    const column = Math.min(
+      across.values.length - 1,
+      Math.floor((event.offsetX / canvas.clientWidth) * across.values.length),
+    );
+    const row =
+      down.values.length -
+      1 -
+      Math.min(
+        down.values.length - 1,
+        Math.floor((event.offsetY / canvas.clientHeight) * down.values.length),
+      );
     const cell = cells[column * down.values.length + row];
-    told.textContent = `${across.name} = ${axisText(across, across.values[column])}, ${down.name} = ${axisText(down, down.values[row])}: ${cell ? percent(cell.median) : noValue}`;
+    const at = `${across.name} = ${axisText(across, across.values[column])}, ${down.name} = ${axisText(down, down.values[row])}`;
+    told.textContent = `${at}: ${cell ? percent(cell.median) : noValue}`;
   });
   return element("div", {}, canvas, told);
 }
@@ -61,10 +103,26 @@ class HeatMap {
     this.chosen = { measure: rates[0].name, across: names[0], down: names[1] };
     this.host = element("div");
     const select = (key, choices) => choice(choices, this.chosen[key], (value) => this.choose(key, value));
-    this.root = element("div", {}, element("h3", { text: "Two axes at once" }),
-      element("div", { class: "bar" }, labelled("Median of the", select("measure", rates.map(({ name, title }) => [name, title]))),
-        labelled("across", select("across", options)), labelled("down", select("down", options))),
-      this.host, rampLegend(rateScale, { low: "no errors", high: "all wrong" }));
+    this.root = element(
+      "div",
+      {},
+      element("h3", { text: "Two axes at once" }),
+      element(
+        "div",
+        { class: "bar" },
+        labelled(
+          "Median of the",
+          select(
+            "measure",
+            rates.map(({ name, title }) => [name, title]),
+          ),
+        ),
+        labelled("across", select("across", options)),
+        labelled("down", select("down", options)),
+      ),
+      this.host,
+      rampLegend(rateScale, { low: "no errors", high: "all wrong" }),
+    );
   }
 
   choose(key, value) {
@@ -75,7 +133,11 @@ class HeatMap {
   summarise(values, mostAcross, mostDown) {
     const across = joinValues(this.axes.get(this.chosen.across), mostAcross);
     const down = joinValues(this.axes.get(this.chosen.down), mostDown);
-    return { across, down, cells: summariseGroups(values, cellCodes(across, down), across.values.length * down.values.length) };
+    return {
+      across,
+      down,
+      cells: summariseGroups(values, cellCodes(across, down), across.values.length * down.values.length),
+    };
   }
 
   async draw() {
@@ -83,14 +145,22 @@ class HeatMap {
     const title = `${measures.find(({ name }) => name === this.chosen.measure).title}, median of each cell`;
     const small = this.summarise(values, mostTableColumns, mostTableRows);
     const table = heatTable(small.across, small.down, small.cells, title);
-    const isWhole = this.axes.get(this.chosen.across).values.length <= mostTableColumns
-      && this.axes.get(this.chosen.down).values.length <= mostTableRows;
+    const isWhole =
+      this.axes.get(this.chosen.across).values.length <= mostTableColumns &&
+      this.axes.get(this.chosen.down).values.length <= mostTableRows;
     if (isWhole) {
       this.host.replaceChildren(table);
       return;
     }
     const fine = this.summarise(values, mostCanvasCells, mostCanvasCells);
-    this.host.replaceChildren(heatCanvas(fine.across, fine.down, fine.cells, title),
-      element("details", { class: "chart-data" }, element("summary", { text: "Data, neighbouring values joined" }), table));
+    this.host.replaceChildren(
+      heatCanvas(fine.across, fine.down, fine.cells, title),
+      element(
+        "details",
+        { class: "chart-data" },
+        element("summary", { text: "Data, neighbouring values joined" }),
+        table,
+      ),
+    );
   }
 }

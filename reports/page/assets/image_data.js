@@ -8,9 +8,17 @@ class PixelImage {
    */
   constructor(stored, layers) {
     Object.assign(this, {
-      row: stored.row, width: stored.width, height: stored.height, layers, frustum: stored.frustum,
-      objects: stored.objects, detail: stored.detail, filter: stored.filter,
-      jobBias: Math.fround(stored.bias_constant), depthStep: stored.depth_step, derive: stored.derive,
+      row: stored.row,
+      width: stored.width,
+      height: stored.height,
+      layers,
+      frustum: stored.frustum,
+      objects: stored.objects,
+      detail: stored.detail,
+      filter: stored.filter,
+      jobBias: Math.fround(stored.bias_constant),
+      depthStep: stored.depth_step,
+      derive: stored.derive,
     });
     this.outside = stored.outside;
     this.deriveLayers();
@@ -25,11 +33,18 @@ class PixelImage {
   deriveLayers() {
     const { layers, derive, frustum } = this;
     if (derive.critical_bias) {
-      layers.critical_bias = criticalBiases(layers.class, layers.receiver_depth, layers.map_depth,
-        { reversed: frustum.reversed, outside: this.outside });
+      layers.critical_bias = criticalBiases(layers.class, layers.receiver_depth, layers.map_depth, {
+        reversed: frustum.reversed,
+        outside: this.outside,
+      });
     }
     if (layers.critical_bias !== undefined && (derive.needed_bias_m || derive.needed_bias_texels)) {
-      const { metres, texels } = neededBiases(layers.class, layers.critical_bias, layers.light_distance_m, frustum);
+      const { metres, texels } = neededBiases(
+        layers.class,
+        layers.critical_bias,
+        layers.light_distance_m,
+        frustum,
+      );
       layers.needed_bias_m ??= metres;
       layers.needed_bias_texels ??= texels;
     }
@@ -38,7 +53,8 @@ class PixelImage {
   /** @return {boolean}  whether the shadow map says that a pixel is lit, at a float32 bias */
   isShownLit(index, bias) {
     const { critical_bias: criticals, class: classes, verdict } = this.layers;
-    return criticals !== undefined && isScored(classes[index]) ? criticals[index] <= bias
+    return criticals !== undefined && isScored(classes[index])
+      ? criticals[index] <= bias
       : verdict[index] >= 0.5;
   }
 

@@ -17,7 +17,12 @@ function scaleColours(scale, values) {
   const { forward } = scale.layout;
   const low = forward(scale.low);
   const factor = 254 / (forward(scale.high) - low);
-  return Uint32Array.from(values, (value) => palette[Number.isNaN(value) ? 0 : 1 + Math.round(Math.min(254, Math.max(0, (forward(value) - low) * factor)))]);
+  const colours = new Uint32Array(values.length);
+  for (let i = 0; i < colours.length; ++i) {
+    const place = Math.min(254, Math.max(0, (forward(values[i]) - low) * factor));
+    colours[i] = palette[Number.isNaN(place) ? 0 : 1 + Math.round(place)];
+  }
+  return colours;
 }
 
 /** A layer whose colours do not follow the slider: they are made when it is first shown. */
@@ -31,9 +36,11 @@ function stillLayer({ id, title, note, legend }, makeColours) {
 }
 
 function surfaceLegend() {
-  return swatchLegend([{ name: "lit", colour: legendColours.lit },
+  return swatchLegend([
+    { name: "lit", colour: legendColours.lit },
     { name: "in shadow, or turned from the light", colour: legendColours.shadowed },
-    { name: "background", colour: legendColours.background }]);
+    { name: "background", colour: legendColours.background },
+  ]);
 }
 
 /**
@@ -42,14 +49,25 @@ function surfaceLegend() {
  */
 function litFrom(image) {
   const { class: classes, critical_bias: criticals, verdict } = image.layers;
-  return Float32Array.from(verdict, (value, i) => (
-    criticals !== undefined && isScored(classes[i]) ? criticals[i] : value >= 0.5 ? -Infinity : Infinity));
+  const thresholds = new Float32Array(verdict.length);
+  for (let i = 0; i < thresholds.length; ++i) {
+    thresholds[i] =
+      criticals !== undefined && isScored(classes[i])
+        ? criticals[i]
+        : verdict[i] >= 0.5
+          ? -Infinity
+          : Infinity;
+  }
+  return thresholds;
 }
 
 /** What the shadow map shows, at the slider's bias. */
 function glLayer(image, scene, thresholds) {
   return {
-    id: "gl", title: "GL’s shadows", note: image.hasCurve ? "at the slider’s bias" : jobBiasNote, followsBias: true,
+    id: "gl",
+    title: "GL’s shadows",
+    note: image.hasCurve ? "at the slider’s bias" : jobBiasNote,
+    followsBias: true,
     legend: surfaceLegend,
     paint: (packed, bias) => {
       for (let i = 0; i < packed.length; ++i) {
@@ -62,59 +80,121 @@ function glLayer(image, scene, thresholds) {
 /** False shadow and false lit at the slider's bias, over the truth. */
 function errorLayer(image, scene, thresholds) {
   const { class: classes } = image.layers;
-  const mark = Object.fromEntries(Object.entries(errorColours).map(([name, colour]) => [name, packedColour(channels(colour))]));
+  const mark = Object.fromEntries(
+    Object.entries(errorColours).map(([name, colour]) => [name, packedColour(channels(colour))]),
+  );
+  const unscored = classNames.map(
+    (name) => ({ unmatched: mark.unmatched, indeterminate: mark.indeterminate })[name] ?? 0,
+  );
   const base = scene.faded.slice();
-  classes.forEach((pixelClass, i) => {
-    const unscored = { unmatched: mark.unmatched, indeterminate: mark.indeterminate }[classNames[pixelClass]];
-    base[i] = unscored ?? base[i];
-  });
+  for (let i = 0; i < base.length; ++i) {
+    base[i] = unscored[classes[i]] || base[i];
+  }
   return {
-    id: "errors", title: "Errors", note: image.hasCurve ? "at the slider’s bias" : jobBiasNote, followsBias: true,
+    id: "errors",
+    title: "Errors",
+    note: image.hasCurve ? "at the slider’s bias" : jobBiasNote,
+    followsBias: true,
     paint: (packed, bias) => {
       for (let i = 0; i < packed.length; ++i) {
         const isLit = thresholds[i] <= bias;
-        packed[i] = classes[i] === classLit && !isLit ? mark.falseShadow
-          : classes[i] === classBlocked && isLit ? mark.falseLit : base[i];
+        packed[i] =
+          classes[i] === classLit && !isLit
+            ? mark.falseShadow
+            : classes[i] === classBlocked && isLit
+              ? mark.falseLit
+              : base[i];
       }
     },
-    legend: () => swatchLegend([{ name: "false shadow", colour: errorColours.falseShadow }, { name: "false lit", colour: errorColours.falseLit },
-      { name: "unmatched", colour: errorColours.unmatched }, { name: "indeterminate", colour: errorColours.indeterminate },
-      { name: "right", colour: legendColours.faded }]),
+    legend: () =>
+      swatchLegend([
+        { name: "false shadow", colour: errorColours.falseShadow },
+        { name: "false lit", colour: errorColours.falseLit },
+        { name: "unmatched", colour: errorColours.unmatched },
+        { name: "indeterminate", colour: errorColours.indeterminate },
+        { name: "right", colour: legendColours.faded },
+      ]),
   };
 }
 
 /** A layer of categories over the faded truth; value 0 has no mark. */
 function categoryLayer(image, scene, { id, title, names, colours }) {
-  const marks = names.map((name) => (colours[name] === undefined ? 0 : packedColour(channels(colours[name]))));
+  const marks = names.map((name) =>
+    colours[name] === undefined ? 0 : packedColour(channels(colours[name])),
+  );
   const entries = names.slice(1).map((name) => ({ name: spoken(name), colour: colours[name] }));
-  const legend = () => swatchLegend([...entries, { name: "right or not compared", colour: legendColours.faded }]);
-  return stillLayer({ id, title, note: jobBiasNote, legend },
-    () => scene.faded.map((faded, i) => (image.layers[id][i] === 0 ? faded : marks[image.layers[id][i]])));
+  const legend = () =>
+    swatchLegend([...entries, { name: "right or not compared", colour: legendColours.faded }]);
+  return stillLayer({ id, title, note: jobBiasNote, legend }, () =>
+    scene.faded.map((faded, i) => (image.layers[id][i] === 0 ? faded : marks[image.layers[id][i]])),
+  );
 }
 
 function classLayer(image) {
   const palette = classNames.map((name) => packedColour(channels(classColours[name])));
-  const legend = () => swatchLegend(classNames.map((name) => ({ name: spoken(name), colour: classColours[name] })));
-  return stillLayer({ id: "class", title: "Class of each pixel", note: "of the truth", legend },
-    () => Uint32Array.from(image.layers.class, (pixelClass) => palette[pixelClass]));
+  const legend = () =>
+    swatchLegend(classNames.map((name) => ({ name: spoken(name), colour: classColours[name] })));
+  return stillLayer({ id: "class", title: "Class of each pixel", note: "of the truth", legend }, () =>
+    Uint32Array.from(image.layers.class, (pixelClass) => palette[pixelClass]),
+  );
+}
+
+/** Shares of a filter's taps. */
+const verdictScale = {
+  layout: linearLayout(),
+  low: 0,
+  high: 1,
+  stops: ["#2B2F36", "#EFE7D6"],
+  unit: "lit share",
+};
+
+/** What each layer of numbers is; its values are undefined where the image lacks them. */
+function numberLayerSpecs({ layers, frustum, filter }) {
+  return [
+    {
+      id: "needed",
+      values: layers.needed_bias_texels,
+      title: "Needed bias",
+      note: "lit pixels need it, blocked ones allow up to it",
+      scale: texelScale,
+      ends: { low: "less", high: "more" },
+    },
+    {
+      id: "depth_error",
+      values: layers.map_error_m,
+      title: "Depth error",
+      note: "stored minus exact depth",
+      scale: depthErrorScale,
+      ends: { low: "stored too near", high: "too far" },
+    },
+    {
+      id: "distance",
+      values: layers.light_distance_m,
+      title: "Light distance",
+      note: "of the receiver",
+      scale: distanceScale(frustum),
+      ends: { low: "the map’s near plane", high: "far plane" },
+    },
+    {
+      id: "verdict",
+      values: filter === "nearest" ? undefined : layers.verdict,
+      title: "Filtered verdict",
+      note: jobBiasNote,
+      scale: verdictScale,
+      ends: { low: "", high: "" },
+    },
+  ];
 }
 
 /** Layers of numbers on fixed scales. */
 function numberLayers(image) {
-  const { layers, frustum } = image;
-  const verdictScale = { layout: linearLayout(), low: 0, high: 1, stops: ["#2B2F36", "#EFE7D6"], unit: "lit share" };
-  const all = [
-    { id: "needed", values: layers.needed_bias_texels, title: "Needed bias", scale: texelScale,
-      note: "lit pixels need it, blocked ones allow up to it", ends: { low: "less", high: "more" } },
-    { id: "depth_error", values: layers.map_error_m, title: "Depth error", scale: depthErrorScale,
-      note: "stored minus exact depth", ends: { low: "stored too near", high: "too far" } },
-    { id: "distance", values: layers.light_distance_m, title: "Light distance", scale: distanceScale(frustum),
-      note: "of the receiver", ends: { low: "the map’s near plane", high: "far plane" } },
-    { id: "verdict", values: image.filter === "nearest" ? undefined : layers.verdict, title: "Filtered verdict",
-      note: jobBiasNote, scale: verdictScale, ends: { low: "", high: "" } },
-  ];
-  return all.filter(({ values }) => values !== undefined).map((layer) => stillLayer(
-    { ...layer, legend: () => rampLegend(layer.scale, layer.ends) }, () => scaleColours(layer.scale, layer.values)));
+  return numberLayerSpecs(image)
+    .filter(({ values }) => values !== undefined)
+    .map((layer) =>
+      stillLayer({ ...layer, legend: () => rampLegend(layer.scale, layer.ends) }, () =>
+        scaleColours(layer.scale, layer.values),
+      ),
+    );
 }
 
 /**
@@ -128,8 +208,15 @@ function imageLayers(image) {
     { id: "cause", title: "Causes of errors", names: causeNames, colours: causeColours },
     { id: "label", title: "Names of errors", names: labelNames, colours: labelColours },
   ].filter(({ id }) => image.layers[id] !== undefined);
-  return [glLayer(image, scene, thresholds),
-    stillLayer({ id: "truth", title: "Truth", note: "shadow rays", legend: surfaceLegend }, () => scene.truth),
+  return [
+    glLayer(image, scene, thresholds),
+    stillLayer(
+      { id: "truth", title: "Truth", note: "shadow rays", legend: surfaceLegend },
+      () => scene.truth,
+    ),
     errorLayer(image, scene, thresholds),
-    ...categories.map((category) => categoryLayer(image, scene, category)), ...numberLayers(image), classLayer(image)];
+    ...categories.map((category) => categoryLayer(image, scene, category)),
+    ...numberLayers(image),
+    classLayer(image),
+  ];
 }

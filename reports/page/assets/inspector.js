@@ -1,6 +1,7 @@
 // The pixel inspector: two layers with a wipe between them, the bias slider and a pixel's numbers.
 
-const biasLine = "The filter hardware has no critical bias: the weights are the driver’s own, so other biases are not known from this one lookup. The layers show the job’s bias.";
+const biasLine =
+  "The filter hardware has no critical bias: the weights are the driver’s own, so other biases are not known from this one lookup. The layers show the job’s bias.";
 
 /** Fills section#inspector. */
 class Inspector {
@@ -11,7 +12,9 @@ class Inspector {
     this.hovered = null;
     this.chosen = ["gl", "errors"];
     this.stage = new Stage({
-      onPixel: (pixel) => this.point(pixel), onPin: (pixel) => this.pin(pixel), onChange: () => this.showView(),
+      onPixel: (pixel) => this.point(pixel),
+      onPin: (pixel) => this.pin(pixel),
+      onChange: () => this.showView(),
     });
     this.details = new PixelDetails();
     this.caption = element("p", { class: "caption name" });
@@ -20,29 +23,53 @@ class Inspector {
     this.biasHost = element("div", { class: "bias-host" });
     this.curveHost = element("div", { class: "chart-host" });
     this.recolour = oncePerFrame(() => this.recolourNow());
-    refill(section, this.caption, this.selects, this.makeTools(),
-      element("div", { class: "inspector-body" },
-        element("div", { class: "inspector-image" }, this.stage.root, this.legends), this.details.root),
-      this.biasHost, this.curveHost);
+    refill(
+      section,
+      this.caption,
+      this.selects,
+      this.makeTools(),
+      element(
+        "div",
+        { class: "inspector-body" },
+        element("div", { class: "inspector-image" }, this.stage.root, this.legends),
+        this.details.root,
+      ),
+      this.biasHost,
+      this.curveHost,
+    );
     section.hidden = false;
   }
 
   makeTools() {
     this.wipeRange = element("input", {
-      type: "range", min: 0, max: 100, step: 1, on: { input: () => this.stage.setWipe(Number(this.wipeRange.value) / 100) },
+      type: "range",
+      min: 0,
+      max: 100,
+      step: 1,
+      on: { input: () => this.stage.setWipe(Number(this.wipeRange.value) / 100) },
     });
     this.zoomText = element("output", { class: "zoom-text", "aria-label": "Zoom" });
     this.goTo = element("input", {
-      type: "text", class: "go-to", placeholder: "x,y", autocomplete: "off",
+      type: "text",
+      class: "go-to",
+      placeholder: "x,y",
+      autocomplete: "off",
       on: { keydown: (event) => event.key === "Enter" && this.goToPixel(), change: () => this.goToPixel() },
     });
-    return element("div", { class: "bar" },
+    return element(
+      "div",
+      { class: "bar" },
       labelled("Wipe", this.wipeRange),
-      element("div", { class: "buttons", role: "group", "aria-label": "Zoom controls" },
-        button("−", () => this.stage.zoomBy(1 / 1.5), { "aria-label": "Zoom out" }), this.zoomText,
+      element(
+        "div",
+        { class: "buttons", role: "group", "aria-label": "Zoom controls" },
+        button("−", () => this.stage.zoomBy(1 / 1.5), { "aria-label": "Zoom out" }),
+        this.zoomText,
         button("+", () => this.stage.zoomBy(1.5), { "aria-label": "Zoom in" }),
-        button("Show all", () => this.stage.showAll())),
-      labelled("Go to pixel", this.goTo));
+        button("Show all", () => this.stage.showAll()),
+      ),
+      labelled("Go to pixel", this.goTo),
+    );
   }
 
   /**
@@ -72,22 +99,34 @@ class Inspector {
 
   makeSelects() {
     const options = this.layers.map(({ id, title }) => [id, title]);
-    const selects = ["A", "B"].map((side, i) => labelled(`Layer ${side}`, choice(options, this.chosen[i], (id) => {
-      this.chosen[i] = id;
-      this.chooseLayers();
-    })));
-    const swap = button("Swap", () => {
-      this.chosen.reverse();
-      this.makeSelects();
-      this.chooseLayers();
-    }, { "aria-label": "Swap layers A and B" });
+    const selects = ["A", "B"].map((side, i) =>
+      labelled(
+        `Layer ${side}`,
+        choice(options, this.chosen[i], (id) => {
+          this.chosen[i] = id;
+          this.chooseLayers();
+        }),
+      ),
+    );
+    const swap = button(
+      "Swap",
+      () => {
+        this.chosen.reverse();
+        this.makeSelects();
+        this.chooseLayers();
+      },
+      { "aria-label": "Swap layers A and B" },
+    );
     this.selects.replaceChildren(...selects, swap);
   }
 
   makeBias() {
     this.bias = this.image.jobBias;
     if (!this.image.hasCurve || this.image.detail.bias_curve === null) {
-      this.biasHost.replaceChildren(element("h3", { text: "Bias" }), element("p", { class: "hint", text: biasLine }));
+      this.biasHost.replaceChildren(
+        element("h3", { text: "Bias" }),
+        element("p", { class: "hint", text: biasLine }),
+      );
       this.curveHost.replaceChildren();
       this.slider = null;
       return;
@@ -103,8 +142,16 @@ class Inspector {
 
   chooseLayers() {
     const layers = this.chosen.map((id) => this.layerOf(id));
-    this.legends.replaceChildren(...layers.map((layer, i) => element("div", { class: "legend" },
-      element("p", {}, element("strong", { text: `${"AB"[i]}: ${layer.title}` }), `, ${layer.note}`), layer.legend())));
+    this.legends.replaceChildren(
+      ...layers.map((layer, i) =>
+        element(
+          "div",
+          { class: "legend" },
+          element("p", {}, element("strong", { text: `${"AB"[i]}: ${layer.title}` }), `, ${layer.note}`),
+          layer.legend(),
+        ),
+      ),
+    );
     layers.forEach((layer, i) => this.painters[i].paint(layer, this.bias));
     this.stage.setSides(layers.map(({ title }, i) => ({ canvas: this.painters[i].canvas, title })));
   }

@@ -10,6 +10,19 @@ function swatchLegend(entries) {
   return element("ul", { class: "swatches" }, ...items);
 }
 
+/** The ticks of a scale that have room: 0 first, then from the ends inwards. */
+function spacedTicks(scale) {
+  const ticks = scale.layout.ticks(scale.low, scale.high);
+  const placed = [];
+  for (const value of ticks.sort((a, b) => (a === 0 ? -1 : b === 0 ? 1 : Math.abs(b) - Math.abs(a)))) {
+    const share = shareOnScale(scale, value);
+    if (placed.every((other) => Math.abs(shareOnScale(scale, other) - share) >= 0.1)) {
+      placed.push(value);
+    }
+  }
+  return placed;
+}
+
 /**
  * @param {ColourScale} scale
  * @param {{low: string, high: string}} ends  what the two ends mean, may be empty
@@ -19,13 +32,18 @@ function rampLegend(scale, ends) {
   const colours = Array.from({ length: 33 }, (_, i) => cssColour(mixStops(scale.stops, i / 32)));
   ramp.style.backgroundImage = `linear-gradient(to right, ${colours.join(", ")})`;
   const ticks = element("div", { class: "ramp-ticks", "aria-hidden": "true" });
-  for (const value of scale.layout.ticks(scale.low, scale.high)) {
+  for (const value of spacedTicks(scale)) {
     const tick = element("span", { text: scale.layout.format(value) });
     tick.style.left = `${100 * shareOnScale(scale, value)}%`;
     ticks.append(tick);
   }
-  const words = element("p", { class: "ramp-ends" }, element("span", { text: ends.low }),
-    element("span", { text: scale.unit }), element("span", { text: ends.high }));
+  const words = element(
+    "p",
+    { class: "ramp-ends" },
+    element("span", { text: ends.low }),
+    element("span", { text: scale.unit }),
+    element("span", { text: ends.high }),
+  );
   const format = (value) => `${scale.layout.format(value)} ${scale.unit}`;
   const said = `Colour scale from ${format(scale.low)} to ${format(scale.high)}`;
   return element("div", { class: "ramp-legend", role: "img", "aria-label": said }, ramp, ticks, words);

@@ -7,7 +7,10 @@ class ReportPage {
     this.reader = new BlockReader((id) => document.getElementById(id).textContent);
     this.table = new Table(data.table, this.reader, data.constants);
     const empty = { count: 0, columns: [] };
-    this.bins = new DistanceBins(new Table(data.error_vs_z ?? empty, this.reader), new Table(data.curves ?? empty, this.reader));
+    this.bins = new DistanceBins(
+      new Table(data.error_vs_z ?? empty, this.reader),
+      new Table(data.curves ?? empty, this.reader),
+    );
     this.images = new Map((data.images ?? []).map((image) => [image.row, image]));
     const section = (id) => document.getElementById(id);
     this.inspector = this.images.size > 0 ? new Inspector(section("inspector")) : null;
@@ -18,7 +21,9 @@ class ReportPage {
 
   async open() {
     const [firstImage] = this.images.keys();
-    await this.show(this.images.has(this.data.headline) ? this.data.headline : firstImage ?? this.data.headline ?? 0);
+    await this.show(
+      this.images.has(this.data.headline) ? this.data.headline : (firstImage ?? this.data.headline ?? 0),
+    );
     if (this.table.count > 1) {
       await this.openSweep();
     }
@@ -73,7 +78,11 @@ class SweepSection {
   async open() {
     const { data } = this.page;
     const columns = await this.table.select(data.run.axes);
-    const axes = new Map([...columns].map(([name, column]) => [name, axisOfColumn(column)]).filter(([, axis]) => axis.values.length > 1));
+    const axes = new Map(
+      [...columns]
+        .map(([name, column]) => [name, axisOfColumn(column)])
+        .filter(([, axis]) => axis.values.length > 1),
+    );
     const names = [...columns.keys()];
     this.detail = new ConfigurationDetail(this.table, data.run);
     this.rows = new ConfigurationTable(this.table, names, data.run.failed > 0, this.onShow);
@@ -81,7 +90,9 @@ class SweepSection {
     const parts = [
       hasRates && axes.size > 0 ? new AxisCharts(this.table, axes) : null,
       hasRates && axes.size > 1 ? new HeatMap(this.table, axes) : null,
-      this.table.has("false_shadow_rate") && this.table.has("false_lit_rate") ? new ParetoChart(this.table, names, this.onShow) : null,
+      this.table.has("false_shadow_rate") && this.table.has("false_lit_rate")
+        ? new ParetoChart(this.table, names, this.onShow)
+        : null,
     ].filter((part) => part !== null);
     refill(this.section, ...parts.map((part) => part.root), this.rows.root, this.detail.root);
     await this.rows.load();
@@ -114,7 +125,9 @@ function reportFailure(text) {
 async function startPage() {
   letTablesScroll();
   if (window.DecompressionStream === undefined || window.ResizeObserver === undefined) {
-    reportFailure("This browser cannot unpack the page’s data (it has no DecompressionStream): the inspector and the interactive charts are left out. Any browser since 2023 has it.");
+    reportFailure(
+      "This browser cannot unpack the page’s data (it has no DecompressionStream): the inspector and the interactive charts are left out. Any browser since 2023 has it.",
+    );
     return;
   }
   try {

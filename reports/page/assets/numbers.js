@@ -55,5 +55,7 @@ function rate(part, whole) {
 
 /** A power of ten as an axis writes it: 0.01, 10, 1e-5. */
 function powerOfTen(exponent) {
-  return exponent >= -3 && exponent <= 4 ? String(Number(`1e${exponent}`)) : `1e${exponent}`.replace("-", minus);
+  return exponent >= -3 && exponent <= 4
+    ? String(Number(`1e${exponent}`))
+    : `1e${exponent}`.replace("-", minus);
 }

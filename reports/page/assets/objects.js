@@ -5,10 +5,30 @@ const rateColumn = (title) => ({ title, numeric: true, format: percent });
 
 /** The table of objects, from `gnomon compare --json`. */
 function objectTable(objects) {
-  const columns = [{ title: "object" }, countColumn("lit"), countColumn("blocked"), countColumn("false shadow"),
-    rateColumn("of its lit"), countColumn("false lit"), rateColumn("of its blocked")];
-  return sortedTable("Errors by object", columns, objects.map((object) => [object.object, object.lit, object.blocked,
-    object.false_shadow, object.false_shadow_rate, object.false_lit, object.false_lit_rate]));
+  const columns = [
+    { title: "object" },
+    countColumn("lit"),
+    countColumn("blocked"),
+    countColumn("false shadow"),
+    rateColumn("of its lit"),
+    countColumn("false lit"),
+    rateColumn("of its blocked"),
+  ];
+  const wrong = (object) => object.false_shadow + object.false_lit;
+  const seen = objects.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
+  return sortedTable(
+    "Errors by object, most first",
+    columns,
+    seen.map((object) => [
+      object.object,
+      object.lit,
+      object.blocked,
+      object.false_shadow,
+      object.false_shadow_rate,
+      object.false_lit,
+      object.false_lit_rate,
+    ]),
+  );
 }
 
 /** A table of wrong pixels by cause or by name, with a swatch each. */
@@ -17,19 +37,41 @@ function kindTable(caption, heading, counts, colours) {
   const rows = Object.entries(counts).map(([name, count]) => {
     const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
     swatch.style.backgroundColor = colours[name];
-    return element("tr", {}, element("th", { scope: "row" }, swatch, spoken(name)),
-      element("td", { class: "number", text: grouped(count) }), element("td", { class: "number", text: percent(rate(count, whole)) }));
+    return element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, swatch, spoken(name)),
+      element("td", { class: "number", text: grouped(count) }),
+      element("td", { class: "number", text: percent(rate(count, whole)) }),
+    );
   });
-  const head = element("tr", {}, element("th", { scope: "col", text: heading }),
-    element("th", { scope: "col", class: "number", text: "pixels" }), element("th", { scope: "col", class: "number", text: "of wrong" }));
-  return scroller(caption, element("table", {}, element("caption", { text: caption }), element("thead", {}, head), element("tbody", {}, ...rows)));
+  const head = element(
+    "tr",
+    {},
+    element("th", { scope: "col", text: heading }),
+    element("th", { scope: "col", class: "number", text: "pixels" }),
+    element("th", { scope: "col", class: "number", text: "of wrong" }),
+  );
+  return scroller(
+    caption,
+    element(
+      "table",
+      {},
+      element("caption", { text: caption }),
+      element("thead", {}, head),
+      element("tbody", {}, ...rows),
+    ),
+  );
 }
 
 /** Tables of causes and of names, side by side. */
 function kindTables(causes, labels) {
-  return element("div", { class: "side-by-side" },
+  return element(
+    "div",
+    { class: "side-by-side" },
     kindTable("Wrong pixels by cause", "cause", causes, causeColours),
-    kindTable("Wrong pixels by name", "called", labels, labelColours));
+    kindTable("Wrong pixels by name", "called", labels, labelColours),
+  );
 }
 
 /** Fills section#objects; without a detail it gives back what the page came with, or says why not. */
@@ -42,13 +84,23 @@ class ObjectTables {
 
   show(row, detail, caption) {
     if (detail?.causes && detail.labels) {
-      refill(this.section, element("p", { class: "caption name", text: caption }),
-        kindTables(detail.causes, detail.labels), objectTable(detail.by_object ?? []));
+      refill(
+        this.section,
+        element("p", { class: "caption name", text: caption }),
+        kindTables(detail.causes, detail.labels),
+        objectTable(detail.by_object ?? []),
+      );
     } else if (row === this.headline) {
       this.section.replaceChildren(...this.original);
     } else {
-      refill(this.section, element("p", { class: "caption name", text: caption }),
-        element("p", { class: "hint", text: "The page has no numbers by object of this configuration: its pixels were not kept. Its causes are in the sweep’s table." }));
+      refill(
+        this.section,
+        element("p", { class: "caption name", text: caption }),
+        element("p", {
+          class: "hint",
+          text: "The page has no numbers by object of this configuration: its pixels were not kept. Its causes are in the sweep’s table.",
+        }),
+      );
     }
   }
 }

@@ -5,9 +5,9 @@ function exact(value) {
   return value === undefined || Number.isNaN(value) ? noValue : shortestFloat32(value);
 }
 
-/** A length that is not exact in its last digits. */
-function lengthText(value) {
-  return value === undefined || Number.isNaN(value) ? noValue : `${shortestFloat32(Math.fround(value))} m`;
+/** A length, its exact digits or as many as it is known to. */
+function lengthText(value, format) {
+  return value === undefined || Number.isNaN(value) ? noValue : `${format(value)} m`;
 }
 
 function indexText(value, none) {
@@ -56,8 +56,8 @@ function pixelFacts(image, index, bias) {
     ["object", "Object", object === undefined || object === noObject ? noValue : image.objects[object]],
     ["prim", "Triangle", indexText(value("prim"), noTriangle)],
     ["witness", "Witness, a blocking triangle", indexText(value("witness"), noTriangle)],
-    ["light_distance_m", "Light distance", lengthText(value("light_distance_m"))],
-    ["map_error_m", "Depth error (± 0.1 %)", lengthText(value("map_error_m"))],
+    ["light_distance_m", "Light distance", lengthText(value("light_distance_m"), shortestFloat32)],
+    ["map_error_m", "Depth error", lengthText(value("map_error_m"), readable)],
   ];
 }
 
@@ -66,7 +66,10 @@ class PixelDetails {
   constructor() {
     this.heading = element("h3", { text: "Pixel" });
     this.list = element("dl", { class: "facts" });
-    this.hint = element("p", { class: "hint", text: "Point at a pixel, or move the cursor with the arrow keys. A click or tap pins it." });
+    this.hint = element("p", {
+      class: "hint",
+      text: "Point at a pixel, or move the cursor with the arrow keys. A click or tap pins it.",
+    });
     this.said = element("p", { class: "visually-hidden", role: "status" });
     this.root = element("div", { class: "pixel" }, this.heading, this.hint, this.list, this.said);
     this.entries = new Map();
@@ -108,6 +111,9 @@ class PixelDetails {
   say(image, pixel, bias) {
     const facts = pixelFacts(image, pixel.y * image.width + pixel.x, bias);
     const told = facts.filter(([key]) => ["class", "shown", "critical_bias"].includes(key));
-    this.said.textContent = [`${pixel.x}, ${pixel.y}`, ...told.map(([, title, text]) => `${title} ${text}`)].join("; ");
+    this.said.textContent = [
+      `${pixel.x}, ${pixel.y}`,
+      ...told.map(([, title, text]) => `${title} ${text}`),
+    ].join("; ");
   }
 }

@@ -5,8 +5,8 @@ const causeNames = ["none", "bias", "precision", "resolution", "coverage"];
 const labelNames = ["right", "acne", "peter_panning", "leak", "edge", "overshadow"];
 const classLit = 5;
 const classBlocked = 6;
-const noTriangle = 0xFFFFFFFF;
-const noObject = 0xFFFF;
+const noTriangle = 0xffffffff;
+const noObject = 0xffff;
 
 /** Whether a pixel of this class takes part in rates. */
 function isScored(pixelClass) {

@@ -3,7 +3,7 @@
 const rowHeightPx = 32;
 const spareRows = 8;
 const narrowestColumnPx = 104;
-const widestColumnPx = 240;
+const widestColumnPx = 280;
 
 /**
  * Orders rows by a column; what has no value stands last in either direction.
@@ -14,9 +14,13 @@ function sortRows(rows, column, descending) {
   const { values } = column;
   let keys = values;
   if (column.isText) {
-    const order = column.dictionary.map((_, code) => code).sort((a, b) => (column.dictionary[a] < column.dictionary[b] ? -1 : 1));
+    const order = column.dictionary
+      .map((_, code) => code)
+      .sort((a, b) => (column.dictionary[a] < column.dictionary[b] ? -1 : 1));
     const rankOf = new Float64Array(order.length);
-    order.forEach((code, rank) => { rankOf[code] = rank; });
+    order.forEach((code, rank) => {
+      rankOf[code] = rank;
+    });
     keys = Float64Array.from(values, (code) => (code === noIndex ? NaN : rankOf[code]));
   }
   const sign = descending ? -1 : 1;
@@ -28,7 +32,7 @@ function sortRows(rows, column, descending) {
 
 /** A width in which most columns' headings can be read. */
 function columnWidthPx({ name, isText }) {
-  const wanted = Math.max(isText ? 160 : 0, 44 + 8 * name.length);
+  const wanted = Math.max(isText ? 160 : 0, 44 + 9 * name.length);
   return Math.min(widestColumnPx, Math.max(narrowestColumnPx, wanted));
 }
 
@@ -42,11 +46,16 @@ class RowTable {
    */
   constructor(table, columns, caption, onOpen) {
     Object.assign(this, { table, shown: columns, onOpen, active: 0, open: -1, sorted: null });
-    this.rows = Uint32Array.from({ length: table.count }, (_, row) => row);
+    this.rows = allRows(table.count);
     this.head = element("thead");
     this.body = element("tbody");
-    this.grid = element("table", { role: "grid", tabindex: 0, class: "rows", "aria-multiselectable": "false" },
-      element("caption", { class: "visually-hidden", text: caption }), this.head, this.body);
+    this.grid = element(
+      "table",
+      { role: "grid", tabindex: 0, class: "rows", "aria-multiselectable": "false" },
+      element("caption", { class: "visually-hidden", text: caption }),
+      this.head,
+      this.body,
+    );
     this.scroll = element("div", { class: "rows-scroll" }, this.grid);
     this.draw = oncePerFrame(() => this.drawNow());
     this.scroll.addEventListener("scroll", this.draw, { passive: true });
@@ -69,7 +78,7 @@ class RowTable {
 
   /** Shows some rows only, (rows) of 0 and 1, in the order that was asked for. */
   async keep(kept) {
-    this.rows = Uint32Array.from({ length: this.table.count }, (_, row) => row).filter((row) => kept[row] === 1);
+    this.rows = allRows(this.table.count).filter((row) => kept[row] === 1);
     this.active = 0;
     this.scroll.scrollTop = 0;
     await this.order();
@@ -92,9 +101,18 @@ class RowTable {
   drawHead() {
     const focused = document.activeElement?.dataset?.column;
     const headings = this.columns.map((column) => {
-      const direction = this.sorted?.name !== column.name ? null : this.sorted.descending ? "descending" : "ascending";
-      const control = button(column.name, () => this.sortBy(column.name), { class: "sort", "data-column": column.name, title: column.name });
-      const heading = element("th", { scope: "col", class: column.isText ? null : "number", "aria-sort": direction }, control);
+      const direction =
+        this.sorted?.name !== column.name ? null : this.sorted.descending ? "descending" : "ascending";
+      const control = button(column.name, () => this.sortBy(column.name), {
+        class: "sort",
+        "data-column": column.name,
+        title: column.name,
+      });
+      const heading = element(
+        "th",
+        { scope: "col", class: column.isText ? null : "number", "aria-sort": direction },
+        control,
+      );
       heading.style.width = `${columnWidthPx(column)}px`;
       return heading;
     });
@@ -129,7 +147,11 @@ class RowTable {
 
   /** Room for rows that are not drawn; screen readers pass it over. */
   spacer(count) {
-    const row = element("tr", { class: "spacer", "aria-hidden": "true" }, element("td", { colspan: this.columns.length }));
+    const row = element(
+      "tr",
+      { class: "spacer", "aria-hidden": "true" },
+      element("td", { colspan: this.columns.length }),
+    );
     row.style.height = `${count * rowHeightPx}px`;
     row.hidden = count === 0;
     return row;
@@ -144,12 +166,23 @@ class RowTable {
     const cells = this.columns.map((column) => {
       const value = column.at(row);
       const text = value === null ? noValue : column.isText ? value : this.numberText(column.name, value);
-      return element("td", { class: column.isText ? null : "number", role: "gridcell" }, column.isText ? nameElement(text) : text);
+      return element(
+        "td",
+        { class: column.isText ? null : "number", role: "gridcell" },
+        column.isText ? nameElement(text) : text,
+      );
     });
-    return element("tr", {
-      id: this.rowId(place), "aria-rowindex": place + 2, "data-place": place, "aria-selected": String(row === this.open),
-      class: place === this.active ? "active" : null,
-    }, ...cells);
+    return element(
+      "tr",
+      {
+        id: this.rowId(place),
+        "aria-rowindex": place + 2,
+        "data-place": place,
+        "aria-selected": String(row === this.open),
+        class: place === this.active ? "active" : null,
+      },
+      ...cells,
+    );
   }
 
   numberText(name, value) {

@@ -47,7 +47,8 @@ function linearLayout(format = readable) {
 /** @return {Layout}  for values > 0 */
 function logLayout(format = formatTick) {
   return {
-    forward: Math.log10, inverse: (x) => 10 ** x,
+    forward: Math.log10,
+    inverse: (x) => 10 ** x,
     ticks: (low, high) => {
       const decades = decadeTicks(low, high, 8);
       return decades.length >= 2 ? decades : linearTicks(low, high).filter((tick) => tick > 0);
@@ -73,7 +74,12 @@ function symlogLayout(threshold, format = formatTick) {
   const ticks = (low, high) => {
     const most = low < 0 && high > 0 ? 4 : 7;
     const positive = high > threshold ? decadeTicks(threshold, high, most) : [];
-    const negative = low < -threshold ? decadeTicks(threshold, -low, most).map((x) => -x).reverse() : [];
+    const negative =
+      low < -threshold
+        ? decadeTicks(threshold, -low, most)
+            .map((x) => -x)
+            .reverse()
+        : [];
     return [...negative, ...(low <= 0 && high >= 0 ? [0] : []), ...positive];
   };
   return { forward, inverse, ticks, format };
@@ -100,6 +106,11 @@ function layoutForValues(values) {
 
 /** The unit in which lengths up to `largestM` read well. */
 function lengthUnit(largestM) {
-  const units = [[1, "m"], [1e3, "mm"], [1e6, "µm"], [1e9, "nm"]];
+  const units = [
+    [1, "m"],
+    [1e3, "mm"],
+    [1e6, "µm"],
+    [1e9, "nm"],
+  ];
   return units.find(([factor]) => largestM * factor >= 1) ?? units[3];
 }

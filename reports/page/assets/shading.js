@@ -1,9 +1,9 @@
 // The scene in the light and in the shadow, shaded as the pictures of `gnomon compare --picture`.
 
 // Linear RGB. The light is a little warm and the ambient a little cool, as outdoors.
-const backgroundLight = [0.80, 0.84, 0.90];
+const backgroundLight = [0.8, 0.84, 0.9];
 const diffuseTint = [0.86, 0.81, 0.73];
-const ambientTint = [0.76, 0.80, 0.88];
+const ambientTint = [0.76, 0.8, 0.88];
 /** How much of the ambient light a shadow leaves. */
 const shadowedAmbient = 0.72;
 /** How far colours fade towards white beneath marks. */
@@ -27,8 +27,8 @@ function encodeLinear(colour) {
  * @param {number} lit  which fraction of the light arrives, 0 to 1
  */
 function surfaceLight(cosine, sky, lit) {
-  const ambient = (0.14 + 0.10 * sky) * (shadowedAmbient + (1 - shadowedAmbient) * lit);
-  return ambientTint.map((tint, i) => ambient * tint + 0.80 * cosine * lit * diffuseTint[i]);
+  const ambient = (0.14 + 0.1 * sky) * (shadowedAmbient + (1 - shadowedAmbient) * lit);
+  return ambientTint.map((tint, i) => ambient * tint + 0.8 * cosine * lit * diffuseTint[i]);
 }
 
 /** Fades a linear colour so that only marks are coloured. */
@@ -43,24 +43,36 @@ class ShadedScene {
   constructor(image) {
     const { class: classes, cos_theta: cosines, sky } = image.layers;
     const cache = new Map();
-    for (const name of ["lit", "shadowed", "truth", "faded"]) {
-      this[name] = new Uint32Array(classes.length);
-    }
+    const [lit, shadowed, truth, faded] = [1, 2, 3, 4].map(() => new Uint32Array(classes.length));
+    Object.assign(this, { lit, shadowed, truth, faded });
+    let lastKey = -1;
+    let colours = null;
     for (let i = 0; i < classes.length; ++i) {
-      const key = (classes[i] << 16) | ((cosines?.[i] ?? 180) << 8) | (sky?.[i] ?? 190);
-      let colours = cache.get(key);
-      if (colours === undefined) {
-        colours = ShadedScene.coloursOf(classes[i], (cosines?.[i] ?? 180) / 255, (sky?.[i] ?? 190) / 255);
-        cache.set(key, colours);
+      const cosine = cosines === undefined ? 180 : cosines[i];
+      const upwards = sky === undefined ? 190 : sky[i];
+      const key = (classes[i] << 16) | (cosine << 8) | upwards;
+      if (key !== lastKey) {
+        if (!cache.has(key)) {
+          cache.set(key, ShadedScene.coloursOf(classes[i], cosine / 255, upwards / 255));
+        }
+        colours = cache.get(key);
+        lastKey = key;
       }
-      [this.lit[i], this.shadowed[i], this.truth[i], this.faded[i]] = colours;
+      lit[i] = colours[0];
+      shadowed[i] = colours[1];
+      truth[i] = colours[2];
+      faded[i] = colours[3];
     }
   }
 
   static coloursOf(pixelClass, cosine, sky) {
-    const [background, attached, outOfLight] = ["background", "attached", "out_of_light"].map((name) => classNames.indexOf(name));
+    const [background, attached, outOfLight] = ["background", "attached", "out_of_light"].map((name) =>
+      classNames.indexOf(name),
+    );
     if (pixelClass === background) {
-      return [backgroundLight, backgroundLight, backgroundLight, fadedLight(backgroundLight)].map((colour) => packedColour(encodeLinear(colour)));
+      return [backgroundLight, backgroundLight, backgroundLight, fadedLight(backgroundLight)].map((colour) =>
+        packedColour(encodeLinear(colour)),
+      );
     }
     const receives = pixelClass !== attached && pixelClass !== outOfLight;
     const [lit, shadowed, half] = [1, 0, 0.5].map((share) => surfaceLight(cosine, sky, receives ? share : 0));
@@ -71,7 +83,15 @@ class ShadedScene {
 
 /** Colours for legends: what an upright wall in the light looks like, and the same in shadow. */
 const legendColours = (() => {
-  const hex = (colour) => `#${encodeLinear(colour).map((value) => value.toString(16).padStart(2, "0")).join("")}`;
+  const hex = (colour) =>
+    `#${encodeLinear(colour)
+      .map((value) => value.toString(16).padStart(2, "0"))
+      .join("")}`;
   const [lit, shadowed] = [surfaceLight(0.75, 0.8, 1), surfaceLight(0.75, 0.8, 0)];
-  return { lit: hex(lit), shadowed: hex(shadowed), background: hex(backgroundLight), faded: hex(fadedLight(shadowed)) };
+  return {
+    lit: hex(lit),
+    shadowed: hex(shadowed),
+    background: hex(backgroundLight),
+    faded: hex(fadedLight(shadowed)),
+  };
 })();

@@ -35,8 +35,8 @@ class SliderScale {
 
   /** @return {number}  the bias at any position; linear within a position of 0 */
   realAt(position) {
-    const [side, decades] = position < 0 ? [negativePositions, this.negativeDecades]
-      : [positivePositions, this.positiveDecades];
+    const [side, decades] =
+      position < 0 ? [negativePositions, this.negativeDecades] : [positivePositions, this.positiveDecades];
     const places = Math.abs(position);
     const size = places < 1 ? places * this.step : this.step * 10 ** ((decades * (places - 1)) / (side - 1));
     return position < 0 ? -size : size;
@@ -45,9 +45,10 @@ class SliderScale {
   /** @return {number}  where a bias stands, a real number within the slider's ends */
   positionOf(bias) {
     const size = Math.abs(bias);
-    const [side, decades] = bias < 0 ? [negativePositions, this.negativeDecades]
-      : [positivePositions, this.positiveDecades];
-    const places = size < this.step ? size / this.step : 1 + ((side - 1) * Math.log10(size / this.step)) / decades;
+    const [side, decades] =
+      bias < 0 ? [negativePositions, this.negativeDecades] : [positivePositions, this.positiveDecades];
+    const places =
+      size < this.step ? size / this.step : 1 + ((side - 1) * Math.log10(size / this.step)) / decades;
     const position = Math.min(side, places);
     return bias < 0 ? -position : position;
   }

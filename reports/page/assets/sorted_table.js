@@ -14,8 +14,9 @@ function sortedTable(caption, columns, rows) {
   });
   const fill = (ordered) => body.replaceChildren(...ordered.map((row) => tableRow(columns, row)));
   const sortBy = (index) => {
-    const descending = headings[index].getAttribute("aria-sort") !== "descending" && columns[index].numeric
-      || headings[index].getAttribute("aria-sort") === "ascending";
+    const descending =
+      (headings[index].getAttribute("aria-sort") !== "descending" && columns[index].numeric) ||
+      headings[index].getAttribute("aria-sort") === "ascending";
     headings.forEach((heading) => heading.removeAttribute("aria-sort"));
     headings[index].setAttribute("aria-sort", descending ? "descending" : "ascending");
     fill([...rows].sort((a, b) => compareValues(a[index], b[index], descending)));
@@ -31,8 +32,11 @@ function tableRow(columns, row) {
     const { numeric, format } = columns[index];
     const tag = index === 0 ? "th" : "td";
     const text = value === null ? noValue : (format ?? String)(value);
-    return element(tag, { scope: index === 0 ? "row" : null, class: numeric ? "number" : null },
-      numeric ? text : nameElement(text));
+    return element(
+      tag,
+      { scope: index === 0 ? "row" : null, class: numeric ? "number" : null },
+      numeric ? text : nameElement(text),
+    );
   });
   return element("tr", {}, ...cells);
 }

@@ -2,6 +2,17 @@
 
 const gridZoom = 10;
 const wheelZoomPerPx = 0.002;
+/** How far keys move the wipe, of the stage's width. */
+const wipeKeys = {
+  ArrowLeft: -0.02,
+  ArrowDown: -0.02,
+  ArrowRight: 0.02,
+  ArrowUp: 0.02,
+  PageDown: -0.1,
+  PageUp: 0.1,
+  Home: -1,
+  End: 1,
+};
 
 /**
  * Canvas with the wipe; it knows nothing of biases, only of two painted canvases.
@@ -15,8 +26,12 @@ class Stage {
     this.cursor = null;
     this.pointers = new Map();
     this.canvas = element("canvas", {
-      class: "stage-canvas", tabindex: 0, role: "application", "aria-roledescription": "pixel image",
-      "aria-label": "Pixels. Arrow keys move the cursor, Shift and arrows the view, plus and minus zoom, 0 shows all, brackets move the wipe, Enter pins the pixel.",
+      class: "stage-canvas",
+      tabindex: 0,
+      role: "application",
+      "aria-roledescription": "pixel image",
+      "aria-label":
+        "Pixels. Arrow keys move the cursor, Shift and arrows the view, plus and minus zoom, 0 shows all, brackets move the wipe, Enter pins the pixel.",
     });
     this.handle = this.makeHandle();
     this.names = ["A", "B"].map((side) => element("span", { class: `side side-${side.toLowerCase()}` }));
@@ -27,15 +42,23 @@ class Stage {
   }
 
   makeHandle() {
-    const handle = element("div", {
-      class: "wipe", tabindex: 0, role: "slider", "aria-label": "Wipe between layers A and B",
-      "aria-valuemin": 0, "aria-valuemax": 100, "aria-orientation": "horizontal",
-    }, element("span", { class: "wipe-grip", "aria-hidden": "true" }));
-    const keys = { ArrowLeft: -0.02, ArrowDown: -0.02, ArrowRight: 0.02, ArrowUp: 0.02, PageDown: -0.1, PageUp: 0.1, Home: -1, End: 1 };
+    const handle = element(
+      "div",
+      {
+        class: "wipe",
+        tabindex: 0,
+        role: "slider",
+        "aria-label": "Wipe between layers A and B",
+        "aria-valuemin": 0,
+        "aria-valuemax": 100,
+        "aria-orientation": "horizontal",
+      },
+      element("span", { class: "wipe-grip", "aria-hidden": "true" }),
+    );
     handle.addEventListener("keydown", (event) => {
-      if (event.key in keys) {
+      if (event.key in wipeKeys) {
         event.preventDefault();
-        this.setWipe(this.wipe + keys[event.key]);
+        this.setWipe(this.wipe + wipeKeys[event.key]);
       }
     });
     handle.addEventListener("pointerdown", (event) => {
@@ -63,7 +86,9 @@ class Stage {
   /** @param {{canvas: HTMLCanvasElement, title: string}[]} sides  A and B */
   setSides(sides) {
     this.sides = sides;
-    sides.forEach(({ title }, i) => { this.names[i].textContent = `${"AB"[i]}: ${title}`; });
+    sides.forEach(({ title }, i) => {
+      this.names[i].textContent = `${"AB"[i]}: ${title}`;
+    });
     this.setWipe(this.wipe);
   }
 
@@ -85,7 +110,9 @@ class Stage {
     }
     const { width, height } = this.view.image;
     const stageWidth = this.root.clientWidth;
-    const stageHeight = Math.round(Math.min(Math.max((stageWidth * height) / width, 160), 0.75 * window.innerHeight));
+    const stageHeight = Math.round(
+      Math.min(Math.max((stageWidth * height) / width, 160), 0.75 * window.innerHeight),
+    );
     this.root.style.height = `${stageHeight}px`;
     const dense = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(stageWidth * dense);
@@ -183,9 +210,14 @@ class Stage {
   key(event) {
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
     const actions = {
-      "+": () => this.zoomBy(1.5), "=": () => this.zoomBy(1.5), "-": () => this.zoomBy(1 / 1.5), "0": () => this.showAll(),
-      "[": () => this.setWipe(this.wipe - 0.02), "]": () => this.setWipe(this.wipe + 0.02),
-      "Enter": () => this.cursor !== null && this.onPin(this.cursor), "Escape": () => this.setCursor(null),
+      "+": () => this.zoomBy(1.5),
+      "=": () => this.zoomBy(1.5),
+      "-": () => this.zoomBy(1 / 1.5),
+      0: () => this.showAll(),
+      "[": () => this.setWipe(this.wipe - 0.02),
+      "]": () => this.setWipe(this.wipe + 0.02),
+      Enter: () => this.cursor !== null && this.onPin(this.cursor),
+      Escape: () => this.setCursor(null),
     };
     if (event.ctrlKey || event.metaKey || !(event.key in arrows || event.key in actions)) {
       return;
@@ -204,7 +236,10 @@ class Stage {
   stepCursor(dx, dy) {
     const { width, height } = this.view.image;
     const from = this.cursor ?? { x: Math.floor(width / 2) - dx, y: Math.floor(height / 2) - dy };
-    this.setCursor({ x: Math.min(width - 1, Math.max(0, from.x + dx)), y: Math.min(height - 1, Math.max(0, from.y + dy)) });
+    this.setCursor({
+      x: Math.min(width - 1, Math.max(0, from.x + dx)),
+      y: Math.min(height - 1, Math.max(0, from.y + dy)),
+    });
   }
 
   setCursor(pixel) {
@@ -247,11 +282,19 @@ class Stage {
       return;
     }
     context.beginPath();
-    for (let x = Math.max(0, Math.floor(-left / zoom)); x <= image.width && left + x * zoom <= stage.width; ++x) {
+    for (
+      let x = Math.max(0, Math.floor(-left / zoom));
+      x <= image.width && left + x * zoom <= stage.width;
+      ++x
+    ) {
       context.moveTo(left + x * zoom, Math.max(0, top));
       context.lineTo(left + x * zoom, Math.min(stage.height, top + image.height * zoom));
     }
-    for (let y = Math.max(0, Math.floor(-top / zoom)); y <= image.height && top + y * zoom <= stage.height; ++y) {
+    for (
+      let y = Math.max(0, Math.floor(-top / zoom));
+      y <= image.height && top + y * zoom <= stage.height;
+      ++y
+    ) {
       context.moveTo(Math.max(0, left), top + y * zoom);
       context.lineTo(Math.min(stage.width, left + image.width * zoom), top + y * zoom);
     }
@@ -268,7 +311,10 @@ class Stage {
     const side = Math.max(zoom, 7);
     const x = left + (this.cursor.x + 0.5) * zoom - side / 2;
     const y = top + (this.cursor.y + 0.5) * zoom - side / 2;
-    for (const [grow, width, colour] of [[1.5, 3, "#FFFFFF"], [1.5, 1.2, "#000000"]]) {
+    for (const [grow, width, colour] of [
+      [1.5, 3, "#FFFFFF"],
+      [1.5, 1.2, "#000000"],
+    ]) {
       context.lineWidth = width;
       context.strokeStyle = colour;
       context.strokeRect(x - grow, y - grow, side + 2 * grow, side + 2 * grow);

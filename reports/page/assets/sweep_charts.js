@@ -5,12 +5,17 @@ const mostPanels = 12;
 
 const isRate = true;
 const measures = [
-  { name: "error_rate", title: "error rate", isRate }, { name: "false_shadow_rate", title: "false-shadow rate", isRate },
-  { name: "false_lit_rate", title: "false-lit rate", isRate }, { name: "mean_abs_error", title: "mean absolute error", isRate },
-  { name: "false_shadow", title: "false shadow [pixels]" }, { name: "false_lit", title: "false lit [pixels]" },
+  { name: "error_rate", title: "error rate", isRate },
+  { name: "false_shadow_rate", title: "false-shadow rate", isRate },
+  { name: "false_lit_rate", title: "false-lit rate", isRate },
+  { name: "mean_abs_error", title: "mean absolute error", isRate },
+  { name: "false_shadow", title: "false shadow [pixels]" },
+  { name: "false_lit", title: "false lit [pixels]" },
   { name: "bias_curve.best_errors", title: "errors at the best bias [pixels]" },
-  { name: "labels.acne", title: "acne [pixels]" }, { name: "labels.peter_panning", title: "peter panning [pixels]" },
-  { name: "labels.leak", title: "leaks [pixels]" }, { name: "labels.edge", title: "edge errors [pixels]" },
+  { name: "labels.acne", title: "acne [pixels]" },
+  { name: "labels.peter_panning", title: "peter panning [pixels]" },
+  { name: "labels.leak", title: "leaks [pixels]" },
+  { name: "labels.edge", title: "edge errors [pixels]" },
 ];
 
 /** A value of an axis as text. */
@@ -31,28 +36,64 @@ function axisSpec(axis) {
 }
 
 function measureSpec(measure, largest) {
-  return measure.isRate ? { label: measure.title, layout: rateLayout(), low: 0, high: 1 }
+  return measure.isRate
+    ? { label: measure.title, layout: rateLayout(), low: 0, high: 1 }
     : { label: measure.title, layout: symlogLayout(1), low: 0, high: Math.max(1, largest) };
+}
+
+/** The colour of a measure: false shadow and false lit have theirs. */
+function measureColour({ name }) {
+  if (name.startsWith("false_lit")) {
+    return errorColours.falseLit;
+  }
+  return name.startsWith("false_shadow") ? errorColours.falseShadow : okabeIto.green;
+}
+
+/** Where the median is lowest, in words. */
+function lowestMedian(present, measure, x) {
+  if (present.length === 0) {
+    return "No values.";
+  }
+  const lowest = present.reduce((a, b) => (b.group.median < a.group.median ? b : a));
+  const { median } = lowest.group;
+  return `The median is lowest, ${measure.isRate ? percent(median) : readable(median)}, at ${x.layout.format(lowest.at)}.`;
+}
+
+/** Markers at the smallest and the largest value, for bars. */
+function rangeMarkers(points) {
+  const look = { colour: okabeIto.black, isLine: false, radius: 16, mark: "line" };
+  return [
+    { ...look, name: "smallest", points: points("least") },
+    { ...look, name: "largest", points: points("most") },
+  ];
 }
 
 /** One chart: the median line and the range band of summaries along an axis. */
 function axisChart(host, axis, measure, groups, more) {
   const x = axisSpec(axis);
-  const present = groups.map((group, code) => ({ group, at: x.at(code) })).filter(({ group }) => group !== null);
-  const colour = measure.name.startsWith("false_lit") ? errorColours.falseLit
-    : measure.name.startsWith("false_shadow") ? errorColours.falseShadow : okabeIto.green;
+  const present = groups
+    .map((group, code) => ({ group, at: x.at(code) }))
+    .filter(({ group }) => group !== null);
+  const colour = measureColour(measure);
   const points = (key) => present.map(({ group, at }) => [at, group[key]]);
   const isSpread = present.some(({ group }) => group.least < group.most);
-  const range = { name: "range over the others", colour, points: present.map(({ group, at }) => [at, group.least, group.most]) };
-  const ends = ["least", "most"].map((key) => ({ name: key === "least" ? "smallest" : "largest", colour, points: points(key), isLine: false, radius: 4, mark: "line" }));
-  const median = { name: isSpread ? "median" : measure.title, colour, points: points("median"), radius: present.length <= 40 ? 3 : 0 };
-  const lowest = present.reduce((a, b) => (b.group.median < a.group.median ? b : a), present[0]);
+  const bandPoints = present.map(({ group, at }) => [at, group.least, group.most]);
+  const median = {
+    name: isSpread ? "median" : measure.title,
+    colour,
+    points: points("median"),
+    radius: present.length <= 40 ? 3 : 0,
+    isBar: axis.isText,
+  };
   return new PageChart(host, {
-    x, y: measureSpec(measure, more.largest), isSmall: more.isSmall, hasLegend: !more.isSmall && isSpread,
+    x,
+    y: measureSpec(measure, more.largest),
+    isSmall: more.isSmall,
+    hasLegend: !more.isSmall && isSpread,
     title: more.title,
-    summary: lowest === undefined ? "No values." : `The median is lowest, ${measure.isRate ? percent(lowest.group.median) : readable(lowest.group.median)}, at ${x.layout.format(lowest.at)}.`,
-    series: [{ ...median, isBar: axis.isText }, ...(axis.isText && isSpread ? ends : [])],
-    bands: axis.isText || !isSpread ? [] : [range],
+    summary: lowestMedian(present, measure, x),
+    series: [median, ...(axis.isText && isSpread ? rangeMarkers(points) : [])],
+    bands: axis.isText || !isSpread ? [] : [{ name: "range over the others", colour, points: bandPoints }],
   });
 }
 
@@ -65,17 +106,26 @@ class AxisCharts {
   constructor(table, axes) {
     this.table = table;
     this.axes = axes;
-    const names = [...axes.keys()];
     this.measures = measures.filter(({ name }) => table.has(name));
     this.chosen = { axis: this.mostInteresting(), measure: this.measures[0].name, by: "" };
-    this.controls = element("div", { class: "bar" });
     this.host = element("div", { class: "panels" });
     this.note = element("p", { class: "hint" });
-    this.controls.append(
-      labelled("Error", choice(this.measures.map(({ name, title }) => [name, title]), this.chosen.measure, (name) => this.choose({ measure: name }))),
-      labelled("against", choice(names.map((name) => [name, name]), this.chosen.axis, (name) => this.choose({ axis: name }))),
-      labelled("one panel for each", choice([["", "– (one chart)"], ...names.map((name) => [name, name])], "", (name) => this.choose({ by: name }))));
-    this.root = element("div", {}, element("h3", { text: "Error against an axis" }), this.controls, this.note, this.host);
+    const heading = element("h3", { text: "Error against an axis" });
+    this.root = element("div", {}, heading, this.makeControls(), this.note, this.host);
+  }
+
+  makeControls() {
+    const names = [...this.axes.keys()].map((name) => [name, name]);
+    const titles = this.measures.map(({ name, title }) => [name, title]);
+    const select = (key, options) =>
+      choice(options, this.chosen[key], (name) => this.choose({ [key]: name }));
+    return element(
+      "div",
+      { class: "bar" },
+      labelled("Error", select("measure", titles)),
+      labelled("against", select("axis", names)),
+      labelled("one panel for each", select("by", [["", "– (one chart)"], ...names])),
+    );
   }
 
   /** The axis with the most values, of several the last: the one that is most of a curve. */
@@ -99,9 +149,18 @@ class AxisCharts {
       const groups = summariseGroups(values, axis.codes, axis.values.length);
       this.drawPanels([{ groups, title: `${measure.title} against ${name}` }], axis, measure, false);
     } else {
-      const cells = summariseGroups(values, cellCodes(panels, axis), panels.values.length * axis.values.length);
+      const cells = summariseGroups(
+        values,
+        cellCodes(panels, axis),
+        panels.values.length * axis.values.length,
+      );
       const of = (i) => cells.slice(i * axis.values.length, (i + 1) * axis.values.length);
-      this.drawPanels(panels.values.map((value, i) => ({ groups: of(i), title: `${by} = ${axisText(panels, value)}` })), axis, measure, true);
+      this.drawPanels(
+        panels.values.map((value, i) => ({ groups: of(i), title: `${by} = ${axisText(panels, value)}` })),
+        axis,
+        measure,
+        true,
+      );
     }
     dropDeadCharts();
   }
@@ -110,7 +169,8 @@ class AxisCharts {
     const others = [...this.axes.keys()].filter((name) => name !== axis.name && name !== panels?.name);
     const spread = others.length === 0 ? "" : ` Median and range over ${others.join(", ")}.`;
     const whole = this.axes.get(axis.name).values.length;
-    const joined = whole > axis.values.length ? ` ${grouped(whole)} values are joined to ${axis.values.length}.` : "";
+    const joined =
+      whole > axis.values.length ? ` ${grouped(whole)} values are joined to ${axis.values.length}.` : "";
     this.note.textContent = `${spread}${joined}`.trim();
     this.note.hidden = this.note.textContent === "";
   }
@@ -120,6 +180,8 @@ class AxisCharts {
     this.host.className = isSmall ? "panels panels-small" : "panels";
     this.host.replaceChildren(...hosts);
     const largest = largestOf(panels.flatMap(({ groups }) => groups.map((group) => group?.most)));
-    panels.forEach(({ groups, title }, i) => axisChart(hosts[i], axis, measure, groups, { title, isSmall, largest }));
+    panels.forEach(({ groups, title }, i) =>
+      axisChart(hosts[i], axis, measure, groups, { title, isSmall, largest }),
+    );
   }
 }

@@ -10,23 +10,46 @@
 function axisOfColumn(column) {
   const { name, values, dictionary, isText } = column;
   if (isText) {
-    return { name, isText, values: dictionary, codes: Int32Array.from(values, (code) => (code === noIndex ? -1 : code)) };
+    return {
+      name,
+      isText,
+      values: dictionary,
+      codes: Int32Array.from(values, (code) => (code === noIndex ? -1 : code)),
+    };
   }
-  const codeOf = new Map();
+  const distinct = distinctNumbers(values);
   const codes = new Int32Array(values.length);
-  for (let row = 0; row < values.length; ++row) {
-    const value = values[row];
-    if (!codeOf.has(value)) {
-      codeOf.set(value, codeOf.size);
-    }
-    codes[row] = codeOf.get(value);
+  for (let row = 0; row < codes.length; ++row) {
+    codes[row] = Number.isNaN(values[row]) ? -1 : rankIn(distinct, values[row]);
   }
-  const distinct = [...codeOf.keys()];
-  const order = distinct.map((_, code) => code).filter((code) => !Number.isNaN(distinct[code]));
-  order.sort((a, b) => distinct[a] - distinct[b]);
-  const rankOf = new Int32Array(distinct.length).fill(-1);
-  order.forEach((code, rank) => { rankOf[code] = rank; });
-  return { name, isText, values: order.map((code) => distinct[code]), codes: codes.map((code) => rankOf[code]) };
+  return { name, isText, values: [...distinct], codes };
+}
+
+/** The different values of a column, ascending, without NaN. */
+function distinctNumbers(values) {
+  const sorted = new Float64Array(values).sort();
+  let count = 0;
+  for (const value of sorted) {
+    if (!Number.isNaN(value) && (count === 0 || value !== sorted[count - 1])) {
+      sorted[count++] = value;
+    }
+  }
+  return sorted.subarray(0, count);
+}
+
+/** Where a value stands among ascending ones, of which it is one. */
+function rankIn(sorted, value) {
+  let first = 0;
+  let last = sorted.length - 1;
+  while (first < last) {
+    const middle = (first + last) >>> 1;
+    if (sorted[middle] < value) {
+      first = middle + 1;
+    } else {
+      last = middle;
+    }
+  }
+  return first;
 }
 
 /**
@@ -76,13 +99,26 @@ function summariseGroups(values, groups, count) {
     const part = sorted.subarray(sizes[group], sizes[group + 1]).sort();
     // A percentile is one of the values: the smallest that at least half of them do not exceed.
     const middle = part[Math.ceil(part.length / 2) - 1];
-    return part.length === 0 ? null : { median: middle, least: part[0], most: part[part.length - 1], count: part.length };
+    return part.length === 0
+      ? null
+      : { median: middle, least: part[0], most: part[part.length - 1], count: part.length };
   });
 }
 
 /** @return {Int32Array}  (rows): the cell of two axes that a row is in, column by column; −1 none */
 function cellCodes(across, down) {
-  return across.codes.map((column, row) => (column < 0 || down.codes[row] < 0 ? -1 : column * down.values.length + down.codes[row]));
+  return across.codes.map((column, row) =>
+    column < 0 || down.codes[row] < 0 ? -1 : column * down.values.length + down.codes[row],
+  );
+}
+
+/** @return {Uint32Array}  0, 1, … count − 1 */
+function allRows(count) {
+  const rows = new Uint32Array(count);
+  for (let row = 0; row < count; ++row) {
+    rows[row] = row;
+  }
+  return rows;
 }
 
 /**
@@ -93,7 +129,7 @@ function cellCodes(across, down) {
  * @return {number[]}
  */
 function paretoFront(first, second) {
-  const rows = Uint32Array.from(first.keys()).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
+  const rows = allRows(first.length).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
   rows.sort((a, b) => first[a] - first[b] || second[a] - second[b] || a - b);
   const front = [];
   let least = Infinity;
@@ -108,7 +144,7 @@ function paretoFront(first, second) {
 
 /** At most `most` rows with both measures, evenly spaced through the sweep. */
 function thinnedRows(first, second, most) {
-  const rows = [...first.keys()].filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
+  const rows = allRows(first.length).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
   const step = rows.length / Math.min(rows.length, most);
   return Array.from({ length: Math.min(rows.length, most) }, (_, i) => rows[Math.floor(i * step)]);
 }

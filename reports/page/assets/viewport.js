@@ -55,7 +55,8 @@ class Viewport {
 
   /** No side of the stage is empty where the image could fill it; a smaller image is centred. */
   keepInside() {
-    const inside = (start, room, size) => (size <= room ? (room - size) / 2 : Math.min(0, Math.max(room - size, start)));
+    const inside = (start, room, size) =>
+      size <= room ? (room - size) / 2 : Math.min(0, Math.max(room - size, start));
     this.left = inside(this.left, this.stage.width, this.image.width * this.zoom);
     this.top = inside(this.top, this.stage.height, this.image.height * this.zoom);
   }
@@ -71,7 +72,8 @@ class Viewport {
   /** Pans as far as it takes to see a pixel with some room around it. */
   reveal({ x, y }) {
     const margin = Math.min(3 * this.zoom, this.stage.width / 4, this.stage.height / 4);
-    const shift = (start, end, room) => (start < margin ? margin - start : end > room - margin ? room - margin - end : 0);
+    const shift = (start, end, room) =>
+      start < margin ? margin - start : end > room - margin ? room - margin - end : 0;
     const left = this.left + x * this.zoom;
     const top = this.top + y * this.zoom;
     this.pan(shift(left, left + this.zoom, this.stage.width), shift(top, top + this.zoom, this.stage.height));

@@ -1,0 +1,49 @@
+// Colours mean the same in the page, in the pictures and in the figures.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { describe, it } from "node:test";
+import { loadScripts } from "./scripts.mjs";
+
+const page = loadScripts(
+  ["numbers.js", "scales.js", "colours.js"],
+  ["okabeIto", "causeColours", "errorColours", "mixStops", "shareOnScale", "texelScale"],
+);
+const source = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), "utf8");
+
+describe("Colours", () => {
+  it("of causes are those of the figures", () => {
+    const style = source("reports/figures/style.py");
+    const named = Object.fromEntries(
+      [...style.matchAll(/^([A-Z]+) = "(#[0-9A-F]{6})"/gm)].map(([, name, colour]) => [name, colour]),
+    );
+    const [, entries] = /^CAUSES = \{(.*)\}$/m.exec(style);
+    const causes = Object.fromEntries(
+      [...entries.matchAll(/"(\w+)": (\w+)/g)].map(([, cause, name]) => [cause, named[name]]),
+    );
+    assert.deepEqual(page.causeColours, causes);
+  });
+
+  it("of errors are those of the pictures", () => {
+    const marks = Object.fromEntries(
+      [
+        ...source("reports/panels.cpp").matchAll(/case Mark::(\w+):\s+return \{0x(..), 0x(..), 0x(..)\}/g),
+      ].map(([, mark, ...bytes]) => [mark, `#${bytes.join("")}`]),
+    );
+    assert.deepEqual(
+      {
+        false_shadow: page.errorColours.falseShadow,
+        false_lit: page.errorColours.falseLit,
+        unmatched: page.errorColours.unmatched,
+        indeterminate: page.errorColours.indeterminate,
+      },
+      marks,
+    );
+  });
+
+  it("on a scale do not depend on the image", () => {
+    assert.equal(page.shareOnScale(page.texelScale, 0), 0.5);
+    assert.equal(page.shareOnScale(page.texelScale, 1e6), 1);
+    assert.deepEqual(page.mixStops(["#000000", "#FFFFFF"], 0.5), [128, 128, 128]);
+  });
+});
