@@ -33,7 +33,7 @@ bool can_draw()
 /// A run of four configurations in a folder.
 std::string small_run(const TemporaryFolder& folder)
 {
-    const std::string out = folder.path() / "run";
+    std::string out = folder.path() / "run";
     expect_done(gnomon({"sweep", "--builtin", "sphere-plane", "--set", "image.width=32", "--set",
                         "image.height=24", "--axis", "bias.constant=0,0.01", "--axis",
                         "shadow_map.resolution=64,128", "--out", out, "--quiet"}));
