@@ -77,7 +77,7 @@ def _write_numbers(axes, percent):
     for (row, column), value in numpy.ndenumerate(percent):
         if not numpy.isnan(value):
             axes.text(column, row, f"{value:.2g}", ha="center", va="center", size=9.5,
-                      color="white" if value < 0.3 else "black")
+                      color="white" if value < 0.7 else "black")
 
 
 def _set_values(axes, axis, which):
