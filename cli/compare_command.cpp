@@ -10,13 +10,14 @@
 #include "reports/comparison_json.hpp"
 #include "reports/comparison_table.hpp"
 #include "reports/depth_map_exr.hpp"
+#include "reports/heat_map.hpp"
 #include "reports/output_file.hpp"
 #include "reports/picture.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -25,6 +26,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
@@ -35,7 +37,8 @@ struct CompareOptions {
     std::string aov_path;
     std::string picture_path;
     std::string depth_map_path;
-    std::string folder; ///< RUN
+    std::vector<std::string> heat_maps; ///< NAME=FILE
+    std::string folder;                 ///< RUN
     std::string truth = "exact";
     bool audit = false;
     bool advise = false;
@@ -52,13 +55,39 @@ bool are_same_file(const std::string& a, const std::string& b)
            !unreachable;
 }
 
-/// An option that names a file, and the file.
-using Output = std::pair<const char*, const std::string&>;
+struct HeatMapFile {
+    reports::HeatMap kind;
+    std::string path;
+};
 
-std::array<Output, 3> outputs(const CompareOptions& options)
+std::vector<HeatMapFile> heat_map_files(const CompareOptions& options)
 {
-    return {Output{"--aov", options.aov_path}, Output{"--picture", options.picture_path},
-            Output{"--depth-map", options.depth_map_path}};
+    std::vector<HeatMapFile> files;
+    for (const std::string& text : options.heat_maps) {
+        const std::size_t equals = text.find('=');
+        const auto kind = reports::heat_map_from_name(text.substr(0, equals));
+        if (!kind || equals == std::string::npos || equals + 1 == text.size()) {
+            throw scene::InputError(
+                fmt::format("--heat-map {}: must be NAME=FILE.png with NAME one of {}", text,
+                            fmt::join(reports::heat_map_names(), ", ")));
+        }
+        files.push_back({*kind, text.substr(equals + 1)});
+    }
+    return files;
+}
+
+/// An option that names a file, and the file.
+using Output = std::pair<const char*, std::string>;
+
+std::vector<Output> outputs(const CompareOptions& options)
+{
+    std::vector<Output> all{{"--aov", options.aov_path},
+                            {"--picture", options.picture_path},
+                            {"--depth-map", options.depth_map_path}};
+    for (const HeatMapFile& file : heat_map_files(options)) {
+        all.emplace_back("--heat-map", file.path);
+    }
+    return all;
 }
 
 /// One output would replace the other, or the job.
@@ -99,6 +128,9 @@ void write_outputs(const CompareOptions& options, const analysis::Comparison& co
     if (!options.picture_path.empty()) {
         reports::write_picture(options.picture_path, comparison);
     }
+    for (const HeatMapFile& file : heat_map_files(options)) {
+        reports::write_heat_map(file.path, comparison, file.kind);
+    }
     print(options.json ? reports::comparison_json(comparison)
                        : reports::comparison_table(comparison));
 }
@@ -136,6 +168,9 @@ void require_exact_truth(const CompareOptions& options)
     }
     if (!options.folder.empty() && options.truth != "exact") {
         throw scene::InputError{"--out needs --truth exact: a run holds causes and bias curves"};
+    }
+    if (!options.heat_maps.empty() && options.truth != "exact") {
+        throw scene::InputError{"--heat-map needs --truth exact: without it there are no causes"};
     }
     if (options.advise && options.truth != "exact") {
         throw scene::InputError{"--advise needs --truth exact: advice follows from the causes"};
@@ -218,6 +253,11 @@ void add_compare_command(CLI::App& program)
                         "Write a labelled picture: GL's shadows, the true ones, the errors (PNG)");
     command->add_option("--depth-map", options->depth_map_path,
                         "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
+    command
+        ->add_option("--heat-map", options->heat_maps,
+                     "NAME=FILE.png: a picture of needed-bias, depth-error, cause or label, with "
+                     "the same colours for the same values in every image; repeatable")
+        ->allow_extra_args(false);
     command->add_option("--out", options->folder,
                         "RUN, a folder for the result with all its layers, as of `gnomon sweep`");
     command
