@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 import numpy
 import pandas
@@ -182,7 +183,8 @@ def settings_text(rows):
 
     parts = []
     scene = next((key for key in ("scene.builtin", "scene.file") if given(key)), None)
-    parts += [value(scene)] if scene else []
+    if scene:  # of a file the name, which the folders would crowd out
+        parts.append(text_of(Path(str(rows[scene].iloc[0])).name))
     if same("image.width") and same("image.height"):
         parts.append(f"{value('image.width')} × {value('image.height')} px")
     parts += [f"{value('light.type')} light"] if given("light.type") else []
