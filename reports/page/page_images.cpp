@@ -1,22 +1,16 @@
 #include "reports/page/page_images.hpp"
 
-#include "analysis/bias_order.hpp"
 #include "analysis/bias_units.hpp"
-#include "analysis/critical_bias.hpp"
-#include "reports/layer_file.hpp"
+#include "reports/page/image_layers.hpp"
 #include "reports/run/pixels.hpp"
 #include "scene/error.hpp"
-#include "scene/infinity.hpp"
-#include "scene/job.hpp"
 #include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -39,13 +33,6 @@ struct NamedLayer {
     std::optional<PackedArray> packed = {};
 };
 
-/// Whether two floats are the same, NaN and NaN too.
-bool are_same(float a, float b)
-{
-    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
-           (std::isnan(a) && std::isnan(b));
-}
-
 float with_11_bits(float value)
 {
     if (!std::isfinite(value)) {
@@ -55,139 +42,6 @@ float with_11_bits(float value)
     const float fraction = std::frexp(value, &exponent);
     return std::ldexp(std::round(std::ldexp(fraction, 11)), exponent - 11);
 }
-
-/// What the numbers of a configuration's pixels follow from.
-struct PixelRules {
-    explicit PixelRules(const Json& detail)
-        : frustum{detail.at("frustum")},
-          filter{detail.at("job").at("lookup.filter").get<std::string>()},
-          slope{detail.at("job").at("bias.slope").get<double>()},
-          outside{detail.at("job").at("lookup.outside").get<std::string>()},
-          bias{bias_of(detail)}
-    {
-        const auto& job = detail.at("job");
-        format =
-            scene::depth_format_from_name(job.at("shadow_map.depth_format").get<std::string>());
-        light.projection = frustum.at("projection") == "perspective"
-                               ? scene::Projection::perspective
-                               : scene::Projection::orthographic;
-        light.near_m = frustum.at("near_m").get<double>();
-        light.far_m = frustum.at("far_m").get<double>();
-        light.reversed = frustum.at("reversed").get<bool>();
-    }
-
-    /// The constant bias in depth units, which is a float32 there.
-    static double bias_of(const Json& detail)
-    {
-        const auto text = detail.at("exact_inputs").at("bias_constant").get<std::string>();
-        return std::strtod(text.c_str(), nullptr);
-    }
-    [[nodiscard]] bool compares_once() const
-    {
-        return (filter == "nearest" || filter == "linear") && slope == 0;
-    }
-    [[nodiscard]] double texel_m(double zeta_m) const
-    {
-        const double side = frustum.at("texel_m").get<double>();
-        return light.projection == scene::Projection::perspective ? side * zeta_m : side;
-    }
-
-    const Json& frustum;
-    std::string filter;
-    double slope;
-    std::string outside;
-    double bias;
-    std::optional<scene::DepthFormat> format;
-    scene::LightFrustum light;
-};
-
-/// The layers of a file that pages show, and what of them follows from the others.
-class ImageLayers {
-public:
-    ImageLayers(LayerFile& file, const PixelRules& rules)
-        : rules_{rules},
-          classes_{file.classes()},
-          receiver_depth_{file.floats("receiver_depth")},
-          map_depth_{file.floats("map_depth")},
-          has_biases_{file.has("critical_bias")},
-          has_diagnosis_{file.has("light_distance_m")}
-    {
-        if (has_diagnosis_) {
-            light_distance_m_ = file.floats("light_distance_m");
-        }
-        if (has_biases_) {
-            critical_ = file.floats("critical_bias");
-            needed_m_ = file.floats("needed_bias_m");
-            needed_texels_ = file.floats("needed_bias_texels");
-        }
-    }
-
-    [[nodiscard]] const Image<PixelClass>& classes() const { return classes_; }
-    [[nodiscard]] const Image<float>& receiver_depth() const { return receiver_depth_; }
-    [[nodiscard]] const Image<float>& map_depth() const { return map_depth_; }
-    [[nodiscard]] const Image<float>& light_distance_m() const { return light_distance_m_; }
-    [[nodiscard]] const Image<float>& critical() const { return critical_; }
-    [[nodiscard]] const Image<float>& needed_m() const { return needed_m_; }
-    [[nodiscard]] const Image<float>& needed_texels() const { return needed_texels_; }
-    [[nodiscard]] bool has_biases() const { return has_biases_; }
-    [[nodiscard]] bool has_diagnosis() const { return has_diagnosis_; }
-
-    [[nodiscard]] bool can_derive_critical() const
-    {
-        if (!has_biases_ || !rules_.compares_once()) {
-            return false;
-        }
-        const float policy = rules_.outside == "shadowed" ? scene::infinity : -scene::infinity;
-        return all_scored([&](std::size_t i) {
-            const float critical = std::isnan(map_depth_[i])
-                                       ? policy
-                                       : analysis::critical_bias(receiver_depth_[i], map_depth_[i],
-                                                                 0, rules_.light.reversed);
-            return are_same(critical, critical_[i]);
-        });
-    }
-    [[nodiscard]] bool can_derive_lengths() const
-    {
-        return has_biases_ && has_diagnosis_ && all_scored([&](std::size_t i) {
-                   const double bias{limit(i)};
-                   const double zeta_m{light_distance_m_[i]};
-                   const double length_m = analysis::bias_length_m(rules_.light, bias, zeta_m);
-                   const double texels = length_m / rules_.texel_m(zeta_m);
-                   return are_same(static_cast<float>(length_m), needed_m_[i]) &&
-                          are_same(static_cast<float>(texels), needed_texels_[i]);
-               });
-    }
-
-private:
-    /// The bias that a lit pixel needs, or the largest that a blocked one allows.
-    [[nodiscard]] float limit(std::size_t i) const
-    {
-        const bool is_allowed =
-            classes_[i] == PixelClass::blocked && critical_[i] != scene::infinity;
-        return is_allowed ? analysis::previous_bias(critical_[i]) : critical_[i];
-    }
-    template <typename Holds>
-    [[nodiscard]] bool all_scored(const Holds& holds) const
-    {
-        for (std::size_t i = 0; i < classes_.pixel_count(); ++i) {
-            if (scene::is_scored(classes_[i]) && !holds(i)) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    const PixelRules& rules_;
-    Image<PixelClass> classes_;
-    Image<float> receiver_depth_;
-    Image<float> map_depth_;
-    Image<float> light_distance_m_;
-    Image<float> critical_;
-    Image<float> needed_m_;
-    Image<float> needed_texels_;
-    bool has_biases_;
-    bool has_diagnosis_;
-};
 
 template <typename Value, typename From, typename Convert>
 NamedLayer converted(std::string name, const Image<From>& image, const Convert& convert)

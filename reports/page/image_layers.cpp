@@ -1,0 +1,109 @@
+#include "reports/page/image_layers.hpp"
+
+#include "analysis/bias_order.hpp"
+#include "analysis/bias_units.hpp"
+#include "analysis/critical_bias.hpp"
+#include "scene/infinity.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+namespace gnomon::reports {
+
+namespace {
+
+/// Whether two floats are the same, NaN and NaN too.
+bool are_same(float a, float b)
+{
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
+           (std::isnan(a) && std::isnan(b));
+}
+
+} // namespace
+
+PixelRules::PixelRules(const Json& detail)
+    : frustum{detail.at("frustum")},
+      filter{detail.at("job").at("lookup.filter").get<std::string>()},
+      slope{detail.at("job").at("bias.slope").get<double>()},
+      outside{detail.at("job").at("lookup.outside").get<std::string>()},
+      texel_side_m{frustum.at("texel_m").get<double>()}
+{
+    bias = std::strtod(
+        detail.at("exact_inputs").at("bias_constant").get_ref<const std::string&>().c_str(),
+        nullptr);
+    format = scene::depth_format_from_name(
+        detail.at("job").at("shadow_map.depth_format").get<std::string>());
+    light.projection = frustum.at("projection") == "perspective" ? scene::Projection::perspective
+                                                                 : scene::Projection::orthographic;
+    light.near_m = frustum.at("near_m").get<double>();
+    light.far_m = frustum.at("far_m").get<double>();
+    light.reversed = frustum.at("reversed").get<bool>();
+}
+
+ImageLayers::ImageLayers(LayerFile& file, const PixelRules& rules)
+    : rules_{rules},
+      classes_{file.classes()},
+      receiver_depth_{file.floats("receiver_depth")},
+      map_depth_{file.floats("map_depth")},
+      has_biases_{file.has("critical_bias")},
+      has_diagnosis_{file.has("light_distance_m")}
+{
+    if (has_diagnosis_) {
+        light_distance_m_ = file.floats("light_distance_m");
+    }
+    if (has_biases_) {
+        critical_ = file.floats("critical_bias");
+        needed_m_ = file.floats("needed_bias_m");
+        needed_texels_ = file.floats("needed_bias_texels");
+    }
+}
+
+bool ImageLayers::can_derive_critical() const
+{
+    if (!has_biases_ || !rules_.compares_once()) {
+        return false;
+    }
+    const float policy = rules_.outside == "shadowed" ? scene::infinity : -scene::infinity;
+    return all_scored([&](std::size_t i) {
+        const float critical = std::isnan(map_depth_[i])
+                                   ? policy
+                                   : analysis::critical_bias(receiver_depth_[i], map_depth_[i], 0,
+                                                             rules_.light.reversed);
+        return are_same(critical, critical_[i]);
+    });
+}
+
+bool ImageLayers::can_derive_lengths() const
+{
+    const auto holds = [&](std::size_t i) {
+        const double bias{limit(i)};
+        const double zeta_m{light_distance_m_[i]};
+        const double length_m = analysis::bias_length_m(rules_.light, bias, zeta_m);
+        const double texels = length_m / rules_.texel_m(zeta_m);
+        return are_same(static_cast<float>(length_m), needed_m_[i]) &&
+               are_same(static_cast<float>(texels), needed_texels_[i]);
+    };
+    return has_biases_ && has_diagnosis_ && all_scored(holds);
+}
+
+float ImageLayers::limit(std::size_t i) const
+{
+    const bool is_allowed =
+        classes_[i] == scene::PixelClass::blocked && critical_[i] != scene::infinity;
+    return is_allowed ? analysis::previous_bias(critical_[i]) : critical_[i];
+}
+
+template <typename Holds>
+bool ImageLayers::all_scored(const Holds& holds) const
+{
+    for (std::size_t i = 0; i < classes_.pixel_count(); ++i) {
+        if (scene::is_scored(classes_[i]) && !holds(i)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "reports/json_values.hpp"
+#include "reports/layer_file.hpp"
+#include "scene/image.hpp"
+#include "scene/job.hpp"
+#include "scene/light_frustum.hpp"
+#include "scene/pixel_class.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace gnomon::reports {
+
+/// What the numbers of a configuration's pixels follow from.
+struct PixelRules {
+    /// @param detail  of `compare --json`; must outlive this.
+    /// @throws nlohmann::json::exception  if it lacks something.
+    explicit PixelRules(const Json& detail);
+
+    /// One comparison of depths decides, and the tangent of the angle has no part in it.
+    [[nodiscard]] bool compares_once() const
+    {
+        return (filter == "nearest" || filter == "linear") && slope == 0;
+    }
+    [[nodiscard]] double texel_m(double zeta_m) const
+    {
+        const bool is_perspective = light.projection == scene::Projection::perspective;
+        return is_perspective ? texel_side_m * zeta_m : texel_side_m;
+    }
+
+    const Json& frustum;
+    std::string filter;
+    double slope;
+    std::string outside;
+    double bias;         ///< constant, in depth units
+    double texel_side_m; ///< perspective: at ζ = 1 m
+    std::optional<scene::DepthFormat> format;
+    scene::LightFrustum light; ///< projection, near, far and direction alone
+};
+
+/// The layers of a file that others may follow from.
+class ImageLayers {
+public:
+    /// @param rules  must outlive this.
+    /// @throws scene::InputError  as `LayerFile` does.
+    ImageLayers(LayerFile& file, const PixelRules& rules);
+
+    [[nodiscard]] const scene::Image<float>& receiver_depth() const { return receiver_depth_; }
+    [[nodiscard]] const scene::Image<float>& map_depth() const { return map_depth_; }
+    [[nodiscard]] const scene::Image<float>& light_distance_m() const { return light_distance_m_; }
+    [[nodiscard]] const scene::Image<float>& critical() const { return critical_; }
+    [[nodiscard]] const scene::Image<float>& needed_m() const { return needed_m_; }
+    [[nodiscard]] const scene::Image<float>& needed_texels() const { return needed_texels_; }
+    [[nodiscard]] bool has_biases() const { return has_biases_; }
+    [[nodiscard]] bool has_diagnosis() const { return has_diagnosis_; }
+
+    /// Whether every scored pixel's critical bias is, bit by bit, that of its two depths.
+    [[nodiscard]] bool can_derive_critical() const;
+    /// Whether every scored pixel's needed bias in metres and texels is, bit by bit, that of its
+    /// critical bias and light distance, computed in double and rounded once.
+    [[nodiscard]] bool can_derive_lengths() const;
+
+private:
+    /// The bias that a lit pixel needs, or the largest that a blocked one allows.
+    [[nodiscard]] float limit(std::size_t i) const;
+    template <typename Holds>
+    [[nodiscard]] bool all_scored(const Holds& holds) const;
+
+    const PixelRules& rules_;
+    scene::Image<scene::PixelClass> classes_;
+    scene::Image<float> receiver_depth_;
+    scene::Image<float> map_depth_;
+    scene::Image<float> light_distance_m_;
+    scene::Image<float> critical_;
+    scene::Image<float> needed_m_;
+    scene::Image<float> needed_texels_;
+    bool has_biases_;
+    bool has_diagnosis_;
+};
+
+} // namespace gnomon::reports
