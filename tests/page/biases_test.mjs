@@ -20,6 +20,7 @@ const page = loadScripts(
     "sortFloats",
     "SliderScale",
     "shortestFloat32",
+    "percent",
   ],
 );
 
@@ -195,5 +196,23 @@ describe("A float32 as text", () => {
       const value = Math.fround((random() - 0.5) * 10 ** (60 * random() - 30));
       assert.equal(Math.fround(Number(page.shortestFloat32(value))), value);
     }
+  });
+});
+
+describe("A share in percent", () => {
+  it("has the digits that the program gives it", () => {
+    const texts = [0, 1, 0.5, 0.082, 0.0086, 0.000197, 1.23e-5, 1e-7, null].map(page.percent);
+    const wanted = [
+      "0 %",
+      "100 %",
+      "50.0 %",
+      "8.20 %",
+      "0.860 %",
+      "0.0197 %",
+      "0.0012 %",
+      "<0.0001 %",
+      "\u2013",
+    ];
+    assert.deepEqual(texts, wanted);
   });
 });

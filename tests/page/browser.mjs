@@ -60,10 +60,13 @@ export async function stopBrowser() {
  * Opens a page from the disk and waits until its scripts have filled it.
  * @return {Promise<Page>}  with `page.faults`: requests, messages of the console, errors and dialogs
  */
-export async function openPage(file, { width = 1280, height = 900, colorScheme = "light" } = {}) {
-  const context = await (
-    await startBrowser()
-  ).newContext({ viewport: { width, height }, colorScheme, reducedMotion: "reduce" });
+export async function openPage(
+  file,
+  { width = 1280, height = 900, colorScheme = "light", hasTouch = false } = {},
+) {
+  const started = await startBrowser();
+  const viewport = { width, height };
+  const context = await started.newContext({ viewport, colorScheme, hasTouch, reducedMotion: "reduce" });
   const page = await context.newPage();
   const address = pathToFileURL(file).href;
   page.faults = [];

@@ -185,13 +185,28 @@ describe("The inspector", () => {
     assert.deepEqual(page.faults, []);
   });
 
-  it("pins the pixel that a finger taps", async () => {
-    const { page: file } = report;
-    const phone = await openPage(file, { width: 390, height: 800 });
+  it("pins the pixel that a finger taps, and zooms with two", async () => {
+    const phone = await openPage(report.page, { width: 390, height: 800, hasTouch: true });
     await phone.locator("#inspector .stage").scrollIntoViewIfNeeded();
     const at = await pixelPoint(phone, { width: 96, height: 64 }, 10, 50);
-    await phone.mouse.click(at.x, at.y);
+    await phone.touchscreen.tap(at.x, at.y);
     assert.match(await phone.locator("#inspector .pixel h3").textContent(), /10, 50 \(pinned\)/);
+    const zoom = () => phone.locator("#inspector output").textContent().then(parseFloat);
+    const fitted = await zoom();
+    const fingers = await phone.context().newCDPSession(phone);
+    const touch = (type, gap) => {
+      const touchPoints = [-gap, gap].map((dx, id) => ({ x: at.x + 100 + dx, y: at.y - 50, id }));
+      return fingers.send("Input.dispatchTouchEvent", { type, touchPoints: gap === 0 ? [] : touchPoints });
+    };
+    await touch("touchStart", 20);
+    for (const gap of [25, 30, 40]) {
+      await touch("touchMove", gap);
+    }
+    await touch("touchEnd", 0);
+    assert.ok((await zoom()) > 1.5 * fitted, `${await zoom()} % after ${fitted} %`);
+    assert.match(await phone.locator("#inspector .pixel h3").textContent(), /10, 50 \(pinned\)/);
+    assert.deepEqual(phone.faults, []);
+    await phone.close();
   });
 });
 

@@ -68,7 +68,7 @@ class ConfigurationDetail {
   constructor(table, run) {
     this.table = table;
     this.run = run;
-    this.heading = element("h3", { tabindex: -1, text: "Configuration" });
+    this.heading = element("h3", { "aria-live": "polite", text: "Configuration" });
     this.host = element("div");
     this.root = element("div", { class: "configuration", hidden: true }, this.heading, this.host);
   }

@@ -1,7 +1,8 @@
 // The pixel inspector: two layers with a wipe between them, the bias slider and a pixel's numbers.
 
-const biasLine =
-  "The filter hardware has no critical bias: the weights are the driver’s own, so other biases are not known from this one lookup. The layers show the job’s bias.";
+const hardwareLine =
+  "The filter hardware has no critical bias: the weights are the driver’s own, so other biases are not " +
+  "known from this one lookup. The layers show the job’s bias.";
 
 /** Fills section#inspector. */
 class Inspector {
@@ -122,22 +123,29 @@ class Inspector {
 
   makeBias() {
     this.bias = this.image.jobBias;
+    const heading = element("h3", { text: "Bias" });
     if (!this.image.hasCurve || this.image.detail.bias_curve === null) {
-      this.biasHost.replaceChildren(
-        element("h3", { text: "Bias" }),
-        element("p", { class: "hint", text: biasLine }),
-      );
-      this.curveHost.replaceChildren();
-      this.slider = null;
+      this.biasHost.replaceChildren(heading, element("p", { class: "hint", text: hardwareLine }));
+      this.curve = null;
+      this.showReruns();
       return;
     }
-    this.slider = new BiasSlider(this.image, (bias) => {
+    const slider = new BiasSlider(this.image, (bias) => {
       this.bias = bias;
       this.recolour();
     });
-    this.biasHost.replaceChildren(element("h3", { text: "Bias" }), this.slider.root);
-    this.curve = new CurveChart(this.curveHost, this.image, this.slider.scale);
-    this.slider.setBias(this.bias);
+    this.biasHost.replaceChildren(heading, slider.root);
+    this.curve = new CurveChart(this.curveHost, this.image, slider.scale);
+    slider.setBias(this.bias);
+  }
+
+  /** Other biases of the filter hardware, where GL was run again with them. */
+  showReruns() {
+    const reruns = this.image.detail.bias_reruns ?? [];
+    this.curveHost.replaceChildren();
+    if (reruns.length > 0) {
+      rerunChart(this.curveHost, reruns);
+    }
   }
 
   chooseLayers() {

@@ -22,7 +22,7 @@ function grouped(count) {
   return String(count).replace(/\B(?=(\d{3})+(?!\d))/g, ",");
 }
 
-/** A share in percent, to three significant digits. */
+/** A share in percent, to three significant digits and at most four decimals, as reports::percent. */
 function percent(share) {
   if (share === null || !Number.isFinite(share)) {
     return noValue;
@@ -31,7 +31,11 @@ function percent(share) {
   if (value === 0) {
     return "0 %";
   }
-  return value < 0.0001 ? "<0.0001 %" : `${Number(value.toPrecision(3))} %`;
+  if (value < 0.0001) {
+    return "<0.0001 %";
+  }
+  const decimals = 2 - Math.floor(Math.log10(value));
+  return `${value.toFixed(Math.min(4, Math.max(0, decimals)))} %`;
 }
 
 /** A real number to four significant digits; whole numbers whole. */

@@ -68,7 +68,7 @@ class PixelDetails {
     this.list = element("dl", { class: "facts" });
     this.hint = element("p", {
       class: "hint",
-      text: "Point at a pixel, or move the cursor with the arrow keys. A click or tap pins it.",
+      text: "Point at a pixel, or move the cursor with the arrow keys. A click or tap pins it. Ctrl and the wheel zoom.",
     });
     this.said = element("p", { class: "visually-hidden", role: "status" });
     this.root = element("div", { class: "pixel" }, this.heading, this.hint, this.list, this.said);

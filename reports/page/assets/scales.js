@@ -85,9 +85,16 @@ function symlogLayout(threshold, format = formatTick) {
   return { forward, inverse, ticks, format };
 }
 
+/** A rate; a power of ten, as ticks are, without the zeros behind it. */
+function formatRate(share) {
+  const exponent = Math.log10(share);
+  const isPower = share > 0 && Math.abs(exponent - Math.round(exponent)) < 1e-9;
+  return isPower ? `${powerOfTen(Math.round(exponent) + 2)} %` : percent(share);
+}
+
 /** Rates from 0 to 1: linear to 0.001 %, logarithmic beyond; the same on every chart. */
 function rateLayout() {
-  return symlogLayout(1e-5, (value) => percent(value));
+  return symlogLayout(1e-5, formatRate);
 }
 
 /**
