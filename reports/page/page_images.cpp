@@ -24,7 +24,6 @@ namespace gnomon::reports {
 namespace {
 
 using scene::Image;
-using scene::PixelClass;
 
 /// A layer on its way into a page.
 struct NamedLayer {
