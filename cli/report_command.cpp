@@ -75,7 +75,11 @@ void report(const CommandOptions& options)
     make_folder(report.out);
     reports::write_report_csv(report.folder, report.out);
     add_figures(report, options);
-    print(outcome_text(report.out, reports::write_report(report)));
+    const reports::ReportOutcome outcome = reports::write_report(report);
+    for (const std::string& problem : outcome.problems) {
+        fmt::print(stderr, "gnomon: pixels left out: {}\n", problem);
+    }
+    print(outcome_text(report.out, outcome));
 }
 
 } // namespace

@@ -9,7 +9,7 @@ namespace gnomon::reports {
 
 Aov read_aov(const std::filesystem::path& path, scene::ImageSize image)
 {
-    LayerFile file{path};
+    LayerFile file{path, "write it again with `gnomon compare JOB --aov FILE.exr`"};
     const scene::ImageSize size = file.size();
     if (size != image) {
         throw scene::InputError(fmt::format(

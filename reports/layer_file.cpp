@@ -13,6 +13,7 @@
 #include <optional>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace gnomon::reports {
@@ -21,30 +22,29 @@ namespace {
 
 using scene::ImageSize;
 
-constexpr std::string_view rewrite_advice =
-    "write it again with `gnomon compare JOB --aov FILE.exr`";
-
 /// Beyond these a header is no AOV's: the longest text is the job, some kilobytes.
 constexpr std::size_t longest_name = 255;
 constexpr std::size_t largest_attribute_bytes = 1U << 20;
 constexpr int most_attributes = 256;
 constexpr int most_channels = 64;
 
-[[noreturn]] void refuse_layers(const std::filesystem::path& path, std::string_view what)
+[[noreturn]] void refuse_layers(const std::filesystem::path& path, std::string_view what,
+                                const std::string& advice)
 {
-    throw scene::InputError(fmt::format("{}: {}: {}", path.string(), what, rewrite_advice));
+    throw scene::InputError(fmt::format("{}: {}: {}", path.string(), what, advice));
 }
 
 /// Reads just enough of an EXR header to know the image's size before the decoder, which takes
 /// memory for it, sees the file.
 class HeaderScan {
 public:
-    explicit HeaderScan(const std::filesystem::path& path)
+    HeaderScan(const std::filesystem::path& path, const std::string& advice)
         : path_{path},
+          advice_{advice},
           stream_{path, std::ios::binary}
     {
         if (!stream_) {
-            refuse_layers(path_, "the file cannot be opened");
+            refuse("the file cannot be opened");
         }
     }
 
@@ -55,7 +55,7 @@ public:
         constexpr std::uint32_t version = 2;
         constexpr std::uint32_t long_names = 0x400; // the only flag that plain scanlines may have
         if (word() != magic || (word() & ~long_names) != version) {
-            refuse_layers(path_, "not an EXR file of plain scanlines");
+            refuse("not an EXR file of plain scanlines");
         }
         std::optional<ImageSize> size;
         for (int i = 0; i < most_attributes; ++i) {
@@ -66,7 +66,7 @@ public:
             const std::string type = text();
             const std::uint32_t bytes = word();
             if (bytes > largest_attribute_bytes) {
-                refuse_layers(path_, fmt::format("attribute {} is too large", printable(name)));
+                refuse(fmt::format("attribute {} is too large", printable(name)));
             }
             if (name == "dataWindow" && type == "box2i" && bytes == sizeof(Window)) {
                 size = window_size();
@@ -74,16 +74,13 @@ public:
                 stream_.ignore(static_cast<std::streamsize>(bytes));
             }
         }
-        refuse_layers(path_, "the header has too many attributes");
+        refuse("the header has too many attributes");
     }
 
 private:
     using Window = std::array<std::int32_t, 4>; // left, top, right, bottom; inclusive
 
-    [[noreturn]] ImageSize throw_no_window()
-    {
-        refuse_layers(path_, "the header has no data window");
-    }
+    [[noreturn]] ImageSize throw_no_window() { refuse("the header has no data window"); }
 
     ImageSize window_size()
     {
@@ -95,7 +92,7 @@ private:
         const auto [left, top, right, bottom] = window;
         if (left != 0 || top != 0 || right < 0 || bottom < 0 || right > largest ||
             bottom > largest) {
-            refuse_layers(path_, "the data window is not an image's");
+            refuse("the data window is not an image's");
         }
         return {right + 1, bottom + 1};
     }
@@ -104,7 +101,7 @@ private:
     {
         const int value = stream_.get();
         if (value == std::char_traits<char>::eof()) {
-            refuse_layers(path_, "the header ends too early");
+            refuse("the header ends too early");
         }
         return static_cast<char>(value);
     }
@@ -122,7 +119,7 @@ private:
         std::string result;
         for (char c = byte(); c != '\0'; c = byte()) {
             if (result.size() == longest_name) {
-                refuse_layers(path_, "a name in the header is too long");
+                refuse("a name in the header is too long");
             }
             result += c;
         }
@@ -136,17 +133,20 @@ private:
         return name;
     }
 
+    [[noreturn]] void refuse(std::string_view what) const { refuse_layers(path_, what, advice_); }
+
     const std::filesystem::path& path_;
+    const std::string& advice_;
     std::ifstream stream_;
 };
 
-ImageSize scanned_size(const std::filesystem::path& path)
+ImageSize scanned_size(const std::filesystem::path& path, const std::string& advice)
 {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
-        refuse_layers(path, "no such file");
+        refuse_layers(path, "no such file", advice);
     }
-    return HeaderScan{path}.size();
+    return HeaderScan{path, advice}.size();
 }
 
 } // namespace
@@ -160,7 +160,17 @@ struct LayerFile::Reader {
     std::vector<std::byte> pixels;
 };
 
-LayerFile::LayerFile(const std::filesystem::path& path) : path_{path}, size_{scanned_size(path)} {}
+LayerFile::LayerFile(const std::filesystem::path& path, std::string advice)
+    : path_{path},
+      advice_{std::move(advice)},
+      size_{scanned_size(path, advice_)}
+{
+}
+
+void LayerFile::refuse(std::string_view what) const
+{
+    refuse_layers(path_, what, advice_);
+}
 
 LayerFile::LayerFile(LayerFile&&) noexcept = default;
 LayerFile& LayerFile::operator=(LayerFile&&) noexcept = default;
@@ -178,13 +188,13 @@ LayerFile::Reader& LayerFile::reader()
                         OIIO::geterror()));
     }
     if (!reader->input->open(path_.string(), reader->spec)) {
-        refuse_layers(path_, "the header is damaged");
+        refuse("the header is damaged");
     }
     const OIIO::ImageSpec& spec = reader->spec;
     if (spec.width != size_.width_px || spec.height != size_.height_px || spec.depth != 1 ||
         spec.x != 0 || spec.y != 0 || spec.deep || spec.tile_width != 0 ||
         spec.nchannels > most_channels) {
-        refuse_layers(path_, "the image is not laid out as an AOV");
+        refuse("the image is not laid out as an AOV");
     }
     reader_ = std::move(reader);
     return *reader_;
@@ -203,14 +213,14 @@ scene::Image<Value> LayerFile::channel(const std::string& name)
     Reader& from = reader();
     const int index = from.spec.channelindex(name);
     if (index < 0 || from.spec.channelformat(index) != type) {
-        refuse_layers(path_, fmt::format("channel {} is missing or of another type", name));
+        refuse(fmt::format("channel {} is missing or of another type", name));
     }
     if (from.pixels.empty()) {
         from.pixels.resize(from.spec.image_bytes(true));
         if (!from.input->read_scanlines(0, 0, 0, size_.height_px, 0, 0, from.spec.nchannels,
                                         OIIO::TypeDesc::UNKNOWN, from.pixels.data())) {
             from.pixels.clear();
-            refuse_layers(path_, "the pixels are damaged or truncated");
+            refuse("the pixels are damaged or truncated");
         }
     }
     const std::size_t stride = from.spec.pixel_bytes(true);
@@ -251,8 +261,8 @@ scene::Image<scene::PixelClass> LayerFile::classes()
     scene::Image<scene::PixelClass> result{codes.size()};
     for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
         if (codes[i] >= scene::pixel_class_count) {
-            refuse_layers(path_, fmt::format("class code {} is none of 0 to {}", codes[i],
-                                             scene::pixel_class_count - 1));
+            refuse(fmt::format("class code {} is none of 0 to {}", codes[i],
+                               scene::pixel_class_count - 1));
         }
         result[i] = static_cast<scene::PixelClass>(codes[i]);
     }

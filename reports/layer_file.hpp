@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace gnomon::reports {
 
@@ -19,7 +20,8 @@ namespace gnomon::reports {
 class LayerFile {
 public:
     /// Reads no more than the header.
-    explicit LayerFile(const std::filesystem::path& path);
+    /// @param advice  ends every message: how to get a sound file.
+    LayerFile(const std::filesystem::path& path, std::string advice);
     LayerFile(LayerFile&&) noexcept;
     LayerFile& operator=(LayerFile&&) noexcept;
     ~LayerFile();
@@ -39,7 +41,10 @@ private:
     template <typename Value>
     [[nodiscard]] scene::Image<Value> channel(const std::string& name);
 
+    [[noreturn]] void refuse(std::string_view what) const;
+
     std::filesystem::path path_;
+    std::string advice_;
     scene::ImageSize size_;
     std::unique_ptr<Reader> reader_;
 };

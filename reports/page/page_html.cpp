@@ -66,7 +66,10 @@ std::string headline_table(const RunOverview& overview)
                                  : "Errors among the scored pixels",
         {"configuration", "false shadow", "of lit", "false lit", "of blocked", "error rate"});
     for (const OverviewRow& row : overview.rows) {
-        html += "<tr>" + row_heading(row_name(row)) + count_cells(row.result) + "</tr>\n";
+        const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
+        html += fmt::format("<tr{}>{}{}</tr>\n", is_highest ? " class=\"highest\"" : "",
+                            row_heading((is_highest ? "highest: " : "") + row_name(row)),
+                            count_cells(row.result));
     }
     return html + std::string{table_end};
 }
@@ -92,9 +95,28 @@ std::string bias_table(const ResultRow& row)
                                         "bias_curve.panning_free_beyond_zero"}}) {
         html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
     }
-    html += "<tr>" + row_heading("wrong pixels at the best") +
-            number_cell(grouped(row.count("bias_curve.best_errors"))) + "</tr>\n";
-    return html + std::string{table_end};
+    html += table_end;
+    return html + fmt::format("<p>At the best, {} pixels are wrong.</p>\n",
+                              grouped(row.count("bias_curve.best_errors")));
+}
+
+/// Why configurations could not be computed.
+std::string failures_table(const RunOverview& overview)
+{
+    if (overview.failed.empty()) {
+        return {};
+    }
+    std::string html = table_head("Configurations that failed", {"configuration", "why"});
+    for (const OverviewRow& row : overview.failed) {
+        html += fmt::format("<tr>{}<td><bdi>{}</bdi></td></tr>\n", row_heading(row_name(row)),
+                            escaped(row.result.text("message")));
+    }
+    html += table_end;
+    if (overview.failed_count > overview.failed.size()) {
+        html += fmt::format("<p>{} more failed: <code>gnomon status --all</code> lists them.</p>\n",
+                            grouped(overview.failed_count - overview.failed.size()));
+    }
+    return html;
 }
 
 std::string verdict_section(const RunOverview& overview)
@@ -107,7 +129,7 @@ std::string verdict_section(const RunOverview& overview)
     if (overview.headline) {
         html += headline_table(overview) + bias_table(overview.headline->result);
     }
-    return html + "</section>\n";
+    return html + failures_table(overview) + "</section>\n";
 }
 
 std::string figures_section(const ReportOptions& options, std::span<const std::string> pictures)
@@ -206,7 +228,7 @@ std::string counts_table(std::string_view caption, const ResultRow& row,
 std::string objects_section(const RunOverview& overview)
 {
     if (!overview.headline) {
-        return {};
+        return script_section("objects", "By cause and by object");
     }
     const OverviewRow& row = *overview.headline;
     return fmt::format("<section id=\"objects\" aria-labelledby=\"objects-heading\">\n"
@@ -235,7 +257,7 @@ std::string environment_section(const RunReader& run, const RunOverview& overvie
             definition("gnomon", environment.gnomon) + "</dl>\n";
     html += fmt::format("<p>All of it:</p>\n<pre><code>{} --out RUN\ngnomon report RUN</code>"
                         "</pre>\n",
-                        escaped(description.command));
+                        escaped(run_command(description)));
     if (overview.headline) {
         const std::string command = compare_command(description, overview.headline->result);
         html += command.empty() ? std::string{}
@@ -258,7 +280,7 @@ std::string header(const RunReader& run, const RunOverview& overview)
                        "\n<p>{} compared with exact shadow rays, pixel by pixel; {}, gnomon {}."
                        "</p>\n</header>\n",
                        escaped(overview.scene.empty() ? "several scenes" : overview.scene),
-                       counted(run.outcome().done, "shadow-map configuration"),
+                       counted(run.description().size, "shadow-map configuration"),
                        escaped(environment.gl_renderer), escaped(environment.gnomon));
 }
 

@@ -24,6 +24,7 @@ namespace gnomon::reports {
 namespace {
 
 using scene::Image;
+using scene::PixelClass;
 
 /// A layer on its way into a page.
 struct NamedLayer {
@@ -191,11 +192,38 @@ Json image_entry(LayerFile& file, const Json& detail, const Pack& pack_layers)
             {"detail", detail}};
 }
 
+constexpr std::string_view kept_advice =
+    "remove it and the file of the same name beside it, and run the command of the run again";
+
 [[noreturn]] void refuse_detail(const std::filesystem::path& path)
 {
-    throw scene::InputError(fmt::format("{}: is damaged; remove it and the image beside it, and "
-                                        "run the sweep again",
-                                        scene::one_line(path.string())));
+    throw scene::InputError(fmt::format("{}: is damaged, or of another configuration: {}",
+                                        scene::one_line(path.string()), kept_advice));
+}
+
+/// Whether a JSON is that of the configuration.
+bool is_of(const Json& detail, const KeptImage& image)
+{
+    return detail.at("pixels").at("lit") == image.lit &&
+           detail.at("pixels").at("blocked") == image.blocked &&
+           detail.at("false_shadow") == image.false_shadow &&
+           detail.at("false_lit") == image.false_lit;
+}
+
+/// Whether an image is of the JSON's job, and has its pixels.
+bool is_of(LayerFile& file, const Json& detail)
+{
+    const auto texts = file.texts();
+    const auto job = texts.find("job");
+    if (job == texts.end() || Json::parse(job->second, nullptr, false) != detail.at("job")) {
+        return false;
+    }
+    const scene::Image<PixelClass> classes = file.classes();
+    const auto count = [&](PixelClass pixel_class) {
+        return std::count(classes.begin(), classes.end(), pixel_class);
+    };
+    return detail.at("pixels").at("lit") == count(PixelClass::lit) &&
+           detail.at("pixels").at("blocked") == count(PixelClass::blocked);
 }
 
 } // namespace
@@ -207,29 +235,31 @@ bool has_image(const std::filesystem::path& folder, std::string_view id)
            std::filesystem::exists(detail_path(folder, id), error);
 }
 
-Json read_detail(const std::filesystem::path& folder, std::string_view id)
+Json find_detail(const std::filesystem::path& folder, std::string_view id)
 {
-    const auto path = detail_path(folder, id);
-    std::ifstream file{path};
-    Json detail = Json::parse(file, nullptr, false);
-    if (detail.is_discarded() || !detail.is_object()) {
-        refuse_detail(path);
+    if (!has_image(folder, id)) {
+        return nullptr;
     }
-    return detail;
+    std::ifstream file{detail_path(folder, id)};
+    Json detail = Json::parse(file, nullptr, false);
+    return detail.is_object() ? detail : Json(nullptr);
 }
 
-Json PageImages::read(std::string_view id, std::uint64_t row)
+Json PageImages::read(const KeptImage& image)
 {
-    LayerFile file{pixels_path(folder_, id)};
-    const Json detail = read_detail(folder_, id);
+    LayerFile file{pixels_path(folder_, image.id), std::string{kept_advice}};
+    const Json detail = find_detail(folder_, image.id);
     try {
         // Before memory is taken for as many pixels as the image says that it has.
         const Json& job = detail.at("job");
         if (job.at("image.width") != file.size().width_px ||
             job.at("image.height") != file.size().height_px) {
-            refuse_detail(pixels_path(folder_, id));
+            refuse_detail(pixels_path(folder_, image.id));
         }
-        Json entry{{"row", row}};
+        if (!is_of(detail, image) || !is_of(file, detail)) {
+            refuse_detail(pixels_path(folder_, image.id));
+        }
+        Json entry{{"row", image.row}};
         const auto pack_layers = [&](std::vector<NamedLayer> layers) {
             tbb::parallel_for(std::size_t{0}, layers.size(), [&](std::size_t i) {
                 const auto known = last_.find(layers[i].name);
@@ -250,7 +280,7 @@ Json PageImages::read(std::string_view id, std::uint64_t row)
         entry.update(image_entry(file, detail, pack_layers));
         return entry;
     } catch (const Json::exception&) {
-        refuse_detail(detail_path(folder_, id));
+        refuse_detail(detail_path(folder_, image.id));
     }
 }
 

@@ -19,6 +19,16 @@ namespace gnomon::reports {
 using LayerValues = std::variant<std::vector<float>, std::vector<std::uint8_t>,
                                  std::vector<std::uint16_t>, std::vector<std::uint32_t>>;
 
+/// A configuration whose layers were kept, and what the database says of it.
+struct KeptImage {
+    std::string id;
+    std::uint64_t row = 0; ///< its place in the page's table
+    std::uint64_t lit = 0; ///< scored pixels, by truth
+    std::uint64_t blocked = 0;
+    std::uint64_t false_shadow = 0;
+    std::uint64_t false_lit = 0;
+};
+
 /// Configurations' layers as a page has them (docs/report.md#data).
 class PageImages {
 public:
@@ -31,9 +41,9 @@ public:
 
     /// What follows from other layers bit by bit, in the arithmetic of a page, is left out and
     /// named in "derive"; depth errors are rounded to 11 bits, by less than 0.05 %.
-    /// @param row  its place in the page's table.
-    /// @throws scene::InputError  one line, if a file of the run is damaged.
-    [[nodiscard]] Json read(std::string_view id, std::uint64_t row);
+    /// @throws scene::InputError  one line, if a file of the run is damaged, or of another
+    ///                            configuration than the database says.
+    [[nodiscard]] Json read(const KeptImage& image);
 
     /// Forgets the layers read last, whose blocks are gone.
     void forget() { last_.clear(); }
@@ -50,8 +60,8 @@ private:
     std::map<std::string, LastLayer> last_;
 };
 
-/// What `gnomon compare --json` printed for a configuration whose layers were kept.
-/// @throws scene::InputError  one line, if it is damaged.
-[[nodiscard]] Json read_detail(const std::filesystem::path& folder, std::string_view id);
+/// What `gnomon compare --json` printed for a configuration; null if its layers were not kept, or
+/// the file is damaged.
+[[nodiscard]] Json find_detail(const std::filesystem::path& folder, std::string_view id);
 
 } // namespace gnomon::reports

@@ -36,25 +36,22 @@ std::string data_address(const std::filesystem::path& png)
     return "data:image/png;base64," + base64(std::as_bytes(std::span{bytes}));
 }
 
-/// A configuration whose layers were kept.
-struct KeptImage {
-    std::string id;
-    std::uint64_t row = 0;
-};
-
 /// The headline's, then the others in the order of the sweep; or those that are asked for.
 std::vector<KeptImage> kept_images(const RunReader& run, const RunOverview& overview,
                                    const ReportOptions& options)
 {
     std::vector<KeptImage> kept;
-    sqlite::Statement find{run.database(), "SELECT id FROM results ORDER BY ordinal"};
+    sqlite::Statement find{run.database(),
+                           "SELECT id, \"pixels.lit\", \"pixels.blocked\", false_shadow, false_lit"
+                           " FROM results ORDER BY ordinal"};
+    const auto count = [&](int column) { return static_cast<std::uint64_t>(find.integer(column)); };
     for (std::uint64_t row = 0; find.step(); ++row) {
         const std::string id = find.text(0);
         const bool is_asked_for =
             options.only.empty() ||
             std::find(options.only.begin(), options.only.end(), id) != options.only.end();
         if (is_asked_for && has_image(run.folder(), id)) {
-            kept.push_back({id, row});
+            kept.push_back({id, row, count(1), count(2), count(3), count(4)});
         }
     }
     std::stable_partition(kept.begin(), kept.end(), [&](const KeptImage& image) {
@@ -76,21 +73,37 @@ void require_kept(const std::vector<KeptImage>& kept, const ReportOptions& optio
     }
 }
 
+/// The image, or null where its files are damaged and it was not asked for.
+Json read_image(PageImages& layers, const KeptImage& image, const ReportOptions& options,
+                ReportOutcome& outcome)
+{
+    try {
+        return layers.read(image);
+    } catch (const scene::InputError& error) {
+        if (!options.only.empty()) {
+            throw;
+        }
+        outcome.problems.emplace_back(error.what());
+        return nullptr;
+    }
+}
+
 /// As many as fit, at least one.
-Json read_images(const RunReader& run, const std::vector<KeptImage>& kept, PackedBlocks& blocks,
-                 ReportOutcome& outcome)
+Json read_images(const RunReader& run, const std::vector<KeptImage>& kept,
+                 const ReportOptions& options, PackedBlocks& blocks, ReportOutcome& outcome)
 {
     Json images = Json::array();
     const std::size_t before = blocks.byte_count();
     PageImages layers{run.folder(), blocks};
     for (const KeptImage& image : kept) {
         const std::size_t block_count = blocks.texts().size();
-        Json entry = layers.read(image.id, image.row);
-        if (!images.empty() && blocks.byte_count() - before > most_image_bytes) {
+        Json entry = read_image(layers, image, options, outcome);
+        if (!entry.is_null() && !images.empty() &&
+            blocks.byte_count() - before > most_image_bytes) {
             blocks.keep_first(block_count);
             layers.forget();
             ++outcome.images_left_out;
-        } else {
+        } else if (!entry.is_null()) {
             images.push_back(std::move(entry));
             ++outcome.images;
         }
@@ -113,7 +126,8 @@ Json run_object(const RunReader& run)
 }
 
 Json page_data(const RunReader& run, const RunOverview& overview,
-               const std::vector<KeptImage>& kept, PackedBlocks& blocks, ReportOutcome& outcome)
+               const std::vector<KeptImage>& kept, const ReportOptions& options,
+               PackedBlocks& blocks, ReportOutcome& outcome)
 {
     PageTable table = read_table(run, blocks);
     const std::vector<std::string> curves = curve_ids(run);
@@ -125,7 +139,7 @@ Json page_data(const RunReader& run, const RunOverview& overview,
               {"constants", std::move(table.constants)}};
     data["curves"] = read_curves(run, curves, blocks);
     data["error_vs_z"] = read_error_vs_z(run, curves, blocks);
-    data["images"] = read_images(run, kept, blocks, outcome);
+    data["images"] = read_images(run, kept, options, blocks, outcome);
     return data;
 }
 
@@ -149,7 +163,7 @@ ReportOutcome write_report(const ReportOptions& options)
     }
     ReportOutcome outcome;
     PackedBlocks blocks;
-    const Json data = page_data(run, overview, kept, blocks, outcome);
+    const Json data = page_data(run, overview, kept, options, blocks, outcome);
     const std::string title = fmt::format(
         "Shadow-map accuracy: {}", overview.scene.empty() ? "several scenes" : overview.scene);
     write_file(

@@ -26,8 +26,9 @@ struct ReportOptions {
 
 /// What was written.
 struct ReportOutcome {
-    std::size_t images = 0;          ///< configurations whose layers the page holds
-    std::size_t images_left_out = 0; ///< whose layers were kept but did not fit
+    std::size_t images = 0;            ///< configurations whose layers the page holds
+    std::size_t images_left_out = 0;   ///< whose layers were kept but did not fit
+    std::vector<std::string> problems; ///< of kept layers that are damaged: they are left out
 };
 
 /// Writes the CSV files of a run into DIR, from which figures are drawn.
@@ -38,6 +39,7 @@ void write_report_csv(const std::filesystem::path& folder, const std::filesystem
 ///
 /// The page needs no network and no server. Its layers take 11 MB at most, those of the headline
 /// configuration first.
+/// Kept layers that are damaged are left out, unless `only` asks for them.
 /// @throws scene::InputError        if there is no run, it is damaged, or it does not hold the
 ///                                  layers of a configuration in `only`.
 /// @throws scene::EnvironmentError  if a file cannot be written.

@@ -40,6 +40,17 @@ std::uint64_t place_of(const RunReader& run, std::uint64_t ordinal)
         fmt::format("SELECT count(*) FROM part WHERE ordinal < {}", ordinal)));
 }
 
+std::vector<OverviewRow> named_rows(const RunReader& run, std::vector<ResultRow> found)
+{
+    std::vector<OverviewRow> rows;
+    for (ResultRow& row : found) {
+        const std::uint64_t place = place_of(run, row.count("ordinal"));
+        std::string settings = settings_text(run.description(), row);
+        rows.push_back({place, std::move(settings), std::move(row)});
+    }
+    return rows;
+}
+
 std::vector<OverviewRow> ranked_rows(const RunReader& run)
 {
     std::vector<ResultRow> found = run.rows(
@@ -49,13 +60,7 @@ std::vector<OverviewRow> ranked_rows(const RunReader& run)
     if (!worst.empty() && found.size() == most_rows_shown) {
         found.back() = worst.front();
     }
-    std::vector<OverviewRow> rows;
-    for (ResultRow& row : found) {
-        const std::uint64_t place = place_of(run, row.count("ordinal"));
-        std::string settings = settings_text(run.description(), row);
-        rows.push_back({place, std::move(settings), std::move(row)});
-    }
-    return rows;
+    return named_rows(run, std::move(found));
 }
 
 std::string rates_text(const ResultRow& row)
@@ -68,9 +73,15 @@ std::string rates_text(const ResultRow& row)
 std::string completeness(const RunReader& run)
 {
     const PlanOutcome& outcome = run.outcome();
+    const Shard shard = run.description().shard;
     const std::uint64_t all = outcome.done + outcome.failed + outcome.planned;
     std::string text =
-        fmt::format("{} of {} measured", grouped(outcome.done), counted(all, "configuration"));
+        shard.count == 1
+            ? std::string{}
+            : fmt::format("This is part {} of {} of a sweep of {}; `gnomon merge` unites them. ",
+                          shard.index, shard.count,
+                          counted(run.description().size, "configuration"));
+    text += fmt::format("{} of {} measured", grouped(outcome.done), counted(all, "configuration"));
     if (outcome.failed > 0) {
         text += fmt::format(", {} failed", grouped(outcome.failed));
     }
@@ -84,6 +95,11 @@ void add_extremes(std::vector<std::string>& sentences, const std::vector<Overvie
 {
     const OverviewRow& best = rows.front();
     const OverviewRow& worst = rows.back();
+    if (rows.size() == 1) {
+        sentences.push_back(fmt::format("The one measured has {}, with {}.",
+                                        rates_text(best.result), best.settings));
+        return;
+    }
     sentences.push_back(
         fmt::format("The best has {}, with {}.", rates_text(best.result), best.settings));
     sentences.push_back(
@@ -107,8 +123,8 @@ void add_curve_verdict(std::vector<std::string>& sentences, const RunReader& run
                 ? fmt::format("In every one of {} some constant bias keeps both acne and "
                               "peter-panning below 0.1 % of the scored pixels.",
                               counted(all, "bias curve"))
-                : fmt::format("In {} of {} no constant bias does: at 0.1 % of the scored pixels "
-                              "acne needs more bias than peter-panning allows.",
+                : fmt::format("In {} of {} no constant bias keeps both acne and peter-panning "
+                              "below 0.1 % of the scored pixels.",
                               grouped(unserved), counted(all, "bias curve")));
     }
 }
@@ -163,7 +179,13 @@ RunOverview read_overview(const RunReader& run)
     overview.scene = common_scene(run);
     overview.rows = ranked_rows(run);
     const PlanOutcome& outcome = run.outcome();
-    const bool is_one = outcome.done == 1 && outcome.failed + outcome.planned == 0;
+    overview.failed_count = outcome.failed;
+    if (outcome.failed > 0) {
+        overview.failed = named_rows(
+            run, run.rows(fmt::format("WHERE status = 'failed' ORDER BY ordinal LIMIT {}",
+                                      most_rows_shown)));
+    }
+    const bool is_one = outcome.done == 1 && run.description().size == 1;
     if (!is_one) {
         overview.sentences.push_back(completeness(run));
     }
@@ -172,9 +194,7 @@ RunOverview read_overview(const RunReader& run)
     }
     overview.headline = overview.rows.front();
     const std::string id = overview.headline->result.text("id");
-    if (has_image(run.folder(), id)) {
-        overview.detail = read_detail(run.folder(), id);
-    }
+    overview.detail = find_detail(run.folder(), id);
     if (is_one && overview.detail.is_null()) {
         overview.sentences.push_back(rates_text(overview.headline->result) + ".");
     } else if (!is_one) {
@@ -183,6 +203,14 @@ RunOverview read_overview(const RunReader& run)
     }
     add_findings(overview.sentences, overview.detail, is_one);
     return overview;
+}
+
+std::string run_command(const RunDescription& description)
+{
+    const Shard shard = description.shard;
+    return shard.count == 1
+               ? description.command
+               : fmt::format("{} --shard {}/{}", description.command, shard.index, shard.count);
 }
 
 std::string compare_command(const RunDescription& description, const ResultRow& row)

@@ -27,7 +27,12 @@ struct RunOverview {
     Json detail; ///< what `compare --json` says of it; null if its layers were not kept
     /// Those of the headline table, lowest error rate first; the last has the highest.
     std::vector<OverviewRow> rows;
+    std::vector<OverviewRow> failed; ///< the first that could not be computed
+    std::uint64_t failed_count = 0;
 };
+
+/// The command that computes the run, but for its folder; of a part of a divided sweep that part.
+[[nodiscard]] std::string run_command(const RunDescription& description);
 
 [[nodiscard]] RunOverview read_overview(const RunReader& run);
 

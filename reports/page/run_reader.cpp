@@ -3,6 +3,8 @@
 #include "reports/run/run_csv.hpp"
 #include "reports/run/run_plan.hpp"
 #include "reports/run/run_schema.hpp"
+#include "scene/error.hpp"
+#include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
 
@@ -96,6 +98,10 @@ RunReader::RunReader(const std::filesystem::path& folder)
       description_{read_description(database_)},
       outcome_{read_outcome(database_)}
 {
+    if (description_.size == 0) {
+        throw scene::InputError(fmt::format("{}: nothing was planned in it: run `gnomon sweep`",
+                                            scene::one_line(folder.string())));
+    }
 }
 
 std::vector<ResultRow> RunReader::rows(std::string_view clause) const

@@ -10,7 +10,7 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr std::size_t longest_text = 400;
+constexpr std::size_t longest_text = 1000;
 
 /// A block of code whose fence no line of it can close.
 std::string code_block(const std::string& text)
@@ -28,8 +28,9 @@ std::string table(const RunOverview& overview)
         "| configuration | false shadow | of lit | false lit | of blocked | error rate "
         "|\n|---|---:|---:|---:|---:|---:|\n";
     for (const OverviewRow& row : overview.rows) {
+        const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
         text += fmt::format(
-            "| {} | {} | {} | {} | {} | {} |\n",
+            "| {}{} | {} | {} | {} | {} | {} |\n", is_highest ? "highest: " : "",
             row.settings.empty() ? "this shadow map" : markdown_text(row.settings),
             grouped(row.result.count("false_shadow")),
             percent(row.result.number("false_shadow_rate")), grouped(row.result.count("false_lit")),
@@ -58,7 +59,10 @@ std::string counts(const ResultRow& row)
 std::string markdown_text(std::string_view text)
 {
     constexpr std::string_view with_backslash = "\\`*_{}[]<>#!|~$";
-    const std::string_view shown = first_columns(text, longest_text);
+    std::string_view shown = first_columns(text, longest_text);
+    if (shown.size() < text.size()) {
+        shown = shown.substr(0, shown.rfind(' ')); // a whole text without blanks stays as it is
+    }
     std::string markdown;
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const char c = shown[i];
@@ -73,7 +77,7 @@ std::string markdown_text(std::string_view text)
             markdown += c;
         }
     }
-    return markdown;
+    return markdown + (shown.size() < text.size() ? "…" : "");
 }
 
 std::string summary_text(const RunReader& run, const RunOverview& overview,
@@ -91,6 +95,11 @@ std::string summary_text(const RunReader& run, const RunOverview& overview,
         text += overview.rows.size() > 1 ? "Of the best:\n\n" : "";
         text += counts(overview.headline->result);
     }
+    for (const OverviewRow& row : overview.failed) {
+        text += fmt::format("- failed: {}: {}\n", markdown_text(row.settings),
+                            markdown_text(row.result.text("message")));
+    }
+    text += overview.failed.empty() ? "" : "\n";
     for (const ReportFigure& figure : options.figures) {
         text += fmt::format("![{}](figures/{})\n\n", markdown_text(figure.alt), figure.png);
     }
@@ -101,7 +110,7 @@ std::string summary_text(const RunReader& run, const RunOverview& overview,
     text += fmt::format("{}, {}, {}, gnomon {}\n\n", markdown_text(environment.gl_renderer),
                         markdown_text(environment.gl_version), markdown_text(environment.embree),
                         markdown_text(environment.gnomon));
-    return text + code_block(run.description().command + " --out RUN\ngnomon report RUN");
+    return text + code_block(run_command(run.description()) + " --out RUN\ngnomon report RUN");
 }
 
 } // namespace gnomon::reports

@@ -35,7 +35,7 @@ void require_results(const std::filesystem::path& folder)
     if (!std::filesystem::exists(results_path(folder), error)) {
         throw scene::InputError(
             fmt::format("{}: there is no results.sqlite in it: name the folder that `gnomon "
-                        "sweep --out` or `gnomon merge` wrote",
+                        "sweep --out`, `compare --out` or `gnomon merge` wrote",
                         scene::one_line(folder.string())));
     }
 }

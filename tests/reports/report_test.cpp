@@ -156,6 +156,9 @@ TEST(Report, OfARunThatFailedSaysSo)
     EXPECT_THAT(page.html(),
                 HasSubstr("0 of 12 configurations measured, 2 failed, 10 not computed yet."));
     EXPECT_THAT(page.html(), HasSubstr("python3-matplotlib is missing"));
+    EXPECT_THAT(page.html(), HasSubstr("<bdi>" + escaped(hostile) + "</bdi>"));
+    EXPECT_THAT(read_text(folder / "out/summary.md"),
+                HasSubstr("- failed: case = noon, shadow\\_map.resolution = 256, "));
     EXPECT_THAT(page.html(), Not(HasSubstr("<img")));
     EXPECT_EQ(table_rows(page).at(0).at("message"), hostile);
 }
@@ -171,7 +174,9 @@ void keep_example(const std::filesystem::path& folder)
     std::filesystem::create_directories(folder);
     RunStore store{folder, RunStore::Access::write};
     store.plan(description, run.configurations());
-    run.record(store);
+    analysis::FinishedCurve curve = run.curve(0);
+    curve.rows.front().result.metrics = example().comparison.metrics;
+    store.record(curve);
     const std::string id = run.configurations().front().id;
     make_pixels_folder(folder);
     write_file(detail_path(folder, id), comparison_json(example().comparison));
@@ -218,21 +223,68 @@ TEST(Report, RefusesAConfigurationWhoseLayersWereNotKept)
     }
 }
 
-TEST(Report, RefusesDamagedLayersInOneLine)
+/// What a report of the run says of its layers; its page is there nevertheless.
+std::string problem_of(const std::filesystem::path& run, const std::filesystem::path& out)
+{
+    std::filesystem::create_directories(out);
+    const ReportOutcome outcome = write_report({run, out, {}, {}, {}});
+    EXPECT_EQ(ReadPage{read_text(out / "report.html")}.data().at("images").size(), outcome.images);
+    EXPECT_EQ(outcome.images + outcome.problems.size(), 1U);
+    return outcome.problems.empty() ? "none" : outcome.problems.front();
+}
+
+TEST(Report, LeavesDamagedLayersOutAndSaysSo)
 {
     const TemporaryFolder folder;
-    keep_example(folder / "run");
+    const std::filesystem::path run = folder / "run";
+    keep_example(run);
     const std::string id = ExampleRun{1, 1}.configurations().front().id;
+    EXPECT_EQ(problem_of(run, folder / "out"), "none");
+    const std::string sound = read_text(detail_path(run, id));
     for (const std::string text : {"", "{", "[]", "{\"job\": 7}"}) {
-        write_file(detail_path(folder / "run", id), text);
-        try {
-            (void)written_page(folder / "run", folder / "out");
-            FAIL() << text << " was not refused";
-        } catch (const scene::InputError& error) {
-            EXPECT_THAT(error.what(), HasSubstr(id + ".json: is damaged")) << text;
-            EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-        }
+        write_file(detail_path(run, id), text);
+        const std::string problem = problem_of(run, folder / "out");
+        EXPECT_THAT(problem, HasSubstr(id + ".json: is damaged")) << text;
+        EXPECT_THAT(problem, Not(HasSubstr("\n")));
     }
+    // Asked for, they are an error.
+    EXPECT_THROW(write_report({run, folder / "out", {}, {}, {id}}), scene::InputError);
+    write_file(detail_path(run, id), sound);
+    write_file(pixels_path(run, id), read_text(pixels_path(run, id)).substr(0, 5000));
+    EXPECT_THAT(problem_of(run, folder / "out"), HasSubstr(id + ".exr: "));
+}
+
+TEST(Report, DoesNotTakeAnotherConfigurationsLayers)
+{
+    const TemporaryFolder folder;
+    const std::filesystem::path run = folder / "run";
+    keep_example(run);
+    const std::string id = ExampleRun{1, 1}.configurations().front().id;
+    const Example other{{.bias_constant = 0.01}};
+    write_aov(pixels_path(run, id), other.comparison, other.points);
+    EXPECT_THAT(problem_of(run, folder / "out"), HasSubstr("or of another configuration"));
+    write_file(detail_path(run, id), comparison_json(other.comparison));
+    EXPECT_THAT(problem_of(run, folder / "out"), HasSubstr("or of another configuration"));
+}
+
+TEST(Report, RefusesARunInWhichNothingWasPlanned)
+{
+    const TemporaryFolder folder;
+    {
+        const RunStore store{folder.path(), RunStore::Access::write};
+    }
+    EXPECT_THROW(write_report_csv(folder.path(), folder.path()), scene::InputError);
+}
+
+TEST(Report, NamesThePartOfADividedSweep)
+{
+    const TemporaryFolder folder;
+    ExampleRun run;
+    run.shards = 2;
+    run.compute(folder / "run", 2);
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    EXPECT_THAT(page.html(), HasSubstr("This is part 2 of 2 of a sweep of 12 configurations"));
+    EXPECT_THAT(page.html(), HasSubstr("gnomon sweep job.toml --shard 2/2 --out RUN"));
 }
 
 TEST(Report, RefusesAFolderThatIsNoRun)
@@ -271,7 +323,9 @@ TEST(MarkdownText, HasNoMarkup)
     EXPECT_EQ(markdown_text("<b>"), "\\<b\\>");
     EXPECT_EQ(markdown_text("two\nlines"), "two lines");
     EXPECT_EQ(markdown_text("@me http://x: y"), "&#64;me http&#58;//x: y");
-    EXPECT_EQ(markdown_text(std::string(1000, 'x')).size(), 400U);
+    EXPECT_EQ(markdown_text(std::string(1001, 'x')), std::string(1000, 'x') + "…");
+    EXPECT_EQ(markdown_text(std::string(990, 'x') + " a longer word"),
+              std::string(990, 'x') + " a longer…");
 }
 
 } // namespace

@@ -42,6 +42,11 @@ function rateChart(host, title, bins, x) {
 }
 
 function neededChart(host, title, bins, x, step) {
+  if (bins.every(({ needed }) => needed.p95 === null || needed.p95 === undefined)) {
+    const text = "No pixel here needs a bias that is known: the filter hardware has no critical bias.";
+    host.replaceChildren(element("p", { class: "hint", text }));
+    return null;
+  }
   const largest = largestOf(bins.flatMap(({ needed }) => [needed.p95, needed.median]));
   return new PageChart(host, {
     title,

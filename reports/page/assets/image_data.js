@@ -50,6 +50,12 @@ class PixelImage {
     }
   }
 
+  /** Median light distance of the scored pixels [m]; NaN without any. */
+  get medianDistanceM() {
+    this.knownMedianM ??= medianOf(this.layers.light_distance_m ?? []);
+    return this.knownMedianM;
+  }
+
   /** @return {boolean}  whether the shadow map says that a pixel is lit, at a float32 bias */
   isShownLit(index, bias) {
     const { critical_bias: criticals, class: classes, verdict } = this.layers;
@@ -65,6 +71,14 @@ class PixelImage {
     }
     return { falseShadow: this.detail.false_shadow, falseLit: this.detail.false_lit };
   }
+}
+
+/** The middle one of the numbers that are none of them NaN. */
+function medianOf(values) {
+  const sorted = Float32Array.from(values)
+    .filter((value) => !Number.isNaN(value))
+    .sort();
+  return sorted.length === 0 ? NaN : sorted[sorted.length >>> 1];
 }
 
 /**

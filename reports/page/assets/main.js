@@ -89,7 +89,9 @@ class SweepSection {
     const hasRates = this.table.has("error_rate");
     const parts = [
       hasRates && axes.size > 0 ? new AxisCharts(this.table, axes) : null,
-      hasRates && axes.size > 1 ? new HeatMap(this.table, axes) : null,
+      hasRates && axes.size > 1
+        ? new HeatMap(this.table, byEffect(axes, (await this.table.column("error_rate")).values))
+        : null,
       this.table.has("false_shadow_rate") && this.table.has("false_lit_rate")
         ? new ParetoChart(this.table, names, this.onShow)
         : null,

@@ -83,6 +83,7 @@ class ObjectTables {
   }
 
   show(row, detail, caption) {
+    this.section.hidden = this.headline === null && !detail;
     if (detail?.causes && detail.labels) {
       refill(
         this.section,

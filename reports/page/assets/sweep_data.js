@@ -105,6 +105,22 @@ function summariseGroups(values, groups, count) {
   });
 }
 
+/**
+ * Axes in the order of how much the median of a measure changes along them.
+ * @param {Map<string, Axis>} axes
+ * @param {TypedArray} values  (rows); NaN is left out
+ * @return {Map<string, Axis>}
+ */
+function byEffect(axes, values) {
+  const effect = (axis) => {
+    const groups = summariseGroups(values, axis.codes, axis.values.length).filter((group) => group !== null);
+    const medians = groups.map(({ median }) => median);
+    return medians.length === 0 ? 0 : Math.max(...medians) - Math.min(...medians);
+  };
+  const effects = new Map([...axes].map(([name, axis]) => [name, effect(axis)]));
+  return new Map([...axes].sort(([a], [b]) => effects.get(b) - effects.get(a)));
+}
+
 /** @return {Int32Array}  (rows): the cell of two axes that a row is in, column by column; −1 none */
 function cellCodes(across, down) {
   return across.codes.map((column, row) =>
