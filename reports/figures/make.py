@@ -68,7 +68,7 @@ class Parser(argparse.ArgumentParser):
     """Errors are one line."""
 
     def error(self, message):
-        self.exit(2, f"make.py: {message}; see make.py --help\n")
+        self.exit(2, f"make.py: {message}; see `gnomon figure --help`\n")
 
 
 def parse(arguments):

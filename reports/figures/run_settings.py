@@ -165,9 +165,12 @@ def differences(axes, index):
 
 
 def description(axes, index):
-    """A row's place on each axis, with the axes' names: "map resolution 2048, filter pcf3"."""
-    return ", ".join(f"{axis.label.split(' [')[0]} {text_of(axis.values[axis.codes[index]])}"
-                     for axis in axes)
+    """A row's place on each axis, with its name and unit: "near plane 0.1 m, filter pcf3"."""
+    def place(axis):
+        name, _, unit = axis.label.removesuffix("]").partition(" [")
+        return f"{name} {text_of(axis.values[axis.codes[index]])} {unit}".rstrip()
+
+    return ", ".join(place(axis) for axis in axes)
 
 
 def settings_text(rows):
@@ -223,7 +226,7 @@ def panel_titles(run, rows, chosen):
         return [""] * len(chosen)
     axes = [axis for axis in axes_of(run, chosen.reset_index(drop=True))
             if axis.key not in ("bias.constant", "bias.constant_m")]
-    return [differences(axes, index) for index in range(len(chosen))]
+    return [description(axes, index) for index in range(len(chosen))]
 
 
 def percent(rate):

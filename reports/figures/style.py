@@ -51,7 +51,7 @@ DISTANCE_LABEL = "distance ζ from the camera's plane [m]"
 LIGHT_DISTANCE_LABEL = "distance ζ from the light's plane [m]"
 
 LINE_IN = 0.19  # of the settings
-LETTERS_IN_A_LINE = 112
+LETTERS_IN_A_LINE = 96
 
 
 class TitledFigure(Figure):
