@@ -168,7 +168,8 @@ def description(axes, index):
     """A row's place on each axis, with its name and unit: "near plane 0.1 m, filter pcf3"."""
     def place(axis):
         name, _, unit = axis.label.removesuffix("]").partition(" [")
-        return f"{name} {text_of(axis.values[axis.codes[index]])} {unit}".rstrip()
+        value = text_of(axis.values[axis.codes[index]])
+        return f"{name} {value} {unit}".rstrip() if value != "auto" else f"{name} auto"
 
     return ", ".join(place(axis) for axis in axes)
 
