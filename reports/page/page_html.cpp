@@ -106,7 +106,10 @@ std::string failures_table(const RunOverview& overview)
     if (overview.failed.empty()) {
         return {};
     }
-    std::string html = table_head("Configurations that failed", {"configuration", "why"});
+    std::string html =
+        "<div class=\"scroll\"><table><caption>Configurations that failed</caption>\n"
+        "<thead><tr><th scope=\"col\">configuration</th><th scope=\"col\">why</th>"
+        "</tr></thead>\n<tbody>\n";
     for (const OverviewRow& row : overview.failed) {
         html += fmt::format("<tr>{}<td><bdi>{}</bdi></td></tr>\n", row_heading(row_name(row)),
                             escaped(row.result.text("message")));
@@ -138,6 +141,8 @@ std::string figures_section(const ReportOptions& options, std::span<const std::s
                        "<h2 id=\"figures-heading\">Figures</h2>\n";
     if (!options.no_figures.empty()) {
         html += fmt::format("<p>There are none: {}</p>\n", escaped(options.no_figures));
+    } else if (pictures.empty()) {
+        html += "<p>There are none: nothing was measured that they could show.</p>\n";
     }
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const ReportFigure& figure = options.figures[i];
@@ -276,12 +281,16 @@ std::string environment_section(const RunReader& run, const RunOverview& overvie
 std::string header(const RunReader& run, const RunOverview& overview)
 {
     const analysis::Environment& environment = run.description().environment;
+    const PlanOutcome& outcome = run.outcome();
+    const std::uint64_t all = outcome.done + outcome.failed + outcome.planned;
+    const std::string part =
+        outcome.done == all ? std::string{} : fmt::format("{} of ", grouped(outcome.done));
     return fmt::format("<header>\n<p class=\"kind\">Shadow-map accuracy</p>\n<h1><bdi>{}</bdi></h1>"
-                       "\n<p>{} compared with exact shadow rays, pixel by pixel; {}, gnomon {}."
+                       "\n<p>{}{} compared with exact shadow rays, pixel by pixel; {}, gnomon {}."
                        "</p>\n</header>\n",
-                       escaped(overview.scene.empty() ? "several scenes" : overview.scene),
-                       counted(run.description().size, "shadow-map configuration"),
-                       escaped(environment.gl_renderer), escaped(environment.gnomon));
+                       escaped(overview.scene.empty() ? "several scenes" : overview.scene), part,
+                       counted(all, "shadow-map configuration"), escaped(environment.gl_renderer),
+                       escaped(environment.gnomon));
 }
 
 /// A hash as Content-Security-Policy names it.
