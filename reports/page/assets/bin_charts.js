@@ -43,7 +43,7 @@ function rateChart(host, title, bins, x) {
 
 function neededChart(host, title, bins, x, step) {
   if (bins.every(({ needed }) => needed.p95 === null || needed.p95 === undefined)) {
-    const text = "No pixel here needs a bias that is known: the filter hardware has no critical bias.";
+    const text = "The bias that lit pixels need is not known: the filter hardware weighs its taps in its own way.";
     host.replaceChildren(element("p", { class: "hint", text }));
     return null;
   }
