@@ -24,18 +24,37 @@ struct Flag {
 struct Command {
     std::string name;
     std::string description;
-    std::vector<Flag> flags;
+    std::vector<Flag> flags; ///< its own, and those of its commands
+    std::vector<std::string> commands;
 };
+
+std::vector<const CLI::App*> commands_below(const CLI::App& app)
+{
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+void add_flags(Command& command, const CLI::App& app)
+{
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            const std::string flag = "--" + name;
+            if (std::none_of(command.flags.begin(), command.flags.end(),
+                             [&](const Flag& known) { return known.name == flag; })) {
+                command.flags.push_back({flag, option->get_description()});
+            }
+        }
+    }
+}
 
 std::vector<Command> commands_of(const CLI::App& program)
 {
     std::vector<Command> commands;
-    for (const CLI::App* app : program.get_subcommands([](const CLI::App*) { return true; })) {
-        Command command{app->get_name(), app->get_description(), {}};
-        for (const CLI::Option* option : app->get_options()) {
-            for (const std::string& name : option->get_lnames()) {
-                command.flags.push_back({"--" + name, option->get_description()});
-            }
+    for (const CLI::App* app : commands_below(program)) {
+        Command command{app->get_name(), app->get_description(), {}, {}};
+        add_flags(command, *app);
+        for (const CLI::App* below : commands_below(*app)) {
+            command.commands.push_back(below->get_name());
+            add_flags(command, *below);
         }
         commands.push_back(std::move(command));
     }
@@ -82,8 +101,14 @@ std::string bash_script(const std::vector<Command>& commands)
 {
     std::vector<std::string> names;
     std::string cases;
+    std::string below;
     for (const Command& command : commands) {
         names.push_back(command.name);
+        if (!command.commands.empty()) {
+            below += fmt::format(
+                "        {}) COMPREPLY=($(compgen -W \"{} --help\" -- \"$current\")); return ;;\n",
+                command.name, fmt::join(command.commands, " "));
+        }
         cases += fmt::format("        {}) words=\"{}\" ;;\n", command.name, flag_names(command));
     }
     return fmt::format(R"(_gnomon() {{
@@ -94,7 +119,7 @@ std::string bash_script(const std::vector<Command>& commands)
         --truth) COMPREPLY=($(compgen -W "exact float" -- "$current")); return ;;
         figure) COMPREPLY=($(compgen -W "{} --list --help" -- "$current")); return ;;
         completion) COMPREPLY=($(compgen -W "bash zsh fish" -- "$current")); return ;;
-    esac
+{}    esac
     if [ "$COMP_CWORD" -eq 1 ]; then
         COMPREPLY=($(compgen -W "{} --help --version" -- "$current"))
         return
@@ -109,7 +134,8 @@ std::string bash_script(const std::vector<Command>& commands)
 }}
 complete -F _gnomon gnomon
 )",
-                       builtin_names(), key_names(), figure_names(), fmt::join(names, " "), cases);
+                       builtin_names(), key_names(), figure_names(), below, fmt::join(names, " "),
+                       cases);
 }
 
 /// A string in single quotes as fish reads it.
@@ -140,6 +166,11 @@ std::string fish_script(const std::vector<Command>& commands)
                 "complete -c gnomon -n '__fish_seen_subcommand_from {}' -l {} -d {}{}\n",
                 command.name, flag.name.substr(2), fish_quoted(flag.description),
                 values.empty() ? "" : fmt::format(" -x -a {}", fish_quoted(values)));
+        }
+        if (!command.commands.empty()) {
+            script +=
+                fmt::format("complete -c gnomon -n '__fish_seen_subcommand_from {}' -a '{}'\n",
+                            command.name, fmt::join(command.commands, " "));
         }
     }
     script += fmt::format("complete -c gnomon -n '__fish_seen_subcommand_from figure' -a '{}'\n",

@@ -1,3 +1,4 @@
+#include "cli/baseline_command.hpp"
 #include "cli/certify_command.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/completion.hpp"
@@ -5,6 +6,7 @@
 #include "cli/doctor_command.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/figure_command.hpp"
+#include "cli/gate_command.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/process.hpp"
 #include "cli/report_command.hpp"
@@ -50,9 +52,10 @@ void describe(CLI::App& program)
         "  gnomon compare --builtin sphere-plane\n"
         "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
         "  gnomon init job.toml\n\n"
-        "Exit status: 0 done; 1 `certify` refutes, or no setting meets `tune`'s limits;\n"
-        "2 usage, or a job or scene that is bad, missing or unreadable; 4 GL, Embree or output "
-        "failed; 5 a run is incomplete; 130 interrupted.");
+        "Exit status: 0 done; 1 `gate` finds a regression, `certify` refutes, or no setting meets\n"
+        "`tune`'s limits; 2 usage, or a job or scene that is bad, missing or unreadable; 3 a "
+        "baseline\nis missing, or of another environment; 4 GL, Embree or output failed; 5 a run "
+        "is incomplete;\n130 interrupted.");
     gnomon::cli::add_compare_command(program);
     gnomon::cli::add_certify_command(program);
     gnomon::cli::add_tune_command(program);
@@ -60,6 +63,8 @@ void describe(CLI::App& program)
     gnomon::cli::add_merge_command(program);
     gnomon::cli::add_status_command(program);
     gnomon::cli::add_report_command(program);
+    gnomon::cli::add_gate_command(program);
+    gnomon::cli::add_baseline_command(program);
     gnomon::cli::add_figure_command(program);
     gnomon::cli::add_depth_command(program);
     gnomon::cli::add_scenes_command(program);

@@ -215,15 +215,25 @@ std::string run_command(const RunDescription& description)
 
 std::string compare_command(const RunDescription& description, const ResultRow& row)
 {
+    std::vector<std::pair<std::string, std::string>> axes;
+    for (const std::string& axis : description.axes) {
+        axes.emplace_back(axis, row.text(axis));
+    }
+    return compare_command(description, row.text("case"), axes);
+}
+
+std::string compare_command(const RunDescription& description, const std::string& case_name,
+                            const std::vector<std::pair<std::string, std::string>>& axes)
+{
     if (description.compare_command.empty()) {
         return {};
     }
     std::vector<std::string> words;
-    if (const std::string name = row.text("case"); !name.empty()) {
-        words.insert(words.end(), {"--case", name});
+    if (!case_name.empty()) {
+        words.insert(words.end(), {"--case", case_name});
     }
-    for (const std::string& axis : description.axes) {
-        words.insert(words.end(), {"--set", fmt::format("{}={}", axis, row.text(axis))});
+    for (const auto& [axis, value] : axes) {
+        words.insert(words.end(), {"--set", fmt::format("{}={}", axis, value)});
     }
     words.insert(words.end(), {"--out", "DIR"});
     return fmt::format("{} {}", description.compare_command, shell_text(words));

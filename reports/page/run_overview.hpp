@@ -38,6 +38,11 @@ struct RunOverview {
 
 /// The command that computes one configuration with all its layers.
 [[nodiscard]] std::string compare_command(const RunDescription& description, const ResultRow& row);
+/// @param case_name  Empty without cases.
+/// @param axes       The sweep's keys and their values.
+[[nodiscard]] std::string
+compare_command(const RunDescription& description, const std::string& case_name,
+                const std::vector<std::pair<std::string, std::string>>& axes);
 
 /// The settings of a configuration that are not its own alone: scene, camera, light, map, lookup,
 /// bias, as the job's keys and values.

@@ -212,6 +212,10 @@ TEST(Completion, OffersCommandsOptionsAndNamesInBash)
     EXPECT_EQ(completions(script, "gnomon figure error"),
               (Words{"error-vs-axis", "error-vs-z", "errors-vs-z"}));
     EXPECT_EQ(completions(script, "gnomon completion ''"), (Words{"bash", "fish", "zsh"}));
+    EXPECT_EQ(completions(script, "gnomon baseline ''"), (Words{"--help", "diff", "list", "save"}));
+    EXPECT_THAT(completions(script, "gnomon baseline save run --"), IsSupersetOf({"--baseline"}));
+    EXPECT_THAT(completions(script, "gnomon gate run --"),
+                IsSupersetOf({"--allow-environment", "--baseline", "--json", "--rules"}));
 }
 
 /// The shell itself must accept its script.

@@ -1,0 +1,129 @@
+#include "analysis/gate/gate_entries.hpp"
+
+#include "analysis/cause.hpp"
+#include "analysis/gate/gate_metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace gnomon::analysis {
+
+namespace {
+
+/// Negative, 0 or positive, as a stands before, with or after b.
+int compared_values(const std::string& a, const std::string& b)
+{
+    const std::optional<double> a_number = number_in(a);
+    const std::optional<double> b_number = number_in(b);
+    if (a_number && b_number && *a_number != *b_number) {
+        return *a_number < *b_number ? -1 : 1;
+    }
+    if (a_number.has_value() != b_number.has_value()) {
+        return a_number ? -1 : 1;
+    }
+    return a.compare(b);
+}
+
+} // namespace
+
+bool operator<(const ConfigurationKey& a, const ConfigurationKey& b)
+{
+    if (a.case_name != b.case_name) {
+        return a.case_name < b.case_name;
+    }
+    return std::lexicographical_compare(a.axes.begin(), a.axes.end(), b.axes.begin(), b.axes.end(),
+                                        [](const auto& one, const auto& other) {
+                                            return one.first != other.first
+                                                       ? one.first < other.first
+                                                       : compared_values(one.second, other.second) <
+                                                             0;
+                                        });
+}
+
+std::optional<double> GateEntry::metric(const std::string& name) const
+{
+    if (const auto found = metrics.find(name); found != metrics.end()) {
+        return found->second;
+    }
+    const auto gap_pixels = metrics.find(std::string{gap_pixels_metric});
+    const bool has_no_gap = gap_pixels != metrics.end() && gap_pixels->second == 0;
+    return is_gap_length(name) && has_no_gap ? std::optional{0.0} : std::nullopt;
+}
+
+std::optional<std::string_view> GateEntry::setting(const std::string& name) const
+{
+    if (name == "case") {
+        return key.case_name;
+    }
+    for (const auto* settings : {&key.axes, &parameters}) {
+        if (const auto found = settings->find(name); found != settings->end()) {
+            return found->second;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> sort_entries(GateEntries& run)
+{
+    std::sort(run.axes.begin(), run.axes.end());
+    auto& entries = run.entries;
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const GateEntry& a, const GateEntry& b) { return a.key < b.key; });
+    const auto equal =
+        std::adjacent_find(entries.begin(), entries.end(),
+                           [](const GateEntry& a, const GateEntry& b) { return a.key == b.key; });
+    if (equal == entries.end()) {
+        return std::nullopt;
+    }
+    const auto index = static_cast<std::size_t>(equal - entries.begin());
+    return std::pair{index, index + 1};
+}
+
+bool is_same_renderer(const Environment& a, const Environment& b)
+{
+    return a.gl_renderer == b.gl_renderer && a.gl_version == b.gl_version && a.embree == b.embree;
+}
+
+std::vector<ParameterChange> changed_parameters(const GateEntry& before, const GateEntry& now)
+{
+    const auto value = [](const GateEntry& entry, const std::string& key) {
+        const auto found = entry.parameters.find(key);
+        return found == entry.parameters.end() ? std::nullopt : std::optional{found->second};
+    };
+    const auto hash = value(now, "scene_hash");
+    const bool is_same_scene = hash && hash == value(before, "scene_hash");
+    std::set<std::string> keys;
+    for (const GateEntry* entry : {&before, &now}) {
+        for (const auto& [key, text] : entry->parameters) {
+            keys.insert(key);
+        }
+    }
+    std::vector<ParameterChange> changes;
+    for (const std::string& key : keys) {
+        ParameterChange change{key, value(before, key), value(now, key)};
+        if (change.before != change.now && !(is_same_scene && key == "scene.file")) {
+            changes.push_back(std::move(change));
+        }
+    }
+    return changes;
+}
+
+std::optional<DominantCause> dominant_cause(const GateEntry& before, const GateEntry& now)
+{
+    std::optional<DominantCause> dominant;
+    for (std::size_t i = 1; i < cause_names.size(); ++i) { // the first is "none"
+        const std::string metric = fmt::format("causes.{}", cause_names[i]);
+        const auto was = before.metric(metric);
+        const auto is = now.metric(metric);
+        const double rise = was && is ? *is - *was : 0;
+        if (rise > (dominant ? dominant->pixels : 0)) {
+            dominant = DominantCause{std::string{cause_names[i]}, rise};
+        }
+    }
+    return dominant;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,217 @@
+#include "analysis/gate/gate_judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace gnomon::analysis {
+
+namespace {
+
+/// Fills `pairs`, `missing` and `added`: both lists are sorted.
+void match_entries(GateOutcome& outcome, const GateEntries& baseline, const GateEntries& run)
+{
+    std::size_t before = 0;
+    std::size_t now = 0;
+    while (before < baseline.entries.size() || now < run.entries.size()) {
+        const GateEntry* const old =
+            before < baseline.entries.size() ? &baseline.entries[before] : nullptr;
+        const GateEntry* const fresh = now < run.entries.size() ? &run.entries[now] : nullptr;
+        if (fresh == nullptr || (old != nullptr && old->key < fresh->key)) {
+            outcome.missing.push_back(before++);
+        } else if (old == nullptr || fresh->key < old->key) {
+            outcome.added.push_back(now++);
+        } else {
+            outcome.pairs.push_back(
+                {before++, now++, changed_parameters(*old, *fresh), dominant_cause(*old, *fresh)});
+        }
+    }
+}
+
+/// How much worse the metric became; negative if it became better.
+double worsening(Worse worse, double before, double now)
+{
+    const double change = now - before;
+    if (worse == Worse::both) {
+        return std::abs(change);
+    }
+    return worse == Worse::up ? change : -change;
+}
+
+double allowed_change(const GateRule& rule, double before, const GateEntry& now)
+{
+    double allowed = std::max(rule.abs.value_or(0), rule.allow_pixels.value_or(0));
+    allowed = std::max(allowed, rule.rel.value_or(0) * std::abs(before));
+    const double image_pixels = now.metric("pixels.total").value_or(0);
+    return std::max(allowed, rule.allow_share.value_or(0) * image_pixels);
+}
+
+/// Judges one configuration by one rule.
+class Judge {
+public:
+    Judge(GateOutcome& outcome, const GateRule& rule, std::size_t rule_index)
+        : outcome_{&outcome},
+          rule_{&rule},
+          rule_index_{rule_index}
+    {
+    }
+
+    /// @param before  nullptr if the baseline lacks it.
+    /// @return  Whether there was anything to judge.
+    bool judge(const GateEntry* before, const GateEntry& now, std::size_t entry)
+    {
+        const auto old = before == nullptr ? std::nullopt : before->metric(rule_->metric);
+        const auto fresh = now.metric(rule_->metric);
+        if (!old && !fresh) {
+            return false;
+        }
+        if (!fresh) {
+            add(entry, GateReason::not_available, old, fresh, std::nullopt);
+            return true;
+        }
+        if (rule_->max && *fresh > *rule_->max) {
+            add(entry, GateReason::above_max, old, fresh, rule_->max);
+        } else if (rule_->min && *fresh < *rule_->min) {
+            add(entry, GateReason::below_min, old, fresh, rule_->min);
+        }
+        if (before != nullptr && rule_->judges_change()) {
+            judge_change(old, *fresh, now, entry);
+        }
+        return true;
+    }
+
+private:
+    void judge_change(const std::optional<double>& old, double fresh, const GateEntry& now,
+                      std::size_t entry)
+    {
+        if (!old) {
+            add(entry, GateReason::not_available, old, fresh, std::nullopt);
+            return;
+        }
+        const double worse = worsening(rule_->worse, *old, fresh);
+        const double allowed = allowed_change(*rule_, *old, now);
+        if (worse > allowed) {
+            add(entry, GateReason::worse_than_baseline, old, fresh, allowed);
+        } else if (worse < 0) {
+            outcome_->improvements.push_back({entry, rule_->metric, *old, fresh});
+        }
+    }
+
+    void add(std::size_t entry, GateReason reason, const std::optional<double>& old,
+             const std::optional<double>& fresh, const std::optional<double>& limit)
+    {
+        outcome_->findings.push_back({rule_index_, entry, reason, old, fresh, limit});
+    }
+
+    GateOutcome* outcome_;
+    const GateRule* rule_;
+    std::size_t rule_index_;
+};
+
+void apply_rule(GateOutcome& outcome, const GateEntries& baseline, const GateEntries& run,
+                const GateRule& rule, std::size_t rule_index)
+{
+    Judge judge{outcome, rule, rule_index};
+    bool is_matched = false;
+    for (const GatePair& pair : outcome.pairs) {
+        const GateEntry& now = run.entries[pair.now];
+        if (is_meant(rule, now, outcome.is_same_renderer && pair.changes.empty())) {
+            is_matched = judge.judge(&baseline.entries[pair.before], now, pair.now) || is_matched;
+        }
+    }
+    for (const std::size_t entry : outcome.added) {
+        if (is_meant(rule, run.entries[entry], false)) {
+            is_matched = judge.judge(nullptr, run.entries[entry], entry) || is_matched;
+        }
+    }
+    if (!is_matched && !rule.is_optional) {
+        outcome.unmatched_rules.push_back(rule_index);
+    }
+}
+
+/// How bad a finding is, as what sorts before the others if it is less.
+std::tuple<bool, bool, bool, double> finding_rank(const GateFinding& finding,
+                                                  std::span<const GateRule> rules)
+{
+    const GateRule& rule = rules[finding.rule];
+    const GateMetric* const metric = find_gate_metric(rule.metric);
+    const bool is_count = metric != nullptr && metric->is_pixel_count;
+    const double now = finding.now.value_or(0);
+    const double reference = finding.before.value_or(
+        finding.reason == GateReason::worse_than_baseline ? 0 : finding.limit.value_or(0));
+    const double size = std::abs(now - reference);
+    const double scale = std::max(std::abs(reference), std::numeric_limits<double>::min());
+    return {rule.severity == Severity::warn, finding.reason == GateReason::not_available, !is_count,
+            is_count ? -size : -size / scale};
+}
+
+/// Several rules may judge one metric: what became better is said once.
+void tidy_improvements(GateOutcome& outcome)
+{
+    std::vector<GateImprovement>& all = outcome.improvements;
+    const auto place = [](const GateImprovement& one) { return std::tie(one.entry, one.metric); };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    all.erase(std::unique(all.begin(), all.end(),
+                          [&](const auto& a, const auto& b) { return place(a) == place(b); }),
+              all.end());
+}
+
+} // namespace
+
+std::size_t GateOutcome::broken(std::span<const GateRule> rules, Severity severity) const
+{
+    return static_cast<std::size_t>(
+        std::count_if(findings.begin(), findings.end(), [&](const GateFinding& finding) {
+            return finding.reason != GateReason::not_available &&
+                   rules[finding.rule].severity == severity;
+        }));
+}
+
+bool GateOutcome::is_incomplete(std::span<const GateRule> rules) const
+{
+    return !missing.empty() ||
+           std::any_of(findings.begin(), findings.end(), [&](const GateFinding& finding) {
+               return finding.reason == GateReason::not_available &&
+                      rules[finding.rule].severity == Severity::fail;
+           });
+}
+
+const GatePair* GateOutcome::pair_of(std::size_t entry) const
+{
+    const auto found = std::lower_bound(
+        pairs.begin(), pairs.end(), entry,
+        [](const GatePair& pair, std::size_t wanted) { return pair.now < wanted; });
+    return found == pairs.end() || found->now != entry ? nullptr : &*found;
+}
+
+GateOutcome judge_run(const GateEntries& baseline, const GateEntries& run,
+                      std::span<const GateRule> rules)
+{
+    GateOutcome outcome;
+    outcome.is_same_renderer = is_same_renderer(baseline.environment, run.environment);
+    match_entries(outcome, baseline, run);
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+        apply_rule(outcome, baseline, run, rules[i], i);
+    }
+    std::stable_sort(outcome.findings.begin(), outcome.findings.end(),
+                     [&](const GateFinding& a, const GateFinding& b) {
+                         return finding_rank(a, rules) < finding_rank(b, rules);
+                     });
+    tidy_improvements(outcome);
+    return outcome;
+}
+
+GateVerdict gate_verdict(const GateOutcome& outcome, std::span<const GateRule> rules,
+                         bool is_complete)
+{
+    if (!is_complete || outcome.is_incomplete(rules)) {
+        return GateVerdict::incomplete;
+    }
+    return outcome.broken(rules, Severity::fail) > 0 ? GateVerdict::regression : GateVerdict::pass;
+}
+
+} // namespace gnomon::analysis

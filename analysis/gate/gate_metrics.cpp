@@ -1,0 +1,92 @@
+#include "analysis/gate/gate_metrics.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace gnomon::analysis {
+
+const std::vector<GateMetric>& gate_metrics()
+{
+    static const std::vector<GateMetric> metrics{
+        {"map_near_m", false, Worse::both},
+        {"map_far_m", false, Worse::both},
+        {"map_bytes", false, Worse::up},
+        {"pixels.total", true, Worse::both},
+        {"pixels.background", true, Worse::both},
+        {"pixels.unmatched", true, Worse::up},
+        {"pixels.attached", true, Worse::both},
+        {"pixels.out_of_light", true, Worse::both},
+        {"pixels.indeterminate", true, Worse::up},
+        {"pixels.lit", true, Worse::both},
+        {"pixels.blocked", true, Worse::both},
+        {"unmatched_kinds.snap", true, Worse::up},
+        {"unmatched_kinds.tie", true, Worse::up},
+        {"unmatched_kinds.mismatch", true, Worse::up},
+        {"indeterminate_kinds.silhouette", true, Worse::up},
+        {"indeterminate_kinds.vertex", true, Worse::up},
+        {"indeterminate_kinds.graze", true, Worse::up},
+        {"false_shadow", true, Worse::up},
+        {"false_lit", true, Worse::up},
+        {"false_shadow_rate", false, Worse::up},
+        {"false_lit_rate", false, Worse::up},
+        {"error_rate", false, Worse::up},
+        {"mean_abs_error", false, Worse::up},
+        {"causes.bias", true, Worse::up},
+        {"causes.precision", true, Worse::up},
+        {"causes.resolution", true, Worse::up},
+        {"causes.coverage", true, Worse::up},
+        {"labels.acne", true, Worse::up},
+        {"labels.peter_panning", true, Worse::up},
+        {"labels.leak", true, Worse::up},
+        {"labels.edge", true, Worse::up},
+        {"labels.overshadow", true, Worse::up},
+        {"peter_panning_gap_m.median", false, Worse::up},
+        {"peter_panning_gap_m.p95", false, Worse::up},
+        {"peter_panning_gap_m.max", false, Worse::up},
+        {"peter_panning_gap_texels.median", false, Worse::up},
+        {"peter_panning_gap_texels.p95", false, Worse::up},
+        {"peter_panning_gap_texels.max", false, Worse::up},
+        {gap_pixels_metric, true, Worse::up},
+        {"bias_curve.best_interval.lo", false, Worse::both},
+        {"bias_curve.best_interval.hi", false, Worse::both},
+        {"bias_curve.best_errors", true, Worse::up},
+        {"bias_curve.acne_free", false, Worse::up},
+        {"bias_curve.panning_free", false, Worse::down},
+        {"bias_curve.panning_free_beyond_zero", false, Worse::down},
+        {"bias_curve.allowances.0.acne_free", false, Worse::up},
+        {"bias_curve.allowances.0.panning_free", false, Worse::down},
+        {"bias_curve.allowances.0.panning_free_beyond_zero", false, Worse::down},
+        {"bias_curve.allowances.1.acne_free", false, Worse::up},
+        {"bias_curve.allowances.1.panning_free", false, Worse::down},
+        {"bias_curve.allowances.1.panning_free_beyond_zero", false, Worse::down},
+        {"bias_curve.allowances.2.acne_free", false, Worse::up},
+        {"bias_curve.allowances.2.panning_free", false, Worse::down},
+        {"bias_curve.allowances.2.panning_free_beyond_zero", false, Worse::down},
+    };
+    return metrics;
+}
+
+const GateMetric* find_gate_metric(std::string_view name)
+{
+    const auto& metrics = gate_metrics();
+    const auto found = std::find_if(metrics.begin(), metrics.end(),
+                                    [&](const GateMetric& metric) { return metric.name == name; });
+    return found == metrics.end() ? nullptr : &*found;
+}
+
+bool is_gap_length(std::string_view name)
+{
+    return name.starts_with("peter_panning_gap_") && name != gap_pixels_metric;
+}
+
+std::optional<double> number_in(std::string_view text)
+{
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    const bool is_number = error == std::errc{} && stop == end && std::isfinite(value);
+    return is_number ? std::optional{value} : std::nullopt;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "analysis/gate/gate_entries.hpp"
+#include "analysis/gate/gate_metrics.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What breaking a rule means.
+enum class Severity : std::uint8_t { fail, warn };
+
+/// Of which configurations a rule is, by what became of their job since the baseline.
+enum class JobState : std::uint8_t {
+    any,
+    unchanged, ///< the same parameters, and the same renderer
+    changed,
+};
+
+/// What a metric must keep to (docs/gate.md).
+struct GateRule {
+    std::string id;
+    std::string metric; ///< a name of `gate_metrics`
+    /// A configuration is meant if each of these settings has that value; numbers compare as such.
+    std::map<std::string, std::string> where;
+    JobState job = JobState::any;
+
+    std::optional<double> max; ///< of the metric itself
+    std::optional<double> min;
+
+    /// The change for the worse may be as large as the largest of these; without any of them, it
+    /// is not judged.
+    std::optional<double> abs;          ///< in the metric's unit; >= 0
+    std::optional<double> rel;          ///< times the baseline's value; >= 0
+    std::optional<double> allow_pixels; ///< of a count; >= 0
+    std::optional<double> allow_share;  ///< of a count, times the image's pixels; in [0, 1]
+
+    Worse worse = Worse::up;
+    Severity severity = Severity::fail;
+    bool is_optional = false; ///< it may match nothing
+    std::string place = {};   ///< "gate.toml:12"; empty for the default rules
+
+    [[nodiscard]] bool judges_change() const { return abs || rel || allow_pixels || allow_share; }
+};
+
+/// Whether a rule is of this configuration.
+/// @param now        As it is now.
+/// @param unchanged  Whether its job and renderer are those of the baseline.
+[[nodiscard]] bool is_meant(const GateRule& rule, const GateEntry& now, bool unchanged);
+
+/// The rules that hold where there is no file: no count of wrong pixels, cause or label, and no gap
+/// may grow. Everything is deterministic, so nothing at all is allowed while the job is unchanged;
+/// where it changed, counts may grow by 1 in 10,000 of the image's pixels and gaps by 5 %.
+[[nodiscard]] std::vector<GateRule> default_gate_rules();
+
+} // namespace gnomon::analysis

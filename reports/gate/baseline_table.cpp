@@ -1,0 +1,92 @@
+#include "reports/gate/baseline_table.hpp"
+
+#include "analysis/gate/gate_judgement.hpp"
+#include "analysis/gate/gate_metrics.hpp"
+#include "reports/gate/gate_names.hpp"
+#include "reports/text.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+namespace gnomon::reports {
+
+namespace {
+
+/// The parameters and metrics that differ; empty if none does.
+std::string differing_lines(const analysis::GateEntry& before, const analysis::GateEntry& now)
+{
+    std::string text;
+    for (const analysis::ParameterChange& change : analysis::changed_parameters(before, now)) {
+        text += fmt::format("  {}\n", change_line(change));
+    }
+    for (const analysis::GateMetric& metric : analysis::gate_metrics()) {
+        const std::string name{metric.name};
+        const auto was = before.metric(name);
+        const auto is = now.metric(name);
+        if (was != is) {
+            text += fmt::format(
+                "  {} {} {} {}\n", pad_right(name, 50), pad_left(metric_text(name, was), 12),
+                pad_left(metric_text(name, is), 12), pad_left(change_text(name, was, is), 12));
+        }
+    }
+    return text;
+}
+
+std::string environment_difference(const analysis::Environment& before,
+                                   const analysis::Environment& now)
+{
+    std::string text;
+    if (!analysis::is_same_renderer(before, now)) {
+        text += fmt::format("renderer: {} -> {}\n", renderer_text(before), renderer_text(now));
+    }
+    if (before.gnomon != now.gnomon) {
+        text += fmt::format("gnomon: {} -> {}\n", scene::one_line(before.gnomon),
+                            scene::one_line(now.gnomon));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string baseline_table(const analysis::GateEntries& baseline)
+{
+    std::string text = fmt::format(
+        "{}, {}\n{}\n\n  {} {} {}  configuration\n", renderer_text(baseline.environment),
+        scene::one_line(baseline.environment.gnomon),
+        counted(baseline.entries.size(), "configuration"), pad_left("false shadow", 14),
+        pad_left("false lit", 14), pad_left("error rate", 12));
+    for (const analysis::GateEntry& entry : baseline.entries) {
+        text += fmt::format("  {} {} {}  {}\n",
+                            pad_left(metric_text("false_shadow", entry.metric("false_shadow")), 14),
+                            pad_left(metric_text("false_lit", entry.metric("false_lit")), 14),
+                            pad_left(percent(entry.metric("error_rate")), 12), key_text(entry.key));
+    }
+    return text;
+}
+
+std::string baseline_difference(const analysis::GateEntries& baseline,
+                                const analysis::GateEntries& run)
+{
+    const analysis::GateOutcome outcome = analysis::judge_run(baseline, run, {});
+    std::string text = environment_difference(baseline.environment, run.environment);
+    std::size_t changed = 0;
+    for (const analysis::GatePair& pair : outcome.pairs) {
+        const analysis::GateEntry& now = run.entries[pair.now];
+        const std::string lines = differing_lines(baseline.entries[pair.before], now);
+        if (!lines.empty()) {
+            ++changed;
+            text += fmt::format("{}\n{}", key_text(now.key), lines);
+        }
+    }
+    for (const std::size_t entry : outcome.missing) {
+        text += fmt::format("missing: {}\n", key_text(baseline.entries[entry].key));
+    }
+    for (const std::size_t entry : outcome.added) {
+        text += fmt::format("new: {}\n", key_text(run.entries[entry].key));
+    }
+    return text + fmt::format("{} of {} differ, {} missing, {} new\n", grouped(changed),
+                              counted(outcome.pairs.size(), "configuration"),
+                              grouped(outcome.missing.size()), grouped(outcome.added.size()));
+}
+
+} // namespace gnomon::reports

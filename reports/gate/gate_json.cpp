@@ -1,0 +1,123 @@
+#include "reports/gate/gate_json.hpp"
+
+#include "reports/gate/gate_names.hpp"
+#include "reports/json_values.hpp"
+
+#include <string_view>
+
+namespace gnomon::reports {
+
+namespace {
+
+std::string_view verdict_name(analysis::GateVerdict verdict)
+{
+    switch (verdict) {
+    case analysis::GateVerdict::pass:
+        return "pass";
+    case analysis::GateVerdict::regression:
+        return "regression";
+    case analysis::GateVerdict::incomplete:
+        break;
+    }
+    return "incomplete";
+}
+
+Json environment_json(const analysis::Environment& environment)
+{
+    return {{"gl_renderer", environment.gl_renderer},
+            {"gl_version", environment.gl_version},
+            {"embree", environment.embree},
+            {"gnomon", environment.gnomon}};
+}
+
+Json text_or_null(const std::optional<std::string>& text)
+{
+    return text ? Json(*text) : Json(nullptr);
+}
+
+Json changes_json(const std::vector<analysis::ParameterChange>& changes)
+{
+    Json json = Json::array();
+    for (const analysis::ParameterChange& change : changes) {
+        json.push_back({{"key", change.key},
+                        {"baseline", text_or_null(change.before)},
+                        {"now", text_or_null(change.now)}});
+    }
+    return json;
+}
+
+Json finding_json(const GateReport& report, const analysis::GateFinding& finding)
+{
+    const analysis::GateRule& rule = report.rules[finding.rule];
+    const analysis::ConfigurationKey& key = report.run.results.entries[finding.entry].key;
+    const analysis::GatePair* const pair = report.outcome.pair_of(finding.entry);
+    Json json{{"rule", rule.id},
+              {"severity", rule.severity == analysis::Severity::fail ? "fail" : "warn"},
+              {"reason", reason_code(finding.reason)},
+              {"configuration", key_json(key)},
+              {"metric", rule.metric},
+              {"baseline", metric_json(rule.metric, finding.before)},
+              {"now", metric_json(rule.metric, finding.now)},
+              {"limit", number_or_null(finding.limit)}};
+    json["dominant_cause"] =
+        pair != nullptr && pair->cause ? Json(pair->cause->name) : Json(nullptr);
+    json["changed_parameters"] = pair != nullptr ? changes_json(pair->changes) : Json::array();
+    json["command"] = showing_command(report.run, key);
+    return json;
+}
+
+Json keys_json(const std::vector<std::size_t>& indices, const analysis::GateEntries& entries)
+{
+    Json json = Json::array();
+    for (const std::size_t index : indices) {
+        json.push_back(key_json(entries.entries[index].key));
+    }
+    return json;
+}
+
+Json improvements_json(const GateReport& report)
+{
+    Json json = Json::array();
+    for (const analysis::GateImprovement& one : report.outcome.improvements) {
+        json.push_back({{"configuration", key_json(report.run.results.entries[one.entry].key)},
+                        {"metric", one.metric},
+                        {"baseline", metric_json(one.metric, one.before)},
+                        {"now", metric_json(one.metric, one.now)}});
+    }
+    return json;
+}
+
+} // namespace
+
+std::string gate_json(const GateReport& report)
+{
+    const analysis::GateOutcome& outcome = report.outcome;
+    Json findings = Json::array();
+    for (const analysis::GateFinding& finding : outcome.findings) {
+        findings.push_back(finding_json(report, finding));
+    }
+    Json unmatched = Json::array();
+    for (const std::size_t rule : outcome.unmatched_rules) {
+        unmatched.push_back(report.rules[rule].id);
+    }
+    const RunStatus& status = report.run.status;
+    const Json json{
+        {"schema", 1},
+        {"result", verdict_name(report.verdict)},
+        {"same_environment", outcome.is_same_renderer && !report.run.has_several_environments},
+        {"environment",
+         {{"baseline", environment_json(report.baseline.environment)},
+          {"now", environment_json(report.run.results.environment)}}},
+        {"configurations",
+         {{"compared", outcome.pairs.size()},
+          {"failed", status.failed},
+          {"not_computed", status.missing}}},
+        {"findings", std::move(findings)},
+        {"missing", keys_json(outcome.missing, report.baseline)},
+        {"new", keys_json(outcome.added, report.run.results)},
+        {"improvements", improvements_json(report)},
+        {"unmatched_rules", std::move(unmatched)}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,98 @@
+#include "reports/gate/gate_names.hpp"
+
+#include "analysis/gate/gate_metrics.hpp"
+#include "reports/text.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace gnomon::reports {
+
+namespace {
+
+bool is_count(std::string_view name)
+{
+    const analysis::GateMetric* const metric = analysis::find_gate_metric(name);
+    return metric != nullptr && (metric->is_pixel_count || name == "map_bytes");
+}
+
+std::string number_text(std::string_view metric, double value)
+{
+    return is_count(metric) ? grouped(static_cast<std::uint64_t>(value))
+                            : fmt::format("{:.6g}", value);
+}
+
+} // namespace
+
+std::string key_text(const analysis::ConfigurationKey& key)
+{
+    std::string text = key.case_name;
+    for (const auto& [axis, value] : key.axes) {
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", axis, value);
+    }
+    return text.empty() ? "the only configuration" : scene::one_line(text);
+}
+
+Json key_json(const analysis::ConfigurationKey& key)
+{
+    Json axes = Json::object();
+    for (const auto& [axis, value] : key.axes) {
+        axes[axis] = value;
+    }
+    return {{"case", key.case_name}, {"axes", std::move(axes)}};
+}
+
+std::string metric_text(std::string_view metric, const std::optional<double>& value)
+{
+    return value ? number_text(metric, *value) : "-";
+}
+
+std::string change_text(std::string_view metric, const std::optional<double>& before,
+                        const std::optional<double>& now)
+{
+    if (!before || !now) {
+        return {};
+    }
+    const double change = *now - *before;
+    return fmt::format("{}{}", change < 0 ? '-' : '+', number_text(metric, std::abs(change)));
+}
+
+Json metric_json(std::string_view metric, const std::optional<double>& value)
+{
+    if (value && is_count(metric)) {
+        return Json(static_cast<std::uint64_t>(*value));
+    }
+    return number_or_null(value);
+}
+
+std::string change_line(const analysis::ParameterChange& change)
+{
+    return scene::one_line(fmt::format("{}: {} -> {}", change.key, change.before.value_or("none"),
+                                       change.now.value_or("none")));
+}
+
+std::string renderer_text(const analysis::Environment& environment)
+{
+    return scene::one_line(fmt::format("{}, {}, {}", environment.gl_renderer,
+                                       environment.gl_version, environment.embree));
+}
+
+std::string_view reason_code(analysis::GateReason reason)
+{
+    switch (reason) {
+    case analysis::GateReason::above_max:
+        return "above_max";
+    case analysis::GateReason::below_min:
+        return "below_min";
+    case analysis::GateReason::worse_than_baseline:
+        return "worse_than_baseline";
+    case analysis::GateReason::not_available:
+        break;
+    }
+    return "not_available";
+}
+
+} // namespace gnomon::reports

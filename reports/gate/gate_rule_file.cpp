@@ -1,0 +1,319 @@
+#include "reports/gate/gate_rule_file.hpp"
+
+#include "reports/gate/limited_text.hpp"
+#include "reports/run/run_columns.hpp"
+#include "scene/error.hpp"
+#include "scene/job_file.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::GateRule;
+using scene::TomlMember;
+
+constexpr std::uint64_t most_rule_bytes = std::uint64_t{1} << 20U;
+constexpr std::size_t longest_id = 200;
+
+/// Reads one rule file; its messages name the file and the line.
+class RuleParser {
+public:
+    explicit RuleParser(std::string name) : name_{std::move(name)} {}
+
+    [[nodiscard]] std::vector<GateRule> read(const scene::TomlTable& file) const
+    {
+        std::vector<GateRule> rules;
+        for (const TomlMember& member : file) {
+            if (member.key != "rule") {
+                fail(member, "is unknown: a rule file holds [[rule]] tables");
+            }
+            const auto* const tables = std::get_if<scene::TomlArray>(&member.node.value);
+            if (tables == nullptr) {
+                fail(member, "is no list: write [[rule]]");
+            }
+            for (const scene::TomlNode& node : *tables) {
+                add_rule(rules, member, node);
+            }
+        }
+        if (rules.empty()) {
+            throw scene::InputError(
+                fmt::format("{}: holds no rule: write a [[rule]], or leave --rules out", name_));
+        }
+        return rules;
+    }
+
+private:
+    [[noreturn]] void fail(const TomlMember& member, std::string_view problem) const
+    {
+        throw scene::InputError(fmt::format("{}:{}: {}: {}", name_, member.line,
+                                            scene::one_line(member.key.substr(0, longest_id)),
+                                            problem));
+    }
+    [[noreturn]] void fail_value(const TomlMember& member, std::string_view wanted) const
+    {
+        fail(member, fmt::format("{} is not {}", scene::toml_excerpt(member.node), wanted));
+    }
+
+    void add_rule(std::vector<GateRule>& rules, const TomlMember& list,
+                  const scene::TomlNode& node) const
+    {
+        const auto* const table = std::get_if<scene::TomlTable>(&node.value);
+        if (table == nullptr || table->empty()) {
+            fail(list, "an element is empty, or no table: write [[rule]], and its keys below");
+        }
+        GateRule rule;
+        bool has_direction = false;
+        for (const TomlMember& member : *table) {
+            has_direction = has_direction || member.key == "direction";
+            read_member(rule, member);
+        }
+        const TomlMember& first = table->front();
+        rule.place = fmt::format("{}:{}", name_, first.line);
+        check_rule(rule, first);
+        if (!has_direction) {
+            rule.worse = analysis::find_gate_metric(rule.metric)->worse;
+        }
+        if (std::any_of(rules.begin(), rules.end(),
+                        [&](const GateRule& other) { return other.id == rule.id; })) {
+            fail(first, fmt::format("the id \"{}\" stands twice", rule.id));
+        }
+        rules.push_back(std::move(rule));
+    }
+
+    void read_member(GateRule& rule, const TomlMember& member) const
+    {
+        using Read = std::function<void(const RuleParser&, GateRule&, const TomlMember&)>;
+        static const std::map<std::string, Read> keys{
+            {"id", [](const auto& in, auto& to, const auto& key) { to.id = in.read_id(key); }},
+            {"metric", [](const auto& in, auto& to, const auto& key) { in.read_metric(to, key); }},
+            {"where", [](const auto& in, auto& to, const auto& key) { in.read_where(to, key); }},
+            {"job", [](const auto& in, auto& to, const auto& key) { in.read_job_state(to, key); }},
+            {"max", [](const auto& in, auto& to, const auto& key) { to.max = in.number(key); }},
+            {"min", [](const auto& in, auto& to, const auto& key) { to.min = in.number(key); }},
+            {"abs", [](const auto& in, auto& to, const auto& key) { to.abs = in.positive(key); }},
+            {"rel", [](const auto& in, auto& to, const auto& key) { to.rel = in.positive(key); }},
+            {"allow_pixels",
+             [](const auto& in, auto& to, const auto& key) { to.allow_pixels = in.count(key); }},
+            {"allow_share",
+             [](const auto& in, auto& to, const auto& key) { to.allow_share = in.share(key); }},
+            {"direction",
+             [](const auto& in, auto& to, const auto& key) { in.read_direction(to, key); }},
+            {"severity",
+             [](const auto& in, auto& to, const auto& key) { in.read_severity(to, key); }},
+            {"optional",
+             [](const auto& in, auto& to, const auto& key) { to.is_optional = in.flag(key); }}};
+        const auto found = keys.find(member.key);
+        if (found == keys.end()) {
+            std::vector<std::string> names;
+            for (const auto& [name, read] : keys) {
+                names.push_back(name);
+            }
+            fail(member, fmt::format("is no key of a rule; nearest: {}",
+                                     scene::nearest_word(member.key, names)));
+        }
+        found->second(*this, rule, member);
+    }
+
+    void check_rule(const GateRule& rule, const TomlMember& first) const
+    {
+        if (rule.id.empty() || rule.metric.empty()) {
+            fail(first, "the rule lacks its id or its metric");
+        }
+        if (!rule.max && !rule.min && !rule.judges_change()) {
+            fail(first, fmt::format("rule \"{}\" has no limit: give it max, min, abs, rel, "
+                                    "allow_pixels or allow_share",
+                                    rule.id));
+        }
+        const bool counts = analysis::find_gate_metric(rule.metric)->is_pixel_count;
+        if ((rule.allow_pixels || rule.allow_share) && !counts) {
+            fail(first, fmt::format("rule \"{}\" allows pixels, but {} is no count of pixels: use "
+                                    "abs or rel",
+                                    rule.id, rule.metric));
+        }
+        if (rule.max && rule.min && *rule.max < *rule.min) {
+            fail(first, fmt::format("rule \"{}\" has a max below its min", rule.id));
+        }
+    }
+
+    [[nodiscard]] const std::string& text(const TomlMember& member) const
+    {
+        const auto* const value = std::get_if<std::string>(&member.node.value);
+        if (value == nullptr) {
+            fail_value(member, "a text");
+        }
+        return *value;
+    }
+
+    [[nodiscard]] std::string read_id(const TomlMember& member) const
+    {
+        const std::string& id = text(member);
+        if (id.empty() || id.size() > longest_id || scene::one_line(id) != id) {
+            fail_value(member, fmt::format("a text of 1 to {} bytes in one line", longest_id));
+        }
+        return id;
+    }
+
+    void read_metric(GateRule& rule, const TomlMember& member) const
+    {
+        rule.metric = text(member);
+        if (analysis::find_gate_metric(rule.metric) == nullptr) {
+            std::vector<std::string> names;
+            for (const analysis::GateMetric& metric : analysis::gate_metrics()) {
+                names.emplace_back(metric.name);
+            }
+            fail_value(member, fmt::format("a metric; nearest: \"{}\"",
+                                           scene::nearest_word(rule.metric, names)));
+        }
+    }
+
+    /// `where = {shadow_map.resolution = 512}`: a dotted key is tables within each other.
+    void read_where(GateRule& rule, const TomlMember& member, const std::string& prefix = {}) const
+    {
+        const auto* const table = std::get_if<scene::TomlTable>(&member.node.value);
+        if (table == nullptr || table->empty()) {
+            fail_value(member, "a table of settings and values");
+        }
+        for (const TomlMember& setting : *table) {
+            const std::string name = prefix + setting.key;
+            if (std::holds_alternative<scene::TomlTable>(setting.node.value)) {
+                read_where(rule, setting, name + '.');
+            } else {
+                check_setting(name, setting);
+                rule.where[name] = setting_text(setting);
+            }
+        }
+    }
+
+    void check_setting(const std::string& name, const TomlMember& setting) const
+    {
+        std::vector<std::string> names{"case"};
+        for (const JobColumn& column : job_columns()) {
+            names.push_back(column.name);
+        }
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+            fail(setting, fmt::format("{} is no key of a job; nearest: {}",
+                                      scene::one_line(name.substr(0, longest_id)),
+                                      scene::nearest_word(name, names)));
+        }
+    }
+
+    /// As results.csv has the value.
+    [[nodiscard]] std::string setting_text(const TomlMember& setting) const
+    {
+        const auto& value = setting.node.value;
+        if (const auto* words = std::get_if<std::string>(&value)) {
+            return *words;
+        }
+        if (const auto* flag = std::get_if<bool>(&value)) {
+            return *flag ? "true" : "false";
+        }
+        return fmt::format("{}", number(setting));
+    }
+
+    void read_job_state(GateRule& rule, const TomlMember& member) const
+    {
+        const std::string& name = text(member);
+        if (name != "any" && name != "unchanged" && name != "changed") {
+            fail_value(member, "\"any\", \"unchanged\" or \"changed\"");
+        }
+        rule.job = name == "any"         ? analysis::JobState::any
+                   : name == "unchanged" ? analysis::JobState::unchanged
+                                         : analysis::JobState::changed;
+    }
+
+    void read_direction(GateRule& rule, const TomlMember& member) const
+    {
+        const std::string& name = text(member);
+        if (name != "up" && name != "down" && name != "both") {
+            fail_value(member, "\"up\", \"down\" or \"both\"");
+        }
+        rule.worse = name == "up"     ? analysis::Worse::up
+                     : name == "down" ? analysis::Worse::down
+                                      : analysis::Worse::both;
+    }
+
+    void read_severity(GateRule& rule, const TomlMember& member) const
+    {
+        const std::string& name = text(member);
+        if (name != "fail" && name != "warn") {
+            fail_value(member, "\"fail\" or \"warn\"");
+        }
+        rule.severity = name == "fail" ? analysis::Severity::fail : analysis::Severity::warn;
+    }
+
+    [[nodiscard]] bool flag(const TomlMember& member) const
+    {
+        const auto* const value = std::get_if<bool>(&member.node.value);
+        if (value == nullptr) {
+            fail_value(member, "true or false");
+        }
+        return *value;
+    }
+
+    [[nodiscard]] double number(const TomlMember& member) const
+    {
+        if (const auto* integer = std::get_if<std::int64_t>(&member.node.value)) {
+            return static_cast<double>(*integer);
+        }
+        const auto* const real = std::get_if<double>(&member.node.value);
+        if (real == nullptr || !std::isfinite(*real)) {
+            fail_value(member, "a finite number");
+        }
+        return *real;
+    }
+
+    [[nodiscard]] double positive(const TomlMember& member) const
+    {
+        const double value = number(member);
+        if (value < 0) {
+            fail_value(member, "a number from 0 up");
+        }
+        return value;
+    }
+
+    [[nodiscard]] double share(const TomlMember& member) const
+    {
+        const double value = number(member);
+        if (value < 0 || value > 1) {
+            fail_value(member, "a number from 0 to 1");
+        }
+        return value;
+    }
+
+    [[nodiscard]] double count(const TomlMember& member) const
+    {
+        const auto* const value = std::get_if<std::int64_t>(&member.node.value);
+        if (value == nullptr || *value < 0) {
+            fail_value(member, "a whole number from 0 up");
+        }
+        return static_cast<double>(*value);
+    }
+
+    std::string name_;
+};
+
+} // namespace
+
+std::vector<GateRule> read_gate_rules(const std::filesystem::path& file)
+{
+    return parse_gate_rules(read_limited_text(file, most_rule_bytes, "rule file"),
+                            scene::one_line(file.string()));
+}
+
+std::vector<GateRule> parse_gate_rules(std::string_view text, const std::string& name)
+{
+    return RuleParser{name}.read(scene::parse_toml(text, name));
+}
+
+} // namespace gnomon::reports

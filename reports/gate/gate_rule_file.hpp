@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/gate/gate_rules.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+/// Reads the rules of a gate (docs/gate.md).
+/// @return  At least one; each has the file and line of its `[[rule]]` as its place.
+/// @throws scene::InputError  "file:line: key: …", if a key is unknown or missing, or a value is
+///                            not allowed; if the file cannot be read, or is no TOML.
+[[nodiscard]] std::vector<analysis::GateRule> read_gate_rules(const std::filesystem::path& file);
+
+/// @param name  How messages speak of the text.
+[[nodiscard]] std::vector<analysis::GateRule> parse_gate_rules(std::string_view text,
+                                                               const std::string& name);
+
+} // namespace gnomon::reports

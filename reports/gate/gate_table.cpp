@@ -1,0 +1,217 @@
+#include "reports/gate/gate_table.hpp"
+
+#include "reports/gate/gate_names.hpp"
+#include "reports/text.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::GateFinding;
+using analysis::GateVerdict;
+
+constexpr std::size_t most_configurations = 10;
+constexpr std::size_t most_listed = 10;
+
+std::string rules_text(std::size_t count, std::string_view what)
+{
+    return fmt::format("{} {}", counted(count, "rule"), what);
+}
+
+std::string verdict_line(const GateReport& report)
+{
+    const std::size_t failed = report.outcome.broken(report.rules, analysis::Severity::fail);
+    const std::size_t warned = report.outcome.broken(report.rules, analysis::Severity::warn);
+    std::string_view word = "pass";
+    if (report.verdict == GateVerdict::regression) {
+        word = "REGRESSION";
+    } else if (report.verdict == GateVerdict::incomplete) {
+        word = "INCOMPLETE";
+    }
+    std::string line = fmt::format(
+        "{}: {} compared with {}: {}", word, counted(report.outcome.pairs.size(), "configuration"),
+        scene::one_line(report.baseline_file.string()), rules_text(failed, "broken"));
+    if (warned > 0) {
+        line += fmt::format(", {}", counted(warned, "warning"));
+    }
+    return line + '\n';
+}
+
+std::string environment_lines(const GateReport& report)
+{
+    const analysis::Environment& before = report.baseline.environment;
+    const analysis::Environment& now = report.run.results.environment;
+    std::string text;
+    if (!report.outcome.is_same_renderer) {
+        text += fmt::format("  compared all the same (--allow-environment):\n"
+                            "    baseline  {}\n    run       {}\n",
+                            renderer_text(before), renderer_text(now));
+    }
+    if (report.run.has_several_environments) {
+        text += "  the run's results come from several environments (--allow-environment)\n";
+    }
+    if (before.gnomon != now.gnomon) {
+        text += fmt::format("  baseline of {}, run of {}\n", scene::one_line(before.gnomon),
+                            scene::one_line(now.gnomon));
+    }
+    return text;
+}
+
+std::string unfinished_lines(const GateReport& report)
+{
+    const RunStatus& status = report.run.status;
+    std::string text;
+    if (!status.is_complete()) {
+        text += fmt::format("  the run is not complete: {} failed, {} missing; `gnomon status` "
+                            "lists them\n",
+                            grouped(status.failed), grouped(status.missing));
+    }
+    if (report.outcome.pairs.empty()) {
+        text += "  the baseline and the run have no configuration in common: are they of the same "
+                "sweep?\n";
+    }
+    for (const std::size_t rule : report.outcome.unmatched_rules) {
+        text += fmt::format("  rule {} matches nothing\n", report.rules[rule].id);
+    }
+    return text;
+}
+
+/// "  false_shadow    1,234    2,345    +1,111  at most +0: rule false_shadow".
+std::string finding_line(const GateReport& report, const GateFinding& finding)
+{
+    const analysis::GateRule& rule = report.rules[finding.rule];
+    const std::string limit = metric_text(rule.metric, finding.limit);
+    std::string why = "not available";
+    if (finding.reason == analysis::GateReason::above_max) {
+        why = fmt::format("max {}", limit);
+    } else if (finding.reason == analysis::GateReason::below_min) {
+        why = fmt::format("min {}", limit);
+    } else if (finding.reason == analysis::GateReason::worse_than_baseline) {
+        why = fmt::format("{} allowed", limit);
+    }
+    const bool is_warning = rule.severity == analysis::Severity::warn;
+    return fmt::format("  {} {} {} {}  {}{}: {}\n", pad_right(rule.metric, 34),
+                       pad_left(metric_text(rule.metric, finding.before), 12),
+                       pad_left(metric_text(rule.metric, finding.now), 12),
+                       pad_left(change_text(rule.metric, finding.before, finding.now), 12),
+                       is_warning ? "warning, " : "", why, rule.id);
+}
+
+std::string suspects_text(const std::vector<analysis::ParameterChange>& changes)
+{
+    std::string text;
+    for (std::size_t i = 0; i < std::min(changes.size(), most_listed); ++i) {
+        text += fmt::format("{}{}", i == 0 ? "" : "; ", change_line(changes[i]));
+    }
+    if (changes.size() > most_listed) {
+        text += fmt::format("; and {} more", grouped(changes.size() - most_listed));
+    }
+    return text;
+}
+
+/// One configuration with its findings.
+std::string configuration_block(const GateReport& report, std::size_t entry)
+{
+    const analysis::ConfigurationKey& key = report.run.results.entries[entry].key;
+    std::string text =
+        fmt::format("\n{}\n  {} {} {} {}\n", key_text(key), pad_right("metric", 34),
+                    pad_left("baseline", 12), pad_left("now", 12), pad_left("change", 12));
+    for (const GateFinding& finding : report.outcome.findings) {
+        if (finding.entry == entry) {
+            text += finding_line(report, finding);
+        }
+    }
+    if (const analysis::GatePair* const pair = report.outcome.pair_of(entry)) {
+        if (pair->cause) {
+            text += fmt::format("  dominant cause: {}, {} pixels more\n", pair->cause->name,
+                                grouped(static_cast<std::uint64_t>(pair->cause->pixels)));
+        }
+        if (!pair->changes.empty()) {
+            text += fmt::format("  first suspects: {}\n", suspects_text(pair->changes));
+        }
+    }
+    if (const std::string command = showing_command(report.run, key); !command.empty()) {
+        text += fmt::format("  see it: {}\n", scene::one_line(command));
+    }
+    return text;
+}
+
+std::string configuration_blocks(const GateReport& report)
+{
+    std::vector<std::size_t> order; // by their worst finding
+    for (const GateFinding& finding : report.outcome.findings) {
+        if (std::find(order.begin(), order.end(), finding.entry) == order.end()) {
+            order.push_back(finding.entry);
+        }
+        if (order.size() > most_configurations) {
+            break;
+        }
+    }
+    std::string text;
+    for (std::size_t i = 0; i < std::min(order.size(), most_configurations); ++i) {
+        text += configuration_block(report, order[i]);
+    }
+    if (order.size() > most_configurations) {
+        text += "\nand more configurations: --json has all of them\n";
+    }
+    return text;
+}
+
+std::string key_lines(std::string_view title, const std::vector<std::size_t>& indices,
+                      const analysis::GateEntries& entries)
+{
+    if (indices.empty()) {
+        return {};
+    }
+    std::string text = fmt::format("\n{} {}\n", counted(indices.size(), "configuration"), title);
+    for (std::size_t i = 0; i < std::min(indices.size(), most_listed); ++i) {
+        text += fmt::format("  {}\n", key_text(entries.entries[indices[i]].key));
+    }
+    if (indices.size() > most_listed) {
+        text += fmt::format("  and {} more\n", grouped(indices.size() - most_listed));
+    }
+    return text;
+}
+
+std::string improvement_lines(const GateReport& report)
+{
+    const auto& improvements = report.outcome.improvements;
+    if (improvements.empty()) {
+        return {};
+    }
+    std::string text =
+        fmt::format("\n{} better than in the baseline\n", counted(improvements.size(), "value"));
+    for (std::size_t i = 0; i < std::min(improvements.size(), most_listed); ++i) {
+        const analysis::GateImprovement& one = improvements[i];
+        text += fmt::format("  {} {} {} {}  {}\n", pad_right(one.metric, 34),
+                            pad_left(metric_text(one.metric, one.before), 12),
+                            pad_left(metric_text(one.metric, one.now), 12),
+                            pad_left(change_text(one.metric, one.before, one.now), 12),
+                            key_text(report.run.results.entries[one.entry].key));
+    }
+    if (improvements.size() > most_listed) {
+        text += fmt::format("  and {} more\n", grouped(improvements.size() - most_listed));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string gate_table(const GateReport& report)
+{
+    return verdict_line(report) + environment_lines(report) + unfinished_lines(report) +
+           configuration_blocks(report) +
+           key_lines("of the baseline that the run lacks", report.outcome.missing,
+                     report.baseline) +
+           key_lines("of the run that the baseline lacks", report.outcome.added,
+                     report.run.results) +
+           improvement_lines(report);
+}
+
+} // namespace gnomon::reports
