@@ -36,12 +36,13 @@ class ReportPage {
     await this.sweep.open();
   }
 
-  /** What a configuration is called: its place, and the values of the axes. */
+  /** What a configuration is called: its place, its case, and the values of the axes. */
   async caption(row) {
     if (this.table.count === 1) {
       return "";
     }
-    const axes = await this.table.select(this.data.run.axes);
+    const names = [...(this.table.has("case") ? ["case"] : []), ...this.data.run.axes];
+    const axes = await this.table.select(names);
     const values = [...axes].map(([name, column]) => `${name} = ${column.at(row) ?? noValue}`);
     return [`Configuration ${row}`, ...values].join(", ");
   }
