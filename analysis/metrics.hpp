@@ -13,7 +13,7 @@ namespace gnomon::analysis {
 struct ClassCounts {
     std::uint64_t total = 0;
     std::array<std::uint64_t, scene::pixel_class_count> by_class{}; ///< by PixelClass
-    std::array<std::uint64_t, 7> by_reason{};                       ///< by ClassReason
+    std::array<std::uint64_t, 8> by_reason{};                       ///< by ClassReason
 
     [[nodiscard]] std::uint64_t of(scene::PixelClass pixel_class) const
     {

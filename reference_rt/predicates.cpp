@@ -187,7 +187,7 @@ Sign light_side(const Facet& facet, const Light& light, SignCounts& counts)
 
 bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& counts)
 {
-    if (light.type == LightType::directional) {
+    if (light.type != LightType::spot) {
         return false;
     }
     const auto from_light = [&]<typename Field>(Field field) { // δ(P − L)

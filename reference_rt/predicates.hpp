@@ -172,7 +172,7 @@ private:
     return light_side != -receiver.delta_sign;
 }
 
-/// True when P is outside a spot's cone (DESIGN §7); never for a directional light.
+/// True when P is outside a spot's cone (DESIGN §7); never for other lights.
 [[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,
                                    SignCounts& counts);
 

@@ -30,6 +30,10 @@ std::string describe_light(const scene::Light& light)
         const scene::Vec3d& d = light.direction;
         return fmt::format("directional ({:.4g}, {:.4g}, {:.4g})", d.x, d.y, d.z);
     }
+    if (light.type == scene::LightType::point) {
+        const scene::Vec3d& p = light.position;
+        return fmt::format("point at ({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
+    }
     constexpr double deg_from_rad = 180 / std::numbers::pi;
     return fmt::format("spot, cone {:.4g} deg", 2 * std::acos(light.cos_half_cone) * deg_from_rad);
 }

@@ -31,13 +31,19 @@ Light make_spot(const LightSettings& settings)
     return light;
 }
 
-} // namespace
-
-Light make_light(const LightSettings& settings)
+Light make_point(const LightSettings& settings)
 {
-    if (settings.type == LightType::spot) {
-        return make_spot(settings);
+    if (!settings.position) {
+        throw InputError("light.type = \"point\" needs light.position");
     }
+    Light light;
+    light.type = LightType::point;
+    light.position = rounded_to_float32(*settings.position);
+    return light;
+}
+
+Light make_directional(const LightSettings& settings)
+{
     Light light;
     if (settings.direction) {
         light.direction = rounded_to_float32(*settings.direction);
@@ -51,6 +57,21 @@ Light make_light(const LightSettings& settings)
         throw InputError("light.direction is zero: give the way the light travels");
     }
     return light;
+}
+
+} // namespace
+
+Light make_light(const LightSettings& settings)
+{
+    switch (settings.type) {
+    case LightType::spot:
+        return make_spot(settings);
+    case LightType::point:
+        return make_point(settings);
+    case LightType::directional:
+        break;
+    }
+    return make_directional(settings);
 }
 
 } // namespace gnomon::scene

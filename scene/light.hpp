@@ -7,13 +7,18 @@
 
 namespace gnomon::scene {
 
-enum class LightType : std::uint8_t { directional, spot };
+enum class LightType : std::uint8_t {
+    directional,
+    spot,
+    point, ///< of other renderers only: it has no shadow map
+};
 
 /// The job's `[light]` table.
 struct LightSettings {
     LightType type = LightType::directional;
     std::optional<Vec3d> direction; ///< the way the light travels; directional
-    std::optional<Vec3d> position;  ///< [m]; spot: required. directional: where its camera stands
+    /// [m]; spot, point: required. directional: where its camera stands
+    std::optional<Vec3d> position;
     std::optional<Vec3d> target; ///< [m]; spot: required. directional: with position, the direction
     double cone_deg = 60;        ///< full opening angle, (0, 180); spot
 };
@@ -23,7 +28,8 @@ struct Light {
     LightType type = LightType::directional;
     Vec3d direction; ///< directional: way of travel, not normalised. spot: axis a = float32(target)
                      ///< − float32(position)
-    Vec3d position;  ///< spot: L [m]. directional: unused
+                     ///< point: unused
+    Vec3d position;  ///< spot, point: L [m]. directional: unused
     double cos_half_cone = -1.0; ///< spot: the double cos(cone/2)
 };
 

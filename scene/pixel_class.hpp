@@ -29,6 +29,7 @@ enum class ClassReason : std::uint8_t {
     silhouette = 4, ///< indeterminate: the segment touches an edge without passing through
     vertex = 5,     ///< indeterminate: the segment touches a vertex
     graze = 6,      ///< indeterminate: the segment runs inside a triangle's plane
+    rounding = 7,   ///< indeterminate: points that round to P differ, or are not shown to agree
 };
 
 /// True for the classes that enter rates: `lit` and `blocked`.
