@@ -12,8 +12,8 @@ namespace gnomon::analysis {
 /// How many pixels of each class and of each reason there are.
 struct ClassCounts {
     std::uint64_t total = 0;
-    std::array<std::uint64_t, scene::pixel_class_count> by_class{}; ///< by PixelClass
-    std::array<std::uint64_t, 8> by_reason{};                       ///< by ClassReason
+    std::array<std::uint64_t, scene::pixel_class_count> by_class{};   ///< by PixelClass
+    std::array<std::uint64_t, scene::class_reason_count> by_reason{}; ///< by ClassReason
 
     [[nodiscard]] std::uint64_t of(scene::PixelClass pixel_class) const
     {

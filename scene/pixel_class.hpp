@@ -32,6 +32,8 @@ enum class ClassReason : std::uint8_t {
     rounding = 7,   ///< indeterminate: points that round to P differ, or are not shown to agree
 };
 
+inline constexpr std::size_t class_reason_count = 8;
+
 /// True for the classes that enter rates: `lit` and `blocked`.
 [[nodiscard]] constexpr bool is_scored(PixelClass pixel_class)
 {
