@@ -26,7 +26,7 @@ constexpr std::size_t no_pixel = std::numeric_limits<std::size_t>::max();
 struct Tally {
     /// By class, and by whether the verdict is lit: one histogram answers classes and errors.
     std::array<std::array<std::uint64_t, 2>, scene::pixel_class_count> by_verdict{};
-    std::array<std::uint64_t, 7> by_reason{};
+    std::array<std::uint64_t, 8> by_reason{};
     std::uint64_t wrong_taps = 0;
     double absolute_error = 0;
     std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
