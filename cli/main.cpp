@@ -1,4 +1,5 @@
 #include "cli/baseline_command.hpp"
+#include "cli/capture_kit_command.hpp"
 #include "cli/certify_command.hpp"
 #include "cli/compare_command.hpp"
 #include "cli/completion.hpp"
@@ -65,6 +66,7 @@ void describe(CLI::App& program)
     gnomon::cli::add_report_command(program);
     gnomon::cli::add_gate_command(program);
     gnomon::cli::add_baseline_command(program);
+    gnomon::cli::add_capture_kit_command(program);
     gnomon::cli::add_figure_command(program);
     gnomon::cli::add_depth_command(program);
     gnomon::cli::add_scenes_command(program);

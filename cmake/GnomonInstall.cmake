@@ -7,7 +7,8 @@ set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
 install(TARGETS gnomon_options ${gnomon_layer_targets} EXPORT gnomon-targets)
 # The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
-install(FILES reference_rt/certificate.hpp reference_rt/exact_light.hpp reference_rt/truth.hpp
+install(FILES reference_rt/certificate.hpp reference_rt/exact_light.hpp
+              reference_rt/rounded_truth.hpp reference_rt/truth.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/reference_rt)
 foreach(layer scene raster_gl analysis reports)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon
