@@ -22,7 +22,6 @@ namespace gnomon::reports {
 namespace {
 
 using analysis::GateRule;
-using scene::TomlMember;
 
 constexpr std::uint64_t most_rule_bytes = std::uint64_t{1} << 20U;
 

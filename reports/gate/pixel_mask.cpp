@@ -151,7 +151,7 @@ bool is_mask_name(std::string_view text)
 
 std::string write_mask(const fs::path& baseline, const PixelMask& mask)
 {
-    const std::string name = mask_name(mask);
+    std::string name = mask_name(mask);
     const fs::path path = mask_path(baseline, name);
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
