@@ -19,7 +19,6 @@ namespace {
 using reports::ExampleRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using PlacesJson = nlohmann::json;
 
 /// A horizontal sheet over ground, as an OBJ file, moved sideways.
