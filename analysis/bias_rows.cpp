@@ -1,10 +1,10 @@
 #include "analysis/bias_rows.hpp"
 
-#include "analysis/bias_index.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/pcf_taps.hpp"
 #include "analysis/pixel_runs.hpp"
 #include "analysis/radix_sort.hpp"
+#include "analysis/wrong_biases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -91,69 +91,6 @@ private:
 
     std::size_t stride_;
     std::vector<std::int64_t> changes_; ///< by cell, then bias: few cells are in use
-};
-
-/// Counts the pixels that are wrong without bias at every bias at once: each changes its verdict at
-/// its critical bias, and a lit one its cause at the bias with which exact depths repair it.
-class RowCounter {
-public:
-    RowCounter(const BiasRowInputs& inputs, std::span<const float> biases)
-        : inputs_{inputs},
-          biases_{biases},
-          index_{biases}
-    {
-    }
-
-    void count(std::size_t pixel, Changes& changes) const
-    {
-        const PixelCause& why = inputs_.causes[pixel];
-        if (why.unbiased == Cause::none) {
-            return;
-        }
-        const PixelClass truth = inputs_.classes[pixel];
-        if (truth == PixelClass::lit) {
-            count_lit(pixel, why, changes);
-        } else if (truth == PixelClass::blocked) {
-            const std::size_t first = index_.first_from(inputs_.critical_bias[pixel]);
-            add(first, biases_.size(), truth, why, why.unbiased, changes);
-        }
-    }
-
-private:
-    void count_lit(std::size_t pixel, const PixelCause& why, Changes& changes) const
-    {
-        const std::size_t last = index_.first_from(inputs_.critical_bias[pixel]);
-        if (last == 0) {
-            return;
-        }
-        const float slope_term = inputs_.rule.slope * inputs_.deciding.samples[pixel].tan_theta;
-        const std::size_t middle =
-            std::min(last, first_repaired(why.exact_critical_bias, slope_term));
-        add(0, middle, PixelClass::lit, why, why.unbiased, changes);
-        add(middle, last, PixelClass::lit, why, Cause::precision, changes);
-    }
-
-    static void add(std::size_t first, std::size_t last, PixelClass truth, const PixelCause& why,
-                    Cause cause, Changes& changes)
-    {
-        changes.add(first, last, truth, cause, label_of(why, truth, cause));
-    }
-
-    /// Index of the first bias that with the slope's part is not below `exact_critical`.
-    [[nodiscard]] std::size_t first_repaired(float exact_critical, float slope_term) const
-    {
-        if (slope_term == 0) {
-            return index_.first_from(exact_critical);
-        }
-        const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
-            return !(bias + slope_term >= exact_critical);
-        });
-        return static_cast<std::size_t>(first - biases_.begin());
-    }
-
-    const BiasRowInputs& inputs_;
-    std::span<const float> biases_;
-    BiasIndex index_;
 };
 
 /// Adds those that only a bias makes wrong: all of the curve's that are not in the row yet.
@@ -345,10 +282,15 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& cu
     std::vector<BiasRow> rows;
     for (std::size_t first = 0; first < biases.size(); first += biases_at_once) {
         const auto part = biases.subspan(first, std::min(biases_at_once, biases.size() - first));
-        const RowCounter counter{inputs, part};
+        const WrongBiases wrong{inputs, part};
         const Changes changes =
             sum_over_pixels(inputs.classes.pixel_count(), Changes{part.size()},
-                            [&](std::size_t pixel, Changes& sum) { counter.count(pixel, sum); });
+                            [&](std::size_t pixel, Changes& sum) {
+                                wrong.visit_unbiased(pixel, [&](std::size_t from, std::size_t to,
+                                                                Cause cause, Label label) {
+                                    sum.add(from, to, inputs.classes[pixel], cause, label);
+                                });
+                            });
         const std::vector<BiasRow> counted = changes.rows();
         rows.insert(rows.end(), counted.begin(), counted.end());
     }

@@ -1,14 +1,15 @@
 #include "cli/baseline_command.hpp"
 
 #include "cli/exit_codes.hpp"
+#include "cli/gate_update.hpp"
 #include "cli/standard_output.hpp"
-#include "reports/gate/baseline_json.hpp"
 #include "reports/gate/baseline_read.hpp"
 #include "reports/gate/baseline_table.hpp"
+#include "reports/gate/baseline_write.hpp"
+#include "reports/gate/gate_rule_file.hpp"
 #include "reports/gate/gate_run.hpp"
-#include "reports/output_file.hpp"
+#include "reports/gate/pixel_mask.hpp"
 #include "reports/text.hpp"
-#include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
@@ -23,31 +25,17 @@ namespace {
 struct BaselineOptions {
     std::string run;
     std::string file;
+    std::string rules;
 };
 
 void save_baseline(const BaselineOptions& options)
 {
-    const reports::GateRun run = reports::read_gate_run(options.run);
-    const std::string folder = scene::one_line(options.run);
-    if (!run.status.is_complete()) {
-        fmt::print(stderr,
-                   "gnomon: {}: {} configurations failed and {} are missing: no baseline is made "
-                   "of it; `gnomon status` says how to go on\n",
-                   folder, run.status.failed, run.status.missing);
-        throw CLI::RuntimeError{exit_codes::incomplete};
-    }
-    if (run.has_several_environments) {
-        throw scene::InputError(fmt::format(
-            "{}: its results come from several environments: a baseline is of one", folder));
-    }
-    const std::string text = reports::baseline_json(run.results);
-    if (text.size() > reports::most_baseline_bytes) {
-        throw scene::InputError(fmt::format("{}: {} configurations are too many for a baseline of "
-                                            "at most {} MiB: sweep fewer",
-                                            folder, run.results.entries.size(),
-                                            reports::most_baseline_bytes >> 20U));
-    }
-    reports::write_file(options.file, text);
+    const auto points = options.rules.empty()
+                            ? std::vector<analysis::CurvePointMetric>{}
+                            : reports::curve_points_of(reports::read_gate_rules(options.rules));
+    const reports::GateRun run = reports::read_gate_run(options.run, points);
+    require_whole_run(run);
+    reports::write_baseline(options.file, reports::write_masks(options.file, run));
     print(fmt::format("wrote {}: {}\n", scene::one_line(options.file),
                       reports::counted(run.results.entries.size(), "configuration")));
 }
@@ -60,15 +48,23 @@ void list_baseline(const BaselineOptions& options)
 void compare_with_baseline(const BaselineOptions& options)
 {
     const analysis::GateEntries baseline = baseline_or_end(options.file);
-    print(reports::baseline_difference(baseline, reports::read_gate_run(options.run).results));
+    analysis::GateEntries run = reports::read_gate_run(options.run).results;
+    for (analysis::GateEntry& entry : run.entries) {
+        entry.pixels.clear(); // no masks are made of them here
+    }
+    print(reports::baseline_difference(baseline, run));
 }
 
 } // namespace
 
-analysis::GateEntries baseline_or_end(const std::filesystem::path& file)
+analysis::GateEntries baseline_or_end(const std::filesystem::path& file, Masks masks)
 {
     try {
-        return reports::read_baseline(file);
+        analysis::GateEntries baseline = reports::read_baseline(file);
+        if (masks == Masks::required) {
+            reports::require_masks(file, baseline);
+        }
+        return baseline;
     } catch (const reports::BaselineMissing& error) {
         fmt::print(stderr, "gnomon: {}\n", error.what());
         throw CLI::RuntimeError{exit_codes::other_environment};
@@ -82,10 +78,12 @@ void add_baseline_command(CLI::App& program)
         "baseline", "Save, list or compare the results that a run is held to (`gnomon gate`)");
     command->require_subcommand(1);
     CLI::App* save = command->add_subcommand("save", "Save a run's results as a baseline");
-    save->add_option("RUN", options->run, "The folder of `gnomon sweep --out` or `compare --out`")
+    save->add_option("RUN", options->run, "The folder of a run, as `gnomon sweep --out` leaves it")
         ->required();
     save->add_option("--baseline", options->file, "FILE to write; an older one is replaced")
         ->required();
+    save->add_option("--rules", options->rules,
+                     "FILE of rules: keep the points of bias curves that they are about, too");
     save->callback([options] { save_baseline(*options); });
     CLI::App* list = command->add_subcommand("list", "Say what a baseline holds");
     list->add_option("FILE", options->file, "The baseline")->required();

@@ -4,13 +4,18 @@
 #include "analysis/gate/gate_rules.hpp"
 #include "cli/baseline_command.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/gate_outputs.hpp"
+#include "cli/gate_update.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/gate/gate_json.hpp"
+#include "reports/gate/gate_junit.hpp"
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/gate_report.hpp"
 #include "reports/gate/gate_rule_file.hpp"
 #include "reports/gate/gate_run.hpp"
 #include "reports/gate/gate_table.hpp"
+#include "reports/gate/kept_wrong_pixels.hpp"
+#include "reports/output_file.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
@@ -27,8 +32,13 @@ struct GateOptions {
     std::string run;
     std::string baseline;
     std::string rules;
+    std::string pictures;
+    std::string junit;
+    std::string update;
     bool allows_environment = false;
+    bool allows_ci_update = false;
     bool json = false;
+    bool github = false;
 };
 
 void require_environment(const GateOptions& options, const reports::GateReport& report)
@@ -75,20 +85,42 @@ void end_as_verdict(analysis::GateVerdict verdict)
     }
 }
 
-void gate(const GateOptions& options)
+/// Reads all that the gate needs; ends the program with exit status 3 where a part of the baseline
+/// is missing.
+reports::GateReport read_report(const GateOptions& options)
 {
     reports::GateReport report;
     report.rules = options.rules.empty() ? analysis::default_gate_rules()
                                          : reports::read_gate_rules(options.rules);
-    report.run = reports::read_gate_run(options.run);
+    report.run = reports::read_gate_run(options.run, reports::curve_points_of(report.rules));
     report.baseline_file = options.baseline;
-    report.baseline = baseline_or_end(options.baseline);
-    report.outcome = analysis::judge_run(report.baseline, report.run.results, report.rules);
+    if (options.update.empty()) {
+        report.baseline = baseline_or_end(options.baseline, Masks::required);
+    }
+    return report;
+}
+
+void gate(const GateOptions& options)
+{
+    reports::GateReport report = read_report(options);
+    if (!options.update.empty()) {
+        return update_baseline({options.baseline, options.update, options.allows_ci_update},
+                               report.run);
+    }
+    report.outcome = analysis::judge_run(report.baseline, report.run.results, report.rules,
+                                         reports::NewPixelFinder{options.baseline, options.run});
     report.verdict =
         analysis::gate_verdict(report.outcome, report.rules, report.run.status.is_complete());
     require_environment(options, report);
     require_matches(report);
+    draw_gate_pictures(report, options.pictures);
+    if (!options.junit.empty()) {
+        reports::write_file(options.junit, reports::gate_junit(report));
+    }
     print(options.json ? reports::gate_json(report) : reports::gate_table(report));
+    if (options.github) {
+        print_for_github(report);
+    }
     end_as_verdict(report.verdict);
 }
 
@@ -100,7 +132,7 @@ void add_gate_command(CLI::App& program)
     CLI::App* command = program.add_subcommand(
         "gate", "Hold a run to a baseline: nothing may be worse than it was");
     command
-        ->add_option("RUN", options->run, "The folder of `gnomon sweep --out` or `compare --out`")
+        ->add_option("RUN", options->run, "The folder of a run, as `gnomon sweep --out` leaves it")
         ->required();
     command
         ->add_option("--baseline", options->baseline, "FILE, as `gnomon baseline save` writes it")
@@ -109,12 +141,30 @@ void add_gate_command(CLI::App& program)
                         "FILE of rules (docs/gate.md); default: no more wrong pixels than before");
     command->add_flag("--allow-environment", options->allows_environment,
                       "Compare with a baseline of another renderer, too");
-    command->add_flag("--json", options->json, "Print it as JSON (docs/gate.md)");
-    command->footer("Exit status: 0 pass; 1 regression; 2 there is no run in RUN, or a baseline or "
-                    "rule is bad; 3 there is no baseline, or it is of another environment; 5 "
-                    "results are missing.\n\nExamples:\n"
-                    "  gnomon gate run --baseline baseline.json\n"
-                    "  gnomon gate run --baseline baseline.json --rules gate.toml --json");
+    command->add_option("--pictures", options->pictures,
+                        "DIR for pictures of pixels that became wrong; default: RUN/gate");
+    command
+        ->add_option("--update", options->update,
+                     "Take the run's results into the baseline instead of judging them: "
+                     "configurations that it lacks, those that changed, or all")
+        ->check(CLI::IsMember({"missing", "changed", "all"}));
+    command->add_flag("--allow-ci-update", options->allows_ci_update,
+                      "Let --update write where CI is set");
+    CLI::Option* json =
+        command->add_flag("--json", options->json, "Print it as JSON (docs/gate.md)");
+    command->add_option("--junit", options->junit, "Also write it to FILE as JUnit XML");
+    command
+        ->add_flag("--github", options->github,
+                   "Also annotate a build of GitHub Actions, and write its step summary")
+        ->excludes(json);
+    command->footer(
+        "Exit status: 0 pass; 1 regression; 2 there is no run in RUN, or a baseline, mask "
+        "or rule is bad; 3 there is no baseline, a mask of it is missing, or it is of "
+        "another environment; 5 results are missing.\n\nExamples:\n"
+        "  gnomon gate run --baseline baseline.json\n"
+        "  gnomon gate run --baseline baseline.json --rules gate.toml --json\n"
+        "  gnomon gate run --baseline baseline.json --github --junit gate.xml\n"
+        "  gnomon gate run --baseline baseline.json --update changed");
     command->callback([options] { gate(*options); });
 }
 

@@ -88,6 +88,14 @@ std::vector<std::byte> encode_png(const RgbImage& image)
     return output.take();
 }
 
+std::vector<std::byte> encode_png(const scene::Image<std::uint8_t>& grey)
+{
+    const auto [width_px, height_px] = grey.size();
+    MemoryOutput output{"mask.png", OIIO::ImageSpec{width_px, height_px, 1, OIIO::TypeDesc::UINT8}};
+    output.write_rows(0, height_px, OIIO::TypeDesc::UINT8, grey.data());
+    return output.take();
+}
+
 std::vector<std::byte> encode_exr(scene::ImageSize size, std::span<const ExrChannel> channels,
                                   std::span<const ExrAttribute> attributes)
 {

@@ -40,6 +40,8 @@ struct ExrAttribute {
 /// Encodes in memory, so that writing the file is left to `OutputFile`, which loses no error.
 /// @throws scene::EnvironmentError  if the encoder fails.
 [[nodiscard]] std::vector<std::byte> encode_png(const RgbImage& image);
+/// One grey channel.
+[[nodiscard]] std::vector<std::byte> encode_png(const scene::Image<std::uint8_t>& grey);
 
 /// ZIP-compressed scanlines; no time stamp, so that equal input gives equal bytes.
 /// @throws scene::EnvironmentError  if the encoder fails.

@@ -48,9 +48,21 @@ std::optional<double> GateEntry::metric(const std::string& name) const
     if (const auto found = metrics.find(name); found != metrics.end()) {
         return found->second;
     }
+    if (name == wrong_pixels_metric && metrics.contains("false_shadow") &&
+        metrics.contains("false_lit")) {
+        return metrics.at("false_shadow") + metrics.at("false_lit");
+    }
     const auto gap_pixels = metrics.find(std::string{gap_pixels_metric});
     const bool has_no_gap = gap_pixels != metrics.end() && gap_pixels->second == 0;
     return is_gap_length(name) && has_no_gap ? std::optional{0.0} : std::nullopt;
+}
+
+std::optional<double> GateEntry::metric(const std::string& name, const PixelFilter& filter) const
+{
+    if (filter.takes_all()) {
+        return metric(name);
+    }
+    return is_of_pixels(name) ? metric_of_pixels(parts, name, filter) : std::nullopt;
 }
 
 std::optional<std::string_view> GateEntry::setting(const std::string& name) const
@@ -111,13 +123,14 @@ std::vector<ParameterChange> changed_parameters(const GateEntry& before, const G
     return changes;
 }
 
-std::optional<DominantCause> dominant_cause(const GateEntry& before, const GateEntry& now)
+std::optional<DominantCause> dominant_cause(const GateEntry& before, const GateEntry& now,
+                                            const PixelFilter& filter)
 {
     std::optional<DominantCause> dominant;
     for (std::size_t i = 1; i < cause_names.size(); ++i) { // the first is "none"
         const std::string metric = fmt::format("causes.{}", cause_names[i]);
-        const auto was = before.metric(metric);
-        const auto is = now.metric(metric);
+        const auto was = before.metric(metric, filter);
+        const auto is = now.metric(metric, filter);
         const double rise = was && is ? *is - *was : 0;
         if (rise > (dominant ? dominant->pixels : 0)) {
             dominant = DominantCause{std::string{cause_names[i]}, rise};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "analysis/error_parts.hpp"
+#include "analysis/gate/gate_filter.hpp"
 #include "analysis/renderers.hpp"
 
 #include <cstddef>
@@ -30,11 +32,18 @@ struct GateEntry {
     /// The resolved job without the axes, as text, and `scene_hash`; keys without a value are
     /// left out.
     std::map<std::string, std::string> parameters;
-    /// By the column of results.csv (docs/csv_schema.md); what does not exist is left out.
+    /// By their names in docs/gate.md; what does not exist is left out.
     std::map<std::string, double> metrics;
+    std::vector<ErrorPart> parts = {}; ///< by object and light distance; empty: not known
+    /// What finds its wrong pixels: of a baseline the name of the mask, of a run the
+    /// configuration's id; empty: they were not kept.
+    std::string pixels = {};
 
     /// A metric; the length of a gap is 0 where the causes are known and no pixel has a gap.
     [[nodiscard]] std::optional<double> metric(const std::string& name) const;
+    /// The same of the pixels that the filter takes.
+    [[nodiscard]] std::optional<double> metric(const std::string& name,
+                                               const PixelFilter& filter) const;
     /// The value of a parameter, of an axis, or of `case`; empty if it has none.
     [[nodiscard]] std::optional<std::string_view> setting(const std::string& name) const;
 };
@@ -76,8 +85,9 @@ struct DominantCause {
     friend bool operator==(const DominantCause&, const DominantCause&) = default;
 };
 
+/// @param filter  Of which pixels.
 /// @return  Empty if no cause has more pixels than before, or causes are not known.
-[[nodiscard]] std::optional<DominantCause> dominant_cause(const GateEntry& before,
-                                                          const GateEntry& now);
+[[nodiscard]] std::optional<DominantCause>
+dominant_cause(const GateEntry& before, const GateEntry& now, const PixelFilter& filter = {});
 
 } // namespace gnomon::analysis

@@ -49,72 +49,133 @@ double allowed_change(const GateRule& rule, double before, const GateEntry& now)
     return std::max(allowed, rule.allow_share.value_or(0) * image_pixels);
 }
 
-/// Judges one configuration by one rule.
+/// Judges configurations by one rule.
 class Judge {
 public:
-    Judge(GateOutcome& outcome, const GateRule& rule, std::size_t rule_index)
+    Judge(GateOutcome& outcome, const GateRule& rule, std::size_t rule_index,
+          const AskNewPixels& ask_new_pixels)
         : outcome_{&outcome},
           rule_{&rule},
-          rule_index_{rule_index}
+          rule_index_{rule_index},
+          ask_new_pixels_{&ask_new_pixels}
     {
     }
+
+    [[nodiscard]] std::size_t rule_index() const { return rule_index_; }
 
     /// @param before  nullptr if the baseline lacks it.
     /// @return  Whether there was anything to judge.
     bool judge(const GateEntry* before, const GateEntry& now, std::size_t entry)
     {
-        const auto old = before == nullptr ? std::nullopt : before->metric(rule_->metric);
-        const auto fresh = now.metric(rule_->metric);
-        if (!old && !fresh) {
+        if (rule_->metric == new_pixels_metric) {
+            return before != nullptr && judge_places(*before, now, entry);
+        }
+        bool is_judged = false;
+        for (const PixelFilter& filter : filters_of(*rule_, before, now)) {
+            is_judged = judge_values(before, now, {rule_index_, entry, {}, {}, {}, {}, filter}) ||
+                        is_judged;
+        }
+        return is_judged;
+    }
+
+private:
+    bool judge_places(const GateEntry& before, const GateEntry& now, std::size_t entry)
+    {
+        if (rule_->is_optional && before.pixels.empty()) {
             return false;
         }
-        if (!fresh) {
-            add(entry, GateReason::not_available, old, fresh, std::nullopt);
+        GateFinding finding{rule_index_, entry, {}, {}, {}, {}, rule_->pixels};
+        NewPixelAnswer answer;
+        if (before.pixels.empty()) {
+            answer.obstacle = "the baseline has no pixels of it";
+        } else if (now.pixels.empty()) {
+            answer.obstacle = "the run kept no pixels of it";
+        } else {
+            answer = (*ask_new_pixels_)(before, now, rule_->pixels);
+        }
+        if (!answer.found) {
+            finding.obstacle = answer.obstacle;
+            add(std::move(finding), GateReason::not_available, std::nullopt);
             return true;
         }
-        if (rule_->max && *fresh > *rule_->max) {
-            add(entry, GateReason::above_max, old, fresh, rule_->max);
-        } else if (rule_->min && *fresh < *rule_->min) {
-            add(entry, GateReason::below_min, old, fresh, rule_->min);
+        finding.before = 0;
+        finding.now = static_cast<double>(answer.found->count);
+        finding.cause = answer.found->cause;
+        finding.new_pixels = std::move(answer.found);
+        judge_limits(finding, *finding.now);
+        judge_change(finding, *finding.now, now);
+        return true;
+    }
+
+    bool judge_values(const GateEntry* before, const GateEntry& now, GateFinding finding)
+    {
+        finding.before =
+            before == nullptr ? std::nullopt : before->metric(rule_->metric, finding.filter);
+        finding.now = now.metric(rule_->metric, finding.filter);
+        if (!finding.before && !finding.now) {
+            return false;
         }
+        if (before != nullptr) {
+            const auto counted = counted_pixels(rule_->metric, finding.filter);
+            finding.cause = dominant_cause(*before, now, counted.value_or(finding.filter));
+        }
+        if (!finding.now) {
+            finding.obstacle = "the run has no such value";
+            add(std::move(finding), GateReason::not_available, std::nullopt);
+            return true;
+        }
+        judge_limits(finding, *finding.now);
         if (before != nullptr && rule_->judges_change()) {
-            judge_change(old, *fresh, now, entry);
+            judge_change(finding, *finding.now, now);
         }
         return true;
     }
 
-private:
-    void judge_change(const std::optional<double>& old, double fresh, const GateEntry& now,
-                      std::size_t entry)
+    void judge_limits(const GateFinding& finding, double value)
     {
-        if (!old) {
-            add(entry, GateReason::not_available, old, fresh, std::nullopt);
-            return;
-        }
-        const double worse = worsening(rule_->worse, *old, fresh);
-        const double allowed = allowed_change(*rule_, *old, now);
-        if (worse > allowed) {
-            add(entry, GateReason::worse_than_baseline, old, fresh, allowed);
-        } else if (worse < 0) {
-            outcome_->improvements.push_back({entry, rule_->metric, *old, fresh});
+        if (rule_->max && value > *rule_->max) {
+            add(finding, GateReason::above_max, rule_->max);
+        } else if (rule_->min && value < *rule_->min) {
+            add(finding, GateReason::below_min, rule_->min);
         }
     }
 
-    void add(std::size_t entry, GateReason reason, const std::optional<double>& old,
-             const std::optional<double>& fresh, const std::optional<double>& limit)
+    void judge_change(GateFinding finding, double value, const GateEntry& now)
     {
-        outcome_->findings.push_back({rule_index_, entry, reason, old, fresh, limit});
+        if (!finding.before) {
+            finding.obstacle = "the baseline has no such value";
+            add(std::move(finding), GateReason::not_available, std::nullopt);
+            return;
+        }
+        if (!rule_->judges_change()) {
+            return;
+        }
+        const double worse = worsening(rule_->worse, *finding.before, value);
+        const double allowed = allowed_change(*rule_, *finding.before, now);
+        if (worse > allowed) {
+            add(std::move(finding), GateReason::worse_than_baseline, allowed);
+        } else if (worse < 0 && finding.filter.takes_all()) {
+            outcome_->improvements.push_back(
+                {finding.entry, rule_->metric, *finding.before, value});
+        }
+    }
+
+    void add(GateFinding finding, GateReason reason, const std::optional<double>& limit)
+    {
+        finding.reason = reason;
+        finding.limit = limit;
+        outcome_->findings.push_back(std::move(finding));
     }
 
     GateOutcome* outcome_;
     const GateRule* rule_;
     std::size_t rule_index_;
+    const AskNewPixels* ask_new_pixels_;
 };
 
 void apply_rule(GateOutcome& outcome, const GateEntries& baseline, const GateEntries& run,
-                const GateRule& rule, std::size_t rule_index)
+                const GateRule& rule, Judge judge)
 {
-    Judge judge{outcome, rule, rule_index};
     bool is_matched = false;
     for (const GatePair& pair : outcome.pairs) {
         const GateEntry& now = run.entries[pair.now];
@@ -128,7 +189,7 @@ void apply_rule(GateOutcome& outcome, const GateEntries& baseline, const GateEnt
         }
     }
     if (!is_matched && !rule.is_optional) {
-        outcome.unmatched_rules.push_back(rule_index);
+        outcome.unmatched_rules.push_back(judge.rule_index());
     }
 }
 
@@ -189,13 +250,13 @@ const GatePair* GateOutcome::pair_of(std::size_t entry) const
 }
 
 GateOutcome judge_run(const GateEntries& baseline, const GateEntries& run,
-                      std::span<const GateRule> rules)
+                      std::span<const GateRule> rules, const AskNewPixels& ask_new_pixels)
 {
     GateOutcome outcome;
     outcome.is_same_renderer = is_same_renderer(baseline.environment, run.environment);
     match_entries(outcome, baseline, run);
     for (std::size_t i = 0; i < rules.size(); ++i) {
-        apply_rule(outcome, baseline, run, rules[i], i);
+        apply_rule(outcome, baseline, run, rules[i], {outcome, rules[i], i, ask_new_pixels});
     }
     std::stable_sort(outcome.findings.begin(), outcome.findings.end(),
                      [&](const GateFinding& a, const GateFinding& b) {

@@ -2,6 +2,7 @@
 
 #include "analysis/gate/gate_entries.hpp"
 #include "analysis/gate/gate_rules.hpp"
+#include "analysis/gate/new_pixels.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,11 @@ struct GateFinding {
     std::optional<double> before; ///< the baseline's value
     std::optional<double> now;
     std::optional<double> limit; ///< largest change allowed, or the `max` or `min` that is broken
+    PixelFilter filter = {};     ///< of which pixels
+    std::string obstacle = {};   ///< why a value is not available, where that can be said
+    /// The cause of which these pixels have most more than before.
+    std::optional<DominantCause> cause = {};
+    std::optional<NewPixels> new_pixels = {}; ///< of `new_pixels`: where they are
 };
 
 /// A metric that a rule on its change judges, and that changed for the better.
@@ -77,8 +83,13 @@ struct GateOutcome {
 ///
 /// Worst first: failing rules before warnings, values that are not available after all others;
 /// then counts of pixels by how many more, then other metrics by how much more for its size.
+///
+/// Of `new_pixels`, which compares places, an optional rule judges the configurations whose pixels
+/// the baseline has; another one cannot judge those whose pixels either lacks.
+/// @param ask_new_pixels  May be empty if no rule is of that metric.
 [[nodiscard]] GateOutcome judge_run(const GateEntries& baseline, const GateEntries& run,
-                                    std::span<const GateRule> rules);
+                                    std::span<const GateRule> rules,
+                                    const AskNewPixels& ask_new_pixels = {});
 
 /// @param is_complete  Whether no configuration of the run failed or is missing.
 [[nodiscard]] GateVerdict gate_verdict(const GateOutcome& outcome, std::span<const GateRule> rules,

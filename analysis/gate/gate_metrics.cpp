@@ -1,12 +1,26 @@
 #include "analysis/gate/gate_metrics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
 namespace gnomon::analysis {
 
-const std::vector<GateMetric>& gate_metrics()
+namespace {
+
+constexpr std::string_view curve_point_prefix = "bias_curve.at(";
+constexpr std::array<GateMetric, 5> curve_columns{{{"false_shadow", true, Worse::up},
+                                                   {"false_lit", true, Worse::up},
+                                                   {"false_shadow_rate", false, Worse::up},
+                                                   {"false_lit_rate", false, Worse::up},
+                                                   {"error_rate", false, Worse::up}}};
+
+} // namespace
+
+const std::vector<GateMetric>& result_metrics()
 {
     static const std::vector<GateMetric> metrics{
         {"map_near_m", false, Worse::both},
@@ -67,11 +81,50 @@ const std::vector<GateMetric>& gate_metrics()
     return metrics;
 }
 
+const std::vector<GateMetric>& gate_metrics()
+{
+    static const std::vector<GateMetric> metrics = [] {
+        std::vector<GateMetric> all = result_metrics();
+        all.push_back({wrong_pixels_metric, true, Worse::up});
+        all.push_back({new_pixels_metric, true, Worse::up});
+        all.push_back({"map_error_m.min", false, Worse::down});
+        all.push_back({"map_error_m.max", false, Worse::up});
+        all.push_back({"map_error_m.largest", false, Worse::up});
+        return all;
+    }();
+    return metrics;
+}
+
+std::string CurvePointMetric::name() const
+{
+    return fmt::format("{}{}).{}", curve_point_prefix, bias, column);
+}
+
+std::optional<CurvePointMetric> curve_point_metric(std::string_view text)
+{
+    const std::size_t end = text.find(").");
+    if (!text.starts_with(curve_point_prefix) || end == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto bias =
+        number_in(text.substr(curve_point_prefix.size(), end - curve_point_prefix.size()));
+    const std::string_view column = text.substr(end + 2);
+    const bool is_column = std::any_of(curve_columns.begin(), curve_columns.end(),
+                                       [&](const GateMetric& one) { return one.name == column; });
+    return bias && is_column ? std::optional{CurvePointMetric{*bias, std::string{column}}}
+                             : std::nullopt;
+}
+
 const GateMetric* find_gate_metric(std::string_view name)
 {
+    const auto has = [](std::string_view wanted) {
+        return [wanted](const GateMetric& metric) { return metric.name == wanted; };
+    };
+    if (const auto point = curve_point_metric(name)) {
+        return std::find_if(curve_columns.begin(), curve_columns.end(), has(point->column));
+    }
     const auto& metrics = gate_metrics();
-    const auto found = std::find_if(metrics.begin(), metrics.end(),
-                                    [&](const GateMetric& metric) { return metric.name == name; });
+    const auto found = std::find_if(metrics.begin(), metrics.end(), has(name));
     return found == metrics.end() ? nullptr : &*found;
 }
 

@@ -15,18 +15,36 @@ enum class Worse : std::uint8_t {
     both, ///< either
 };
 
-/// A column of results.csv that was measured and is a number (docs/csv_schema.md).
+/// A number that a rule may be about (docs/gate.md).
 struct GateMetric {
     std::string_view name;
     bool is_pixel_count = false;
     Worse worse = Worse::up; ///< unless a rule says otherwise
 };
 
-/// All of them, in the order of results.csv.
+/// Those that are columns of results.csv (docs/csv_schema.md), in their order.
+[[nodiscard]] const std::vector<GateMetric>& result_metrics();
+/// All that have a name of their own: those columns, and what follows from them and other tables.
 [[nodiscard]] const std::vector<GateMetric>& gate_metrics();
 
+/// Also finds points of the bias curve.
 /// @return  nullptr if there is none of that name.
 [[nodiscard]] const GateMetric* find_gate_metric(std::string_view name);
+
+/// False shadow and false lit.
+inline constexpr std::string_view wrong_pixels_metric = "wrong_pixels";
+/// Pixels that are wrong now and were right in the baseline.
+inline constexpr std::string_view new_pixels_metric = "new_pixels";
+
+/// A count or rate at one bias of the bias curve: "bias_curve.at(0.001).false_lit".
+struct CurvePointMetric {
+    double bias = 0;    ///< depth units
+    std::string column; ///< of bias_curves.csv
+
+    [[nodiscard]] std::string name() const;
+};
+/// @return  Empty if the text is none.
+[[nodiscard]] std::optional<CurvePointMetric> curve_point_metric(std::string_view text);
 
 /// How many pixels have a peter-panning gap.
 inline constexpr std::string_view gap_pixels_metric = "peter_panning_gap_pixels";

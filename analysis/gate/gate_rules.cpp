@@ -40,6 +40,38 @@ void add_count_rules(std::vector<GateRule>& rules, std::string_view metric)
     rules.push_back(std::move(changed));
 }
 
+/// No object and no band may become worse, whatever the others do.
+void add_part_rules(std::vector<GateRule>& rules)
+{
+    for (const bool each_object : {true, false}) {
+        for (const JobState job : {JobState::unchanged, JobState::changed}) {
+            GateRule rule = optional_rule(wrong_pixels_metric, job);
+            rule.id = fmt::format("{} of each {}", rule.metric,
+                                  each_object ? "object" : "band of light distance");
+            rule.each_object = each_object;
+            rule.each_band = !each_object;
+            if (job == JobState::unchanged) {
+                rule.allow_pixels = 0;
+            } else {
+                rule.id += ", changed job";
+                rule.allow_share = changed_job_share;
+            }
+            rules.push_back(std::move(rule));
+        }
+    }
+}
+
+void add_new_pixel_rules(std::vector<GateRule>& rules)
+{
+    GateRule unchanged = optional_rule(new_pixels_metric, JobState::unchanged);
+    unchanged.allow_pixels = 0;
+    rules.push_back(std::move(unchanged));
+    GateRule changed = optional_rule(new_pixels_metric, JobState::changed);
+    changed.allow_share = changed_job_share;
+    changed.severity = Severity::warn;
+    rules.push_back(std::move(changed));
+}
+
 void add_gap_rules(std::vector<GateRule>& rules, std::string_view metric)
 {
     GateRule unchanged = optional_rule(metric, JobState::unchanged);
@@ -63,6 +95,34 @@ bool is_meant(const GateRule& rule, const GateEntry& now, bool unchanged)
     });
 }
 
+std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* before,
+                                    const GateEntry& now)
+{
+    if (!rule.each_object && !rule.each_band) {
+        return {rule.pixels};
+    }
+    std::vector<PixelFilter> filters;
+    if (before == nullptr) {
+        return filters;
+    }
+    for (const ErrorPart& part : now.parts) {
+        PixelFilter filter = rule.pixels;
+        if (rule.each_object) {
+            filter.object = part.object;
+        }
+        if (rule.each_band) {
+            filter.bands = ZetaBands{part.band, part.band};
+        }
+        const bool is_known =
+            std::any_of(before->parts.begin(), before->parts.end(),
+                        [&](const ErrorPart& known) { return filter.has(known); });
+        if (is_known && std::find(filters.begin(), filters.end(), filter) == filters.end()) {
+            filters.push_back(filter);
+        }
+    }
+    return filters;
+}
+
 std::vector<GateRule> default_gate_rules()
 {
     std::vector<GateRule> rules;
@@ -74,6 +134,8 @@ std::vector<GateRule> default_gate_rules()
     for (std::size_t i = 1; i < label_names.size(); ++i) {
         add_count_rules(rules, fmt::format("labels.{}", label_names[i]));
     }
+    add_part_rules(rules);
+    add_new_pixel_rules(rules);
     add_gap_rules(rules, "peter_panning_gap_m.p95");
     add_gap_rules(rules, "peter_panning_gap_m.max");
     GateRule mismatch = optional_rule("unmatched_kinds.mismatch", JobState::any);

@@ -24,9 +24,12 @@ enum class JobState : std::uint8_t {
 /// What a metric must keep to (docs/gate.md).
 struct GateRule {
     std::string id;
-    std::string metric; ///< a name of `gate_metrics`
+    std::string metric; ///< `find_gate_metric` knows it; points of a curve by `name()`
     /// A configuration is meant if each of these settings has that value; numbers compare as such.
     std::map<std::string, std::string> where;
+    PixelFilter pixels = {};  ///< of which pixels
+    bool each_object = false; ///< of each object by itself
+    bool each_band = false;   ///< of each band of light distance by itself
     JobState job = JobState::any;
 
     std::optional<double> max; ///< of the metric itself
@@ -52,9 +55,17 @@ struct GateRule {
 /// @param unchanged  Whether its job and renderer are those of the baseline.
 [[nodiscard]] bool is_meant(const GateRule& rule, const GateEntry& now, bool unchanged);
 
-/// The rules that hold where there is no file: no count of wrong pixels, cause or label, and no gap
-/// may grow. Everything is deterministic, so nothing at all is allowed while the job is unchanged;
-/// where it changed, counts may grow by 1 in 10,000 of the image's pixels and gaps by 5 %.
+/// The rules that hold where there is no file: no count of wrong pixels, cause or label, none of an
+/// object or a band of light distance, and no gap may grow, and no pixel may become wrong.
+/// Everything is deterministic, so nothing at all is allowed while the job is unchanged; where it
+/// changed, counts may grow by 1 in 10,000 of the image's pixels and gaps by 5 %, and pixels that
+/// become wrong are a warning.
 [[nodiscard]] std::vector<GateRule> default_gate_rules();
+
+/// The filters that a rule is judged by in one configuration: its own, or one for each object or
+/// band that both know.
+/// @param before  nullptr if the baseline lacks it.
+[[nodiscard]] std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* before,
+                                                  const GateEntry& now);
 
 } // namespace gnomon::analysis

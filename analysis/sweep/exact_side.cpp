@@ -7,17 +7,38 @@
 
 namespace gnomon::analysis {
 
-std::shared_ptr<const Binning> SweepSubject::distances(const scene::LightFrustum& frustum,
-                                                       const ReceiverGeometry& geometry)
+void SweepSubject::count_from(const scene::LightFrustum& frustum)
 {
-    if (distances_ == nullptr || distances_from_ != frustum.origin ||
-        distances_along_ != frustum.forward) {
-        distances_ = std::make_shared<const Binning>(
-            bin_by_distance(truth.pixel_class, light_distances_m(truth.pixel_class, geometry)));
+    if (distances_from_ != frustum.origin || distances_along_ != frustum.forward) {
+        distances_ = nullptr;
+        parts_ = nullptr;
         distances_from_ = frustum.origin;
         distances_along_ = frustum.forward;
     }
+}
+
+std::shared_ptr<const Binning> SweepSubject::distances(const scene::LightFrustum& frustum,
+                                                       const ReceiverGeometry& geometry)
+{
+    count_from(frustum);
+    if (distances_ == nullptr) {
+        distances_ = std::make_shared<const Binning>(
+            bin_by_distance(truth.pixel_class, light_distances_m(truth.pixel_class, geometry)));
+    }
     return distances_;
+}
+
+std::shared_ptr<const PartMap> SweepSubject::parts(const scene::LightFrustum& frustum,
+                                                   const ReceiverGeometry& geometry,
+                                                   const scene::TriangleScene& triangles)
+{
+    count_from(frustum);
+    if (parts_ == nullptr) {
+        parts_ = std::make_shared<const PartMap>(
+            find_parts(truth.pixel_class, receivers.triangle,
+                       light_distances_m(truth.pixel_class, geometry), triangles));
+    }
+    return parts_;
 }
 
 ExactSide::ExactSide(const scene::TriangleScene& triangles, std::shared_ptr<SweepSubject> subject,
@@ -28,6 +49,7 @@ ExactSide::ExactSide(const scene::TriangleScene& triangles, std::shared_ptr<Swee
       geometry_{triangles, view_, subject_->receivers.triangle},
       light_{renderers.make_exact_light(job, view_, subject_->receivers)},
       distances_{subject_->distances(view_.frustum, geometry_)},
+      parts_{subject_->parts(view_.frustum, geometry_, triangles)},
       remembers_{job.lookup.filter == scene::Filter::nearest},
       causes_{view.image},
       detaches_{view.image, not_asked},

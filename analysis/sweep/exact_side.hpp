@@ -3,6 +3,7 @@
 #include "analysis/blocker_gaps.hpp"
 #include "analysis/breakdown.hpp"
 #include "analysis/causes.hpp"
+#include "analysis/error_parts.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/metrics.hpp"
@@ -34,9 +35,16 @@ struct SweepSubject {
     /// the last time.
     [[nodiscard]] std::shared_ptr<const Binning> distances(const scene::LightFrustum& frustum,
                                                            const ReceiverGeometry& geometry);
+    /// The same with their objects.
+    [[nodiscard]] std::shared_ptr<const PartMap> parts(const scene::LightFrustum& frustum,
+                                                       const ReceiverGeometry& geometry,
+                                                       const scene::TriangleScene& triangles);
 
 private:
+    void count_from(const scene::LightFrustum& frustum);
+
     std::shared_ptr<const Binning> distances_;
+    std::shared_ptr<const PartMap> parts_;
     scene::Vec3d distances_from_{}; ///< ζ is 0 there
     scene::Vec3d distances_along_{};
 };
@@ -56,6 +64,8 @@ public:
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
     /// The scored receivers by light distance.
     [[nodiscard]] const Binning& distances() const { return *distances_; }
+    /// The scored receivers by object and light distance.
+    [[nodiscard]] const PartMap& parts() const { return *parts_; }
     [[nodiscard]] BlockerGaps& gaps() { return subject_->gaps; }
     /// The gaps of these blocked pixels, in the order of the pixels.
     [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels);
@@ -79,6 +89,7 @@ private:
     ReceiverGeometry geometry_;
     std::unique_ptr<scene::ExactLight> light_;
     std::shared_ptr<const Binning> distances_;
+    std::shared_ptr<const PartMap> parts_;
     std::optional<CentreHits> centre_hits_;
     /// Only with a single tap what is found does not depend on the stored depths.
     bool remembers_;

@@ -128,7 +128,9 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<f
         return;
     }
     const int taps = equal_taps(rule.filter);
-    const auto counts = count_rows({classes(), deciding(), critical, causes_, rule}, curve, biases);
+    const BiasRowInputs inputs{classes(), deciding(), critical, causes_, rule};
+    const auto counts = count_rows(inputs, curve, biases);
+    const auto parts = count_parts(exact_->parts(), inputs, biases);
     const auto wrong_taps =
         taps > 1 ? count_wrong_taps(classes(), lookup_.layers, lookup_.map_depths, rule, biases)
                  : std::vector<std::uint64_t>{};
@@ -142,7 +144,7 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const scene::Image<f
             {row.ordinal,
              {make_metrics(exact_->subject().classes, {errors.false_shadow, errors.false_lit,
                                                        static_cast<double>(wrong) / taps}),
-              counts[i].causes, gaps[i]}});
+              counts[i].causes, gaps[i], parts[i]}});
     }
 }
 
@@ -184,8 +186,13 @@ FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
     }
     const Diagnosis& diagnosis = *comparison.diagnosis;
     FinishedCurve finished;
+    const scene::Image<PixelClass>& classes = comparison.truth.pixel_class;
+    const PartMap parts =
+        find_parts(classes, comparison.receivers.triangle, diagnosis.zeta_m, *comparison.triangles);
     finished.rows.push_back(
-        {ordinal, {comparison.metrics, diagnosis.causes.counts, diagnosis.peter_panning}});
+        {ordinal,
+         {comparison.metrics, diagnosis.causes.counts, diagnosis.peter_panning,
+          count_parts(parts, classes, diagnosis.causes.cause, diagnosis.causes.label)}});
     if (!diagnosis.biases) {
         finished.curve = describe_map(std::move(curve), comparison.job, comparison.view);
         finished.curve.by_distance.push_back(
@@ -194,15 +201,15 @@ FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
     }
     const BiasAnswers& answers = *diagnosis.biases;
     finished.curve =
-        describe(std::move(curve), {comparison.job,
-                                    comparison.view,
-                                    answers.curve,
-                                    answers.best,
-                                    answers.bounds,
-                                    bin_by_distance(comparison.truth.pixel_class, diagnosis.zeta_m),
-                                    {comparison.truth.pixel_class, comparison.lookup,
-                                     answers.critical_bias, diagnosis.map_error_m},
-                                    job_bias});
+        describe(std::move(curve),
+                 {comparison.job,
+                  comparison.view,
+                  answers.curve,
+                  answers.best,
+                  answers.bounds,
+                  bin_by_distance(classes, diagnosis.zeta_m),
+                  {classes, comparison.lookup, answers.critical_bias, diagnosis.map_error_m},
+                  job_bias});
     return finished;
 }
 

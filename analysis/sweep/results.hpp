@@ -5,6 +5,7 @@
 #include "analysis/bias_verification.hpp"
 #include "analysis/breakdown.hpp"
 #include "analysis/cause.hpp"
+#include "analysis/error_parts.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/metrics.hpp"
 
@@ -43,6 +44,8 @@ struct ConfigurationResult {
     Metrics metrics;
     std::optional<CauseCounts> causes; ///< empty: not asked for (float truth)
     Gaps peter_panning;
+    /// By object and light distance, sorted so; empty: not known, or too many.
+    std::vector<ErrorPart> parts = {};
 };
 
 /// Whether a configuration that failed may pass when it is tried again, everything else as it was.

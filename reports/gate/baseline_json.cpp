@@ -2,6 +2,7 @@
 
 #include "reports/gate/gate_names.hpp"
 #include "reports/json_values.hpp"
+#include "reports/run/error_parts_json.hpp"
 
 #include <algorithm>
 #include <map>
@@ -46,6 +47,12 @@ Json entry_json(const analysis::GateEntry& entry, const Texts& common)
         metrics[name] = metric_json(name, value);
     }
     json["metrics"] = std::move(metrics);
+    if (!entry.parts.empty()) {
+        json["parts"] = parts_json(entry.parts);
+    }
+    if (!entry.pixels.empty()) {
+        json["wrong_pixels"] = entry.pixels;
+    }
     return json;
 }
 

@@ -14,7 +14,7 @@ inline constexpr std::uint64_t most_baseline_bytes = std::uint64_t{64} << 20U;
 
 /// The text of a baseline: sorted, a line for each parameter and metric. The same results give the
 /// same bytes.
-/// @param run  Sorted, as `sort_entries` leaves it.
+/// @param run  Sorted, as `sort_entries` leaves it; `GateEntry::pixels` are names of masks.
 [[nodiscard]] std::string baseline_json(const analysis::GateEntries& run);
 
 } // namespace gnomon::reports

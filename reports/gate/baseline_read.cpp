@@ -4,7 +4,9 @@
 #include "reports/gate/baseline_json.hpp"
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/limited_text.hpp"
+#include "reports/gate/pixel_mask.hpp"
 #include "reports/json_values.hpp"
+#include "reports/run/error_parts_json.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/job_toml.hpp"
 
@@ -23,7 +25,8 @@ namespace {
 
 using BaselineTexts = std::map<std::string, std::string>;
 
-/// Of a baseline: the metrics are 4 deep.
+constexpr const char* baseline_advice = "save it anew with `gnomon baseline save`";
+/// Of a baseline: the counts of parts are 7 deep.
 constexpr int deepest_json = 8;
 /// Every integer up to here is a double.
 constexpr double largest_exact_count = 9007199254740992.0;
@@ -77,8 +80,9 @@ public:
 private:
     [[noreturn]] void fail(std::string_view place, std::string_view problem) const
     {
-        throw scene::InputError(fmt::format("{}: {}: {}; save it anew with `gnomon baseline save`",
-                                            name_, scene::one_line(place.substr(0, 200)), problem));
+        throw scene::InputError(fmt::format("{}: {}: {}; {}", name_,
+                                            scene::one_line(place.substr(0, 200)), problem,
+                                            baseline_advice));
     }
 
     /// The text as JSON without repeated keys; the parser would keep the last of them.
@@ -108,7 +112,8 @@ private:
     }
 
     void require_members(const Json& json, const std::string& place,
-                         const std::set<std::string>& wanted) const
+                         const std::set<std::string>& wanted,
+                         const std::set<std::string>& optional = {}) const
     {
         if (!json.is_object()) {
             fail(place, "is no object");
@@ -119,7 +124,7 @@ private:
             }
         }
         for (const auto& [key, value] : json.items()) {
-            if (!wanted.contains(key)) {
+            if (!wanted.contains(key) && !optional.contains(key)) {
                 fail(fmt::format("{}.{}", place, key), "the key is unknown");
             }
         }
@@ -178,7 +183,8 @@ private:
                                                  const BaselineTexts& common,
                                                  const std::vector<std::string>& axes) const
     {
-        require_members(json, place, {"case", "axes", "parameters", "metrics"});
+        require_members(json, place, {"case", "axes", "parameters", "metrics"},
+                        {"parts", "wrong_pixels"});
         analysis::GateEntry entry;
         entry.key.case_name = read_text(json["case"], place + ".case");
         entry.key.axes = read_texts(json["axes"], place + ".axes");
@@ -200,7 +206,26 @@ private:
             }
         }
         entry.metrics = read_metrics(json["metrics"], place + ".metrics");
+        read_places(entry, json, place);
         return entry;
+    }
+
+    void read_places(analysis::GateEntry& entry, const Json& json, const std::string& place) const
+    {
+        if (json.contains("parts")) {
+            try {
+                entry.parts = parts_from_json(json["parts"], place + ".parts");
+            } catch (const scene::InputError& error) {
+                throw scene::InputError(
+                    fmt::format("{}: {}; {}", name_, error.what(), baseline_advice));
+            }
+        }
+        if (json.contains("wrong_pixels")) {
+            entry.pixels = read_text(json["wrong_pixels"], place + ".wrong_pixels");
+            if (!is_mask_name(entry.pixels)) {
+                fail(place + ".wrong_pixels", "is no name of a mask");
+            }
+        }
     }
 
     [[nodiscard]] std::map<std::string, double> read_metrics(const Json& json,

@@ -12,6 +12,31 @@ namespace gnomon::reports {
 
 namespace {
 
+/// The parts of the image whose wrong pixels are not as many as they were, where both are known;
+/// and whether wrong pixels are elsewhere.
+std::string differing_parts(const analysis::GateEntry& before, const analysis::GateEntry& now)
+{
+    const std::string name{analysis::wrong_pixels_metric};
+    std::string text;
+    for (const analysis::ErrorPart& part : now.parts) {
+        analysis::PixelFilter filter;
+        filter.object = part.object;
+        filter.bands = analysis::ZetaBands{part.band, part.band};
+        const auto was = before.metric(name, filter);
+        const auto is = now.metric(name, filter);
+        if (was && was != is) {
+            text += fmt::format(
+                "  {} {} {} {}\n", pad_right(fmt::format("{}, {}", name, filter_text(filter)), 50),
+                pad_left(metric_text(name, was), 12), pad_left(metric_text(name, is), 12),
+                pad_left(change_text(name, was, is), 12));
+        }
+    }
+    if (!before.pixels.empty() && !now.pixels.empty() && before.pixels != now.pixels) {
+        text += "  other pixels are wrong\n";
+    }
+    return text;
+}
+
 /// The parameters and metrics that differ; empty if none does.
 std::string differing_lines(const analysis::GateEntry& before, const analysis::GateEntry& now)
 {
@@ -29,7 +54,7 @@ std::string differing_lines(const analysis::GateEntry& before, const analysis::G
                 pad_left(metric_text(name, is), 12), pad_left(change_text(name, was, is), 12));
         }
     }
-    return text;
+    return text + differing_parts(before, now);
 }
 
 std::string environment_difference(const analysis::Environment& before,

@@ -11,7 +11,7 @@ namespace gnomon::reports {
 
 /// What `gnomon baseline diff` prints: of each configuration that changed the parameters, then the
 /// metrics that are not what they were; and which are missing and new.
-/// @param run  As it is now; both are sorted.
+/// @param run  As it is now; both are sorted. Its `GateEntry::pixels` are names of masks, or empty.
 [[nodiscard]] std::string baseline_difference(const analysis::GateEntries& baseline,
                                               const analysis::GateEntries& run);
 

@@ -46,6 +46,19 @@ Json changes_json(const std::vector<analysis::ParameterChange>& changes)
     return json;
 }
 
+Json pixels_json(const analysis::NewPixels& pixels)
+{
+    if (pixels.count == 0) {
+        return nullptr;
+    }
+    Json first = Json::array();
+    for (const analysis::PixelPlace& place : pixels.first) {
+        first.push_back({place.x, place.y});
+    }
+    return {{"first", std::move(first)},
+            {"box", {pixels.lower.x, pixels.lower.y, pixels.upper.x, pixels.upper.y}}};
+}
+
 Json finding_json(const GateReport& report, const analysis::GateFinding& finding)
 {
     const analysis::GateRule& rule = report.rules[finding.rule];
@@ -59,10 +72,15 @@ Json finding_json(const GateReport& report, const analysis::GateFinding& finding
               {"baseline", metric_json(rule.metric, finding.before)},
               {"now", metric_json(rule.metric, finding.now)},
               {"limit", number_or_null(finding.limit)}};
-    json["dominant_cause"] =
-        pair != nullptr && pair->cause ? Json(pair->cause->name) : Json(nullptr);
+    const auto cause = cause_of_finding(report, finding);
+    json["dominant_cause"] = cause ? Json(cause->name) : Json(nullptr);
     json["changed_parameters"] = pair != nullptr ? changes_json(pair->changes) : Json::array();
     json["command"] = showing_command(report.run, key);
+    json["where"] = filter_json(finding.filter);
+    json["obstacle"] = finding.obstacle.empty() ? Json(nullptr) : Json(finding.obstacle);
+    json["pixels"] = finding.new_pixels ? pixels_json(*finding.new_pixels) : Json(nullptr);
+    const std::string picture = picture_of(report, finding);
+    json["picture"] = picture.empty() ? Json(nullptr) : Json(picture);
     return json;
 }
 

@@ -45,6 +45,48 @@ Json key_json(const analysis::ConfigurationKey& key)
     return {{"case", key.case_name}, {"axes", std::move(axes)}};
 }
 
+std::string filter_text(const analysis::PixelFilter& filter)
+{
+    std::string text;
+    const auto add = [&](std::string_view name, std::string_view value) {
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
+    };
+    if (filter.object) {
+        add("object", *filter.object);
+    }
+    if (filter.cause) {
+        add("cause", analysis::cause_names[static_cast<std::size_t>(*filter.cause)]);
+    }
+    if (filter.label) {
+        add("label", analysis::label_names[static_cast<std::size_t>(*filter.label)]);
+    }
+    if (filter.bands) {
+        add("zeta_band",
+            fmt::format("[{}, {}) m", filter.bands->first.lower_m(), filter.bands->last.upper_m()));
+    }
+    return scene::one_line(text);
+}
+
+Json filter_json(const analysis::PixelFilter& filter)
+{
+    Json json = Json::object();
+    if (filter.object) {
+        json["object"] = *filter.object;
+    }
+    if (filter.cause) {
+        json["cause"] = analysis::cause_names[static_cast<std::size_t>(*filter.cause)];
+    }
+    if (filter.label) {
+        json["label"] = analysis::label_names[static_cast<std::size_t>(*filter.label)];
+    }
+    if (filter.bands) {
+        const double upper_m = filter.bands->last.upper_m();
+        json["zeta_band"] = {filter.bands->first.lower_m(),
+                             std::isfinite(upper_m) ? Json(upper_m) : Json(nullptr)};
+    }
+    return json;
+}
+
 std::string metric_text(std::string_view metric, const std::optional<double>& value)
 {
     return value ? number_text(metric, *value) : "-";

@@ -17,6 +17,11 @@ namespace gnomon::reports {
 /// {"case": "noon", "axes": {"bias.constant": "0.01"}}
 [[nodiscard]] Json key_json(const analysis::ConfigurationKey& key);
 
+/// "object wall, cause bias, zeta_band [4, 16) m"; empty if it takes all. One line.
+[[nodiscard]] std::string filter_text(const analysis::PixelFilter& filter);
+/// Those members by the same names; `zeta_band` as an array.
+[[nodiscard]] Json filter_json(const analysis::PixelFilter& filter);
+
 /// A metric's value: counts of pixels grouped, others with six digits; "-" if there is none.
 [[nodiscard]] std::string metric_text(std::string_view metric, const std::optional<double>& value);
 /// How it changed: "+1,234"; empty without both values.

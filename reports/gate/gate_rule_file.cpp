@@ -1,5 +1,6 @@
 #include "reports/gate/gate_rule_file.hpp"
 
+#include "reports/gate/gate_rule_values.hpp"
 #include "reports/gate/limited_text.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
@@ -21,15 +22,13 @@ namespace gnomon::reports {
 namespace {
 
 using analysis::GateRule;
-using scene::TomlMember;
 
 constexpr std::uint64_t most_rule_bytes = std::uint64_t{1} << 20U;
-constexpr std::size_t longest_id = 200;
 
 /// Reads one rule file; its messages name the file and the line.
-class RuleParser {
+class RuleParser : private RuleValues {
 public:
-    explicit RuleParser(std::string name) : name_{std::move(name)} {}
+    using RuleValues::RuleValues;
 
     [[nodiscard]] std::vector<GateRule> read(const scene::TomlTable& file) const
     {
@@ -48,23 +47,12 @@ public:
         }
         if (rules.empty()) {
             throw scene::InputError(
-                fmt::format("{}: holds no rule: write a [[rule]], or leave --rules out", name_));
+                fmt::format("{}: holds no rule: write a [[rule]], or leave --rules out", name()));
         }
         return rules;
     }
 
 private:
-    [[noreturn]] void fail(const TomlMember& member, std::string_view problem) const
-    {
-        throw scene::InputError(fmt::format("{}:{}: {}: {}", name_, member.line,
-                                            scene::one_line(member.key.substr(0, longest_id)),
-                                            problem));
-    }
-    [[noreturn]] void fail_value(const TomlMember& member, std::string_view wanted) const
-    {
-        fail(member, fmt::format("{} is not {}", scene::toml_excerpt(member.node), wanted));
-    }
-
     void add_rule(std::vector<GateRule>& rules, const TomlMember& list,
                   const scene::TomlNode& node) const
     {
@@ -79,7 +67,7 @@ private:
             read_member(rule, member);
         }
         const TomlMember& first = table->front();
-        rule.place = fmt::format("{}:{}", name_, first.line);
+        rule.place = fmt::format("{}:{}", name(), first.line);
         check_rule(rule, first);
         if (!has_direction) {
             rule.worse = analysis::find_gate_metric(rule.metric)->worse;
@@ -141,18 +129,32 @@ private:
                                     "abs or rel",
                                     rule.id, rule.metric));
         }
+        check_filter(rule, first);
         if (rule.max && rule.min && *rule.max < *rule.min) {
             fail(first, fmt::format("rule \"{}\" has a max below its min", rule.id));
         }
     }
 
-    [[nodiscard]] const std::string& text(const TomlMember& member) const
+    void check_filter(const GateRule& rule, const TomlMember& first) const
     {
-        const auto* const value = std::get_if<std::string>(&member.node.value);
-        if (value == nullptr) {
-            fail_value(member, "a text");
+        const bool is_each = rule.each_object || rule.each_band;
+        const bool takes_places = rule.metric == analysis::new_pixels_metric;
+        if ((is_each || !rule.pixels.takes_all()) && !takes_places &&
+            !analysis::is_of_pixels(rule.metric)) {
+            fail(first,
+                 fmt::format("rule \"{}\" names an object, cause, label or zeta_band, but {} "
+                             "is not counted by them",
+                             rule.id, rule.metric));
         }
-        return *value;
+        if (is_each && takes_places) {
+            fail(first, fmt::format("rule \"{}\": \"*\" does not go with {}: name one", rule.id,
+                                    rule.metric));
+        }
+        if (is_each && !rule.judges_change()) {
+            fail(first, fmt::format("rule \"{}\": \"*\" compares with the baseline: give abs, rel, "
+                                    "allow_pixels or allow_share",
+                                    rule.id));
+        }
     }
 
     [[nodiscard]] std::string read_id(const TomlMember& member) const
@@ -167,6 +169,9 @@ private:
     void read_metric(GateRule& rule, const TomlMember& member) const
     {
         rule.metric = text(member);
+        if (const auto point = analysis::curve_point_metric(rule.metric)) {
+            rule.metric = point->name();
+        }
         if (analysis::find_gate_metric(rule.metric) == nullptr) {
             std::vector<std::string> names;
             for (const analysis::GateMetric& metric : analysis::gate_metrics()) {
@@ -188,7 +193,7 @@ private:
             const std::string name = prefix + setting.key;
             if (std::holds_alternative<scene::TomlTable>(setting.node.value)) {
                 read_where(rule, setting, name + '.');
-            } else {
+            } else if (!read_pixel_filter(rule, name, setting)) {
                 check_setting(name, setting);
                 rule.where[name] = setting_text(setting);
             }
@@ -197,7 +202,7 @@ private:
 
     void check_setting(const std::string& name, const TomlMember& setting) const
     {
-        std::vector<std::string> names{"case"};
+        std::vector<std::string> names{"case", "object", "cause", "label", "zeta_band"};
         for (const JobColumn& column : job_columns()) {
             names.push_back(column.name);
         }
@@ -206,6 +211,77 @@ private:
                                       scene::one_line(name.substr(0, longest_id)),
                                       scene::nearest_word(name, names)));
         }
+    }
+
+    /// @return  Whether the setting says which pixels are meant.
+    bool read_pixel_filter(GateRule& rule, const std::string& name, const TomlMember& setting) const
+    {
+        if (name == "object") {
+            rule.each_object = text(setting) == "*";
+            if (!rule.each_object) {
+                rule.pixels.object = text(setting);
+            }
+        } else if (name == "cause") {
+            rule.pixels.cause = named_code<analysis::Cause>(setting, analysis::cause_names);
+        } else if (name == "label") {
+            rule.pixels.label = named_code<analysis::Label>(setting, analysis::label_names);
+        } else if (name == "zeta_band") {
+            read_bands(rule, setting);
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    template <typename Code, typename Names>
+    [[nodiscard]] Code named_code(const TomlMember& setting, const Names& names) const
+    {
+        const auto found = std::find(names.begin() + 1, names.end(), text(setting));
+        if (found == names.end()) {
+            fail_value(setting, fmt::format("a {}; nearest: \"{}\"", setting.key,
+                                            scene::nearest_word(text(setting),
+                                                                {names.begin() + 1, names.end()})));
+        }
+        return static_cast<Code>(found - names.begin());
+    }
+
+    /// `zeta_band = [4, 16]`, or "*".
+    void read_bands(GateRule& rule, const TomlMember& setting) const
+    {
+        constexpr const char* wanted = "\"*\", or two distances in metres that are powers of two "
+                                       "(0 and inf are allowed), as in [4, 16]";
+        if (const auto* words = std::get_if<std::string>(&setting.node.value)) {
+            if (*words != "*") {
+                fail_value(setting, wanted);
+            }
+            rule.each_band = true;
+            return;
+        }
+        const auto* const ends = std::get_if<scene::TomlArray>(&setting.node.value);
+        const auto lower =
+            ends != nullptr && ends->size() == 2 ? distance((*ends)[0]) : std::nullopt;
+        const auto upper = lower ? distance((*ends)[1]) : std::nullopt;
+        for (int octave = analysis::ZetaBand::lowest; octave <= analysis::ZetaBand::highest;
+             ++octave) {
+            const analysis::ZetaBand band{octave};
+            if (lower && band.lower_m() == *lower) {
+                rule.pixels.bands = analysis::ZetaBands{band, band};
+            }
+            if (rule.pixels.bands && upper && band.upper_m() == *upper) {
+                rule.pixels.bands->last = band;
+                return;
+            }
+        }
+        fail_value(setting, wanted);
+    }
+
+    [[nodiscard]] static std::optional<double> distance(const scene::TomlNode& node)
+    {
+        if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
+            return static_cast<double>(*integer);
+        }
+        const auto* const real = std::get_if<double>(&node.value);
+        return real == nullptr ? std::nullopt : std::optional{*real};
     }
 
     /// As results.csv has the value.
@@ -251,56 +327,6 @@ private:
         }
         rule.severity = name == "fail" ? analysis::Severity::fail : analysis::Severity::warn;
     }
-
-    [[nodiscard]] bool flag(const TomlMember& member) const
-    {
-        const auto* const value = std::get_if<bool>(&member.node.value);
-        if (value == nullptr) {
-            fail_value(member, "true or false");
-        }
-        return *value;
-    }
-
-    [[nodiscard]] double number(const TomlMember& member) const
-    {
-        if (const auto* integer = std::get_if<std::int64_t>(&member.node.value)) {
-            return static_cast<double>(*integer);
-        }
-        const auto* const real = std::get_if<double>(&member.node.value);
-        if (real == nullptr || !std::isfinite(*real)) {
-            fail_value(member, "a finite number");
-        }
-        return *real;
-    }
-
-    [[nodiscard]] double positive(const TomlMember& member) const
-    {
-        const double value = number(member);
-        if (value < 0) {
-            fail_value(member, "a number from 0 up");
-        }
-        return value;
-    }
-
-    [[nodiscard]] double share(const TomlMember& member) const
-    {
-        const double value = number(member);
-        if (value < 0 || value > 1) {
-            fail_value(member, "a number from 0 to 1");
-        }
-        return value;
-    }
-
-    [[nodiscard]] double count(const TomlMember& member) const
-    {
-        const auto* const value = std::get_if<std::int64_t>(&member.node.value);
-        if (value == nullptr || *value < 0) {
-            fail_value(member, "a whole number from 0 up");
-        }
-        return static_cast<double>(*value);
-    }
-
-    std::string name_;
 };
 
 } // namespace

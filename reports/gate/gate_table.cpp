@@ -1,6 +1,7 @@
 #include "reports/gate/gate_table.hpp"
 
 #include "reports/gate/gate_names.hpp"
+#include "reports/gate/gate_sentences.hpp"
 #include "reports/text.hpp"
 #include "scene/job_toml.hpp"
 
@@ -14,34 +15,9 @@ namespace gnomon::reports {
 namespace {
 
 using analysis::GateFinding;
-using analysis::GateVerdict;
 
 constexpr std::size_t most_configurations = 10;
 constexpr std::size_t most_listed = 10;
-
-std::string rules_text(std::size_t count, std::string_view what)
-{
-    return fmt::format("{} {}", counted(count, "rule"), what);
-}
-
-std::string verdict_line(const GateReport& report)
-{
-    const std::size_t failed = report.outcome.broken(report.rules, analysis::Severity::fail);
-    const std::size_t warned = report.outcome.broken(report.rules, analysis::Severity::warn);
-    std::string_view word = "pass";
-    if (report.verdict == GateVerdict::regression) {
-        word = "REGRESSION";
-    } else if (report.verdict == GateVerdict::incomplete) {
-        word = "INCOMPLETE";
-    }
-    std::string line = fmt::format(
-        "{}: {} compared with {}: {}", word, counted(report.outcome.pairs.size(), "configuration"),
-        scene::one_line(report.baseline_file.string()), rules_text(failed, "broken"));
-    if (warned > 0) {
-        line += fmt::format(", {}", counted(warned, "warning"));
-    }
-    return line + '\n';
-}
 
 std::string environment_lines(const GateReport& report)
 {
@@ -63,56 +39,28 @@ std::string environment_lines(const GateReport& report)
     return text;
 }
 
-std::string unfinished_lines(const GateReport& report)
-{
-    const RunStatus& status = report.run.status;
-    std::string text;
-    if (!status.is_complete()) {
-        text += fmt::format("  the run is not complete: {} failed, {} missing; `gnomon status` "
-                            "lists them\n",
-                            grouped(status.failed), grouped(status.missing));
-    }
-    if (report.outcome.pairs.empty()) {
-        text += "  the baseline and the run have no configuration in common: are they of the same "
-                "sweep?\n";
-    }
-    for (const std::size_t rule : report.outcome.unmatched_rules) {
-        text += fmt::format("  rule {} matches nothing\n", report.rules[rule].id);
-    }
-    return text;
-}
-
 /// "  false_shadow    1,234    2,345    +1,111  at most +0: rule false_shadow".
 std::string finding_line(const GateReport& report, const GateFinding& finding)
 {
     const analysis::GateRule& rule = report.rules[finding.rule];
-    const std::string limit = metric_text(rule.metric, finding.limit);
-    std::string why = "not available";
-    if (finding.reason == analysis::GateReason::above_max) {
-        why = fmt::format("max {}", limit);
-    } else if (finding.reason == analysis::GateReason::below_min) {
-        why = fmt::format("min {}", limit);
-    } else if (finding.reason == analysis::GateReason::worse_than_baseline) {
-        why = fmt::format("{} allowed", limit);
-    }
+    const std::string part = filter_text(finding.filter);
     const bool is_warning = rule.severity == analysis::Severity::warn;
-    return fmt::format("  {} {} {} {}  {}{}: {}\n", pad_right(rule.metric, 34),
-                       pad_left(metric_text(rule.metric, finding.before), 12),
-                       pad_left(metric_text(rule.metric, finding.now), 12),
-                       pad_left(change_text(rule.metric, finding.before, finding.now), 12),
-                       is_warning ? "warning, " : "", why, rule.id);
-}
-
-std::string suspects_text(const std::vector<analysis::ParameterChange>& changes)
-{
-    std::string text;
-    for (std::size_t i = 0; i < std::min(changes.size(), most_listed); ++i) {
-        text += fmt::format("{}{}", i == 0 ? "" : "; ", change_line(changes[i]));
+    std::string line =
+        fmt::format("  {} {} {} {}  {}{}: {}\n", pad_right(rule.metric, 34),
+                    pad_left(metric_text(rule.metric, finding.before), 12),
+                    pad_left(metric_text(rule.metric, finding.now), 12),
+                    pad_left(change_text(rule.metric, finding.before, finding.now), 12),
+                    is_warning ? "warning, " : "", broken_limit_text(report, finding), rule.id);
+    if (!part.empty()) {
+        line += fmt::format("    of {}\n", part);
     }
-    if (changes.size() > most_listed) {
-        text += fmt::format("; and {} more", grouped(changes.size() - most_listed));
+    if (finding.new_pixels && finding.new_pixels->count > 0) {
+        line += fmt::format("    {}\n", places_text(*finding.new_pixels));
     }
-    return text;
+    if (const std::string picture = picture_of(report, finding); !picture.empty()) {
+        line += fmt::format("    picture: {}\n", scene::one_line(picture));
+    }
+    return line;
 }
 
 /// One configuration with its findings.
@@ -205,7 +153,11 @@ std::string improvement_lines(const GateReport& report)
 
 std::string gate_table(const GateReport& report)
 {
-    return verdict_line(report) + environment_lines(report) + unfinished_lines(report) +
+    std::string unfinished;
+    for (const std::string& line : unfinished_sentences(report)) {
+        unfinished += fmt::format("  {}\n", line);
+    }
+    return verdict_sentence(report) + '\n' + environment_lines(report) + unfinished +
            configuration_blocks(report) +
            key_lines("of the baseline that the run lacks", report.outcome.missing,
                      report.baseline) +

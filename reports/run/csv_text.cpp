@@ -47,20 +47,6 @@ std::size_t utf8_length(std::string_view text)
     return 0;
 }
 
-/// The text with everything replaced that a reader of the file could stumble over.
-std::string readable(std::string_view text)
-{
-    std::string result;
-    while (!text.empty()) {
-        const char c = text.front();
-        const bool is_ascii = is_printable_ascii(c) || is_kept_control(c);
-        const std::size_t length = is_ascii ? 1 : utf8_length(text);
-        result += length > 0 ? text.substr(0, length) : replacement;
-        text.remove_prefix(std::max<std::size_t>(length, 1));
-    }
-    return result;
-}
-
 void append_quoted(std::string& out, std::string_view text)
 {
     if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
@@ -79,6 +65,19 @@ void append_quoted(std::string& out, std::string_view text)
 
 } // namespace
 
+std::string readable_text(std::string_view text)
+{
+    std::string result;
+    while (!text.empty()) {
+        const char c = text.front();
+        const bool is_ascii = is_printable_ascii(c) || is_kept_control(c);
+        const std::size_t length = is_ascii ? 1 : utf8_length(text);
+        result += length > 0 ? text.substr(0, length) : replacement;
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return result;
+}
+
 void append_csv_number(std::string& out, double number)
 {
     std::array<char, 32> text{}; // the longest is "-2.2250738585072014e-308"
@@ -90,7 +89,7 @@ void append_csv_text(std::string& out, std::string_view text)
 {
     constexpr std::string_view formula_starts = "=+-@\t\r";
     const bool is_plain = std::all_of(text.begin(), text.end(), is_printable_ascii);
-    std::string shown = is_plain ? std::string{text} : readable(text);
+    std::string shown = is_plain ? std::string{text} : readable_text(text);
     if (!shown.empty() && formula_starts.find(shown.front()) != std::string_view::npos) {
         shown.insert(shown.begin(), '\'');
     }

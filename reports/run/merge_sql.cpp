@@ -42,6 +42,7 @@ Names result_names()
 {
     Names names;
     append_names(names, result_columns());
+    append_names(names, part_columns());
     return names;
 }
 
@@ -174,6 +175,7 @@ std::string new_configurations()
     Names names{"id", "scene_hash", "status", "message", "may_pass"};
     append_names(names, job_columns());
     append_names(names, result_columns());
+    append_names(names, part_columns());
     return fmt::format("INSERT INTO main.configurations (curve, environment, {})"
                        " SELECT (SELECT m.number FROM input.curves v JOIN main.curves m"
                        " ON m.id = v.id WHERE v.number = i.curve), {}, {}"
@@ -186,6 +188,7 @@ std::string better_configurations()
 {
     Names names{"status", "message", "may_pass"};
     append_names(names, result_columns());
+    append_names(names, part_columns());
     return fmt::format("UPDATE main.configurations AS m SET environment = {}, {}"
                        " FROM input.configurations i WHERE i.id = m.id AND {}"
                        " AND ((m.status <> 'done' AND i.status = 'done')"

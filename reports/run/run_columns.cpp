@@ -1,5 +1,6 @@
 #include "reports/run/run_columns.hpp"
 
+#include "reports/run/error_parts_json.hpp"
 #include "scene/job_keys.hpp"
 #include "scene/job_toml.hpp"
 
@@ -263,6 +264,15 @@ const ResultColumns& result_columns()
         add_gap_columns(all);
         return all;
     }();
+    return columns;
+}
+
+const ResultColumns& part_columns()
+{
+    static const ResultColumns columns{
+        {"errors_by_part", text_type, [](const ConfigurationResult& result) {
+             return result.parts.empty() ? Value{} : Value{parts_json(result.parts).dump()};
+         }}};
     return columns;
 }
 

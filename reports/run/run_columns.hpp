@@ -30,6 +30,8 @@ struct JobColumn {
 [[nodiscard]] const std::vector<JobColumn>& job_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& map_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& result_columns();
+/// Of the database alone: no CSV file has them.
+[[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& part_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& bias_curve_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::ErrorBin>>& bin_columns();
 

@@ -44,9 +44,9 @@ std::string curve_update()
 std::string configuration_update()
 {
     return fmt::format("UPDATE configurations SET status = 'done', message = NULL, may_pass = NULL,"
-                       " environment = ?{} WHERE curve = ?"
+                       " environment = ?{}{} WHERE curve = ?"
                        " AND number = (SELECT configuration FROM plan WHERE ordinal = ?)",
-                       assignments(result_columns()));
+                       assignments(result_columns()), assignments(part_columns()));
 }
 
 std::string bin_insertion()
@@ -197,7 +197,8 @@ void RunRecorder::write_row(const FinishedCurve::Row& row, std::int64_t curve,
                             std::int64_t environment)
 {
     update_configuration_.bind(1, environment);
-    const int next = bind_columns(update_configuration_, 2, result_columns(), row.result);
+    const int parts = bind_columns(update_configuration_, 2, result_columns(), row.result);
+    const int next = bind_columns(update_configuration_, parts, part_columns(), row.result);
     update_configuration_.bind(next, curve)
         .bind(next + 1, static_cast<std::int64_t>(row.ordinal))
         .run();

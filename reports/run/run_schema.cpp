@@ -73,8 +73,9 @@ std::string configurations_table()
     return fmt::format("CREATE TABLE configurations (number INTEGER PRIMARY KEY,"
                        " id TEXT NOT NULL UNIQUE, curve INTEGER NOT NULL REFERENCES curves,"
                        " scene_hash TEXT NOT NULL, environment INTEGER REFERENCES environments,"
-                       " status TEXT NOT NULL, message TEXT, may_pass INTEGER{}{})",
-                       definitions(job_columns()), definitions(result_columns()));
+                       " status TEXT NOT NULL, message TEXT, may_pass INTEGER{}{}{})",
+                       definitions(job_columns()), definitions(result_columns()),
+                       definitions(part_columns()));
 }
 
 std::string bins_table()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/lookup_answers.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "scene/job_source.hpp"
 #include "sweep_world.hpp"
@@ -34,17 +35,33 @@ inline std::string text_of(const std::optional<Quantiles>& value)
                  : "none";
 }
 
+inline std::string text_of(const ErrorPart& part)
+{
+    std::string text =
+        fmt::format("{} {} {} {}", part.object, part.band.octave, part.lit, part.blocked);
+    for (const WrongCount& wrong : part.wrong) {
+        text += fmt::format(" {}{}{}:{}", wrong.is_false_lit, static_cast<int>(wrong.cause),
+                            static_cast<int>(wrong.label), wrong.pixels);
+    }
+    return text;
+}
+
 /// Everything that a row says; equal texts are equal results, bit by bit.
 inline std::string text_of(const ConfigurationResult& result)
 {
+    std::string parts;
+    for (const ErrorPart& part : result.parts) {
+        parts += text_of(part) + ';';
+    }
     const Metrics& metrics = result.metrics;
-    return fmt::format("{} | {} | {} {} {} {} {} {} | {} | {} | {} | {}", metrics.pixels.by_class,
-                       metrics.pixels.by_reason, metrics.false_shadow, metrics.false_lit,
-                       text_of(metrics.false_shadow_rate), text_of(metrics.false_lit_rate),
-                       text_of(metrics.error_rate), text_of(metrics.mean_abs_error),
-                       result.causes ? fmt::format("{}", result.causes->by_cause) : "none",
-                       result.causes ? fmt::format("{}", result.causes->by_label) : "none",
-                       text_of(result.peter_panning.metres), text_of(result.peter_panning.texels));
+    return fmt::format(
+        "{} | {} | {} {} {} {} {} {} | {} | {} | {} | {} | {}", metrics.pixels.by_class,
+        metrics.pixels.by_reason, metrics.false_shadow, metrics.false_lit,
+        text_of(metrics.false_shadow_rate), text_of(metrics.false_lit_rate),
+        text_of(metrics.error_rate), text_of(metrics.mean_abs_error),
+        result.causes ? fmt::format("{}", result.causes->by_cause) : "none",
+        result.causes ? fmt::format("{}", result.causes->by_label) : "none",
+        text_of(result.peter_panning.metres), text_of(result.peter_panning.texels), parts);
 }
 
 inline std::string text_of(const std::vector<ErrorBin>& bins)
@@ -168,8 +185,7 @@ inline const std::vector<scene::CaseLayer> two_cameras{
 
 inline std::string result_text(const Comparison& comparison)
 {
-    return text_of(ConfigurationResult{comparison.metrics, comparison.diagnosis->causes.counts,
-                                       comparison.diagnosis->peter_panning});
+    return text_of(finish_compared(comparison, "", 0, 0).rows.front().result);
 }
 
 /// Every row is what a comparison of its own gives.

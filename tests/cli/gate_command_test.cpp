@@ -1,6 +1,4 @@
-#include "child_process.hpp"
-#include "example_run.hpp"
-#include "run_folder.hpp"
+#include "gate_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,55 +16,17 @@ using reports::RunStore;
 using ::testing::HasSubstr;
 using GateJson = nlohmann::json;
 
-/// A folder with runs and baselines.
-class GateFolder {
-public:
-    [[nodiscard]] std::string at(const std::string& name) const
-    {
-        return (folder_.path() / name).string();
-    }
-    void write(const std::string& name, const std::string& text) const
-    {
-        folder_.write(name, text);
-    }
-    void compare(const std::string& name, const std::vector<std::string>& more) const
-    {
-        const Ending ending =
-            gnomon(with({"compare", "--builtin", "sphere-plane", "--set", "image.width=320",
-                         "--set", "image.height=180", "--out", at(name)},
-                        more));
-        ASSERT_EQ(ending.exit_code, 0) << ending.command << ending.err;
-    }
-    [[nodiscard]] Ending save(const std::string& run) const
-    {
-        return gnomon({"baseline", "save", at(run), "--baseline", at("baseline.json")});
-    }
-    [[nodiscard]] Ending gate(const std::string& run,
-                              const std::vector<std::string>& more = {}) const
-    {
-        return gnomon(with({"gate", at(run), "--baseline", at("baseline.json")}, more));
-    }
-
-private:
-    TemporaryFolder folder_;
-};
-
-/// Records the example with changed results or descriptions.
-template <typename Change>
-void record_example(const std::string& folder, const ExampleRun& run, const Change& change)
+/// How many pixels the finding of `new_pixels` has, which names some of them and their picture.
+int new_pixel_count(const GateJson& found)
 {
-    std::filesystem::create_directories(folder);
-    reports::RunDescription description = run.description();
-    std::vector<analysis::FinishedCurve> curves;
-    for (std::uint64_t c = 0; c < run.curves; ++c) {
-        curves.push_back(run.curve(c));
+    for (const GateJson& finding : found.at("findings")) {
+        if (finding.at("metric") == "new_pixels") {
+            EXPECT_EQ(finding.at("pixels").at("first").size(), 10U);
+            EXPECT_EQ(finding.at("pixels").at("box").size(), 4U);
+            return finding.at("now").get<int>();
+        }
     }
-    change(description, curves);
-    RunStore store{folder, RunStore::Access::write};
-    store.plan(description, run.configurations());
-    for (const analysis::FinishedCurve& curve : curves) {
-        store.record(curve);
-    }
+    return 0;
 }
 
 /// Plants a change of a job and expects the gate to find it, with that cause and that suspect.
@@ -92,6 +52,7 @@ void expect_regression(const std::vector<std::string>& before, const std::string
     EXPECT_EQ(json.exit_code, 1);
     const GateJson found = GateJson::parse(json.out);
     EXPECT_EQ(found.at("result"), "regression");
+    EXPECT_GE(new_pixel_count(found), 100) << json.out;
     const GateJson& worst = found.at("findings").at(0);
     EXPECT_EQ(worst.at("reason"), "worse_than_baseline");
     EXPECT_EQ(worst.at("dominant_cause"), cause);
@@ -109,6 +70,13 @@ TEST(GateCommand, FindsHalfTheResolution)
 {
     expect_regression({}, "shadow_map.resolution=256", "resolution",
                       "shadow_map.resolution: 512 -> 256");
+}
+
+TEST(GateCommand, FindsAHundredthOfTheNearPlane)
+{
+    // A constant bias in depth units is 100 times as long then.
+    expect_regression({"--set", "shadow_map.depth_format=d16"}, "shadow_map.near=0.005", "bias",
+                      "shadow_map.near: 0.5 -> 0.005");
 }
 
 TEST(GateCommand, FindsACoarserDepthFormat)

@@ -101,7 +101,7 @@ TEST(Baseline, KnowsEveryNumberOfTheResults)
     add(result_columns());
     add(bias_curve_columns());
     std::vector<std::string> metrics;
-    for (const analysis::GateMetric& metric : analysis::gate_metrics()) {
+    for (const analysis::GateMetric& metric : analysis::result_metrics()) {
         metrics.emplace_back(metric.name);
     }
     EXPECT_EQ(metrics, columns);

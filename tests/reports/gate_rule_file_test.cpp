@@ -13,6 +13,7 @@
 namespace gnomon::reports {
 namespace {
 
+using analysis::GateRule;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -137,6 +138,54 @@ TEST(GateRuleFile, RefusesWhatCannotBeRead)
 {
     EXPECT_THROW((void)read_gate_rules("/nowhere/gate.toml"), scene::InputError);
     EXPECT_THROW((void)read_gate_rules("/"), scene::InputError);
+}
+
+TEST(GateRuleFile, ReadsWhichPixelsAreMeant)
+{
+    const auto rule = [](const std::string& metric, const std::string& where) {
+        return parse_gate_rules(
+            fmt::format("[[rule]]\nid = \"a\"\nmetric = \"{}\"\nabs = 0\nwhere = {{{}}}", metric,
+                        where),
+            "gate.toml")[0];
+    };
+    const GateRule all = rule("false_lit_rate", "object = \"wall\", cause = \"bias\", label = "
+                                                "\"peter_panning\", zeta_band = [4, 16.0]");
+    EXPECT_EQ(all.pixels.object, "wall");
+    EXPECT_EQ(all.pixels.cause, analysis::Cause::bias);
+    EXPECT_EQ(all.pixels.label, analysis::Label::peter_panning);
+    EXPECT_EQ(all.pixels.bands, (analysis::ZetaBands{{2}, {3}}));
+    EXPECT_TRUE(all.where.empty());
+    EXPECT_TRUE(rule("wrong_pixels", "object = \"*\"").each_object);
+    EXPECT_TRUE(rule("wrong_pixels", "zeta_band = \"*\"").each_band);
+    EXPECT_EQ(rule("new_pixels", "zeta_band = [0, inf]").pixels.bands,
+              (analysis::ZetaBands{{analysis::ZetaBand::lowest}, {analysis::ZetaBand::highest}}));
+}
+
+TEST(GateRuleFile, RefusesPixelsThatCannotBeMeant)
+{
+    const auto refusal = [](const std::string& metric, const std::string& where) {
+        return rule_refusal(fmt::format(
+            "[[rule]]\nid = \"a\"\nmetric = \"{}\"\nmax = 0\nwhere = {{{}}}", metric, where));
+    };
+    EXPECT_THAT(refusal("false_lit", "cause = \"bais\""), HasSubstr("nearest: \"bias\""));
+    EXPECT_THAT(refusal("false_lit", "label = \"none\""), HasSubstr("is not a label"));
+    for (const char* const band :
+         {"[4, 15]", "[16, 4]", "[4]", "4", "\"far\"", "[4, 4]", "[nan, 8]", "[\"4\", 8]"}) {
+        EXPECT_THAT(refusal("false_lit", fmt::format("zeta_band = {}", band)),
+                    HasSubstr("powers of two"))
+            << band;
+    }
+    EXPECT_THAT(refusal("map_bytes", "object = \"a\""), HasSubstr("is not counted by them"));
+    EXPECT_THAT(refusal("new_pixels", "object = \"*\""), HasSubstr("name one"));
+    EXPECT_THAT(refusal("false_lit", "object = \"*\""), HasSubstr("compares with the baseline"));
+}
+
+TEST(GateRuleFile, ReadsPointsOfTheCurve)
+{
+    const auto rules = parse_gate_rules(
+        "[[rule]]\nid = \"a\"\nmetric = \"bias_curve.at(1e-3).false_lit\"\nallow_pixels = 2",
+        "gate.toml");
+    EXPECT_EQ(rules[0].metric, "bias_curve.at(0.001).false_lit");
 }
 
 } // namespace

@@ -1,0 +1,266 @@
+#include "analysis/error_parts.hpp"
+
+#include "analysis/pixel_runs.hpp"
+#include "analysis/wrong_biases.hpp"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::PixelClass;
+
+namespace {
+
+constexpr std::size_t label_count = label_names.size();
+constexpr std::size_t wrong_kinds = 2 * cause_names.size() * label_count;
+
+std::size_t wrong_kind(bool is_false_lit, Cause cause, Label label)
+{
+    const std::size_t side = is_false_lit ? 1 : 0;
+    return (side * cause_names.size() + static_cast<std::size_t>(cause)) * label_count +
+           static_cast<std::size_t>(label);
+}
+
+WrongCount wrong_count(std::size_t kind, std::uint64_t pixels)
+{
+    return {kind >= wrong_kinds / 2, static_cast<Cause>(kind / label_count % cause_names.size()),
+            static_cast<Label>(kind % label_count), pixels};
+}
+
+void require_equal_sizes(std::string_view function, scene::ImageSize a, scene::ImageSize b)
+{
+    if (a != b) {
+        throw std::invalid_argument(fmt::format("{}: the images differ in size", function));
+    }
+}
+
+/// The objects that receive each triangle, by their name's place in the sorted names.
+class NamedObjects {
+public:
+    explicit NamedObjects(const scene::TriangleScene& scene) : scene_{scene}
+    {
+        for (const scene::Object& object : scene.objects) {
+            names_.push_back(object.name);
+        }
+        std::sort(names_.begin(), names_.end());
+        names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+        for (const scene::Object& object : scene.objects) {
+            places_.push_back(static_cast<std::size_t>(
+                std::lower_bound(names_.begin(), names_.end(), object.name) - names_.begin()));
+        }
+    }
+
+    [[nodiscard]] std::size_t place_of(std::uint32_t triangle) const
+    {
+        return places_[scene_.object_of(triangle)];
+    }
+    [[nodiscard]] const std::string& name(std::size_t place) const { return names_[place]; }
+
+private:
+    const scene::TriangleScene& scene_;
+    std::vector<std::string> names_;
+    std::vector<std::size_t> places_; ///< of each object's name
+};
+
+constexpr std::uint64_t band_count = ZetaBand::highest - ZetaBand::lowest + 1;
+constexpr std::uint64_t no_key = std::numeric_limits<std::uint64_t>::max();
+
+/// Each scored pixel's object and band as one number, in the order of the parts; else `no_key`.
+scene::Image<std::uint64_t> part_keys(const scene::Image<PixelClass>& classes,
+                                      const scene::Image<std::uint32_t>& triangles,
+                                      const scene::Image<float>& zeta_m,
+                                      const NamedObjects& objects)
+{
+    scene::Image<std::uint64_t> keys{classes.size(), no_key};
+    for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i != end; ++i) {
+            if (scene::is_scored(classes[i])) {
+                const int band = zeta_band_of(zeta_m[i]).octave - ZetaBand::lowest;
+                keys[i] =
+                    objects.place_of(triangles[i]) * band_count + static_cast<std::uint64_t>(band);
+            }
+        }
+    });
+    return keys;
+}
+
+/// How the wrong pixels of each part and kind change from one bias to the next. Sums of integers:
+/// the same in whatever order.
+class PartChanges {
+public:
+    PartChanges(std::size_t parts, std::size_t biases)
+        : stride_{biases + 1},
+          kinds_(parts * wrong_kinds)
+    {
+    }
+
+    /// Counts a pixel that is wrong at the biases [first, last).
+    void add(std::size_t part, std::size_t kind, std::size_t first, std::size_t last)
+    {
+        if (first < last) {
+            auto& changes = kinds_[part * wrong_kinds + kind];
+            changes.resize(stride_);
+            ++changes[first];
+            --changes[last];
+        }
+    }
+
+    void add(const PartChanges& other)
+    {
+        for (std::size_t i = 0; i < kinds_.size(); ++i) {
+            if (!other.kinds_[i].empty()) {
+                kinds_[i].resize(stride_);
+                std::transform(kinds_[i].begin(), kinds_[i].end(), other.kinds_[i].begin(),
+                               kinds_[i].begin(), std::plus<>{});
+            }
+        }
+    }
+
+    /// Adds to each bias's parts what is wrong of them.
+    void add_to(std::vector<std::vector<ErrorPart>>& rows) const
+    {
+        for (std::size_t i = 0; i < kinds_.size(); ++i) {
+            std::int64_t pixels = 0;
+            for (std::size_t bias = 0; bias < rows.size() && !kinds_[i].empty(); ++bias) {
+                pixels += kinds_[i][bias];
+                if (pixels > 0) {
+                    rows[bias][i / wrong_kinds].wrong.push_back(
+                        wrong_count(i % wrong_kinds, static_cast<std::uint64_t>(pixels)));
+                }
+            }
+        }
+    }
+
+private:
+    std::size_t stride_;
+    std::vector<std::vector<std::int64_t>> kinds_; ///< by part and kind; empty: none is wrong
+};
+
+} // namespace
+
+double ZetaBand::lower_m() const
+{
+    return octave <= lowest ? 0 : std::ldexp(1.0, octave);
+}
+
+double ZetaBand::upper_m() const
+{
+    return octave >= highest ? std::numeric_limits<double>::infinity()
+                             : std::ldexp(1.0, octave + 1);
+}
+
+ZetaBand zeta_band_of(float zeta_m)
+{
+    return {zeta_m > 0 ? std::clamp(std::ilogb(zeta_m), ZetaBand::lowest, ZetaBand::highest)
+                       : ZetaBand::lowest};
+}
+
+PartMap find_parts(const scene::Image<PixelClass>& classes,
+                   const scene::Image<std::uint32_t>& triangles, const scene::Image<float>& zeta_m,
+                   const scene::TriangleScene& scene)
+{
+    require_equal_sizes("find_parts", triangles.size(), classes.size());
+    require_equal_sizes("find_parts", zeta_m.size(), classes.size());
+    const NamedObjects objects{scene};
+    const scene::Image<std::uint64_t> keys = part_keys(classes, triangles, zeta_m, objects);
+    std::map<std::uint64_t, ErrorPart> found;
+    ErrorPart* last = nullptr; // neighbours are mostly of one part
+    std::uint64_t last_key = no_key;
+    for (std::size_t i = 0; i < keys.pixel_count(); ++i) {
+        if (keys[i] != no_key) {
+            last = keys[i] == last_key ? last : &found[keys[i]];
+            last_key = keys[i];
+            ++(classes[i] == PixelClass::lit ? last->lit : last->blocked);
+        }
+    }
+    PartMap map{scene::Image<std::uint16_t>{classes.size(), PartMap::none}, {}};
+    if (found.size() > PartMap::most_parts) {
+        return map;
+    }
+    std::vector<std::uint64_t> order;
+    for (auto& [key, part] : found) {
+        part.object = objects.name(key / band_count);
+        part.band = {static_cast<int>(key % band_count) + ZetaBand::lowest};
+        order.push_back(key);
+        map.parts.push_back(std::move(part));
+    }
+    for_each_run(keys.pixel_count(), [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i != end; ++i) {
+            if (keys[i] != no_key) {
+                map.part[i] = static_cast<std::uint16_t>(
+                    std::lower_bound(order.begin(), order.end(), keys[i]) - order.begin());
+            }
+        }
+    });
+    return map;
+}
+
+std::vector<ErrorPart> count_parts(const PartMap& map, const scene::Image<PixelClass>& classes,
+                                   const scene::Image<Cause>& cause,
+                                   const scene::Image<Label>& label)
+{
+    require_equal_sizes("count_parts", classes.size(), map.part.size());
+    require_equal_sizes("count_parts", cause.size(), map.part.size());
+    require_equal_sizes("count_parts", label.size(), map.part.size());
+    std::vector<std::vector<ErrorPart>> rows{map.parts};
+    PartChanges changes{map.parts.size(), 1};
+    for (std::size_t i = 0; i < classes.pixel_count() && !map.parts.empty(); ++i) {
+        if (map.part[i] != PartMap::none && cause[i] != Cause::none) {
+            const bool is_false_lit = classes[i] == PixelClass::blocked;
+            changes.add(map.part[i], wrong_kind(is_false_lit, cause[i], label[i]), 0, 1);
+        }
+    }
+    changes.add_to(rows);
+    return rows.front();
+}
+
+std::vector<std::vector<ErrorPart>> count_parts(const PartMap& map, const BiasRowInputs& inputs,
+                                                std::span<const float> biases)
+{
+    constexpr std::size_t biases_per_pass = 1024; // every thread counts for all: bounds the memory
+    require_equal_sizes("count_parts", inputs.classes.size(), map.part.size());
+    std::vector<std::vector<ErrorPart>> rows;
+    for (std::size_t begin = 0; begin < biases.size() && !map.parts.empty();
+         begin += biases_per_pass) {
+        const auto some = biases.subspan(begin, std::min(biases_per_pass, biases.size() - begin));
+        const WrongBiases wrong{inputs, some};
+        const PartChanges none{map.parts.size(), some.size()};
+        tbb::enumerable_thread_specific<PartChanges> sums{none};
+        for_each_run(map.part.pixel_count(), [&](std::size_t first, std::size_t last) {
+            PartChanges& sum = sums.local();
+            for (std::size_t i = first; i != last; ++i) {
+                const std::uint16_t part = map.part[i];
+                if (part == PartMap::none) {
+                    continue;
+                }
+                const bool is_false_lit = inputs.classes[i] == PixelClass::blocked;
+                const auto add = [&](std::size_t from, std::size_t to, Cause cause, Label label) {
+                    sum.add(part, wrong_kind(is_false_lit, cause, label), from, to);
+                };
+                wrong.visit_unbiased(i, add);
+                wrong.visit_biased(i, add);
+            }
+        });
+        PartChanges total = none;
+        for (const PartChanges& sum : sums) {
+            total.add(sum);
+        }
+        std::vector<std::vector<ErrorPart>> counted(some.size(), map.parts);
+        total.add_to(counted);
+        rows.insert(rows.end(), counted.begin(), counted.end());
+    }
+    rows.resize(biases.size());
+    return rows;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "analysis/bias_rows.hpp"
+#include "analysis/cause.hpp"
+#include "scene/image.hpp"
+#include "scene/pixel_class.hpp"
+#include "scene/triangles.hpp"
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// The band [2^octave, 2^(octave + 1)) of light distances ζ [m]; the lowest holds all that is
+/// smaller too, ζ <= 0 included, and the highest all that is larger. Bands are the same in every
+/// run, wherever its near plane and its pixels lie.
+struct ZetaBand {
+    int octave = 0;
+    static constexpr int lowest = -64;
+    static constexpr int highest = 63;
+
+    /// 0 for the lowest.
+    [[nodiscard]] double lower_m() const;
+    /// Infinite for the highest.
+    [[nodiscard]] double upper_m() const;
+    friend auto operator<=>(const ZetaBand&, const ZetaBand&) = default;
+};
+
+/// @param zeta_m  Anything but NaN.
+[[nodiscard]] ZetaBand zeta_band_of(float zeta_m);
+
+/// Wrong pixels of one kind.
+struct WrongCount {
+    bool is_false_lit = false; ///< else false shadow
+    Cause cause = Cause::none;
+    Label label = Label::none;
+    std::uint64_t pixels = 0;
+
+    friend bool operator==(const WrongCount&, const WrongCount&) = default;
+};
+
+/// Scored pixels of the objects of one name in one band of light distance, and how many of them
+/// are wrong.
+struct ErrorPart {
+    std::string object;
+    ZetaBand band;
+    std::uint64_t lit = 0;         ///< truth lit
+    std::uint64_t blocked = 0;     ///< truth blocked
+    std::vector<WrongCount> wrong; ///< those that exist; by kind, cause and label
+
+    friend bool operator==(const ErrorPart&, const ErrorPart&) = default;
+};
+
+/// Which part each scored pixel is of.
+struct PartMap {
+    static constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();
+    /// Scenes with more parts than this in view have none: they would fill the store.
+    static constexpr std::size_t most_parts = 256;
+
+    scene::Image<std::uint16_t> part; ///< index into `parts`; `none` where nothing is scored
+    std::vector<ErrorPart> parts;     ///< by object and band, without wrong pixels; may be empty
+};
+
+/// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
+/// @param zeta_m     Light distance of the scored pixels [m], as `light_distances_m` has it.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] PartMap find_parts(const scene::Image<scene::PixelClass>& classes,
+                                 const scene::Image<std::uint32_t>& triangles,
+                                 const scene::Image<float>& zeta_m,
+                                 const scene::TriangleScene& scene);
+
+/// The parts with the wrong pixels of one verdict image.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] std::vector<ErrorPart> count_parts(const PartMap& map,
+                                                 const scene::Image<scene::PixelClass>& classes,
+                                                 const scene::Image<Cause>& cause,
+                                                 const scene::Image<Label>& label);
+
+/// The same at each of several biases.
+/// @param biases  Ascending, 0 or normal.
+/// @throws std::invalid_argument  as `count_rows`.
+[[nodiscard]] std::vector<std::vector<ErrorPart>>
+count_parts(const PartMap& map, const BiasRowInputs& inputs, std::span<const float> biases);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "analysis/cause.hpp"
+#include "analysis/error_parts.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Neighbouring bands of light distance, both ends included.
+struct ZetaBands {
+    ZetaBand first;
+    ZetaBand last;
+
+    [[nodiscard]] bool has(ZetaBand band) const { return first <= band && band <= last; }
+    friend bool operator==(const ZetaBands&, const ZetaBands&) = default;
+};
+
+/// Which pixels a metric counts: those that all of its members name.
+struct PixelFilter {
+    std::optional<std::string> object; ///< by its name
+    std::optional<Cause> cause;
+    std::optional<Label> label;
+    std::optional<ZetaBands> bands;
+
+    [[nodiscard]] bool takes_all() const { return !object && !cause && !label && !bands; }
+    /// Whether it is of a part, whatever is wrong there.
+    [[nodiscard]] bool has(const ErrorPart& part) const;
+    [[nodiscard]] bool has(const WrongCount& wrong) const;
+    friend bool operator==(const PixelFilter&, const PixelFilter&) = default;
+};
+
+/// Whether a metric can be counted of some pixels only: counts and rates of wrong pixels, causes
+/// and labels, `pixels.lit` and `pixels.blocked`.
+[[nodiscard]] bool is_of_pixels(std::string_view metric);
+
+/// The wrong pixels that a metric counts of those that the filter takes.
+/// @return  Empty if it counts no wrong pixels, or none can be such.
+[[nodiscard]] std::optional<PixelFilter> counted_pixels(std::string_view metric,
+                                                        const PixelFilter& filter);
+
+/// That metric of the pixels that the filter takes.
+/// @param metric  `is_of_pixels`.
+/// @return  Empty if no part is such: there are no such pixels, or parts are not known; or if a
+///          rate's denominator is 0.
+[[nodiscard]] std::optional<double> metric_of_pixels(const std::vector<ErrorPart>& parts,
+                                                     std::string_view metric,
+                                                     const PixelFilter& filter);
+
+} // namespace gnomon::analysis

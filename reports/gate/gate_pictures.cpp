@@ -1,0 +1,218 @@
+#include "reports/gate/gate_pictures.hpp"
+
+#include "analysis/gate/gate_filter.hpp"
+#include "analysis/gate/gate_metrics.hpp"
+#include "reports/gate/gate_names.hpp"
+#include "reports/gate/kept_wrong_pixels.hpp"
+#include "reports/gate/pixel_mask.hpp"
+#include "reports/gate/place_picture.hpp"
+#include "reports/output_file.hpp"
+#include "reports/text.hpp"
+#include "scene/error.hpp"
+#include "scene/fnv1a.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::GateFinding;
+
+constexpr std::size_t most_pictures = 10;
+
+/// The new wrong pixels that a finding is about.
+struct Pictured {
+    analysis::PixelFilter filter;
+    bool takes_false_shadow = true;
+    bool takes_false_lit = true;
+};
+
+/// Empty if the finding is about no pixels that can be shown.
+std::optional<Pictured> pictured_pixels(const GateReport& report, const GateFinding& finding)
+{
+    const analysis::GateRule& rule = report.rules[finding.rule];
+    const analysis::GatePair* const pair = report.outcome.pair_of(finding.entry);
+    const bool is_broken = rule.severity == analysis::Severity::fail &&
+                           finding.reason != analysis::GateReason::not_available;
+    if (!is_broken || pair == nullptr || report.baseline.entries[pair->before].pixels.empty() ||
+        report.run.results.entries[finding.entry].pixels.empty()) {
+        return std::nullopt;
+    }
+    if (rule.metric == analysis::new_pixels_metric) {
+        return Pictured{finding.filter};
+    }
+    const auto filter = analysis::counted_pixels(rule.metric, finding.filter);
+    if (!filter) {
+        return std::nullopt;
+    }
+    return Pictured{*filter, !rule.metric.starts_with("false_lit"),
+                    !rule.metric.starts_with("false_shadow")};
+}
+
+/// The pixels of one configuration, then and now.
+struct ComparedPlaces {
+    analysis::PixelMask before;
+    analysis::WrongPixels now;
+    RgbImage ground;
+};
+
+ComparedPlaces read_places(const GateReport& report, std::size_t entry)
+{
+    const analysis::GatePair& pair = *report.outcome.pair_of(entry);
+    const analysis::GateEntry& before = report.baseline.entries[pair.before];
+    const std::string& id = report.run.results.entries[entry].pixels;
+    return {read_mask(report.baseline_file, before.pixels, image_size_of(before)),
+            read_wrong_pixels(report.run.folder, id), shaded_ground(report.run.folder, id)};
+}
+
+/// What became of each pixel; empty if the images cannot be compared.
+std::optional<scene::Image<PlaceMark>> place_marks(const ComparedPlaces& places,
+                                                   const Pictured& pictured)
+{
+    const analysis::WrongPixels& now = places.now;
+    if (places.before.size() != now.mask.size() || !now.knows(pictured.filter)) {
+        return std::nullopt;
+    }
+    scene::Image<PlaceMark> marks{now.mask.size()};
+    for (std::size_t i = 0; i < marks.pixel_count(); ++i) {
+        if (now.mask[i] == 0) {
+            marks[i] = places.before[i] == 0 ? PlaceMark::none : PlaceMark::mended;
+        } else if (places.before[i] != 0) {
+            marks[i] = PlaceMark::wrong_before;
+        } else if (now.is_taken(i, pictured.filter) &&
+                   (now.is_false_lit[i] != 0 ? pictured.takes_false_lit
+                                             : pictured.takes_false_shadow)) {
+            marks[i] =
+                now.is_false_lit[i] != 0 ? PlaceMark::new_false_lit : PlaceMark::new_false_shadow;
+        }
+    }
+    return marks;
+}
+
+std::size_t new_mark_count(const scene::Image<PlaceMark>& marks)
+{
+    return static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](PlaceMark mark) {
+        return mark == PlaceMark::new_false_shadow || mark == PlaceMark::new_false_lit;
+    }));
+}
+
+std::vector<std::string> heading_lines(const GateReport& report, const GateFinding& finding)
+{
+    const analysis::GateRule& rule = report.rules[finding.rule];
+    std::vector<std::string> lines{fmt::format("{}: {} -> {}, rule \"{}\"", rule.metric,
+                                               metric_text(rule.metric, finding.before),
+                                               metric_text(rule.metric, finding.now), rule.id)};
+    if (const std::string part = filter_text(finding.filter); !part.empty()) {
+        lines.front() += ", of " + part;
+    }
+    lines.push_back(key_text(report.run.results.entries[finding.entry].key));
+    const auto& changes = report.outcome.pair_of(finding.entry)->changes;
+    lines.push_back(changes.empty() ? "the job is unchanged" : change_line(changes.front()));
+    if (changes.size() > 1) {
+        lines.back() += fmt::format(", and {} more", counted(changes.size() - 1, "change"));
+    }
+    return lines;
+}
+
+std::filesystem::path picture_path(const std::filesystem::path& folder, std::size_t number,
+                                   std::string name)
+{
+    std::replace_if(
+        name.begin(), name.end(),
+        [](char c) { return !(c >= 'a' && c <= 'z') && c != '_' && c != '.'; }, '_');
+    return folder / fmt::format("{:02}-{}.png", number, name);
+}
+
+void make_picture_folder(const std::filesystem::path& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw scene::EnvironmentError(fmt::format("{}: cannot be made: {}; check the folder",
+                                                  folder.string(), error.message()));
+    }
+}
+
+/// Draws findings, configuration by configuration.
+class GatePainter {
+public:
+    GatePainter(GateReport& report, std::filesystem::path folder)
+        : report_{report},
+          folder_{std::move(folder)}
+    {
+    }
+
+    /// Draws the finding unless there is nothing to be seen, or another one shows the same.
+    void paint(std::size_t index)
+    {
+        const GateFinding& finding = report_.outcome.findings[index];
+        const auto shown = pictured_pixels(report_, finding);
+        if (!shown) {
+            return;
+        }
+        if (!places_ || places_entry_ != finding.entry) {
+            places_ = read_places(report_, finding.entry);
+            places_entry_ = finding.entry;
+        }
+        auto marks = place_marks(*places_, *shown);
+        if (!marks || new_mark_count(*marks) == 0) {
+            return;
+        }
+        scene::Fnv1a hash;
+        hash.add(marks->data(), marks->pixel_count());
+        const std::pair key{finding.entry, hash.value()};
+        if (!known_.contains(key) && known_.size() < most_pictures) {
+            known_.emplace(key, write_picture_of(finding, places_->ground, std::move(*marks)));
+        }
+        if (const auto found = known_.find(key); found != known_.end()) {
+            report_.pictures.emplace(index, found->second);
+        }
+    }
+
+    [[nodiscard]] bool is_full() const { return known_.size() >= most_pictures; }
+
+private:
+    std::filesystem::path write_picture_of(const GateFinding& finding, const RgbImage& ground,
+                                           scene::Image<PlaceMark> marks)
+    {
+        PlacePicture picture;
+        picture.ground = ground;
+        picture.marks = std::move(marks);
+        picture.title = fmt::format("{} that were right in the baseline",
+                                    counted(new_mark_count(picture.marks), "wrong pixel"));
+        picture.lines = heading_lines(report_, finding);
+        make_picture_folder(folder_);
+        auto path = picture_path(folder_, known_.size() + 1, report_.rules[finding.rule].metric);
+        write_file(path, encode_png(draw_place_picture(picture)));
+        return path;
+    }
+
+    GateReport& report_;
+    std::filesystem::path folder_;
+    std::optional<ComparedPlaces> places_;
+    std::size_t places_entry_ = 0;
+    std::map<std::pair<std::size_t, std::uint64_t>, std::filesystem::path> known_;
+};
+
+} // namespace
+
+void write_gate_pictures(GateReport& report, const std::filesystem::path& folder)
+{
+    constexpr std::size_t most_findings = 50; // of which most show what others do
+    GatePainter painter{report, folder};
+    const std::size_t count = std::min(report.outcome.findings.size(), most_findings);
+    for (std::size_t i = 0; i < count && !painter.is_full(); ++i) {
+        painter.paint(i);
+    }
+}
+
+} // namespace gnomon::reports
