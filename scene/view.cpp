@@ -80,6 +80,9 @@ View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefault
     const auto given_light = job.light ? job.light : defaults.light;
     const LightSettings light = given_light ? *given_light : default_light();
     view.light = make_light(light);
+    if (light.type == LightType::point) {
+        return view; // it has no shadow map
+    }
     view.frustum =
         fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera, job.image);
     view.bias = resolve_bias(job.bias, view.frustum);
