@@ -88,7 +88,7 @@ void bound_triangle(const RTCBoundsFunctionArguments* arguments) noexcept
     const Vec3d a = owner.frame.from_world(corners[0]);
     const Vec3d b = owner.frame.from_world(corners[1]);
     const Vec3d c = owner.frame.from_world(corners[2]);
-    const Vec3d padding{owner.faults.padding_share * box_padding};
+    const Vec3d padding{owner.faults.padding_share * owner.padding};
     const Vec3f lower{glm::min(a, glm::min(b, c)) - padding};
     const Vec3f upper{glm::max(a, glm::max(b, c)) + padding};
     RTCBounds& box = *arguments->bounds_o;
@@ -212,6 +212,7 @@ ReferenceScene::Implementation::Implementation(const TriangleScene& scene_in,
       triangles{scene_in},
       bounds{scene_in.bounds()},
       frame{bounds},
+      padding{box_padding + frame.scale() * options.start_error_m},
       device{make_device(options, errors)}
 {
     // Embree reads 16 bytes at each 12-byte vertex: the last one needs readable bytes behind it.

@@ -87,6 +87,7 @@ struct ReferenceScene::Implementation {
     scene::TriangleScene triangles; ///< Embree reads its vertices in place
     scene::Box bounds;
     UnitFrame frame;
+    double padding;          ///< of boxes on each side, in the unit frame
     std::vector<Role> roles; ///< [geometry]
     EmbreeErrors errors;
     embree::Device device; ///< after `errors`, which it reports to until it dies

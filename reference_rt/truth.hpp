@@ -38,6 +38,8 @@ struct ReferenceOptions {
     bool serves_exact_truth = true; ///< TruthMethod::exact and `nearest_blockers`
     bool serves_plain_rays = false; ///< TruthMethod::plain and `audit_float_methods`
     std::string embree_isa{};       ///< "sse4.2", "avx2", …; empty: the best that there is
+    /// By how much, in each component, the points from which exact segments start may be off [m].
+    double start_error_m = 0;
 };
 
 /// The scene in Embree's hands; built once, then read by any number of threads.
