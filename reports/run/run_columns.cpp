@@ -245,7 +245,9 @@ const CurveColumns& map_columns()
         {"map_near_m", real_type, [](const CurveResult& curve) { return number(curve.near_m); }},
         {"map_far_m", real_type, [](const CurveResult& curve) { return number(curve.far_m); }},
         {"map_bytes", integer_type,
-         [](const CurveResult& curve) { return count(curve.map_bytes); }},
+         [](const CurveResult& curve) {
+             return curve.map_bytes ? count(*curve.map_bytes) : Value{};
+         }},
         {"bias_source", text_type,
          [](const CurveResult& curve) { return std::string{curve.best ? "curve" : "rerun"}; }}};
     return columns;
