@@ -26,7 +26,7 @@ struct ImportDistances {
 struct ImportCheck {
     ImportDistances distances;
     /// How much better than chance mask and truth agree: share of lit pixels that are lit plus share
-    /// of dark ones that are shadowed, minus 1; empty where one kind is missing.
+    /// of blocked ones that are shadowed, minus 1; empty where one kind is missing.
     std::optional<double> agreement;
     std::string mistake = {};  ///< "units", "axes", …; empty: none found
     std::string sentence = {}; ///< that names the mistake and what to do; empty: none found

@@ -21,18 +21,19 @@ using scene::PixelClass;
 /// Other lights are tried on no more pixels than this.
 constexpr std::size_t most_tried_pixels = 16384;
 
-bool is_known(PixelClass pixel_class)
-{
-    return pixel_class == PixelClass::lit || pixel_class == PixelClass::blocked ||
-           pixel_class == PixelClass::attached;
-}
-
 /// True where another reading of the case explains the mask far better: it must be good, better by
 /// a fifth of what there is to agree on, and leave less than a third of the disagreement. Shadow
 /// errors do not make a wrong reading that good: they would have to be the shadows of that reading.
 bool explains_better(double other, double given)
 {
     return other >= 0.5 && other - given >= 0.2 && 1 - other <= 0.3 * (1 - given);
+}
+
+/// The same for another light, which changes what is lit altogether: it must be right nearly
+/// everywhere, and the given one nearly by chance.
+bool explains_far_better(const MaskAgreement& other, double given)
+{
+    return other.has_both() && other.index() >= 0.7 && given <= 0.3;
 }
 
 /// The mask with its rows or columns in the opposite order.
@@ -152,10 +153,10 @@ std::optional<ImportMistake> check_lights(const Light& light, const scene::Round
     std::optional<ImportMistake> mistake;
     for (OtherLight& other : other_lights(light)) {
         const scene::RoundedTruth truth = finders.find_truth(other.light, tried.receivers);
-        const double index = agreement(tried.mask, truth.truth.pixel_class).index();
+        const MaskAgreement found = agreement(tried.mask, truth.truth.pixel_class);
         // The first of those that fit alike is the likeliest.
-        if (explains_better(index, given) && index > best + 0.01) {
-            best = index;
+        if (explains_far_better(found, given) && found.index() > best + 0.01) {
+            best = found.index();
             mistake = std::move(other.mistake);
         }
     }
@@ -187,14 +188,14 @@ double MaskAgreement::index() const
     const auto share = [](std::uint64_t right, std::uint64_t all) {
         return all > 0 ? static_cast<double>(right) / static_cast<double>(all) : 0.5;
     };
-    return share(lit_right, lit) + share(dark_right, dark) - 1;
+    return share(lit_right, lit) + share(blocked_right, blocked) - 1;
 }
 
 MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& classes)
 {
     MaskAgreement found;
     for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
-        if (!is_known(classes[i])) {
+        if (!scene::is_scored(classes[i])) {
             continue;
         }
         const bool says_lit = scene::is_lit(mask[i]);
@@ -202,8 +203,8 @@ MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& class
             ++found.lit;
             found.lit_right += says_lit ? 1U : 0U;
         } else {
-            ++found.dark;
-            found.dark_right += says_lit ? 0 : 1;
+            ++found.blocked;
+            found.blocked_right += says_lit ? 0 : 1;
         }
     }
     return found;
@@ -271,7 +272,7 @@ std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers, const L
                             rows ? "rows" : "columns")};
         }
     }
-    if (given.index() > 0.8) { // nothing can explain it far better
+    if (given.index() > 0.3) { // nothing can explain it far better
         return std::nullopt;
     }
     return check_lights(light, receivers, layers.mask, given.index(), finders);

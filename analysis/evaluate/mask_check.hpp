@@ -11,17 +11,19 @@
 
 namespace gnomon::analysis {
 
-/// How a mask stands to a truth: attached pixels are dark.
+/// How a mask stands to a truth, on scored pixels: where the light is behind a surface, masks say
+/// anything.
 struct MaskAgreement {
     std::uint64_t lit = 0;
     std::uint64_t lit_right = 0;
-    std::uint64_t dark = 0;
-    std::uint64_t dark_right = 0;
+    std::uint64_t blocked = 0;
+    std::uint64_t blocked_right = 0;
 
-    /// Share of lit pixels that are lit plus share of dark ones that are shadowed, minus 1: 1 where
-    /// they agree, 0 where the mask says nothing (Youden's J). Of a kind that is missing half counts.
+    /// Share of lit pixels that are lit plus share of blocked ones that are shadowed, minus 1: 1
+    /// where they agree, 0 where the mask says nothing (Youden's J). Of a kind that is missing half
+    /// counts.
     [[nodiscard]] double index() const;
-    [[nodiscard]] bool has_both() const { return lit > 0 && dark > 0; }
+    [[nodiscard]] bool has_both() const { return lit > 0 && blocked > 0; }
 };
 
 [[nodiscard]] MaskAgreement agreement(const scene::Image<float>& mask,

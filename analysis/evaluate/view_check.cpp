@@ -137,7 +137,10 @@ std::string find_disagreement(const View& view, const scene::CaseLayers& layers,
         const Vec3d point{layers.position[i]};
         const double length_m = glm::length(geometry.point(i) - point);
         lengths_m.push_back(std::isnan(length_m) ? HUGE_VAL : length_m);
-        if (const double r{layers.z_light[i]}; r > 0 && r < 1) {
+        // A normal offset moves the lookup away from P.
+        const double r{layers.unmoved.samples.empty() ? layers.z_light[i]
+                                                      : layers.unmoved.samples[i].receiver_depth};
+        if (r > 0 && r < 1) {
             depths.push_back(std::abs(depth_of(view.frustum, point) - r));
         }
     }

@@ -249,7 +249,12 @@ const CurveColumns& map_columns()
              return curve.map_bytes ? count(*curve.map_bytes) : Value{};
          }},
         {"bias_source", text_type,
-         [](const CurveResult& curve) { return std::string{curve.best ? "curve" : "rerun"}; }}};
+         [](const CurveResult& curve) {
+             // Of another renderer whose map is not known nothing knows other biases.
+             return curve.best || curve.map_bytes
+                        ? Value{std::string{curve.best ? "curve" : "rerun"}}
+                        : Value{};
+         }}};
     return columns;
 }
 
