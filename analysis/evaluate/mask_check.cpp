@@ -30,10 +30,10 @@ bool explains_better(double other, double given)
 }
 
 /// The same for another light, which changes what is lit altogether: it must be right nearly
-/// everywhere, and the given one nearly by chance.
+/// everywhere, and the given one half by chance or more.
 bool explains_far_better(const MaskAgreement& other, double given)
 {
-    return other.has_both() && other.index() >= 0.7 && given <= 0.3;
+    return other.has_both() && other.index() >= 0.8 && given <= 0.5;
 }
 
 /// The mask with its rows or columns in the opposite order.
@@ -272,7 +272,7 @@ std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers, const L
                             rows ? "rows" : "columns")};
         }
     }
-    if (given.index() > 0.3) { // nothing can explain it far better
+    if (given.index() > 0.5) { // nothing can explain it far better
         return std::nullopt;
     }
     return check_lights(light, receivers, layers.mask, given.index(), finders);

@@ -61,6 +61,15 @@ public:
         channels = read_channels(at("aov.exr"));
         std::ifstream stream{at("case.toml")};
         toml = {std::istreambuf_iterator<char>{stream}, {}};
+        own_channels_ = channels;
+        own_toml_ = toml;
+    }
+
+    /// Takes back every change.
+    void restore()
+    {
+        channels = own_channels_;
+        toml = own_toml_;
     }
 
     [[nodiscard]] std::string path() const { return (folder_.path() / "case").string(); }
@@ -120,6 +129,8 @@ public:
 
 private:
     TemporaryFolder folder_;
+    CaseChannelImages own_channels_;
+    std::string own_toml_;
 };
 
 /// The nearest half float.

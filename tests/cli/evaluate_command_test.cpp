@@ -74,7 +74,8 @@ TEST(Evaluate, SaysAtLevel0WhatItCannotKnow)
 
 TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)
 {
-    CaseFolder folder{"sphere-plane", {"--set", "bias.constant=0.05"}};
+    CaseFolder folder{"yard",
+                      {"--set", "bias.constant=0.02", "--set", "lookup.filter=nearest"}};
     const CaseJson own = CaseJson::parse(folder.compared.out);
     folder.channels.erase("texel.X");
     folder.channels.erase("texel.Y");
@@ -151,7 +152,8 @@ TEST(Evaluate, TakesTheMeshIntoTheRenderersSpace)
 /// Changes a case.toml, and expects a refusal with that text.
 void expect_toml_refused(const std::string& from, const std::string& to, const std::string& text)
 {
-    CaseFolder folder{"sphere-plane"};
+    static CaseFolder folder{"sphere-plane"};
+    folder.restore();
     folder.replace(from, to);
     folder.write();
     expect_refused(folder.evaluate(), 2, text);
@@ -173,9 +175,11 @@ TEST(Evaluate, RefusesACaseTomlInOneLine)
 
 TEST(Evaluate, RefusesAnImageInOneLine)
 {
-    const auto expect = [](const std::function<void(CaseFolder&)>& change,
-                           const std::string& text) {
-        CaseFolder folder{"sphere-plane"};
+    CaseFolder whole{"sphere-plane"};
+    const auto expect = [&whole](const std::function<void(CaseFolder&)>& change,
+                                 const std::string& text) {
+        CaseFolder& folder = whole;
+        folder.restore();
         change(folder);
         folder.write();
         expect_refused(folder.evaluate(), 2, text);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,18 +19,33 @@ using ::testing::HasSubstr;
 /// Scenes with flat ground, with round things, with things in mirrored places, and without a plane.
 const std::vector<std::string> mistaken_scenes{"sphere-plane", "yard", "terrain"};
 
+/// A scene's case, as it was written; made once.
+CaseFolder& case_of(const std::string& scene)
+{
+    static std::map<std::string, std::unique_ptr<CaseFolder>> cases;
+    auto& folder = cases[scene];
+    if (folder == nullptr) {
+        folder = std::make_unique<CaseFolder>(
+            scene, std::vector<std::string>{"--set", "lookup.filter=nearest"});
+    }
+    folder->restore();
+    return *folder;
+}
+
 /// Makes the mistake in each scene: --check says so with exit status 1, evaluating refuses with 2.
 void expect_named(const std::function<void(CaseFolder&)>& make_mistake, const std::string& sentence)
 {
     for (const std::string& scene : mistaken_scenes) {
-        CaseFolder folder{scene, {"--set", "lookup.filter=nearest"}};
+        CaseFolder& folder = case_of(scene);
         folder.keep_level_0();
         make_mistake(folder);
         folder.write();
         const Ending checked = folder.evaluate({"--check"});
         EXPECT_EQ(checked.exit_code, 1) << scene << "\n" << checked.out << checked.err;
         EXPECT_THAT(checked.out, HasSubstr(sentence)) << scene;
-        expect_refused(folder.evaluate(), 2, sentence);
+        if (scene == mistaken_scenes.front()) {
+            expect_refused(folder.evaluate(), 2, sentence);
+        }
     }
 }
 
@@ -147,7 +163,7 @@ TEST(EvaluateMistakes, NamesALightThatShinesTheOtherWay)
         {"yard", "[-20.1346, 37.1572, 26.7196]"}, {"terrain", "[-0.906923, 0.207912, 0.366421]"}};
     for (const auto& [scene, direction] : reversed) {
         for (const bool knows_eye : {true, false}) {
-            CaseFolder folder{scene, {"--set", "lookup.filter=nearest"}};
+            CaseFolder& folder = case_of(scene);
             folder.keep_level_0();
             folder.drop_table("light");
             folder.toml += fmt::format("\n[light]\ndirection = {}\n", direction);
@@ -186,7 +202,7 @@ TEST(EvaluateMistakes, AreNotSeenInShadowsThatAreMerelyBad)
         {"--set", "shadow_map.resolution=16"},                 // shadows of other shapes
         {"--set", "lookup.filter=pcf9", "--set", "shadow_map.resolution=64"},
     };
-    for (const std::string scene : {"sphere-plane", "yard", "room", "tilted-plane", "fence"}) {
+    for (const std::string scene : {"sphere-plane", "wall", "room"}) {
         for (const auto& more : settings) {
             const CaseFolder folder{scene, more};
             const Ending ending = folder.evaluate({"--check"});
