@@ -71,13 +71,12 @@ public:
                                            const scene::RoundedReceivers& receivers) {
             return reference_rt::compute_rounded_truth(reference_, light, receivers, threads);
         };
-        truth.find_blockers = [this, threads](const scene::Light& light,
-                                              const scene::RoundedReceivers& receivers,
-                                              const scene::RoundedTruth& found,
-                                              std::span<const std::size_t> pixels) {
-            return reference_rt::find_rounded_blockers(reference_, light, receivers, found, pixels,
-                                                       threads);
-        };
+        truth.find_blockers =
+            [this, threads](const scene::Light& light, const scene::RoundedReceivers& receivers,
+                            const scene::RoundedTruth& found, std::span<const std::size_t> pixels) {
+                return reference_rt::find_rounded_blockers(reference_, light, receivers, found,
+                                                           pixels, threads);
+            };
         truth.make_exact_light = [this, threads](const scene::Job& job, const scene::View& view,
                                                  const scene::ReceiverLayers& receivers) {
             return reference_rt::make_exact_light(reference_, view, receivers.triangle,
@@ -92,8 +91,8 @@ public:
 private:
     static scene::TriangleScene load_mesh(const scene::CaseFile& file)
     {
-        return scene::move_to_space(
-            scene::load_scene(scene::make_job(file.source).scene).scene, file.space);
+        return scene::move_to_space(scene::load_scene(scene::make_job(file.source).scene).scene,
+                                    file.space);
     }
 
     /// The image says it, and a run's configuration names it.
@@ -145,8 +144,7 @@ void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFi
 {
     scene::JobSource source = file.source;
     source.cases = {{file.name, {}}};
-    run.record(std::move(source), file.name, comparison, {}, file.text,
-               evaluate_command(options));
+    run.record(std::move(source), file.name, comparison, {}, file.text, evaluate_command(options));
 }
 
 void write_outputs(const EvaluateOptions& options, const analysis::Comparison& comparison)
@@ -173,8 +171,8 @@ void evaluate(const EvaluateOptions& options)
         return;
     }
     if (!checked.check.mistake.empty()) {
-        throw scene::InputError(fmt::format("{}: {}", session.file().source.name,
-                                            checked.check.sentence));
+        throw scene::InputError(
+            fmt::format("{}: {}", session.file().source.name, checked.check.sentence));
     }
     std::optional<CompareRun> run;
     if (!options.folder.empty()) {

@@ -90,8 +90,8 @@ Json job_object(const analysis::Comparison& comparison)
     const auto& evaluation = comparison.evaluation;
     Json json = Json::object();
     for (const auto& [key, value] : scene::resolved_keys(comparison.job)) {
-        if (evaluation && std::ranges::find(evaluation->given_keys, key) ==
-                              evaluation->given_keys.end()) {
+        if (evaluation &&
+            std::ranges::find(evaluation->given_keys, key) == evaluation->given_keys.end()) {
             continue;
         }
         Json parsed = Json::parse(value, nullptr, false);

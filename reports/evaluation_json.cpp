@@ -64,13 +64,12 @@ Json evaluate_object(const analysis::Comparison& comparison)
 Json import_check_json(const analysis::ImportCheck& check)
 {
     const analysis::ImportDistances& distances = check.distances;
-    Json json{{"points", distances.points},
-              {"distance_m",
-               {{"median", distances.median_m},
-                {"p99", distances.p99_m},
-                {"max", distances.max_m}}},
-              {"tolerance_m", distances.tolerance_m},
-              {"agreement", number_or_null(check.agreement)}};
+    Json json{
+        {"points", distances.points},
+        {"distance_m",
+         {{"median", distances.median_m}, {"p99", distances.p99_m}, {"max", distances.max_m}}},
+        {"tolerance_m", distances.tolerance_m},
+        {"agreement", number_or_null(check.agreement)}};
     json["mistake"] = check.mistake.empty() ? Json(nullptr) : Json(check.mistake);
     json["sentence"] = check.sentence.empty() ? Json(nullptr) : Json(check.sentence);
     return json;
@@ -79,8 +78,7 @@ Json import_check_json(const analysis::ImportCheck& check)
 void add_evaluation(Json& json, const analysis::Comparison& comparison)
 {
     const analysis::Evaluation& evaluation = *comparison.evaluation;
-    json["indeterminate_kinds"]["rounding"] =
-        comparison.metrics.pixels.of(ClassReason::rounding);
+    json["indeterminate_kinds"]["rounding"] = comparison.metrics.pixels.of(ClassReason::rounding);
     if (evaluation.level == 0) {
         json["pixels"]["attached"] = nullptr;
     }

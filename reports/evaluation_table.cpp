@@ -14,8 +14,7 @@ namespace {
 std::string distance_words(const analysis::ImportDistances& distances)
 {
     return fmt::format("median {:.2g} m, 99 % {:.2g} m, largest {:.2g} m; {:.2g} m tolerated",
-                       distances.median_m, distances.p99_m, distances.max_m,
-                       distances.tolerance_m);
+                       distances.median_m, distances.p99_m, distances.max_m, distances.tolerance_m);
 }
 
 std::string bias_lines(const analysis::BiasCauses& found)
@@ -77,8 +76,9 @@ std::string check_text(const analysis::ImportCheck& check)
 {
     std::string text = setting_line("P off the mesh", distance_words(check.distances));
     if (check.agreement) {
-        text += setting_line("mask and truth", fmt::format("agree by {:.3f} (1 all, 0 as by chance)",
-                                                           *check.agreement));
+        text +=
+            setting_line("mask and truth",
+                         fmt::format("agree by {:.3f} (1 all, 0 as by chance)", *check.agreement));
     }
     return text + (check.sentence.empty() ? "The case can be scored.\n" : check.sentence + "\n");
 }

@@ -52,10 +52,9 @@ std::vector<std::string> known_names()
     const auto same_leaf = std::ranges::find_if(names, [&](const std::string& known) {
         return known.find('.') != std::string::npos && key_leaf(known) == key_leaf(name);
     });
-    throw InputError(fmt::format("{}unknown key {}; the nearest is {}", place.text(),
-                                 toml_excerpt({name}),
-                                 same_leaf != names.end() ? *same_leaf
-                                                          : nearest_word(name, names)));
+    throw InputError(
+        fmt::format("{}unknown key {}; the nearest is {}", place.text(), toml_excerpt({name}),
+                    same_leaf != names.end() ? *same_leaf : nearest_word(name, names)));
 }
 
 /// Reads a case.toml, member by member.
@@ -158,11 +157,12 @@ private:
     void take_point(TomlTable& light, Layer& layer) const
     {
         const auto type = std::ranges::find(light, "type", &TomlMember::key);
-        const auto* word = type == light.end() ? nullptr : std::get_if<std::string>(&type->node.value);
+        const auto* word =
+            type == light.end() ? nullptr : std::get_if<std::string>(&type->node.value);
         if (word != nullptr && *word == light_type_name(LightType::point)) {
-            layer.push_back({find_key("light.type"), JobValue{*word},
-                             fmt::format("{}light.type = \"point\"",
-                                         KeyPlace{source_, type->line}.text())});
+            layer.push_back(
+                {find_key("light.type"), JobValue{*word},
+                 fmt::format("{}light.type = \"point\"", KeyPlace{source_, type->line}.text())});
             light.erase(type);
         }
     }
@@ -183,7 +183,8 @@ private:
              {"camera.up", "camera.vertical_fov_deg", "camera.orthographic_height"}) {
             const Setting* other = find(layer, key);
             if (other != nullptr && target == nullptr) {
-                throw InputError(other->label + ": needs camera.target; camera.eye may stand alone");
+                throw InputError(other->label +
+                                 ": needs camera.target; camera.eye may stand alone");
             }
         }
         if (target != nullptr && eye == nullptr) {
@@ -203,16 +204,15 @@ private:
 std::string own_exporter(const TomlTable& table)
 {
     const auto conventions = std::ranges::find(table, "conventions", &TomlMember::key);
-    const auto* keys = conventions == table.end()
-                           ? nullptr
-                           : std::get_if<TomlTable>(&conventions->node.value);
+    const auto* keys =
+        conventions == table.end() ? nullptr : std::get_if<TomlTable>(&conventions->node.value);
     if (keys == nullptr) {
         return {};
     }
     const auto from = std::ranges::find(*keys, "from", &TomlMember::key);
     const auto* word = from == keys->end() ? nullptr : std::get_if<std::string>(&from->node.value);
-    const bool is_known = word != nullptr && std::ranges::find(exporter_names(), *word) !=
-                                                 exporter_names().end();
+    const bool is_known =
+        word != nullptr && std::ranges::find(exporter_names(), *word) != exporter_names().end();
     return is_known ? *word : std::string{}; // another word is refused where it is read
 }
 
@@ -220,6 +220,10 @@ void settle_space(CaseDraft& draft)
 {
     const std::string& source = draft.file.source.name;
     if (!draft.up.empty() || !draft.handedness.empty()) {
+        if (draft.has_own_axes) {
+            throw InputError(source + ": conventions.axes and conventions.up or handedness exclude "
+                                      "each other; keep one");
+        }
         draft.axes = axes_of(draft.up, draft.handedness);
     }
     if (!draft.axes.empty()) {
@@ -227,7 +231,8 @@ void settle_space(CaseDraft& draft)
         if (!axes) {
             throw InputError(fmt::format("{}: conventions.axes = [{}]: must be x, y and z in any "
                                          "order, each with or without a minus",
-                                         source, one_line(fmt::format("{}", fmt::join(draft.axes, ", ")))));
+                                         source,
+                                         one_line(fmt::format("{}", fmt::join(draft.axes, ", ")))));
         }
         draft.file.space.axes = *axes;
     }

@@ -14,7 +14,8 @@
 
 namespace gnomon::scene {
 
-/// Names of an image's channels, the first that there is counts; of vectors what stands before ".X".
+/// Names of an image's channels, the first that there is counts; of vectors what stands before
+/// ".X".
 struct ChannelNames {
     std::vector<std::string> shadow{"shadow.V"};
     std::vector<std::string> valid{"valid"};
@@ -45,8 +46,8 @@ struct CaseFile {
     CaseSpace space;
     std::map<std::string, std::uint32_t> object_numbers; ///< by name; empty: as in the mesh file
     std::optional<Vec3d> eye;                            ///< float32-representable [m]
-    /// What goes by a job's keys: mesh, roles, light, the whole camera, and the renderer's settings.
-    /// The image's size is not among them.
+    /// What goes by a job's keys: mesh, roles, light, the whole camera, and the renderer's
+    /// settings. The image's size is not among them.
     JobSource source;
 
     /// True if that key of a job is given.

@@ -86,32 +86,37 @@ std::vector<CaseKey> file_keys()
     return {
         {"schema", IntegerDomain{1, 1},
          [](CaseDraft& draft, const JobValue&) { draft.has_schema = true; }},
-        plain_key<Text>("name", TextDomain{},
-                        [](CaseDraft& draft) -> auto& { return draft.file.name; }),
-        plain_key<Text>("renderer", TextDomain{},
-                        [](CaseDraft& draft) -> auto& { return draft.file.renderer; }),
-        plain_key<Text>("image", TextDomain{},
-                        [](CaseDraft& draft) -> auto& { return draft.file.image; }),
-        plain_key<Text>("map.file", TextDomain{},
-                        [](CaseDraft& draft) -> auto& { return draft.file.map; }),
+        plain_key<Text>(
+            "name", TextDomain{}, [](CaseDraft & draft) -> auto& { return draft.file.name; }),
+        plain_key<Text>(
+            "renderer", TextDomain{},
+            [](CaseDraft & draft) -> auto& { return draft.file.renderer; }),
+        plain_key<Text>(
+            "image", TextDomain{}, [](CaseDraft & draft) -> auto& { return draft.file.image; }),
+        plain_key<Text>(
+            "map.file", TextDomain{}, [](CaseDraft & draft) -> auto& { return draft.file.map; }),
         renamed_key("mesh.file", "scene.file"),
         renamed_key("mesh.no_cast", "scene.no_cast"),
         renamed_key("mesh.no_receive", "scene.no_receive"),
         {"conventions.from", WordDomain{exporter_names()}, [](CaseDraft&, const JobValue&) {}},
-        plain_key<Text>("conventions.up", WordDomain{{"y", "z"}},
-                        [](CaseDraft& draft) -> auto& { return draft.up; }),
-        plain_key<Text>("conventions.handedness", WordDomain{{"right", "left"}},
-                        [](CaseDraft& draft) -> auto& { return draft.handedness; }),
-        plain_key<Names>("conventions.axes", TextListDomain{},
-                         [](CaseDraft& draft) -> auto& { return draft.axes; }),
-        plain_key<double>("conventions.metres_per_unit", unit_m, [](CaseDraft& draft) -> auto& {
-            return draft.file.space.metres_per_unit;
-        }),
-        plain_key<double>("conventions.mesh_metres_per_unit", unit_m,
-                          [](CaseDraft& draft) -> auto& { return draft.mesh_metres_per_unit; }),
-        plain_key<Vec3d>("conventions.background", VectorDomain{}, [](CaseDraft& draft) -> auto& {
-            return draft.file.conventions.background;
-        }),
+        plain_key<Text>(
+            "conventions.up", WordDomain{{"y", "z"}},
+            [](CaseDraft & draft) -> auto& { return draft.up; }),
+        plain_key<Text>(
+            "conventions.handedness", WordDomain{{"right", "left"}},
+            [](CaseDraft & draft) -> auto& { return draft.handedness; }),
+        plain_key<Names>(
+            "conventions.axes", TextListDomain{},
+            [](CaseDraft & draft) -> auto& { return draft.axes; }),
+        plain_key<double>(
+            "conventions.metres_per_unit", unit_m,
+            [](CaseDraft & draft) -> auto& { return draft.file.space.metres_per_unit; }),
+        plain_key<double>(
+            "conventions.mesh_metres_per_unit", unit_m,
+            [](CaseDraft & draft) -> auto& { return draft.mesh_metres_per_unit; }),
+        plain_key<Vec3d>(
+            "conventions.background", VectorDomain{},
+            [](CaseDraft & draft) -> auto& { return draft.file.conventions.background; }),
     };
 }
 
@@ -127,10 +132,10 @@ std::vector<CaseKey> channel_keys()
         channel_key("z_map", &ChannelNames::z_map),
         plain_key<double>(
             "channels.lit_above", RealDomain{.lower = -1e30, .upper = 1e30},
-            [](CaseDraft& draft) -> auto& { return draft.file.conventions.lit_above; }),
+            [](CaseDraft & draft) -> auto& { return draft.file.conventions.lit_above; }),
         plain_key<bool>(
             "channels.fractions", FlagDomain{},
-            [](CaseDraft& draft) -> auto& { return draft.file.conventions.has_fractions; }),
+            [](CaseDraft & draft) -> auto& { return draft.file.conventions.has_fractions; }),
     };
 }
 
@@ -167,10 +172,9 @@ void apply_exporter(CaseDraft& draft, std::string_view exporter)
     draft.file.space.metres_per_unit = found->metres_per_unit;
     draft.file.conventions.background = found->background;
     ChannelNames& channels = draft.file.conventions.channels;
-    for (const auto names :
-         {&ChannelNames::shadow, &ChannelNames::valid, &ChannelNames::position,
-          &ChannelNames::normal, &ChannelNames::object, &ChannelNames::z_light,
-          &ChannelNames::z_map}) {
+    for (const auto names : {&ChannelNames::shadow, &ChannelNames::valid, &ChannelNames::position,
+                             &ChannelNames::normal, &ChannelNames::object, &ChannelNames::z_light,
+                             &ChannelNames::z_map}) {
         append(channels.*names, found->channels.*names);
     }
 }

@@ -19,6 +19,7 @@ struct CaseDraft {
     std::string up;
     std::string handedness;
     std::vector<std::string> axes;
+    bool has_own_axes = false; ///< not an exporter's
     double mesh_metres_per_unit = 1;
 };
 

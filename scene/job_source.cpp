@@ -139,7 +139,8 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
     } else {
         source.folder = path.parent_path();
         TomlTable keys;
-        for (TomlMember& member : parse_toml(read_text_file(path, source.name, "job file"), source.name)) {
+        for (TomlMember& member :
+             parse_toml(read_text_file(path, source.name, "job file"), source.name)) {
             if (member.key == "case") {
                 source.cases = read_cases(member, source.name);
             } else if (member.key == "sweep") {

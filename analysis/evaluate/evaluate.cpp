@@ -45,10 +45,10 @@ std::map<std::uint32_t, std::uint32_t> objects_by_number(const Case& subject)
             for (const scene::Object& object : subject.mesh.objects) {
                 known.push_back(object.name);
             }
-            throw scene::InputError(fmt::format(
-                "{}: objects.{}: the mesh has no such object; the nearest is {}",
-                subject.file.source.name, scene::toml_excerpt({name}),
-                scene::toml_excerpt({scene::nearest_word(name, known)})));
+            throw scene::InputError(
+                fmt::format("{}: objects.{}: the mesh has no such object; the nearest is {}",
+                            subject.file.source.name, scene::toml_excerpt({name}),
+                            scene::toml_excerpt({scene::nearest_word(name, known)})));
         }
         objects[number] =
             static_cast<std::uint32_t>(std::distance(subject.mesh.objects.begin(), found));
@@ -113,11 +113,9 @@ Image<Vec3f> seen_sides(const Case& subject, const CheckedCase& checked)
             continue;
         }
         const auto [a, b, c] = subject.mesh.corners(triangle);
-        const Vec3d normal =
-            glm::normalize(glm::cross(Vec3d{b} - Vec3d{a}, Vec3d{c} - Vec3d{a}));
-        double side = subject.layers.normal.empty()
-                          ? 0.0
-                          : glm::dot(normal, Vec3d{subject.layers.normal[i]});
+        const Vec3d normal = glm::normalize(glm::cross(Vec3d{b} - Vec3d{a}, Vec3d{c} - Vec3d{a}));
+        double side =
+            subject.layers.normal.empty() ? 0.0 : glm::dot(normal, Vec3d{subject.layers.normal[i]});
         if (!(std::abs(side) > 0) && subject.file.eye) {
             side = glm::dot(normal, *subject.file.eye - Vec3d{subject.layers.position[i]});
         }
@@ -185,19 +183,18 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
         cannot("unmoved.*: the lookup without a normal offset");
         return;
     }
-    const std::string disagreement =
-        find_disagreement(comparison.view, subject.layers, subject.mesh,
-                          comparison.receivers.triangle,
-                          evaluation.import_check.distances.tolerance_m);
+    const std::string disagreement = find_disagreement(
+        comparison.view, subject.layers, subject.mesh, comparison.receivers.triangle,
+        evaluation.import_check.distances.tolerance_m);
     if (!disagreement.empty()) {
         cannot(disagreement);
         return;
     }
     evaluation.has_map = true;
-    comparison.diagnosis = diagnose(
-        comparison.job, comparison.view,
-        {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup},
-        recorded_renderers(subject, truth));
+    comparison.diagnosis =
+        diagnose(comparison.job, comparison.view,
+                 {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup},
+                 recorded_renderers(subject, truth));
 }
 
 /// What r and d say where nothing else does.
@@ -206,22 +203,21 @@ void find_some_causes(const Case& subject, Comparison& comparison)
     const scene::CaseLayers& layers = subject.layers;
     const bool has_one_tap = subject.file.says("lookup.filter") &&
                              comparison.job.lookup.filter == scene::Filter::nearest;
-    const bool is_unmoved = subject.file.says("bias.normal_texels") &&
-                            comparison.job.bias.normal_texels == 0;
+    const bool is_unmoved =
+        subject.file.says("bias.normal_texels") && comparison.job.bias.normal_texels == 0;
     Evaluation& evaluation = *comparison.evaluation;
     std::vector<std::string> missing;
-    for (const auto& [is_there, what] :
-         {std::pair{!layers.z_light.empty(), "z.light"},
-          {!layers.z_map.empty(), "z.map"},
-          {has_one_tap, "lookup.filter = \"nearest\""},
-          {is_unmoved, "bias.normal_texels = 0"}}) {
+    for (const auto& [is_there, what] : {std::pair{!layers.z_light.empty(), "z.light"},
+                                         {!layers.z_map.empty(), "z.map"},
+                                         {has_one_tap, "lookup.filter = \"nearest\""},
+                                         {is_unmoved, "bias.normal_texels = 0"}}) {
         if (!is_there) {
             missing.emplace_back(what);
         }
     }
     if (missing.empty()) {
-        evaluation.bias_causes = find_bias_causes(layers, comparison.truth,
-                                                  comparison.job.shadow_map.frustum.reversed);
+        evaluation.bias_causes =
+            find_bias_causes(layers, comparison.truth, comparison.job.shadow_map.frustum.reversed);
     } else {
         evaluation.cannot_know.push_back({"which pixels are wrong by the bias", listed(missing)});
     }
@@ -308,8 +304,8 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     if (found.has_both()) {
         check.agreement = found.index();
     }
-    note(check, check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth,
-                           truth));
+    note(check,
+         check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth, truth));
     return checked;
 }
 
@@ -326,13 +322,11 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.truth_method = "exact for all positions that round to P";
     result.environment = {subject.file.renderer, "another renderer", truth.embree, truth.gnomon};
     result.evaluation = make_evaluation(subject, checked);
-    result.metrics = measure(result.truth, result.lookup,
-                             subject.file.says("lookup.filter")
-                                 ? equal_taps(result.job.lookup.filter)
-                                 : 0);
-    result.evaluation->by_object =
-        errors_by_object(result.truth.pixel_class, result.lookup, result.receivers.triangle,
-                         subject.mesh);
+    result.metrics =
+        measure(result.truth, result.lookup,
+                subject.file.says("lookup.filter") ? equal_taps(result.job.lookup.filter) : 0);
+    result.evaluation->by_object = errors_by_object(result.truth.pixel_class, result.lookup,
+                                                    result.receivers.triangle, subject.mesh);
     find_all_causes(subject, truth, result);
     if (!result.diagnosis) {
         find_some_causes(subject, result);

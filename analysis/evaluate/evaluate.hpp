@@ -37,7 +37,6 @@ struct CheckedCase {
 /// do not tell; everything that reports show of GL's comparisons is in its place.
 /// @param checked  without a mistake.
 /// @return  It refers to the subject's mesh.
-[[nodiscard]] Comparison evaluate(const Case& subject, CheckedCase checked,
-                                  const CaseTruth& truth);
+[[nodiscard]] Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& truth);
 
 } // namespace gnomon::analysis

@@ -25,8 +25,8 @@ struct ImportDistances {
 /// What of a case is as it should be, and what looks like a mistake.
 struct ImportCheck {
     ImportDistances distances;
-    /// How much better than chance mask and truth agree: share of lit pixels that are lit plus share
-    /// of blocked ones that are shadowed, minus 1; empty where one kind is missing.
+    /// How much better than chance mask and truth agree: share of lit pixels that are lit plus
+    /// share of blocked ones that are shadowed, minus 1; empty where one kind is missing.
     std::optional<double> agreement;
     std::string mistake = {};  ///< "units", "axes", …; empty: none found
     std::string sentence = {}; ///< that names the mistake and what to do; empty: none found
@@ -57,7 +57,8 @@ struct Evaluation {
     ImportCheck import_check;
     scene::Image<scene::Vec3f> points; ///< P, as the renderer says it; NaN where nothing is judged
     scene::Image<scene::Vec3f> normal; ///< of T, on the side that is seen; NaN: not known
-    /// By how much P's rounding box was grown to meet the plane of T [m]: the largest, and how many.
+    /// By how much P's rounding box was grown to meet the plane of T [m]: the largest, and how
+    /// many.
     double largest_growth_m = 0;
     std::uint64_t grown_pixels = 0;
     bool has_camera = false; ///< the view's camera is the renderer's

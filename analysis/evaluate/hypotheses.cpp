@@ -23,8 +23,7 @@ int rank(const MixedAxes& axes)
     if (axes == z_up || axes == from_z_up) {
         return 1;
     }
-    const bool keeps_places =
-        axes[0].of_mesh == 0 && axes[1].of_mesh == 1 && axes[2].of_mesh == 2;
+    const bool keeps_places = axes[0].of_mesh == 0 && axes[1].of_mesh == 1 && axes[2].of_mesh == 2;
     const auto negatives = std::ranges::count(axes, -1.0, &Axis::sign);
     if (keeps_places && negatives == 1) {
         return 2;
@@ -81,8 +80,9 @@ MixedAxes mixed_twice(const MixedAxes& first, const MixedAxes& second)
 std::string axes_text(const MixedAxes& axes)
 {
     const auto word = [](const Axis& axis) {
-        return fmt::format("\"{}{}\"", axis.sign < 0 ? "-" : "",
-                           std::string_view{"xyz"}.substr(static_cast<std::size_t>(axis.of_mesh), 1));
+        return fmt::format(
+            "\"{}{}\"", axis.sign < 0 ? "-" : "",
+            std::string_view{"xyz"}.substr(static_cast<std::size_t>(axis.of_mesh), 1));
     };
     return fmt::format("[{}, {}, {}]", word(axes[0]), word(axes[1]), word(axes[2]));
 }

@@ -50,8 +50,8 @@ Image<float> flipped(const Image<float>& mask, bool rows)
 }
 
 /// Classes of the pixels that also the flipped image judges.
-Image<PixelClass> judged_in_both(const Image<PixelClass>& classes, const Image<scene::Vec3f>& points,
-                                 bool rows)
+Image<PixelClass> judged_in_both(const Image<PixelClass>& classes,
+                                 const Image<scene::Vec3f>& points, bool rows)
 {
     const auto [width, height] = classes.size();
     Image<PixelClass> result = classes;

@@ -38,8 +38,10 @@ struct MaskAgreement {
 ///
 /// A mask that is all lit or all shadowed shows none of them, and is left to the scores.
 /// @param truth  of `receivers` and the case's light.
-[[nodiscard]] std::optional<ImportMistake>
-check_mask(const scene::CaseLayers& layers, const scene::Light& light, const scene::RoundedReceivers& receivers,
-           const scene::RoundedTruth& truth, const CaseTruth& finders);
+[[nodiscard]] std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers,
+                                                      const scene::Light& light,
+                                                      const scene::RoundedReceivers& receivers,
+                                                      const scene::RoundedTruth& truth,
+                                                      const CaseTruth& finders);
 
 } // namespace gnomon::analysis

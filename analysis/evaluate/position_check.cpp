@@ -49,8 +49,8 @@ std::vector<Vec3d> judged_points(const scene::Image<Vec3f>& position)
 
 double quantile(std::vector<double>& values, double share)
 {
-    const auto at = static_cast<std::ptrdiff_t>(
-        std::ceil(share * static_cast<double>(values.size())) - 1);
+    const auto at =
+        static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size())) - 1);
     const auto nth = values.begin() + std::max<std::ptrdiff_t>(at, 0);
     std::nth_element(values.begin(), nth, values.end());
     return *nth;
@@ -155,8 +155,7 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
     }
     const auto unit = std::ranges::find(unit_mistakes(), found.factor, &UnitMistake::factor);
     if (found.axes == all_axes().front()) {
-        return {"units",
-                fmt::format("{}: set {}", unit->words, unit_remedy(found, file))};
+        return {"units", fmt::format("{}: set {}", unit->words, unit_remedy(found, file))};
     }
     // What corrects P turned it into the space that the mesh was moved to; the mesh belongs into
     // that of P.
@@ -167,8 +166,7 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
     }
     const MixedAxes axes = mixed_twice(file.space.axes, back);
     const bool is_left = mirrors(found.axes);
-    const std::string units =
-        found.factor == 1 ? "" : fmt::format(", and {}", unit->words);
+    const std::string units = found.factor == 1 ? "" : fmt::format(", and {}", unit->words);
     const std::string remedy =
         found.factor == 1 ? "" : fmt::format(" and {}", unit_remedy(found, file));
     return {is_left ? "handedness" : "axes",
@@ -185,8 +183,8 @@ std::optional<Vec3d> shared_position(const std::vector<Vec3d>& points)
     for (const Vec3d& p : points) {
         ++counts[{p.x, p.y, p.z}];
     }
-    const auto most = std::ranges::max_element(
-        counts, {}, [](const auto& entry) { return entry.second; });
+    const auto most =
+        std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
     if (most->second < 16 || most->second * 100 < points.size()) {
         return std::nullopt;
     }
@@ -282,8 +280,8 @@ PositionCheck check_positions(const scene::CaseFile& file, const scene::CaseLaye
 {
     const std::vector<Vec3d> points = judged_points(layers.position);
     PositionCheck check;
-    check.distances = summarise_distances(distances_of(truth, points), file.space.metres_per_unit,
-                                          tolerance_m);
+    check.distances =
+        summarise_distances(distances_of(truth, points), file.space.metres_per_unit, tolerance_m);
     const bool is_off = !(check.distances.p99_m <= tolerance_m);
     if (are_rounded_to_half(layers.position, is_off)) {
         check.mistake = {"half_float",

@@ -39,7 +39,7 @@ struct PositionCheck {
 /// floats, units, axes, handedness, camera-relative, or the position of pixels that show nothing.
 /// @param truth  of the mesh in the renderer's space.
 [[nodiscard]] PositionCheck check_positions(const scene::CaseFile& file,
-                                            const scene::CaseLayers& layers,
-                                            const CaseTruth& truth, double tolerance_m);
+                                            const scene::CaseLayers& layers, const CaseTruth& truth,
+                                            double tolerance_m);
 
 } // namespace gnomon::analysis

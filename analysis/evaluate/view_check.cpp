@@ -58,7 +58,8 @@ double median_off_ray(const View& view, const scene::CaseLayers& layers, bool ro
 {
     const auto [width, height] = view.image;
     std::vector<double> shares;
-    const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(view.image.pixel_count()) / 4096)));
+    const int step = std::max(
+        1, static_cast<int>(std::sqrt(static_cast<double>(view.image.pixel_count()) / 4096)));
     for (int y = 0; y < height; y += step) {
         for (int x = 0; x < width; x += step) {
             if (is_judged_point(layers.position(x, y))) {
@@ -169,9 +170,9 @@ std::optional<ImportMistake> check_camera(const View& view, const scene::CaseLay
         median_off_ray(view, layers, false, false) <= 2 * pixel) {
         return std::nullopt;
     }
-    for (const auto& [rows, columns, words] :
-         {std::tuple{true, false, "rows"}, {false, true, "columns"},
-          {true, true, "rows and columns"}}) {
+    for (const auto& [rows, columns, words] : {std::tuple{true, false, "rows"},
+                                               {false, true, "columns"},
+                                               {true, true, "rows and columns"}}) {
         if (median_off_ray(view, layers, rows, columns) <= 2 * pixel) {
             return ImportMistake{"flipped_image",
                                  fmt::format("the image is flipped against the camera: its {} are "

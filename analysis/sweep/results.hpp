@@ -61,7 +61,7 @@ struct DistanceProfile {
 
 /// What the configurations that differ in nothing but the constant bias have in common.
 struct CurveResult {
-    std::string id;    ///< `Configuration::curve`
+    std::string id;               ///< `Configuration::curve`
     std::optional<double> near_m; ///< of the map, as fitted; empty: another renderer's, not known
     std::optional<double> far_m;
     std::optional<std::uint64_t> map_bytes;

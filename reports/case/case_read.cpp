@@ -166,9 +166,10 @@ scene::Image<Vec3f> read_position(CaseImageFile& file, const scene::CaseFile& de
     const auto& names = description.conventions.channels.position;
     const auto channels = file.find_vector(names);
     if (!channels) {
-        file.refuse(fmt::format("no channel {}.X: the world position of each pixel is required; {}; "
-                                "channels.position gives it another name",
-                                scene::one_line(names.front()), file.listing()));
+        file.refuse(
+            fmt::format("no channel {}.X: the world position of each pixel is required; {}; "
+                        "channels.position gives it another name",
+                        scene::one_line(names.front()), file.listing()));
     }
     constexpr std::string_view why =
         "near 100 half's step is 0.0625, and no shadow can be judged from there; write full floats";

@@ -154,8 +154,8 @@ std::string case_toml(const analysis::Comparison& comparison, const CaseExtras& 
     const std::string& renderer = comparison.environment.gl_renderer;
     std::string text = "schema = 1\n";
     text += fmt::format("name = {}\n", scene::toml_quoted(comparison.scene.name));
-    text += fmt::format("renderer = {}\n",
-                        scene::toml_quoted(renderer.empty() ? "unknown" : renderer));
+    text +=
+        fmt::format("renderer = {}\n", scene::toml_quoted(renderer.empty() ? "unknown" : renderer));
     text += "\n[mesh]\nfile = \"mesh.glb\"\n";
     text += fmt::format("no_cast = [{}]\n", name_list(scene, &scene::Object::casts));
     text += fmt::format("no_receive = [{}]\n", name_list(scene, &scene::Object::receives));
@@ -175,9 +175,9 @@ void make_case_folder(const std::filesystem::path& folder)
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
-        throw scene::EnvironmentError(
-            fmt::format("{}: the folder cannot be made: {}; name another",
-                        scene::one_line(folder.string()), error.message()));
+        throw scene::EnvironmentError(fmt::format("{}: the folder cannot be made: {}; name another",
+                                                  scene::one_line(folder.string()),
+                                                  error.message()));
     }
 }
 

@@ -15,7 +15,7 @@ struct CaseExtras {
     scene::Image<scene::Vec3f> points; ///< P of each pixel [m], NaN where there is no receiver
     scene::CameraSettings camera;      ///< of the comparison's view, also where its job has none
     scene::LightSettings light;
-    scene::LookupLayers unmoved;     ///< the lookup without any bias; empty: it can be derived
+    scene::LookupLayers unmoved;    ///< the lookup without any bias; empty: it can be derived
     scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
 };
 

@@ -142,10 +142,9 @@ private:
 
     std::size_t add_indices(const std::vector<std::uint32_t>& indices)
     {
-        return add_view(indices.data(), indices.size() * sizeof(std::uint32_t), index_target,
-                        {{"componentType", uint_component},
-                         {"count", indices.size()},
-                         {"type", "SCALAR"}});
+        return add_view(
+            indices.data(), indices.size() * sizeof(std::uint32_t), index_target,
+            {{"componentType", uint_component}, {"count", indices.size()}, {"type", "SCALAR"}});
     }
 
     const scene::TriangleScene& scene_;

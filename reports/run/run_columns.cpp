@@ -248,8 +248,7 @@ const CurveColumns& map_columns()
          [](const CurveResult& curve) {
              return curve.map_bytes ? count(*curve.map_bytes) : Value{};
          }},
-        {"bias_source", text_type,
-         [](const CurveResult& curve) {
+        {"bias_source", text_type, [](const CurveResult& curve) {
              // Of another renderer whose map is not known nothing knows other biases.
              return curve.best || curve.map_bytes
                         ? Value{std::string{curve.best ? "curve" : "rerun"}}

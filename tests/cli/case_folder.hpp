@@ -42,8 +42,7 @@ inline void write_channels(const std::filesystem::path& file, const CaseChannelI
                            return std::bit_cast<std::uint32_t>(image[i]);
                        }});
     }
-    reports::write_file(file,
-                        reports::encode_exr(channels.begin()->second.size(), all, {}));
+    reports::write_file(file, reports::encode_exr(channels.begin()->second.size(), all, {}));
 }
 
 /// GL's verdict on a scene as a case in a folder of its own.
@@ -52,9 +51,9 @@ public:
     /// @param more  arguments of `compare`.
     explicit CaseFolder(const std::string& builtin, const std::vector<std::string>& more = {})
     {
-        std::vector<std::string> arguments{
-            "compare",       "--builtin", builtin, "--export-case", path(), "--json",
-            "--set",         "image.width=240", "--set", "image.height=136"};
+        std::vector<std::string> arguments{"compare", "--builtin",       builtin, "--export-case",
+                                           path(),    "--json",          "--set", "image.width=240",
+                                           "--set",   "image.height=136"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         compared = gnomon(arguments);
         EXPECT_EQ(compared.exit_code, 0) << compared.command << compared.err;

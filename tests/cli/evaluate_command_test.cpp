@@ -36,8 +36,9 @@ TEST(Evaluate, GivesTheCountsOfCompareForGlsOwnCase)
         {"sphere-cube", {"--set", "lookup.filter=hardware"}},
         {"terrain", {"--set", "lookup.filter=linear", "--set", "bias.slope=1e-4"}},
         {"wall", {"--set", "shadow_map.reversed=true", "--set", "shadow_map.fit=camera"}},
-        {"room", {"--set", "camera.eye=[0,2,6]", "--set", "camera.target=[0,0.5,0]", "--set",
-                  "camera.orthographic_height=4"}},
+        {"room",
+         {"--set", "camera.eye=[0,2,6]", "--set", "camera.target=[0,0.5,0]", "--set",
+          "camera.orthographic_height=4"}},
     };
     for (const RoundTrip& trip : trips) {
         const CaseFolder folder{trip.scene, trip.settings};
@@ -48,10 +49,11 @@ TEST(Evaluate, GivesTheCountsOfCompareForGlsOwnCase)
               "peter_panning_gap_m", "bias_curve", "by_object"}) {
             EXPECT_EQ(own.at(name), back.at(name)) << folder.compared.command << "\n" << name;
         }
-        for (const char* const name : {"attached", "out_of_light", "indeterminate", "lit",
-                                       "blocked"}) {
+        for (const char* const name :
+             {"attached", "out_of_light", "indeterminate", "lit", "blocked"}) {
             EXPECT_EQ(own.at("pixels").at(name), back.at("pixels").at(name))
-                << folder.compared.command << "\n" << name;
+                << folder.compared.command << "\n"
+                << name;
         }
         EXPECT_EQ(back.at("indeterminate_kinds").at("rounding"), 0) << folder.compared.command;
         EXPECT_TRUE(back.at("evaluate").at("cannot_know").empty()) << folder.compared.command;
@@ -74,8 +76,7 @@ TEST(Evaluate, SaysAtLevel0WhatItCannotKnow)
 
 TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)
 {
-    CaseFolder folder{"yard",
-                      {"--set", "bias.constant=0.02", "--set", "lookup.filter=nearest"}};
+    CaseFolder folder{"yard", {"--set", "bias.constant=0.02", "--set", "lookup.filter=nearest"}};
     const CaseJson own = CaseJson::parse(folder.compared.out);
     folder.channels.erase("texel.X");
     folder.channels.erase("texel.Y");
@@ -193,16 +194,19 @@ TEST(Evaluate, RefusesAnImageInOneLine)
     expect([](CaseFolder& folder) { folder.channels["P.X"](120, 100) = INFINITY; },
            "P is not finite at pixel (120, 100)");
     expect([](CaseFolder& folder) { folder.channels["P.X"](120, 100) = 1e30F; }, "beyond 1e15");
-    expect([](CaseFolder& folder) { folder.channels["valid"] = scene::Image<float>{{240, 136}}; },
-           "no pixel is to be judged");
+    expect(
+        [](CaseFolder& folder) {
+            folder.channels["valid"] = scene::Image<float>{{240, 136}};
+        },
+        "no pixel is to be judged");
 }
 
 TEST(Evaluate, RefusesDamagedImagesInOneLine)
 {
     const CaseFolder folder{"sphere-plane"};
     const std::string whole = text_of(folder.at("aov.exr"));
-    for (const std::size_t length : {std::size_t{0}, std::size_t{3}, std::size_t{100},
-                                     whole.size() / 2, whole.size() - 9}) {
+    for (const std::size_t length :
+         {std::size_t{0}, std::size_t{3}, std::size_t{100}, whole.size() / 2, whole.size() - 9}) {
         std::ofstream{folder.at("aov.exr"), std::ios::binary} << whole.substr(0, length);
         expect_refused(folder.evaluate(), 2, "aov.exr");
     }

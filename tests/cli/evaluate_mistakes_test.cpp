@@ -114,12 +114,11 @@ TEST(EvaluateMistakes, NamesPositionsRelativeToTheCamera)
             [&](CaseFolder& folder) {
                 const std::size_t at = folder.toml.find("eye = [") + 7;
                 float eye[3];
-                ASSERT_EQ(std::sscanf(folder.toml.c_str() + at, "%f, %f, %f", &eye[0], &eye[1],
-                                      &eye[2]),
-                          3);
-                folder.move([&](float& x, float& y, float& z) {
-                    x -= eye[0], y -= eye[1], z -= eye[2];
-                });
+                ASSERT_EQ(
+                    std::sscanf(folder.toml.c_str() + at, "%f, %f, %f", &eye[0], &eye[1], &eye[2]),
+                    3);
+                folder.move(
+                    [&](float& x, float& y, float& z) { x -= eye[0], y -= eye[1], z -= eye[2]; });
                 if (!knows_eye) {
                     folder.drop_table("camera");
                 }
@@ -184,8 +183,8 @@ TEST(EvaluateMistakes, NamesAnAntiAliasedMask)
             const auto [width, height] = mask.size();
             for (int y = 0; y + 1 < height; ++y) {
                 for (int x = 0; x + 1 < width; ++x) {
-                    mask(x, y) = (mask(x, y) + mask(x + 1, y) + mask(x, y + 1) +
-                                  mask(x + 1, y + 1)) / 4;
+                    mask(x, y) =
+                        (mask(x, y) + mask(x + 1, y) + mask(x, y + 1) + mask(x + 1, y + 1)) / 4;
                 }
             }
         },
@@ -196,18 +195,18 @@ TEST(EvaluateMistakes, AreNotSeenInShadowsThatAreMerelyBad)
 {
     const std::vector<std::vector<std::string>> settings{
         {},
-        {"--set", "bias.constant=0"},                          // acne everywhere
-        {"--set", "bias.constant=0.9"},                        // nothing is shadowed
-        {"--set", "bias.constant=-0.01"},                      // nearly everything is
-        {"--set", "shadow_map.resolution=16"},                 // shadows of other shapes
+        {"--set", "bias.constant=0"},          // acne everywhere
+        {"--set", "bias.constant=0.9"},        // nothing is shadowed
+        {"--set", "bias.constant=-0.01"},      // nearly everything is
+        {"--set", "shadow_map.resolution=16"}, // shadows of other shapes
         {"--set", "lookup.filter=pcf9", "--set", "shadow_map.resolution=64"},
     };
     for (const std::string scene : {"sphere-plane", "wall", "room"}) {
         for (const auto& more : settings) {
             const CaseFolder folder{scene, more};
             const Ending ending = folder.evaluate({"--check"});
-            EXPECT_EQ(ending.exit_code, 0)
-                << folder.compared.command << "\n" << ending.out << ending.err;
+            EXPECT_EQ(ending.exit_code, 0) << folder.compared.command << "\n"
+                                           << ending.out << ending.err;
         }
     }
 }
