@@ -3,6 +3,7 @@
 #include "analysis/bias_reruns.hpp"
 #include "analysis/bias_verification.hpp"
 #include "analysis/diagnosis.hpp"
+#include "analysis/evaluate/evaluation.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/job.hpp"
@@ -59,8 +60,9 @@ struct Comparison {
     scene::LookupLayers lookup;
     scene::TruthLayers truth;
     Metrics metrics;
-    std::optional<Diagnosis> diagnosis; ///< empty: not asked for
-    std::vector<BiasRerun> reruns;      ///< for `hardware`, which has no bias curve; else empty
+    std::optional<Diagnosis> diagnosis;   ///< empty: not asked for
+    std::optional<Evaluation> evaluation; ///< empty: GL's own; else of another renderer's case
+    std::vector<BiasRerun> reruns;        ///< for `hardware`, which has no bias curve; else empty
     /// Empty: not asked for, or nothing to verify (`hardware`).
     std::optional<BiasVerification> verification;
     std::vector<Advice> advice;                        ///< empty: not asked for

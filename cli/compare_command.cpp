@@ -4,7 +4,9 @@
 #include "cli/command_text.hpp"
 #include "cli/compare_run.hpp"
 #include "cli/comparison_session.hpp"
+#include "cli/exported_case.hpp"
 #include "cli/job_options.hpp"
+#include "cli/kept_pixels.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/aov_exr.hpp"
 #include "reports/comparison_json.hpp"
@@ -39,6 +41,7 @@ struct CompareOptions {
     std::string depth_map_path;
     std::vector<std::string> heat_maps; ///< NAME=FILE
     std::string folder;                 ///< RUN
+    std::string case_folder;            ///< of --export-case
     std::string truth = "exact";
     bool audit = false;
     bool advise = false;
@@ -121,9 +124,7 @@ void require_writable(const CompareOptions& options)
 void write_outputs(const CompareOptions& options, const analysis::Comparison& comparison)
 {
     if (!options.aov_path.empty()) {
-        const auto points = reference_rt::receiver_points(*comparison.triangles, comparison.view,
-                                                          comparison.receivers.triangle);
-        reports::write_aov(options.aov_path, comparison, points);
+        reports::write_aov(options.aov_path, comparison, points_of(comparison));
     }
     if (!options.picture_path.empty()) {
         reports::write_picture(options.picture_path, comparison);
@@ -168,6 +169,10 @@ void require_exact_truth(const CompareOptions& options)
     }
     if (!options.folder.empty() && options.truth != "exact") {
         throw scene::InputError{"--out needs --truth exact: a run holds causes and bias curves"};
+    }
+    if (!options.case_folder.empty() && options.truth != "exact") {
+        throw scene::InputError{"--export-case needs --truth exact: the case leaves out what is "
+                                "not exact"};
     }
     if (!options.heat_maps.empty() && options.truth != "exact") {
         throw scene::InputError{"--heat-map needs --truth exact: without it there are no causes"};
@@ -215,6 +220,9 @@ void compare(const CompareOptions& options)
     const ComparisonSession session{job, session_options};
     analysis::Comparison comparison = analysis::compare(job, session.file(), session.renderers());
     write_light_view(options, comparison, session.renderers());
+    if (!options.case_folder.empty()) {
+        export_case(options.case_folder, comparison, session.file().defaults, session.renderers());
+    }
     comparison.seconds.scene += session.scene_seconds();
     comparison.seconds.bvh = session.bvh_seconds();
     if (options.audit) {
@@ -260,6 +268,9 @@ void add_compare_command(CLI::App& program)
         ->allow_extra_args(false);
     command->add_option("--out", options->folder,
                         "RUN, a folder for the result with all its layers, as of `gnomon sweep`");
+    command->add_option("--export-case", options->case_folder,
+                        "DIR, a folder for GL's shadows as a case for `gnomon evaluate` "
+                        "(docs/evaluate.md)");
     command
         ->add_option("--truth", options->truth,
                      "exact: every scored pixel is proven; float: plain Embree rays, for comparing "

@@ -9,10 +9,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace gnomon::cli {
+
+namespace {
+
+/// The defaults of keys that another renderer's case leaves out say nothing of that renderer.
+void keep_given(std::vector<std::pair<std::string, std::string>>& parameters,
+                const std::vector<std::string>& given)
+{
+    std::erase_if(parameters, [&](const auto& parameter) {
+        return std::ranges::find(given, parameter.first) == given.end();
+    });
+}
+
+} // namespace
 
 CompareRun::CompareRun(std::filesystem::path folder)
     : folder_{std::move(folder)},
@@ -42,6 +57,9 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
                        [&](const analysis::Configuration& configuration) {
                            configurations.push_back(configuration);
                        });
+    if (comparison.evaluation) {
+        keep_given(configurations.front().parameters, comparison.evaluation->given_keys);
+    }
     const analysis::Configuration& own = configurations.front();
     // Another driver's results in the folder are replaced, not mixed with.
     store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), command, command},

@@ -5,6 +5,7 @@
 #include "cli/completion.hpp"
 #include "cli/depth_command.hpp"
 #include "cli/doctor_command.hpp"
+#include "cli/evaluate_command.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/figure_command.hpp"
 #include "cli/gate_command.hpp"
@@ -53,10 +54,10 @@ void describe(CLI::App& program)
         "  gnomon compare --builtin sphere-plane\n"
         "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
         "  gnomon init job.toml\n\n"
-        "Exit status: 0 done; 1 `gate` finds a regression, `certify` refutes, or no setting meets\n"
-        "`tune`'s limits; 2 usage, or a job or scene that is bad, missing or unreadable; 3 a "
-        "baseline\nis missing, or of another environment; 4 GL, Embree or output failed; 5 a run "
-        "is incomplete;\n130 interrupted.");
+        "Exit status: 0 done; 1 `gate` finds a regression, `certify` refutes, no setting meets\n"
+        "`tune`'s limits, or `evaluate --check` finds a mistake; 2 usage, or a job, scene or case "
+        "that is\nbad, missing or unreadable; 3 a baseline is missing, or of another environment; "
+        "4 GL, Embree\nor output failed; 5 a run is incomplete; 130 interrupted.");
     gnomon::cli::add_compare_command(program);
     gnomon::cli::add_certify_command(program);
     gnomon::cli::add_tune_command(program);
@@ -66,6 +67,7 @@ void describe(CLI::App& program)
     gnomon::cli::add_report_command(program);
     gnomon::cli::add_gate_command(program);
     gnomon::cli::add_baseline_command(program);
+    gnomon::cli::add_evaluate_command(program);
     gnomon::cli::add_capture_kit_command(program);
     gnomon::cli::add_figure_command(program);
     gnomon::cli::add_depth_command(program);

@@ -1,10 +1,12 @@
 #include "reports/comparison_json.hpp"
 
 #include "reports/diagnosis_json.hpp"
+#include "reports/evaluation_json.hpp"
 #include "reports/exact_inputs.hpp"
 #include "reports/json_values.hpp"
 #include "scene/job_file.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace gnomon::reports {
@@ -83,10 +85,15 @@ Json seconds(const analysis::StageSeconds& seconds)
 
 /// The keys' values come in TOML's syntax, which for numbers, booleans, plain strings and arrays is
 /// JSON's too; anything else stays the text that it is.
-Json job_object(const scene::Job& job)
+Json job_object(const analysis::Comparison& comparison)
 {
+    const auto& evaluation = comparison.evaluation;
     Json json = Json::object();
-    for (const auto& [key, value] : scene::resolved_keys(job)) {
+    for (const auto& [key, value] : scene::resolved_keys(comparison.job)) {
+        if (evaluation &&
+            std::ranges::find(evaluation->given_keys, key) == evaluation->given_keys.end()) {
+            continue;
+        }
         Json parsed = Json::parse(value, nullptr, false);
         json[key] = parsed.is_discarded() ? Json(value) : parsed;
     }
@@ -113,10 +120,10 @@ Json frustum_object(const scene::LightFrustum& frustum, int resolution_texels)
             {"texel_m", frustum.texel_width_m(1.0, resolution_texels)}};
 }
 
-Json exact_inputs_object(const scene::View& view)
+Json exact_inputs_object(const analysis::Comparison& comparison)
 {
     Json json = Json::object();
-    for (const ExactInput& input : exact_inputs(view)) {
+    for (const ExactInput& input : exact_inputs(comparison)) {
         json[input.name] = input.values.size() == 1 ? Json(input.values[0]) : Json(input.values);
     }
     return json;
@@ -124,9 +131,9 @@ Json exact_inputs_object(const scene::View& view)
 
 } // namespace
 
-std::string job_json(const scene::Job& job)
+std::string job_json(const analysis::Comparison& comparison)
 {
-    return text(job_object(job), -1);
+    return text(job_object(comparison), -1);
 }
 
 std::string comparison_json(const analysis::Comparison& comparison)
@@ -137,14 +144,17 @@ std::string comparison_json(const analysis::Comparison& comparison)
     json["environment"] = environment(comparison.environment);
     json["seconds"] = seconds(comparison.seconds);
     json["scene"] = scene_object(comparison.scene);
-    json["job"] = job_object(comparison.job);
+    json["job"] = job_object(comparison);
     json["frustum"] =
         frustum_object(comparison.view.frustum, comparison.job.shadow_map.resolution_texels);
     json["truth_method"] = comparison.truth_method;
     json["truth_signs"] = truth_signs(comparison.truth.signs);
     json["float_audit"] = float_audit(comparison.float_audit);
     json["subpixel_bits"] = comparison.subpixel_bits;
-    json["exact_inputs"] = exact_inputs_object(comparison.view);
+    json["exact_inputs"] = exact_inputs_object(comparison);
+    if (comparison.evaluation) {
+        add_evaluation(json, comparison);
+    }
     return text(json, 2) + "\n";
 }
 

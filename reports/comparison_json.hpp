@@ -13,7 +13,7 @@ namespace gnomon::reports {
 /// valid UTF-8 (a file's name) has its bad bytes replaced.
 [[nodiscard]] std::string comparison_json(const analysis::Comparison& comparison);
 
-/// The job's keys and values as a JSON object on one line.
-[[nodiscard]] std::string job_json(const scene::Job& job);
+/// The job's keys and values as a JSON object on one line; of another renderer's case those given.
+[[nodiscard]] std::string job_json(const analysis::Comparison& comparison);
 
 } // namespace gnomon::reports

@@ -2,6 +2,7 @@
 
 #include "reports/description.hpp"
 #include "reports/diagnosis_table.hpp"
+#include "reports/evaluation_table.hpp"
 #include "reports/table_lines.hpp"
 #include "reports/text.hpp"
 
@@ -29,6 +30,9 @@ std::string signs(const scene::TruthSigns& signs)
 
 std::string settings(const analysis::Comparison& comparison)
 {
+    if (comparison.evaluation) {
+        return evaluation_settings(comparison) + signs(comparison.truth.signs);
+    }
     const Description words = describe(comparison);
     const analysis::Environment& environment = comparison.environment;
     std::string text = setting_line("scene", comparison.scene.name);
@@ -71,7 +75,8 @@ std::string class_note(const analysis::ClassCounts& counts, PixelClass pixel_cla
     if (pixel_class == PixelClass::indeterminate) {
         return reasons(counts, {{ClassReason::silhouette, "silhouette"},
                                 {ClassReason::vertex, "vertex"},
-                                {ClassReason::graze, "graze"}});
+                                {ClassReason::graze, "graze"},
+                                {ClassReason::rounding, "rounding"}});
     }
     return scene::is_scored(pixel_class) ? "scored" : "";
 }
@@ -138,6 +143,12 @@ std::string seconds_line(const analysis::StageSeconds& seconds)
 
 std::string comparison_table(const analysis::Comparison& comparison)
 {
+    if (comparison.evaluation) {
+        return fmt::format("{}\n{}\n{}{}{}{}", settings(comparison),
+                           classes(comparison.metrics.pixels), errors(comparison.metrics),
+                           diagnosis_table(comparison), evaluation_table(comparison),
+                           findings_text(comparison));
+    }
     return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
                        classes(comparison.metrics.pixels), errors(comparison.metrics),
                        diagnosis_table(comparison), float_audit(comparison),

@@ -188,6 +188,9 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
               "by_light_distance_m", "by_receiver_angle_rad", "by_object", "findings", "advice"}) {
             json[name] = nullptr;
         }
+        if (comparison.evaluation) {
+            json["by_object"] = by_object(comparison.evaluation->by_object);
+        }
         return;
     }
     const analysis::CauseCounts& counts = diagnosis->causes.counts;

@@ -37,31 +37,6 @@ std::string named_counts(std::string_view head, const Names& names, const Counts
     return text;
 }
 
-std::string object_rows(const std::vector<analysis::ObjectErrors>& objects)
-{
-    constexpr std::size_t most_lines = 12;
-    std::vector<analysis::ObjectErrors> wrong;
-    std::ranges::copy_if(objects, std::back_inserter(wrong), [](const auto& object) {
-        return object.counts.false_shadow + object.counts.false_lit > 0;
-    });
-    if (objects.size() < 2 || wrong.empty()) {
-        return "";
-    }
-    std::ranges::stable_sort(wrong, std::greater{}, [](const analysis::ObjectErrors& object) {
-        return object.counts.false_shadow + object.counts.false_lit;
-    });
-    std::string text = "\n";
-    text += count_line("on object", "false shadow", "false lit", "");
-    for (std::size_t i = 0; i < std::min(wrong.size(), most_lines); ++i) {
-        text += count_line(wrong[i].name, grouped(wrong[i].counts.false_shadow),
-                           grouped(wrong[i].counts.false_lit), "");
-    }
-    if (wrong.size() > most_lines) {
-        text += setting_line("", fmt::format("and on {} more", wrong.size() - most_lines));
-    }
-    return text;
-}
-
 std::string causes(const analysis::Comparison& comparison)
 {
     if (!comparison.diagnosis) {
@@ -81,7 +56,7 @@ std::string causes(const analysis::Comparison& comparison)
                             counted(gap->count, "pixel"), gap->median, gap->p95, gap->max,
                             gap_texels->max));
     }
-    return text + object_rows(diagnosis.by_object);
+    return text + object_table(diagnosis.by_object);
 }
 
 /// A limit that need not exist.
@@ -142,6 +117,31 @@ std::string advice(const analysis::Comparison& comparison)
 }
 
 } // namespace
+
+std::string object_table(const std::vector<analysis::ObjectErrors>& objects)
+{
+    constexpr std::size_t most_lines = 12;
+    std::vector<analysis::ObjectErrors> wrong;
+    std::ranges::copy_if(objects, std::back_inserter(wrong), [](const auto& object) {
+        return object.counts.false_shadow + object.counts.false_lit > 0;
+    });
+    if (objects.size() < 2 || wrong.empty()) {
+        return "";
+    }
+    std::ranges::stable_sort(wrong, std::greater{}, [](const analysis::ObjectErrors& object) {
+        return object.counts.false_shadow + object.counts.false_lit;
+    });
+    std::string text = "\n";
+    text += count_line("on object", "false shadow", "false lit", "");
+    for (std::size_t i = 0; i < std::min(wrong.size(), most_lines); ++i) {
+        text += count_line(wrong[i].name, grouped(wrong[i].counts.false_shadow),
+                           grouped(wrong[i].counts.false_lit), "");
+    }
+    if (wrong.size() > most_lines) {
+        text += setting_line("", fmt::format("and on {} more", wrong.size() - most_lines));
+    }
+    return text;
+}
 
 std::string diagnosis_table(const analysis::Comparison& comparison)
 {

@@ -43,10 +43,34 @@ void add_light(std::vector<ExactInput>& inputs, const scene::Light& light)
         inputs.push_back({"light_direction", numbers(light.direction)});
         return;
     }
-    inputs.push_back({"light_type", {"spot"}});
+    inputs.push_back({"light_type", {std::string{scene::light_type_name(light.type)}}});
     inputs.push_back({"light_position", numbers(light.position)});
+    if (light.type == scene::LightType::point) {
+        return;
+    }
     inputs.push_back({"light_axis", numbers(light.direction)});
     inputs.push_back({"cos_half_cone", numbers({light.cos_half_cone})});
+}
+
+void add_camera(std::vector<ExactInput>& inputs, const scene::Camera& camera)
+{
+    inputs.push_back({"projection", {std::string{projection_name(camera.projection)}}});
+    inputs.push_back({"eye", numbers(camera.eye)});
+    inputs.push_back({"forward", numbers(camera.forward)});
+    inputs.push_back({"right", numbers(camera.right)});
+    inputs.push_back({"up", numbers(camera.up)});
+    inputs.push_back({"half_height", numbers({camera.half_height})});
+}
+
+void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
+{
+    inputs.push_back({"light_clip_from_world", row_major(view.frustum.light_clip_from_world)});
+    inputs.push_back({"near", numbers({view.frustum.near_m})});
+    inputs.push_back({"far", numbers({view.frustum.far_m})});
+    inputs.push_back({"bias_constant", numbers({static_cast<double>(view.bias.constant)})});
+    inputs.push_back({"bias_slope", numbers({static_cast<double>(view.bias.slope)})});
+    inputs.push_back(
+        {"bias_normal_texels", numbers({static_cast<double>(view.bias.normal_texels)})});
 }
 
 } // namespace
@@ -64,21 +88,26 @@ std::string hexadecimal(double value)
 std::vector<ExactInput> exact_inputs(const scene::View& view)
 {
     std::vector<ExactInput> inputs;
-    const scene::Camera& camera = view.camera;
-    inputs.push_back({"projection", {std::string{projection_name(camera.projection)}}});
-    inputs.push_back({"eye", numbers(camera.eye)});
-    inputs.push_back({"forward", numbers(camera.forward)});
-    inputs.push_back({"right", numbers(camera.right)});
-    inputs.push_back({"up", numbers(camera.up)});
-    inputs.push_back({"half_height", numbers({camera.half_height})});
+    add_camera(inputs, view.camera);
     add_light(inputs, view.light);
-    inputs.push_back({"light_clip_from_world", row_major(view.frustum.light_clip_from_world)});
-    inputs.push_back({"near", numbers({view.frustum.near_m})});
-    inputs.push_back({"far", numbers({view.frustum.far_m})});
-    inputs.push_back({"bias_constant", numbers({static_cast<double>(view.bias.constant)})});
-    inputs.push_back({"bias_slope", numbers({static_cast<double>(view.bias.slope)})});
-    inputs.push_back(
-        {"bias_normal_texels", numbers({static_cast<double>(view.bias.normal_texels)})});
+    add_map(inputs, view);
+    return inputs;
+}
+
+std::vector<ExactInput> exact_inputs(const analysis::Comparison& comparison)
+{
+    const auto& evaluation = comparison.evaluation;
+    if (!evaluation) {
+        return exact_inputs(comparison.view);
+    }
+    std::vector<ExactInput> inputs;
+    if (evaluation->has_camera) {
+        add_camera(inputs, comparison.view.camera);
+    }
+    add_light(inputs, comparison.view.light);
+    if (evaluation->has_map) {
+        add_map(inputs, comparison.view);
+    }
     return inputs;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job.hpp"
+#include "analysis/comparison.hpp"
 
 #include <string>
 #include <vector>
@@ -20,7 +20,9 @@ struct ExactInput {
 ///
 /// Vectors are x y z [m]; `light_clip_from_world` is 16 float32 values, row by row; `half_height`
 /// is tan(fov/2), or half the orthographic height [m]. A directional light has `light_direction`; a
-/// spot has `light_position`, `light_axis` and `cos_half_cone`.
+/// spot has `light_position`, `light_axis` and `cos_half_cone`, a point light `light_position`.
 [[nodiscard]] std::vector<ExactInput> exact_inputs(const scene::View& view);
+/// Those of a comparison; of another renderer's case only what the case tells.
+[[nodiscard]] std::vector<ExactInput> exact_inputs(const analysis::Comparison& comparison);
 
 } // namespace gnomon::reports

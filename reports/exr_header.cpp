@@ -12,7 +12,7 @@ std::vector<ExrAttribute> exr_header(const analysis::Comparison& comparison)
 {
     const analysis::Environment& environment = comparison.environment;
     std::vector<ExrAttribute> result{
-        {"gnomon:job", job_json(comparison.job)},
+        {"gnomon:job", job_json(comparison)},
         {"gnomon:scene", comparison.scene.name},
         {"gnomon:scene_hash", comparison.scene.hash},
         {"gnomon:truth_method", comparison.truth_method},
@@ -21,7 +21,7 @@ std::vector<ExrAttribute> exr_header(const analysis::Comparison& comparison)
         {"gnomon:embree", environment.embree},
         {"gnomon:version", environment.gnomon},
     };
-    for (const ExactInput& input : exact_inputs(comparison.view)) {
+    for (const ExactInput& input : exact_inputs(comparison)) {
         result.push_back({"gnomon:" + input.name, fmt::format("{}", fmt::join(input.values, " "))});
     }
     return result;

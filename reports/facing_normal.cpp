@@ -10,6 +10,9 @@ using scene::Vec3d;
 
 Vec3d facing_normal(const analysis::Comparison& comparison, int x, int y)
 {
+    if (comparison.evaluation) {
+        return Vec3d{comparison.evaluation->normal(x, y)};
+    }
     const auto [a, b, c] = comparison.triangles->corners(comparison.receivers.triangle(x, y));
     const Vec3d origin{a};
     const Vec3d across = glm::cross(Vec3d{b} - origin, Vec3d{c} - origin);

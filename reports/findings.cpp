@@ -275,7 +275,8 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     }
     const std::string hint = what_to_try(comparison.view.bias, counts);
     if (sentences.size() < 3 && comparison.advice.empty() && !hint.empty()) {
-        append(sentences, fmt::format("{}; --advise measures it.", hint));
+        append(sentences,
+               fmt::format("{}{}", hint, comparison.evaluation ? "." : "; --advise measures it."));
     }
     return sentences;
 }

@@ -12,7 +12,6 @@
 #include <fstream>
 #include <optional>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -54,9 +53,10 @@ public:
         constexpr std::uint32_t magic = 20000630;
         constexpr std::uint32_t version = 2;
         constexpr std::uint32_t long_names = 0x400; // the only flag that plain scanlines may have
-        if (word() != magic || (word() & ~long_names) != version) {
-            refuse("not an EXR file of plain scanlines");
+        if (word() != magic) {
+            refuse("not an EXR file");
         }
+        refuse_layout(word() & ~long_names, version);
         std::optional<ImageSize> size;
         for (int i = 0; i < most_attributes; ++i) {
             const std::string name = text();
@@ -79,6 +79,23 @@ public:
 
 private:
     using Window = std::array<std::int32_t, 4>; // left, top, right, bottom; inclusive
+
+    /// @param flags  the version's, but for those that plain scanlines may have.
+    void refuse_layout(std::uint32_t flags, std::uint32_t version)
+    {
+        constexpr std::uint32_t tiled = 0x200;
+        constexpr std::uint32_t deep = 0x800;
+        constexpr std::uint32_t multi_part = 0x1000;
+        if ((flags & multi_part) != 0) {
+            refuse("an EXR file of several parts; it must have one");
+        }
+        if ((flags & (tiled | deep)) != 0) {
+            refuse("an EXR file of tiles or deep pixels; it must have plain scanlines");
+        }
+        if (flags != version) {
+            refuse("an EXR file of an unknown version");
+        }
+    }
 
     [[noreturn]] ImageSize throw_no_window() { refuse("the header has no data window"); }
 
@@ -205,16 +222,38 @@ bool LayerFile::has(const std::string& name)
     return reader().spec.channelindex(name) >= 0;
 }
 
-template <typename Value>
-scene::Image<Value> LayerFile::channel(const std::string& name)
+LayerType LayerFile::type(const std::string& name)
 {
-    constexpr auto type =
-        std::is_same_v<Value, float> ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32;
-    Reader& from = reader();
-    const int index = from.spec.channelindex(name);
-    if (index < 0 || from.spec.channelformat(index) != type) {
+    const OIIO::ImageSpec& spec = reader().spec;
+    const int index = spec.channelindex(name);
+    if (index < 0) {
+        return LayerType::missing;
+    }
+    const OIIO::TypeDesc type = spec.channelformat(index);
+    return type == OIIO::TypeDesc::FLOAT    ? LayerType::float32
+           : type == OIIO::TypeDesc::HALF   ? LayerType::float16
+           : type == OIIO::TypeDesc::UINT32 ? LayerType::uint32
+                                            : LayerType::other;
+}
+
+std::vector<std::string> LayerFile::names()
+{
+    const auto& names = reader().spec.channelnames;
+    return {names.begin(), names.end()};
+}
+
+std::uint64_t LayerFile::decoded_bytes()
+{
+    return reader().spec.image_bytes(true);
+}
+
+template <typename Value>
+scene::Image<Value> LayerFile::channel(const std::string& name, LayerType type)
+{
+    if (this->type(name) != type) {
         refuse(fmt::format("channel {} is missing or of another type", name));
     }
+    Reader& from = reader();
     if (from.pixels.empty()) {
         from.pixels.resize(from.spec.image_bytes(true));
         if (!from.input->read_scanlines(0, 0, 0, size_.height_px, 0, 0, from.spec.nchannels,
@@ -224,7 +263,8 @@ scene::Image<Value> LayerFile::channel(const std::string& name)
         }
     }
     const std::size_t stride = from.spec.pixel_bytes(true);
-    const std::byte* next = from.pixels.data() + from.spec.pixel_bytes(0, index, true);
+    const std::byte* next =
+        from.pixels.data() + from.spec.pixel_bytes(0, from.spec.channelindex(name), true);
     scene::Image<Value> image{size_};
     for (std::size_t i = 0; i < image.pixel_count(); ++i, next += stride) {
         std::memcpy(&image[i], next, sizeof(Value));
@@ -234,12 +274,31 @@ scene::Image<Value> LayerFile::channel(const std::string& name)
 
 scene::Image<float> LayerFile::floats(const std::string& name)
 {
-    return channel<float>(name);
+    return channel<float>(name, LayerType::float32);
 }
 
 scene::Image<std::uint32_t> LayerFile::integers(const std::string& name)
 {
-    return channel<std::uint32_t>(name);
+    return channel<std::uint32_t>(name, LayerType::uint32);
+}
+
+scene::Image<float> LayerFile::numbers(const std::string& name)
+{
+    const LayerType kept = type(name);
+    if (kept == LayerType::float32) {
+        return floats(name);
+    }
+    scene::Image<float> image{size_};
+    if (kept == LayerType::uint32) {
+        const scene::Image<std::uint32_t> from = integers(name);
+        std::ranges::transform(from, image.data(),
+                               [](std::uint32_t value) { return static_cast<float>(value); });
+        return image;
+    }
+    const auto from = channel<std::uint16_t>(name, LayerType::float16);
+    OIIO::convert_pixel_values(OIIO::TypeDesc::HALF, from.data(), OIIO::TypeDesc::FLOAT,
+                               image.data(), static_cast<int>(image.pixel_count()));
+    return image;
 }
 
 std::map<std::string, std::string> LayerFile::texts()

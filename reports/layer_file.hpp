@@ -9,10 +9,15 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::reports {
 
-/// An EXR file of `write_aov` (docs/aov.md), whose channels are read by their names.
+/// How a channel's numbers are kept.
+enum class LayerType : std::uint8_t { missing, float16, float32, uint32, other };
+
+/// An EXR file whose channels are read by their names: of `write_aov` (docs/aov.md), or of another
+/// renderer's case (docs/evaluate.md).
 ///
 /// The file may be hostile: its header is checked before anything is decoded or memory taken.
 /// Every function throws scene::InputError, one line, if the file is missing, no EXR file of
@@ -28,8 +33,14 @@ public:
 
     [[nodiscard]] scene::ImageSize size() const { return size_; }
     [[nodiscard]] bool has(const std::string& name);
+    [[nodiscard]] LayerType type(const std::string& name);
+    [[nodiscard]] std::vector<std::string> names();
+    /// What reading a channel takes, for all of them are decoded at once [bytes].
+    [[nodiscard]] std::uint64_t decoded_bytes();
     [[nodiscard]] scene::Image<float> floats(const std::string& name);
     [[nodiscard]] scene::Image<std::uint32_t> integers(const std::string& name);
+    /// A channel of any type that `type` names, as float32.
+    [[nodiscard]] scene::Image<float> numbers(const std::string& name);
     /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
     [[nodiscard]] scene::Image<scene::PixelClass> classes();
     /// The header's texts that begin with "gnomon:", by their names without it: "eye", "job", ….
@@ -39,7 +50,7 @@ private:
     struct Reader;
     [[nodiscard]] Reader& reader();
     template <typename Value>
-    [[nodiscard]] scene::Image<Value> channel(const std::string& name);
+    [[nodiscard]] scene::Image<Value> channel(const std::string& name, LayerType type);
 
     [[noreturn]] void refuse(std::string_view what) const;
 

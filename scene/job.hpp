@@ -108,7 +108,7 @@ struct SceneDefaults {
     std::optional<LightSettings> light;
 };
 
-/// Resolves camera, light, frustum and bias.
+/// Resolves camera, light, frustum and bias; of a point light camera and light alone.
 /// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
 [[nodiscard]] View resolve_view(const Job& job, const TriangleScene& scene,
                                 const SceneDefaults& defaults);

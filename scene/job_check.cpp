@@ -27,7 +27,7 @@ void check_exclusive(const Settings& settings, std::string_view first, std::stri
 }
 
 /// What the settings say of the light; `unknown` when they leave it to the scene.
-enum class KnownLight : std::uint8_t { unknown, directional, spot };
+enum class KnownLight : std::uint8_t { unknown, directional, spot, point };
 
 KnownLight known_light(const Settings& settings)
 {
@@ -36,9 +36,10 @@ KnownLight known_light(const Settings& settings)
         return KnownLight::unknown;
     }
     const Setting* type = find_setting(settings, "light.type");
-    return type != nullptr && std::get<std::string>(type->value) == "spot"
-               ? KnownLight::spot
-               : KnownLight::directional;
+    const std::string name = type != nullptr ? std::get<std::string>(type->value) : std::string{};
+    return name == "spot"    ? KnownLight::spot
+           : name == "point" ? KnownLight::point
+                             : KnownLight::directional;
 }
 
 void check_spot(const Settings& settings)
@@ -55,6 +56,19 @@ void check_spot(const Settings& settings)
             refuse(type, fmt::format("a spot needs light.position and light.target; {} is missing",
                                      needed));
         }
+    }
+}
+
+/// Of other renderers' cases: a job's light is no point.
+void check_point(const Settings& settings)
+{
+    for (const std::string_view needless : {"light.direction", "light.target", "light.cone_deg"}) {
+        if (const Setting* setting = find_setting(settings, needless)) {
+            refuse(*setting, "a point light shines everywhere alike; remove it");
+        }
+    }
+    if (find_setting(settings, "light.position") == nullptr) {
+        refuse(settings.at("light.type"), "a point light needs light.position");
     }
 }
 
@@ -166,6 +180,8 @@ void check_settings(const Settings& settings, const std::string& source)
     const KnownLight light = known_light(settings);
     if (light == KnownLight::spot) {
         check_spot(settings);
+    } else if (light == KnownLight::point) {
+        check_point(settings);
     } else if (light == KnownLight::directional) {
         check_directional(settings);
     }

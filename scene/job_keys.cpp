@@ -216,16 +216,19 @@ KeySpec light_type_key()
                                  "point lights are for `evaluate` only, for now"},
             .set =
                 [](Job& job, const JobValue& value) {
-                    light_of(job).type = std::get<std::string>(value) == "spot"
-                                             ? LightType::spot
-                                             : LightType::directional;
+                    LightType& type = light_of(job).type;
+                    type = LightType::directional;
+                    for (const LightType other : {LightType::spot, LightType::point}) {
+                        if (std::get<std::string>(value) == light_type_name(other)) {
+                            type = other;
+                        }
+                    }
                 },
             .get = [](const Job& job) -> std::optional<JobValue> {
                 if (!job.light) {
                     return std::nullopt;
                 }
-                return held(
-                    std::string{job.light->type == LightType::spot ? "spot" : "directional"});
+                return held(std::string{light_type_name(job.light->type)});
             },
             .example = {}};
 }

@@ -3,23 +3,18 @@
 #include "scene/builtin_scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/job_sweep.hpp"
+#include "scene/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 namespace gnomon::scene {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A job file with every key, axis and case that anybody needs has a few kilobytes.
-constexpr std::size_t most_bytes = 16U << 20U;
 
 bool is_scene_file(const fs::path& path)
 {
@@ -29,33 +24,6 @@ bool is_scene_file(const fs::path& path)
     constexpr std::array<std::string_view, 4> scene_extensions{".gltf", ".glb", ".obj", ".ply"};
     return std::find(scene_extensions.begin(), scene_extensions.end(), extension) !=
            scene_extensions.end();
-}
-
-std::string read_text(const fs::path& path, const std::string& name)
-{
-    std::error_code error;
-    if (fs::is_directory(path, error)) {
-        throw InputError(name + ": is a folder; name a job file in it");
-    }
-    errno = 0;
-    std::ifstream file{path, std::ios::binary};
-    if (!file) {
-        throw InputError(
-            fmt::format("{}: cannot be opened: {}; check the path", name, std::strerror(errno)));
-    }
-    std::string text;
-    std::array<char, 65536> block{};
-    while (file.read(block.data(), block.size()) || file.gcount() > 0) {
-        text.append(block.data(), static_cast<std::size_t>(file.gcount()));
-        if (text.size() > most_bytes) {
-            throw InputError(fmt::format("{}: longer than {} MiB: this is no job file", name,
-                                         most_bytes >> 20U));
-        }
-    }
-    if (file.bad()) {
-        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
-    }
-    return text;
 }
 
 Settings lay_all(const std::vector<Layer>& layers)
@@ -171,7 +139,8 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
     } else {
         source.folder = path.parent_path();
         TomlTable keys;
-        for (TomlMember& member : parse_toml(read_text(path, source.name), source.name)) {
+        for (TomlMember& member :
+             parse_toml(read_text_file(path, source.name, "job file"), source.name)) {
             if (member.key == "case") {
                 source.cases = read_cases(member, source.name);
             } else if (member.key == "sweep") {

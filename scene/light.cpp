@@ -61,6 +61,19 @@ Light make_directional(const LightSettings& settings)
 
 } // namespace
 
+std::string_view light_type_name(LightType type)
+{
+    switch (type) {
+    case LightType::spot:
+        return "spot";
+    case LightType::point:
+        return "point";
+    case LightType::directional:
+        break;
+    }
+    return "directional";
+}
+
 Light make_light(const LightSettings& settings)
 {
     switch (settings.type) {

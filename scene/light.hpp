@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace gnomon::scene {
 
@@ -12,6 +13,9 @@ enum class LightType : std::uint8_t {
     spot,
     point, ///< of other renderers only: it has no shadow map
 };
+
+/// "directional", "spot", "point".
+[[nodiscard]] std::string_view light_type_name(LightType type);
 
 /// The job's `[light]` table.
 struct LightSettings {

@@ -1,5 +1,6 @@
 #include "scene/error.hpp"
 #include "scene/job.hpp"
+#include "scene/view_settings.hpp"
 
 #include <fmt/format.h>
 
@@ -71,15 +72,29 @@ Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum)
             rounded_bias(settings.normal_texels, "bias.normal_texels")};
 }
 
+CameraSettings resolve_camera(const Job& job, const TriangleScene& scene,
+                              const SceneDefaults& defaults)
+{
+    const auto camera = job.camera ? job.camera : defaults.camera;
+    return camera ? *camera : frame_box(framed_box(scene), job.image);
+}
+
+LightSettings resolve_light(const Job& job, const SceneDefaults& defaults)
+{
+    const auto light = job.light ? job.light : defaults.light;
+    return light ? *light : default_light();
+}
+
 View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefaults& defaults)
 {
     View view;
     view.image = job.image;
-    const auto camera = job.camera ? job.camera : defaults.camera;
-    view.camera = make_camera(camera ? *camera : frame_box(framed_box(scene), job.image));
-    const auto given_light = job.light ? job.light : defaults.light;
-    const LightSettings light = given_light ? *given_light : default_light();
+    view.camera = make_camera(resolve_camera(job, scene, defaults));
+    const LightSettings light = resolve_light(job, defaults);
     view.light = make_light(light);
+    if (light.type == LightType::point) {
+        return view; // it has no shadow map
+    }
     view.frustum =
         fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera, job.image);
     view.bias = resolve_bias(job.bias, view.frustum);

@@ -181,6 +181,12 @@ FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
 FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
                               std::uint64_t ordinal, float job_bias)
 {
+    if (comparison.evaluation && !comparison.diagnosis) {
+        FinishedCurve finished;
+        finished.curve.id = std::move(curve);
+        finished.rows.push_back({ordinal, {comparison.metrics, std::nullopt, {}}});
+        return finished;
+    }
     if (!comparison.diagnosis) {
         throw std::invalid_argument("finish_compared: comparison: it has no diagnosis");
     }

@@ -61,7 +61,8 @@ private:
     scene::Image<float> map_error_m_;
 };
 
-/// A configuration's row from its own comparison; the curve from its diagnosis.
+/// A configuration's row from its own comparison; the curve from its diagnosis, empty if it is
+/// another renderer's and has none.
 /// @param job_bias  as in `CurveQuestion`.
 [[nodiscard]] FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
                                             std::uint64_t ordinal, float job_bias);

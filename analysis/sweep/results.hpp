@@ -64,10 +64,10 @@ struct DistanceProfile {
 
 /// What the configurations that differ in nothing but the constant bias have in common.
 struct CurveResult {
-    std::string id;    ///< `Configuration::curve`
-    double near_m = 0; ///< of the map, as fitted
-    double far_m = 0;
-    std::uint64_t map_bytes = 0;
+    std::string id;               ///< `Configuration::curve`
+    std::optional<double> near_m; ///< of the map, as fitted; empty: another renderer's, not known
+    std::optional<double> far_m;
+    std::optional<std::uint64_t> map_bytes;
     /// Empty for `hardware`, which has no curve.
     std::optional<BestBiases> best;
     std::optional<BiasBounds> bounds;

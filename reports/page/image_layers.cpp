@@ -21,20 +21,49 @@ bool are_same(float a, float b)
            (std::isnan(a) && std::isnan(b));
 }
 
+/// Of a job's key; of another renderer's case, whose map is not known, something that holds.
+template <typename Value>
+Value setting_of(const Json& detail, const char* key, Value otherwise)
+{
+    return detail.contains("evaluate") ? detail.at("job").value(key, otherwise)
+                                       : detail.at("job").at(key).get<Value>();
+}
+
+/// Without a map nothing is measured in its texels or depths, and any frustum serves.
+Json frustum_of(const Json& detail)
+{
+    const Json& own = detail.at("frustum");
+    if (!own.is_null() || !detail.contains("evaluate")) {
+        return own;
+    }
+    return {{"projection", "orthographic"},
+            {"near_m", 0.0},
+            {"far_m", 1.0},
+            {"reversed", false},
+            {"texel_m", 1.0}};
+}
+
+double constant_bias_of(const Json& detail)
+{
+    const Json& inputs = detail.at("exact_inputs");
+    if (detail.contains("evaluate") && !inputs.contains("bias_constant")) {
+        return 0;
+    }
+    return std::strtod(inputs.at("bias_constant").get_ref<const std::string&>().c_str(), nullptr);
+}
+
 } // namespace
 
 PixelRules::PixelRules(const Json& detail)
-    : frustum{detail.at("frustum")},
-      filter{detail.at("job").at("lookup.filter").get<std::string>()},
-      slope{detail.at("job").at("bias.slope").get<double>()},
-      outside{detail.at("job").at("lookup.outside").get<std::string>()},
+    : frustum(frustum_of(detail)), // braces would make a list of it
+      filter{setting_of<std::string>(detail, "lookup.filter", "nearest")},
+      slope{setting_of<double>(detail, "bias.slope", 0)},
+      outside{setting_of<std::string>(detail, "lookup.outside", "lit")},
+      bias{constant_bias_of(detail)},
       texel_side_m{frustum.at("texel_m").get<double>()}
 {
-    bias = std::strtod(
-        detail.at("exact_inputs").at("bias_constant").get_ref<const std::string&>().c_str(),
-        nullptr);
     format = scene::depth_format_from_name(
-        detail.at("job").at("shadow_map.depth_format").get<std::string>());
+        setting_of<std::string>(detail, "shadow_map.depth_format", ""));
     light.projection = frustum.at("projection") == "perspective" ? scene::Projection::perspective
                                                                  : scene::Projection::orthographic;
     light.near_m = frustum.at("near_m").get<double>();

@@ -15,7 +15,7 @@ namespace gnomon::reports {
 
 /// What the numbers of a configuration's pixels follow from.
 struct PixelRules {
-    /// @param detail  of `compare --json`; must outlive this.
+    /// @param detail  of `compare --json`.
     /// @throws nlohmann::json::exception  if it lacks something.
     explicit PixelRules(const Json& detail);
 
@@ -30,7 +30,7 @@ struct PixelRules {
         return is_perspective ? texel_side_m * zeta_m : texel_side_m;
     }
 
-    const Json& frustum;
+    Json frustum;
     std::string filter;
     double slope;
     std::string outside;

@@ -246,9 +246,15 @@ const CurveColumns& map_columns()
         {"map_near_m", real_type, [](const CurveResult& curve) { return number(curve.near_m); }},
         {"map_far_m", real_type, [](const CurveResult& curve) { return number(curve.far_m); }},
         {"map_bytes", integer_type,
-         [](const CurveResult& curve) { return count(curve.map_bytes); }},
-        {"bias_source", text_type,
-         [](const CurveResult& curve) { return std::string{curve.best ? "curve" : "rerun"}; }}};
+         [](const CurveResult& curve) {
+             return curve.map_bytes ? count(*curve.map_bytes) : Value{};
+         }},
+        {"bias_source", text_type, [](const CurveResult& curve) {
+             // Of another renderer whose map is not known nothing knows other biases.
+             return curve.best || curve.map_bytes
+                        ? Value{std::string{curve.best ? "curve" : "rerun"}}
+                        : Value{};
+         }}};
     return columns;
 }
 

@@ -107,9 +107,12 @@ TEST(ReadAov, RefusesOtherFormats)
     expect_refused("", "the header ends too early");
     expect_refused("\x89PNG\r\n\x1a\n and more", "not an EXR file");
     std::string bytes = example_bytes();
-    for (const char flag : {'\x02', '\x08', '\x10'}) { // tiled, deep, multipart
+    for (const auto& [flag, text] : {std::pair{'\x02', "tiles or deep pixels"},
+                                     {'\x08', "tiles or deep pixels"},
+                                     {'\x10', "several parts"},
+                                     {'\x01', "an unknown version"}}) {
         bytes[5] = flag;
-        expect_refused(bytes, "not an EXR file of plain scanlines");
+        expect_refused(bytes, text);
     }
 }
 

@@ -108,7 +108,7 @@ TEST(ComparisonJson, WritesJobValuesInTheirTypes)
     EXPECT_EQ(job["bias.constant"], 0.002);
     EXPECT_EQ(job["camera.eye"], json::array({2.5, 3.2, 5.5}));
     EXPECT_EQ(job.size(), scene::resolved_keys(example().comparison.job).size());
-    EXPECT_EQ(json::parse(job_json(example().comparison.job)), job);
+    EXPECT_EQ(json::parse(job_json(example().comparison)), job);
 }
 
 TEST(ComparisonJson, WritesExactInputsThatReadBackToTheSameBits)

@@ -1,0 +1,37 @@
+#include "analysis/evaluate/bias_causes.hpp"
+
+#include "scene/pixel_class.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace gnomon::analysis {
+
+using scene::PixelClass;
+
+BiasCauses find_bias_causes(const scene::CaseLayers& layers, const scene::TruthLayers& truth,
+                            bool reversed)
+{
+    const auto& classes = truth.pixel_class;
+    BiasCauses found{scene::Image<Cause>{classes.size()}, scene::Image<Label>{classes.size()}};
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        const bool is_lit = classes[i] == PixelClass::lit;
+        if (!scene::is_scored(classes[i]) || scene::is_lit(layers.mask[i]) == is_lit) {
+            continue;
+        }
+        const float r = layers.z_light[i];
+        const float d = layers.z_map[i];
+        const bool compares = std::isfinite(r) && std::isfinite(d);
+        const bool unbiased_is_lit = reversed ? r >= d : r <= d;
+        if (!compares || unbiased_is_lit != is_lit) {
+            ++found.unknown;
+            continue;
+        }
+        found.cause[i] = Cause::bias;
+        found.label[i] = is_lit ? Label::overshadow : Label::peter_panning;
+        ++(is_lit ? found.overshadow : found.peter_panning);
+    }
+    return found;
+}
+
+} // namespace gnomon::analysis

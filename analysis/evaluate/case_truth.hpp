@@ -1,0 +1,35 @@
+#pragma once
+
+#include "scene/exact_light.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+#include "scene/rounded_receivers.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What knows the truth of a case's scene, as callables: `analysis` needs no Embree.
+struct CaseTruth {
+    std::function<std::vector<scene::NearestSurface>(std::span<const scene::Vec3d>)>
+        nearest_surfaces;
+    std::function<scene::RoundedTruth(const scene::Light&, const scene::RoundedReceivers&)>
+        find_truth;
+    std::function<std::vector<scene::BlockerHit>(
+        const scene::Light&, const scene::RoundedReceivers&, const scene::RoundedTruth&,
+        std::span<const std::size_t>)>
+        find_blockers;
+    /// As in `Renderers`.
+    std::function<std::unique_ptr<scene::ExactLight>(const scene::Job&, const scene::View&,
+                                                     const scene::ReceiverLayers&)>
+        make_exact_light;
+    std::string embree; ///< "Embree 3.13.5"
+    std::string gnomon; ///< version
+};
+
+} // namespace gnomon::analysis

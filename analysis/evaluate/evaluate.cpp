@@ -1,0 +1,338 @@
+#include "analysis/evaluate/evaluate.hpp"
+
+#include "analysis/critical_bias.hpp"
+#include "analysis/evaluate/bias_causes.hpp"
+#include "analysis/evaluate/mask_check.hpp"
+#include "analysis/evaluate/position_check.hpp"
+#include "analysis/evaluate/view_check.hpp"
+#include "scene/error.hpp"
+#include "scene/job_file.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::Image;
+using scene::PixelClass;
+using scene::Vec3d;
+using scene::Vec3f;
+
+/// The objects of the mesh by the numbers that the renderer gives them.
+std::map<std::uint32_t, std::uint32_t> objects_by_number(const Case& subject)
+{
+    std::map<std::uint32_t, std::uint32_t> objects;
+    const auto& names = subject.file.object_numbers;
+    for (std::uint32_t i = 0; names.empty() && i < subject.mesh.objects.size(); ++i) {
+        objects[i] = i;
+    }
+    for (const auto& [name, number] : names) {
+        const auto found = std::ranges::find(subject.mesh.objects, name, &scene::Object::name);
+        if (found == subject.mesh.objects.end()) {
+            std::vector<std::string> known;
+            for (const scene::Object& object : subject.mesh.objects) {
+                known.push_back(object.name);
+            }
+            throw scene::InputError(
+                fmt::format("{}: objects.{}: the mesh has no such object; the nearest is {}",
+                            subject.file.source.name, scene::toml_excerpt({name}),
+                            scene::toml_excerpt({scene::nearest_word(name, known)})));
+        }
+        objects[number] =
+            static_cast<std::uint32_t>(std::distance(subject.mesh.objects.begin(), found));
+    }
+    return objects;
+}
+
+scene::RoundedReceivers receivers_of(const Case& subject)
+{
+    const scene::CaseLayers& layers = subject.layers;
+    scene::RoundedReceivers receivers{layers.position, layers.normal, subject.file.eye, {}};
+    if (!layers.object_number.empty()) {
+        const auto objects = objects_by_number(subject);
+        receivers.object = Image<std::uint32_t>{layers.size(), scene::no_object};
+        for (std::size_t i = 0; i < receivers.object.pixel_count(); ++i) {
+            const auto found = objects.find(layers.object_number[i]);
+            if (found != objects.end() && subject.mesh.objects[found->second].receives) {
+                receivers.object[i] = found->second;
+            }
+        }
+    }
+    return receivers;
+}
+
+/// The job that the case is, its image's size included.
+scene::Job job_of(const Case& subject)
+{
+    scene::Job job = scene::make_job(subject.file.source);
+    job.image = subject.layers.size();
+    return job;
+}
+
+void note(ImportCheck& check, const std::optional<ImportMistake>& mistake)
+{
+    if (mistake && check.mistake.empty()) {
+        check.mistake = mistake->name;
+        check.sentence = mistake->sentence;
+    }
+}
+
+/// Distances of all positions, now that they are known.
+void measure_distances(const Case& subject, CheckedCase& checked)
+{
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < checked.truth.distance_m.pixel_count(); ++i) {
+        if (!std::isnan(subject.layers.position[i].x)) {
+            distances.push_back(double{checked.truth.distance_m[i]});
+        }
+    }
+    ImportDistances& found = checked.check.distances;
+    found = summarise_distances(distances, subject.file.space.metres_per_unit, found.tolerance_m);
+}
+
+/// The normal of T on the side that is seen; NaN where neither normal nor eye tell.
+Image<Vec3f> seen_sides(const Case& subject, const CheckedCase& checked)
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Image<Vec3f> normals{subject.layers.size(), Vec3f{nan}};
+    for (std::size_t i = 0; i < normals.pixel_count(); ++i) {
+        const std::uint32_t triangle = checked.truth.triangle[i];
+        if (triangle == scene::no_triangle) {
+            continue;
+        }
+        const auto [a, b, c] = subject.mesh.corners(triangle);
+        const Vec3d normal = glm::normalize(glm::cross(Vec3d{b} - Vec3d{a}, Vec3d{c} - Vec3d{a}));
+        double side =
+            subject.layers.normal.empty() ? 0.0 : glm::dot(normal, Vec3d{subject.layers.normal[i]});
+        if (!(std::abs(side) > 0) && subject.file.eye) {
+            side = glm::dot(normal, *subject.file.eye - Vec3d{subject.layers.position[i]});
+        }
+        if (std::abs(side) > 0) {
+            normals[i] = Vec3f{side > 0 ? normal : -normal};
+        }
+    }
+    return normals;
+}
+
+/// The lookup as far as the case tells it.
+scene::LookupLayers lookup_of(const scene::CaseLayers& layers)
+{
+    scene::LookupLayers lookup{Image<scene::LookupSample>{layers.size()}, layers.texels};
+    for (std::size_t i = 0; i < lookup.samples.pixel_count(); ++i) {
+        scene::LookupSample& sample = lookup.samples[i];
+        sample.verdict = layers.mask[i];
+        sample.receiver_depth = layers.z_light.empty() ? 0.0F : layers.z_light[i];
+        sample.map_depth = layers.z_map.empty() ? 0.0F : layers.z_map[i];
+        sample.tan_theta = layers.tan_theta.empty() ? 0.0F : layers.tan_theta[i];
+    }
+    return lookup;
+}
+
+/// GL's part in a diagnosis, answered by what the case recorded.
+Renderers recorded_renderers(const Case& subject, const CaseTruth& truth)
+{
+    Renderers renderers;
+    renderers.look_up = [&layers = subject.layers](const scene::Job&, const scene::View&) {
+        return layers.unmoved;
+    };
+    renderers.read_map_depths = [&layers = subject.layers] { return layers.map_depths; };
+    renderers.make_exact_light = truth.make_exact_light;
+    return renderers;
+}
+
+/// Whether the lookup without any bias is known, or follows.
+bool knows_unbiased(const Comparison& comparison, const scene::CaseLayers& layers)
+{
+    return can_derive_unbiased(comparison.job, comparison.view) || !layers.unmoved.samples.empty();
+}
+
+std::string listed(const std::vector<std::string>& words)
+{
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Causes as far as they can be known, and why no further.
+void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& comparison)
+{
+    Evaluation& evaluation = *comparison.evaluation;
+    const auto cannot = [&](std::string needs) {
+        evaluation.cannot_know.push_back({"causes, labels, bias curve", std::move(needs)});
+    };
+    if (comparison.view.light.type == scene::LightType::point) {
+        cannot("a directional or spot light: a point light's shadow map is not understood");
+        return;
+    }
+    const auto missing = missing_for_causes(subject.file, subject.layers);
+    if (!missing.empty()) {
+        cannot(listed(missing));
+        return;
+    }
+    if (!knows_unbiased(comparison, subject.layers)) {
+        cannot("unmoved.*: the lookup without a normal offset");
+        return;
+    }
+    const std::string disagreement = find_disagreement(
+        comparison.view, subject.layers, subject.mesh, comparison.receivers.triangle,
+        evaluation.import_check.distances.tolerance_m);
+    if (!disagreement.empty()) {
+        cannot(disagreement);
+        return;
+    }
+    evaluation.has_map = true;
+    comparison.diagnosis =
+        diagnose(comparison.job, comparison.view,
+                 {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup},
+                 recorded_renderers(subject, truth));
+}
+
+/// What r and d say where nothing else does.
+void find_some_causes(const Case& subject, Comparison& comparison)
+{
+    const scene::CaseLayers& layers = subject.layers;
+    const bool has_one_tap = subject.file.says("lookup.filter") &&
+                             comparison.job.lookup.filter == scene::Filter::nearest;
+    const bool is_unmoved =
+        subject.file.says("bias.normal_texels") && comparison.job.bias.normal_texels == 0;
+    Evaluation& evaluation = *comparison.evaluation;
+    std::vector<std::string> missing;
+    for (const auto& [is_there, what] : {std::pair{!layers.z_light.empty(), "z.light"},
+                                         {!layers.z_map.empty(), "z.map"},
+                                         {has_one_tap, "lookup.filter = \"nearest\""},
+                                         {is_unmoved, "bias.normal_texels = 0"}}) {
+        if (!is_there) {
+            missing.emplace_back(what);
+        }
+    }
+    if (missing.empty()) {
+        evaluation.bias_causes =
+            find_bias_causes(layers, comparison.truth, comparison.job.shadow_map.frustum.reversed);
+    } else {
+        evaluation.cannot_know.push_back({"which pixels are wrong by the bias", listed(missing)});
+    }
+}
+
+void find_gaps(const Case& subject, const CheckedCase& checked, const CaseTruth& truth,
+               Comparison& comparison)
+{
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < subject.layers.mask.pixel_count(); ++i) {
+        if (comparison.truth.pixel_class[i] == PixelClass::blocked &&
+            scene::is_lit(subject.layers.mask[i])) {
+            pixels.push_back(i);
+        }
+    }
+    if (pixels.empty()) {
+        return;
+    }
+    std::vector<float> gaps_m;
+    for (const scene::BlockerHit& hit :
+         truth.find_blockers(checked.view.light, checked.receivers, checked.truth, pixels)) {
+        gaps_m.push_back(static_cast<float>(hit.gap_m * subject.file.space.metres_per_unit));
+    }
+    comparison.evaluation->false_lit_gap_m = find_quantiles(std::move(gaps_m));
+}
+
+std::vector<std::string> keys_given(const scene::CaseFile& file)
+{
+    std::vector<std::string> keys{"image.width", "image.height"};
+    for (const scene::Setting& setting : file.source.file) {
+        keys.push_back(setting.spec->key.name);
+    }
+    return keys;
+}
+
+Evaluation make_evaluation(const Case& subject, const CheckedCase& checked)
+{
+    Evaluation evaluation;
+    evaluation.case_name = subject.file.name;
+    const bool knows_side = subject.file.eye || !subject.layers.normal.empty();
+    evaluation.level = knows_side ? 1 : 0;
+    evaluation.import_check = checked.check;
+    evaluation.points = subject.layers.position;
+    evaluation.normal = seen_sides(subject, checked);
+    evaluation.has_camera = subject.file.says("camera.target") && !subject.file.space.is_mirrored();
+    evaluation.given_keys = keys_given(subject.file);
+    for (const float growth : checked.truth.growth_m) {
+        const double growth_m = double{growth} * subject.file.space.metres_per_unit;
+        evaluation.largest_growth_m = std::max(evaluation.largest_growth_m, growth_m);
+        evaluation.grown_pixels += growth_m > 0 ? 1 : 0;
+    }
+    if (!knows_side) {
+        evaluation.cannot_know.push_back(
+            {"attached (the side that is seen turned from the light)", "Ng or camera.eye"});
+    }
+    return evaluation;
+}
+
+} // namespace
+
+CheckedCase check_case(const Case& subject, const CaseTruth& truth,
+                       std::optional<double> tolerance_m)
+{
+    CheckedCase checked;
+    checked.job = job_of(subject);
+    checked.view = scene::resolve_view(checked.job, subject.mesh, {});
+    checked.receivers = receivers_of(subject);
+    const PositionCheck positions = check_positions(
+        subject.file, subject.layers, truth,
+        tolerance_m.value_or(default_tolerance_m(subject.mesh, subject.file.space)));
+    ImportCheck& check = checked.check;
+    check.distances = positions.distances;
+    note(check, positions.mistake);
+    if (subject.file.says("camera.target") && !subject.file.space.is_mirrored()) {
+        note(check, check_camera(checked.view, subject.layers));
+    }
+    note(check, check_fractions(subject.file, subject.layers));
+    if (!check.mistake.empty()) {
+        return checked;
+    }
+    checked.truth = truth.find_truth(checked.view.light, checked.receivers);
+    measure_distances(subject, checked);
+    const MaskAgreement found = agreement(subject.layers.mask, checked.truth.truth.pixel_class);
+    if (found.has_both()) {
+        check.agreement = found.index();
+    }
+    note(check,
+         check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth, truth));
+    return checked;
+}
+
+Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& truth)
+{
+    Comparison result;
+    result.job = checked.job;
+    result.view = checked.view;
+    result.scene = summarise_scene(checked.job.scene, subject.mesh);
+    result.triangles = &subject.mesh;
+    result.receivers.triangle = checked.truth.triangle;
+    result.lookup = lookup_of(subject.layers);
+    result.truth = checked.truth.truth;
+    result.truth_method = "exact for all positions that round to P";
+    result.environment = {subject.file.renderer, "another renderer", truth.embree, truth.gnomon};
+    result.evaluation = make_evaluation(subject, checked);
+    result.metrics =
+        measure(result.truth, result.lookup,
+                subject.file.says("lookup.filter") ? equal_taps(result.job.lookup.filter) : 0);
+    result.evaluation->by_object = errors_by_object(result.truth.pixel_class, result.lookup,
+                                                    result.receivers.triangle, subject.mesh);
+    find_all_causes(subject, truth, result);
+    if (!result.diagnosis) {
+        find_some_causes(subject, result);
+    }
+    find_gaps(subject, checked, truth, result);
+    return result;
+}
+
+} // namespace gnomon::analysis

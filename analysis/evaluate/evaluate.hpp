@@ -1,0 +1,42 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "analysis/evaluate/case_truth.hpp"
+#include "scene/case_file.hpp"
+#include "scene/case_layers.hpp"
+#include "scene/scene_file.hpp"
+
+#include <optional>
+
+namespace gnomon::analysis {
+
+/// A case in memory.
+struct Case {
+    const scene::CaseFile& file;
+    const scene::CaseLayers& layers;
+    const scene::TriangleScene& mesh; ///< in the renderer's space, with its roles
+};
+
+/// A case held to what its mesh and light make of it, as far as it takes to know whether it can be
+/// scored.
+struct CheckedCase {
+    scene::Job job;
+    scene::View view;
+    scene::RoundedReceivers receivers;
+    scene::RoundedTruth truth; ///< empty where a mistake was found before
+    ImportCheck check;
+};
+
+/// Checks a case, and finds the truth of its pixels.
+/// @param tolerance_m  of the 99th percentile of distances; empty: `default_tolerance_m`.
+/// @throws scene::InputError  if the light or camera is none, or `objects` names no object.
+[[nodiscard]] CheckedCase check_case(const Case& subject, const CaseTruth& truth,
+                                     std::optional<double> tolerance_m);
+
+/// The comparison of a case's mask with its truth, as far as the case's data allow, with what they
+/// do not tell; everything that reports show of GL's comparisons is in its place.
+/// @param checked  without a mistake.
+/// @return  It refers to the subject's mesh.
+[[nodiscard]] Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& truth);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "scene/case_space.hpp"
+#include "scene/vec.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// A way in which axes may be mixed up: axis i of the one is ±axis `axes[i]` of the other.
+using MixedAxes = std::array<scene::CaseSpace::Axis, 3>;
+
+/// The vector with its axes mixed.
+[[nodiscard]] scene::Vec3d mixed(const MixedAxes& axes, const scene::Vec3d& v);
+/// True if mixing mirrors.
+[[nodiscard]] bool mirrors(const MixedAxes& axes);
+/// What `first` and then `second` do.
+[[nodiscard]] MixedAxes mixed_twice(const MixedAxes& first, const MixedAxes& second);
+/// ["x", "-z", "y"], as case.toml writes it.
+[[nodiscard]] std::string axes_text(const MixedAxes& axes);
+
+/// All 48, the likeliest mistakes first: none, z up, one axis mirrored, two of them swapped, ….
+[[nodiscard]] const std::vector<MixedAxes>& all_axes();
+
+/// How many of the renderer's units a unit of the mesh may have been taken for.
+struct UnitMistake {
+    double factor = 1; ///< P is too large by it
+    std::string_view words;
+};
+/// The first is none at all.
+[[nodiscard]] const std::vector<UnitMistake>& unit_mistakes();
+
+} // namespace gnomon::analysis

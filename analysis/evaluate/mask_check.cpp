@@ -1,0 +1,281 @@
+#include "analysis/evaluate/mask_check.hpp"
+
+#include "analysis/evaluate/hypotheses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::Image;
+using scene::Light;
+using scene::PixelClass;
+
+/// Other lights are tried on no more pixels than this.
+constexpr std::size_t most_tried_pixels = 16384;
+
+/// True where another reading of the case explains the mask far better: it must be good, better by
+/// a fifth of what there is to agree on, and leave less than a third of the disagreement. Shadow
+/// errors do not make a wrong reading that good: they would have to be the shadows of that reading.
+bool explains_better(double other, double given)
+{
+    return other >= 0.5 && other - given >= 0.2 && 1 - other <= 0.3 * (1 - given);
+}
+
+/// The same for another light, which changes what is lit altogether: it must be right nearly
+/// everywhere, and the given one half by chance or more.
+bool explains_far_better(const MaskAgreement& other, double given)
+{
+    return other.has_both() && other.index() >= 0.8 && given <= 0.5;
+}
+
+/// The mask with its rows or columns in the opposite order.
+Image<float> flipped(const Image<float>& mask, bool rows)
+{
+    const auto [width, height] = mask.size();
+    Image<float> result{mask.size()};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            result(x, y) = rows ? mask(x, height - 1 - y) : mask(width - 1 - x, y);
+        }
+    }
+    return result;
+}
+
+/// Classes of the pixels that also the flipped image judges.
+Image<PixelClass> judged_in_both(const Image<PixelClass>& classes,
+                                 const Image<scene::Vec3f>& points, bool rows)
+{
+    const auto [width, height] = classes.size();
+    Image<PixelClass> result = classes;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const scene::Vec3f& p = rows ? points(x, height - 1 - y) : points(width - 1 - x, y);
+            if (std::isnan(p.x)) {
+                result(x, y) = PixelClass::background;
+            }
+        }
+    }
+    return result;
+}
+
+/// Some of the receivers, evenly spread, as a row, with their part of the mask.
+struct Tried {
+    scene::RoundedReceivers receivers;
+    Image<float> mask;
+};
+
+Tried spread_pixels(const scene::RoundedReceivers& receivers, const Image<float>& mask)
+{
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
+        if (!std::isnan(receivers.position[i].x)) {
+            pixels.push_back(i);
+        }
+    }
+    const std::size_t count = std::min(pixels.size(), most_tried_pixels);
+    const scene::ImageSize size{static_cast<int>(count), 1};
+    Tried tried{{Image<scene::Vec3f>{size}, {}, receivers.eye, {}}, Image<float>{size}};
+    if (!receivers.normal.empty()) {
+        tried.receivers.normal = Image<scene::Vec3f>{size};
+    }
+    if (!receivers.object.empty()) {
+        tried.receivers.object = Image<std::uint32_t>{size};
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t pixel = pixels[i * pixels.size() / count];
+        tried.receivers.position[i] = receivers.position[pixel];
+        tried.mask[i] = mask[pixel];
+        if (!receivers.normal.empty()) {
+            tried.receivers.normal[i] = receivers.normal[pixel];
+        }
+        if (!receivers.object.empty()) {
+            tried.receivers.object[i] = receivers.object[pixel];
+        }
+    }
+    return tried;
+}
+
+/// A light that shines from where another convention would put it.
+Light turned(Light light, const MixedAxes& axes)
+{
+    light.direction = mixed(axes, light.direction);
+    light.position = mixed(axes, light.position);
+    return light;
+}
+
+/// Another place of the light, and what it means.
+struct OtherLight {
+    Light light;
+    ImportMistake mistake;
+};
+
+std::vector<OtherLight> other_lights(const Light& light)
+{
+    std::vector<OtherLight> others;
+    if (light.type != scene::LightType::point) {
+        Light reversed = light;
+        reversed.direction = -light.direction;
+        others.push_back(
+            {reversed,
+             {"light_side", "the light seems to shine the other way: light.direction is the way "
+                            "the light travels, from the light to the scene"}});
+    }
+    for (const MixedAxes& axes : all_axes()) {
+        if (axes == all_axes().front()) {
+            continue;
+        }
+        const bool is_left = mirrors(axes);
+        others.push_back(
+            {turned(light, axes),
+             {is_left ? "handedness" : "axes",
+              fmt::format("the mask fits a light with the axes {}: light and P are not in the same "
+                          "space{}",
+                          axes_text(axes),
+                          is_left ? "; one of them is of another handedness" : "")}});
+    }
+    return others;
+}
+
+std::optional<ImportMistake> check_lights(const Light& light, const scene::RoundedReceivers& all,
+                                          const Image<float>& mask, double given,
+                                          const CaseTruth& finders)
+{
+    const Tried tried = spread_pixels(all, mask);
+    double best = given;
+    std::optional<ImportMistake> mistake;
+    for (OtherLight& other : other_lights(light)) {
+        const scene::RoundedTruth truth = finders.find_truth(other.light, tried.receivers);
+        const MaskAgreement found = agreement(tried.mask, truth.truth.pixel_class);
+        // The first of those that fit alike is the likeliest.
+        if (explains_far_better(found, given) && found.index() > best + 0.01) {
+            best = found.index();
+            mistake = std::move(other.mistake);
+        }
+    }
+    return mistake;
+}
+
+bool is_fraction(float verdict)
+{
+    constexpr float step = 1e-3F; // what is nearer to 0 or 1 is rounding
+    return verdict > step && verdict < 1 - step;
+}
+
+bool has_both_verdicts(const scene::CaseLayers& layers)
+{
+    bool has_lit = false;
+    bool has_shadow = false;
+    for (std::size_t i = 0; i < layers.mask.pixel_count(); ++i) {
+        if (!std::isnan(layers.position[i].x)) {
+            (scene::is_lit(layers.mask[i]) ? has_lit : has_shadow) = true;
+        }
+    }
+    return has_lit && has_shadow;
+}
+
+} // namespace
+
+double MaskAgreement::index() const
+{
+    const auto share = [](std::uint64_t right, std::uint64_t all) {
+        return all > 0 ? static_cast<double>(right) / static_cast<double>(all) : 0.5;
+    };
+    return share(lit_right, lit) + share(blocked_right, blocked) - 1;
+}
+
+MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& classes)
+{
+    MaskAgreement found;
+    for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
+        if (!scene::is_scored(classes[i])) {
+            continue;
+        }
+        const bool says_lit = scene::is_lit(mask[i]);
+        if (classes[i] == PixelClass::lit) {
+            ++found.lit;
+            found.lit_right += says_lit ? 1U : 0U;
+        } else {
+            ++found.blocked;
+            found.blocked_right += says_lit ? 0 : 1;
+        }
+    }
+    return found;
+}
+
+std::optional<ImportMistake> check_fractions(const scene::CaseFile& file,
+                                             const scene::CaseLayers& layers)
+{
+    const bool is_filtered = std::ranges::any_of(file.source.file, [](const scene::Setting& key) {
+        const auto* word = std::get_if<std::string>(&key.value);
+        return key.spec->key.name == "lookup.filter" && word != nullptr && *word != "nearest";
+    });
+    if (is_filtered || file.conventions.has_fractions) {
+        return std::nullopt;
+    }
+    const auto [width, height] = layers.size();
+    std::size_t fractions = 0;
+    std::size_t edges = 0;
+    const auto is_edge = [&](int x, int y, int other_x, int other_y) {
+        return other_x < width && other_y < height &&
+               !std::isnan(layers.position(other_x, other_y).x) &&
+               scene::is_lit(layers.mask(x, y)) != scene::is_lit(layers.mask(other_x, other_y));
+    };
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (!std::isnan(layers.position(x, y).x)) {
+                fractions += is_fraction(layers.mask(x, y)) ? 1U : 0U;
+                edges += is_edge(x, y, x + 1, y) || is_edge(x, y, x, y + 1) ? 1U : 0U;
+            }
+        }
+    }
+    if (fractions < 4 || fractions * 10 < edges) {
+        return std::nullopt;
+    }
+    return ImportMistake{
+        "anti_aliased",
+        fmt::format("the mask is anti-aliased: {} pixels are neither lit nor shadowed; render one "
+                    "sample at the pixel's centre without denoising, or, if a filter of the lookup "
+                    "made them, set lookup.filter or channels.fractions = true",
+                    fractions)};
+}
+
+std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers, const Light& light,
+                                        const scene::RoundedReceivers& receivers,
+                                        const scene::RoundedTruth& truth, const CaseTruth& finders)
+{
+    const Image<PixelClass>& classes = truth.truth.pixel_class;
+    const MaskAgreement given = agreement(layers.mask, classes);
+    if (!has_both_verdicts(layers)) {
+        return std::nullopt;
+    }
+    if (given.has_both() && explains_better(-given.index(), given.index())) {
+        return ImportMistake{"inverted_mask",
+                             "the mask is inverted: it is 1 where the truth is shadow and 0 where "
+                             "it is light; a mask is 1 where lit"};
+    }
+    for (const bool rows : {true, false}) {
+        const auto both = judged_in_both(classes, layers.position, rows);
+        if (explains_better(agreement(flipped(layers.mask, rows), both).index(),
+                            agreement(layers.mask, both).index())) {
+            return ImportMistake{
+                "flipped_image",
+                fmt::format("the mask is flipped against P: its {} are in the opposite order; an "
+                            "image begins at its top left",
+                            rows ? "rows" : "columns")};
+        }
+    }
+    if (given.index() > 0.5) { // nothing can explain it far better
+        return std::nullopt;
+    }
+    return check_lights(light, receivers, layers.mask, given.index(), finders);
+}
+
+} // namespace gnomon::analysis

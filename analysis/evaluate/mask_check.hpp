@@ -1,0 +1,47 @@
+#pragma once
+
+#include "analysis/evaluate/case_truth.hpp"
+#include "analysis/evaluate/position_check.hpp"
+#include "scene/case_file.hpp"
+#include "scene/case_layers.hpp"
+#include "scene/light.hpp"
+#include "scene/rounded_receivers.hpp"
+
+#include <optional>
+
+namespace gnomon::analysis {
+
+/// How a mask stands to a truth, on scored pixels: where the light is behind a surface, masks say
+/// anything.
+struct MaskAgreement {
+    std::uint64_t lit = 0;
+    std::uint64_t lit_right = 0;
+    std::uint64_t blocked = 0;
+    std::uint64_t blocked_right = 0;
+
+    /// Share of lit pixels that are lit plus share of blocked ones that are shadowed, minus 1: 1
+    /// where they agree, 0 where the mask says nothing (Youden's J). Of a kind that is missing half
+    /// counts.
+    [[nodiscard]] double index() const;
+    [[nodiscard]] bool has_both() const { return lit > 0 && blocked > 0; }
+};
+
+[[nodiscard]] MaskAgreement agreement(const scene::Image<float>& mask,
+                                      const scene::Image<scene::PixelClass>& classes);
+
+/// The mistake that a mask shows by itself: edges with fractions, where one sample has none.
+[[nodiscard]] std::optional<ImportMistake> check_fractions(const scene::CaseFile& file,
+                                                           const scene::CaseLayers& layers);
+
+/// The mistake that explains far better how a mask differs from the truth than the renderer's own
+/// errors could: an inverted mask, a flipped image, the light on another side or its axes mixed up.
+///
+/// A mask that is all lit or all shadowed shows none of them, and is left to the scores.
+/// @param truth  of `receivers` and the case's light.
+[[nodiscard]] std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers,
+                                                      const scene::Light& light,
+                                                      const scene::RoundedReceivers& receivers,
+                                                      const scene::RoundedTruth& truth,
+                                                      const CaseTruth& finders);
+
+} // namespace gnomon::analysis

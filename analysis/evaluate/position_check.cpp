@@ -1,0 +1,297 @@
+#include "analysis/evaluate/position_check.hpp"
+
+#include "analysis/evaluate/half_positions.hpp"
+#include "analysis/evaluate/hypotheses.hpp"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::Vec3d;
+using scene::Vec3f;
+
+constexpr std::size_t most_points = 16384;
+/// Many hypotheses are tried on few points, and the one that holds on all of the above.
+constexpr std::size_t screening_points = 256;
+/// A hypothesis may lose some accuracy, as dividing by 100 does.
+constexpr double slack = 4;
+
+std::vector<Vec3d> spread(const std::vector<Vec3d>& points, std::size_t most)
+{
+    std::vector<Vec3d> result;
+    const std::size_t count = std::min(points.size(), most);
+    for (std::size_t i = 0; i < count; ++i) {
+        result.push_back(points[i * points.size() / count]);
+    }
+    return result;
+}
+
+std::vector<Vec3d> judged_points(const scene::Image<Vec3f>& position)
+{
+    std::vector<Vec3d> points;
+    for (const Vec3f& p : position) {
+        if (!std::isnan(p.x)) {
+            points.emplace_back(p);
+        }
+    }
+    return spread(points, most_points);
+}
+
+double quantile(std::vector<double>& values, double share)
+{
+    const auto at =
+        static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size())) - 1);
+    const auto nth = values.begin() + std::max<std::ptrdiff_t>(at, 0);
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+std::vector<double> distances_of(const CaseTruth& truth, std::span<const Vec3d> points)
+{
+    std::vector<double> distances;
+    for (const scene::NearestSurface& surface : truth.nearest_surfaces(points)) {
+        distances.push_back(surface.distance_m);
+    }
+    return distances;
+}
+
+/// A point of the mesh from what the renderer says, if a mistake was made.
+struct Hypothesis {
+    double factor = 1;
+    MixedAxes axes{{{0, 1}, {1, 1}, {2, 1}}};
+    Vec3d eye{0.0};
+
+    [[nodiscard]] Vec3d corrected(const Vec3d& point) const
+    {
+        return mixed(axes, point / factor + eye);
+    }
+};
+
+/// Tries mistakes on the positions.
+class MistakeFinder {
+public:
+    MistakeFinder(const CaseTruth& truth, const std::vector<Vec3d>& points, double tolerance)
+        : truth_{truth},
+          points_{points},
+          few_{spread(points, screening_points)},
+          tolerance_{slack * tolerance}
+    {
+    }
+
+    [[nodiscard]] bool holds(const Hypothesis& hypothesis) const
+    {
+        return is_near(hypothesis, few_) && is_near(hypothesis, points_);
+    }
+
+    /// The likeliest first: one mistake before two.
+    [[nodiscard]] std::optional<Hypothesis> find(const std::optional<Vec3d>& eye) const
+    {
+        if (eye && holds({1, all_axes().front(), *eye})) {
+            return Hypothesis{1, all_axes().front(), *eye};
+        }
+        for (const UnitMistake& unit : unit_mistakes()) {
+            if (unit.factor != 1 && holds({unit.factor})) {
+                return Hypothesis{unit.factor};
+            }
+        }
+        for (const UnitMistake& unit : unit_mistakes()) {
+            for (const MixedAxes& axes : all_axes()) {
+                if (holds({unit.factor, axes})) {
+                    return Hypothesis{unit.factor, axes};
+                }
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    [[nodiscard]] bool is_near(const Hypothesis& hypothesis, std::span<const Vec3d> points) const
+    {
+        std::vector<Vec3d> corrected;
+        for (const Vec3d& point : points) {
+            corrected.push_back(hypothesis.corrected(point));
+        }
+        std::vector<double> distances = distances_of(truth_, corrected);
+        return quantile(distances, 0.99) <= tolerance_;
+    }
+
+    const CaseTruth& truth_;
+    const std::vector<Vec3d>& points_;
+    std::vector<Vec3d> few_;
+    double tolerance_;
+};
+
+std::string vector_text(const Vec3d& v)
+{
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+std::string unit_remedy(const Hypothesis& found, const scene::CaseFile& file)
+{
+    if (found.factor == 1) {
+        return {};
+    }
+    return fmt::format("conventions.metres_per_unit = {:.6g}",
+                       file.space.metres_per_unit / found.factor);
+}
+
+ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
+{
+    if (found.eye != Vec3d{0.0}) {
+        return {"camera_relative",
+                fmt::format("P is relative to the camera: with the eye {} added it lies on the "
+                            "mesh; write world positions",
+                            vector_text(found.eye))};
+    }
+    const auto unit = std::ranges::find(unit_mistakes(), found.factor, &UnitMistake::factor);
+    if (found.axes == all_axes().front()) {
+        return {"units", fmt::format("{}: set {}", unit->words, unit_remedy(found, file))};
+    }
+    // What corrects P turned it into the space that the mesh was moved to; the mesh belongs into
+    // that of P.
+    MixedAxes back;
+    for (std::size_t i = 0; i < back.size(); ++i) {
+        const auto& axis = found.axes[i];
+        back[static_cast<std::size_t>(axis.of_mesh)] = {static_cast<int>(i), axis.sign};
+    }
+    const MixedAxes axes = mixed_twice(file.space.axes, back);
+    const bool is_left = mirrors(found.axes);
+    const std::string units = found.factor == 1 ? "" : fmt::format(", and {}", unit->words);
+    const std::string remedy =
+        found.factor == 1 ? "" : fmt::format(" and {}", unit_remedy(found, file));
+    return {is_left ? "handedness" : "axes",
+            fmt::format("{}{}: set conventions.axes = {}{}",
+                        is_left ? "P is of another handedness than the mesh: an axis is mirrored"
+                                : "P has other axes than the mesh, as where z is up instead of y",
+                        units, axes_text(axes), remedy)};
+}
+
+/// The position that more than a hundredth of the pixels share, as a cleared background does.
+std::optional<Vec3d> shared_position(const std::vector<Vec3d>& points)
+{
+    std::map<std::tuple<double, double, double>, std::size_t> counts;
+    for (const Vec3d& p : points) {
+        ++counts[{p.x, p.y, p.z}];
+    }
+    const auto most =
+        std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
+    if (most->second < 16 || most->second * 100 < points.size()) {
+        return std::nullopt;
+    }
+    const auto [x, y, z] = most->first;
+    return Vec3d{x, y, z};
+}
+
+/// Whether the eye that positions along rows and columns of pixels point to is the origin: then
+/// three of them in a line of the image lie in a plane with it.
+bool is_seen_from_origin(const scene::Image<Vec3f>& position)
+{
+    const auto [width, height] = position.size();
+    std::size_t lines = 0;
+    std::size_t flat = 0;
+    const auto count = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+        const Vec3d u = glm::normalize(Vec3d{a});
+        const Vec3d v = glm::normalize(Vec3d{b});
+        const Vec3d w = glm::normalize(Vec3d{c});
+        const double volume = glm::dot(glm::cross(u, v), w);
+        if (std::isfinite(volume)) {
+            ++lines;
+            // float32 rounds each direction by 2^-24; what renderers compute before, by some more.
+            flat += std::abs(volume) <= 1e-5 * glm::length(glm::cross(u, w)) ? 1U : 0U;
+        }
+    };
+    for (int i = 0; i < 64; ++i) {
+        const int y = i * height / 64;
+        const int x = i * width / 64;
+        count(position(width / 8, y), position(width / 2, y), position(width - 1 - width / 8, y));
+        count(position(x, height / 8), position(x, height / 2),
+              position(x, height - 1 - height / 8));
+    }
+    return lines >= 16 && flat * 10 >= lines * 9;
+}
+
+ImportMistake unknown_mistake(const scene::CaseFile& file, const scene::CaseLayers& layers,
+                              const ImportDistances& distances)
+{
+    if (!file.eye && is_seen_from_origin(layers.position)) {
+        return {"camera_relative", "P is relative to the camera: it looks as if seen from the "
+                                   "origin, and is not on the mesh; write world positions"};
+    }
+    return {"positions",
+            fmt::format("P is not on the mesh (its distance is {:.3g} m at the median, {:.3g} m at "
+                        "99 %, and {:.3g} m are tolerated), and no usual mistake explains it: is "
+                        "this the mesh that was rendered, where it was rendered? --tolerance-m "
+                        "allows more",
+                        distances.median_m, distances.p99_m, distances.tolerance_m)};
+}
+
+ImportMistake find_mistake(const scene::CaseFile& file, const scene::CaseLayers& layers,
+                           const CaseTruth& truth, const std::vector<Vec3d>& points,
+                           const ImportDistances& distances)
+{
+    const double tolerance = distances.tolerance_m / file.space.metres_per_unit;
+    const MistakeFinder finder{truth, points, tolerance};
+    if (const auto found = finder.find(file.eye)) {
+        return mistake_of(*found, file);
+    }
+    if (const auto shared = shared_position(points)) {
+        return {"background",
+                fmt::format("many pixels have the position {}, which is not on the mesh: write "
+                            "valid = 0 where nothing is seen, or set conventions.background",
+                            vector_text(*shared))};
+    }
+    return unknown_mistake(file, layers, distances);
+}
+
+} // namespace
+
+double default_tolerance_m(const scene::TriangleScene& scene, const scene::CaseSpace& space)
+{
+    const scene::Box box = scene.bounds();
+    const Vec3d reach = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    return std::ldexp(std::max({reach.x, reach.y, reach.z}), -16) * space.metres_per_unit;
+}
+
+ImportDistances summarise_distances(std::span<const double> distances, double metres_per_unit,
+                                    double tolerance_m)
+{
+    std::vector<double> values{distances.begin(), distances.end()};
+    ImportDistances summary;
+    summary.points = values.size();
+    summary.median_m = quantile(values, 0.5) * metres_per_unit;
+    summary.p99_m = quantile(values, 0.99) * metres_per_unit;
+    summary.max_m = *std::ranges::max_element(values) * metres_per_unit;
+    summary.tolerance_m = tolerance_m;
+    return summary;
+}
+
+PositionCheck check_positions(const scene::CaseFile& file, const scene::CaseLayers& layers,
+                              const CaseTruth& truth, double tolerance_m)
+{
+    const std::vector<Vec3d> points = judged_points(layers.position);
+    PositionCheck check;
+    check.distances =
+        summarise_distances(distances_of(truth, points), file.space.metres_per_unit, tolerance_m);
+    const bool is_off = !(check.distances.p99_m <= tolerance_m);
+    if (are_rounded_to_half(layers.position, is_off)) {
+        check.mistake = {"half_float",
+                         "P was rounded to half floats before it was written: near 100 half's step "
+                         "is 0.0625, and no shadow can be judged from there; render and write full "
+                         "floats"};
+    } else if (is_off) {
+        check.mistake = find_mistake(file, layers, truth, points, check.distances);
+    }
+    return check;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "analysis/evaluate/case_truth.hpp"
+#include "analysis/evaluate/evaluation.hpp"
+#include "scene/case_file.hpp"
+#include "scene/case_layers.hpp"
+#include "scene/triangles.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace gnomon::analysis {
+
+/// A mistake that a case looks like, in a word and in a sentence with the remedy.
+struct ImportMistake {
+    std::string name;
+    std::string sentence;
+};
+
+/// How far positions may be from their surfaces: 2^-16 of the largest coordinate that they have.
+///
+/// Rounding to float32 moves a coordinate by 2^-24 of it at most; the rest is for what renderers
+/// compute in float32 before. Rounding to half moves it by up to 2^-12.
+[[nodiscard]] double default_tolerance_m(const scene::TriangleScene& scene,
+                                         const scene::CaseSpace& space);
+
+/// @param distances  [the renderer's units]; not empty.
+[[nodiscard]] ImportDistances summarise_distances(std::span<const double> distances,
+                                                  double metres_per_unit, double tolerance_m);
+
+/// Positions held to the mesh.
+struct PositionCheck {
+    ImportDistances distances; ///< of some of the positions, evenly spread
+    std::optional<ImportMistake> mistake;
+};
+
+/// Finds out whether positions are on the mesh, and if not, which mistake puts them there: half
+/// floats, units, axes, handedness, camera-relative, or the position of pixels that show nothing.
+/// @param truth  of the mesh in the renderer's space.
+[[nodiscard]] PositionCheck check_positions(const scene::CaseFile& file,
+                                            const scene::CaseLayers& layers, const CaseTruth& truth,
+                                            double tolerance_m);
+
+} // namespace gnomon::analysis

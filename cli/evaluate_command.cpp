@@ -1,0 +1,231 @@
+#include "cli/evaluate_command.hpp"
+
+#include "analysis/evaluate/evaluate.hpp"
+#include "cli/compare_run.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/kept_pixels.hpp"
+#include "cli/memory.hpp"
+#include "cli/standard_output.hpp"
+#include "reference_rt/exact_light.hpp"
+#include "reference_rt/rounded_truth.hpp"
+#include "reports/aov_exr.hpp"
+#include "reports/case/case_read.hpp"
+#include "reports/comparison_json.hpp"
+#include "reports/comparison_table.hpp"
+#include "reports/evaluation_json.hpp"
+#include "reports/evaluation_table.hpp"
+#include "reports/output_file.hpp"
+#include "reports/picture.hpp"
+#include "reports/shell_text.hpp"
+#include "scene/case_file.hpp"
+#include "scene/case_space.hpp"
+#include "scene/error.hpp"
+#include "scene/job_toml.hpp"
+#include "scene/load_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace gnomon::cli {
+namespace {
+
+struct EvaluateOptions {
+    std::string path;
+    std::string from;
+    bool check = false;
+    bool json = false;
+    std::string aov_path;
+    std::string picture_path;
+    std::string folder; ///< RUN
+    std::optional<double> tolerance_m;
+    int threads = 0;
+};
+
+/// A case with everything that it names in memory, and its mesh in Embree's hands.
+class CaseSession {
+public:
+    explicit CaseSession(const EvaluateOptions& options)
+        : file_{scene::read_case_file(options.path, options.from)},
+          layers_{reports::read_case_layers(file_, available_memory_bytes())},
+          mesh_{load_mesh(file_)},
+          reference_{mesh_, {options.threads}}
+    {
+        set_image_size();
+    }
+
+    [[nodiscard]] const scene::CaseFile& file() const { return file_; }
+    [[nodiscard]] analysis::Case subject() const { return {file_, layers_, mesh_}; }
+
+    /// Valid as long as the session.
+    [[nodiscard]] analysis::CaseTruth truth(int threads) const
+    {
+        analysis::CaseTruth truth;
+        truth.nearest_surfaces = [this, threads](std::span<const scene::Vec3d> points) {
+            return reference_rt::nearest_surfaces(reference_, points, threads);
+        };
+        truth.find_truth = [this, threads](const scene::Light& light,
+                                           const scene::RoundedReceivers& receivers) {
+            return reference_rt::compute_rounded_truth(reference_, light, receivers, threads);
+        };
+        truth.find_blockers =
+            [this, threads](const scene::Light& light, const scene::RoundedReceivers& receivers,
+                            const scene::RoundedTruth& found, std::span<const std::size_t> pixels) {
+                return reference_rt::find_rounded_blockers(reference_, light, receivers, found,
+                                                           pixels, threads);
+            };
+        truth.make_exact_light = [this, threads](const scene::Job& job, const scene::View& view,
+                                                 const scene::ReceiverLayers& receivers) {
+            return reference_rt::make_exact_light(reference_, view, receivers.triangle,
+                                                  job.shadow_map.resolution_texels,
+                                                  job.shadow_map.cull, threads);
+        };
+        truth.embree = reference_rt::embree_version();
+        truth.gnomon = GNOMON_VERSION;
+        return truth;
+    }
+
+private:
+    static scene::TriangleScene load_mesh(const scene::CaseFile& file)
+    {
+        return scene::move_to_space(scene::load_scene(scene::make_job(file.source).scene).scene,
+                                    file.space);
+    }
+
+    /// The image says it, and a run's configuration names it.
+    void set_image_size()
+    {
+        const scene::ImageSize size = layers_.size();
+        for (const auto& [key, pixels] :
+             {std::pair{"image.width", size.width_px}, {"image.height", size.height_px}}) {
+            file_.source.file.push_back({scene::find_key(key), std::int64_t{pixels},
+                                         scene::one_line(file_.image.string())});
+        }
+    }
+
+    scene::CaseFile file_;
+    scene::CaseLayers layers_;
+    scene::TriangleScene mesh_;
+    reference_rt::ReferenceScene reference_;
+};
+
+/// Before the work, not after it.
+void require_writable(const EvaluateOptions& options)
+{
+    for (const std::string& path : {options.aov_path, options.picture_path}) {
+        if (!path.empty()) {
+            const reports::OutputFile probe{path};
+        }
+    }
+}
+
+void print_check(const EvaluateOptions& options, const analysis::ImportCheck& check)
+{
+    print(options.json ? reports::check_json(check) : reports::check_text(check));
+    if (!check.mistake.empty()) {
+        throw CLI::RuntimeError{exit_codes::negative};
+    }
+}
+
+std::string evaluate_command(const EvaluateOptions& options)
+{
+    std::vector<std::string> words{"gnomon", "evaluate", options.path};
+    if (!options.from.empty()) {
+        words.insert(words.end(), {"--from", options.from});
+    }
+    return reports::shell_text(words);
+}
+
+void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFile& file,
+            const analysis::Comparison& comparison)
+{
+    scene::JobSource source = file.source;
+    source.cases = {{file.name, {}}};
+    run.record(std::move(source), file.name, comparison, {}, file.text, evaluate_command(options));
+}
+
+void write_outputs(const EvaluateOptions& options, const analysis::Comparison& comparison)
+{
+    if (!options.aov_path.empty()) {
+        reports::write_aov(options.aov_path, comparison, points_of(comparison));
+    }
+    if (!options.picture_path.empty()) {
+        reports::write_picture(options.picture_path, comparison);
+    }
+    print(options.json ? reports::comparison_json(comparison)
+                       : reports::comparison_table(comparison));
+}
+
+void evaluate(const EvaluateOptions& options)
+{
+    require_writable(options);
+    const CaseSession session{options};
+    const analysis::CaseTruth truth = session.truth(options.threads);
+    analysis::CheckedCase checked =
+        analysis::check_case(session.subject(), truth, options.tolerance_m);
+    if (options.check) {
+        print_check(options, checked.check);
+        return;
+    }
+    if (!checked.check.mistake.empty()) {
+        throw scene::InputError(
+            fmt::format("{}: {}", session.file().source.name, checked.check.sentence));
+    }
+    std::optional<CompareRun> run;
+    if (!options.folder.empty()) {
+        run.emplace(options.folder);
+    }
+    const analysis::Comparison comparison =
+        analysis::evaluate(session.subject(), std::move(checked), truth);
+    if (run) {
+        record(*run, options, session.file(), comparison);
+    }
+    write_outputs(options, comparison);
+}
+
+} // namespace
+
+void add_evaluate_command(CLI::App& program)
+{
+    auto options = std::make_shared<EvaluateOptions>();
+    CLI::App* command = program.add_subcommand(
+        "evaluate", "Compare another renderer's shadow mask with the exact truth");
+    command
+        ->add_option("CASE", options->path,
+                     "A folder with case.toml, an image and a mesh, or its case.toml "
+                     "(docs/evaluate.md)")
+        ->required();
+    command
+        ->add_option("--from", options->from,
+                     "Conventions of an exporter: axes, units, names of channels")
+        ->check(CLI::IsMember(scene::exporter_names()));
+    command->add_flag("--check", options->check,
+                      "Only find out whether the case can be scored; exit status 1 if it looks "
+                      "like a mistake");
+    command->add_flag("--json", options->json, "Print the result as JSON (docs/json_schema.md)");
+    command->add_option("--aov", options->aov_path,
+                        "Write every layer into one EXR file (docs/aov.md)");
+    command->add_option("--picture", options->picture_path,
+                        "Write a labelled picture: the shadows, the true ones, the errors (PNG)");
+    command->add_option("--out", options->folder,
+                        "RUN, a folder for the result, for `report`, `gate` and `baseline`");
+    command
+        ->add_option("--tolerance-m", options->tolerance_m,
+                     "How far positions may be from the mesh, at 99 % of them [m]; default: 2^-16 "
+                     "of the largest coordinate")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--threads", options->threads, "Threads of the reference; 0: all cores")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->footer("Examples:\n"
+                    "  gnomon evaluate case\n"
+                    "  gnomon evaluate case --check\n"
+                    "  gnomon evaluate case --from blender --picture errors.png\n"
+                    "  gnomon evaluate case --out run");
+    command->callback([options] { evaluate(*options); });
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,101 @@
+#include "reports/evaluation_json.hpp"
+
+#include "reports/json_values.hpp"
+
+#include <string>
+
+namespace gnomon::reports {
+
+namespace {
+
+using scene::ClassReason;
+
+Json quantiles_or_null(const std::optional<analysis::Quantiles>& lengths)
+{
+    return lengths ? Json{{"count", lengths->count},
+                          {"median", lengths->median},
+                          {"p95", lengths->p95},
+                          {"max", lengths->max}}
+                   : Json(nullptr);
+}
+
+/// The names that were not counted are null.
+void add_bias_causes(Json& json, const analysis::BiasCauses& found)
+{
+    json["causes"] = {{"bias", found.bias()},
+                      {"precision", nullptr},
+                      {"resolution", nullptr},
+                      {"coverage", nullptr}};
+    // What the map does not cover overshadows too.
+    json["labels"] = {{"acne", nullptr},
+                      {"peter_panning", found.peter_panning},
+                      {"leak", nullptr},
+                      {"edge", nullptr},
+                      {"overshadow", nullptr}};
+}
+
+Json cannot_know(const std::vector<analysis::CannotKnow>& all)
+{
+    Json json = Json::array();
+    for (const analysis::CannotKnow& one : all) {
+        json.push_back({{"what", one.what}, {"needs", one.needs}});
+    }
+    return json;
+}
+
+Json evaluate_object(const analysis::Comparison& comparison)
+{
+    const analysis::Evaluation& evaluation = *comparison.evaluation;
+    const auto& found = evaluation.bias_causes;
+    return {{"case", evaluation.case_name},
+            {"renderer", comparison.environment.gl_renderer},
+            {"level", evaluation.level},
+            {"cannot_know", cannot_know(evaluation.cannot_know)},
+            {"import_check", import_check_json(evaluation.import_check)},
+            {"false_lit_gap_m", quantiles_or_null(evaluation.false_lit_gap_m)},
+            {"errors_of_unknown_cause", found ? Json(found->unknown) : Json(nullptr)},
+            {"overshadow_by_bias", found ? Json(found->overshadow) : Json(nullptr)},
+            {"grown_pixels", evaluation.grown_pixels},
+            {"largest_growth_m", evaluation.largest_growth_m}};
+}
+
+} // namespace
+
+Json import_check_json(const analysis::ImportCheck& check)
+{
+    const analysis::ImportDistances& distances = check.distances;
+    Json json{
+        {"points", distances.points},
+        {"distance_m",
+         {{"median", distances.median_m}, {"p99", distances.p99_m}, {"max", distances.max_m}}},
+        {"tolerance_m", distances.tolerance_m},
+        {"agreement", number_or_null(check.agreement)}};
+    json["mistake"] = check.mistake.empty() ? Json(nullptr) : Json(check.mistake);
+    json["sentence"] = check.sentence.empty() ? Json(nullptr) : Json(check.sentence);
+    return json;
+}
+
+void add_evaluation(Json& json, const analysis::Comparison& comparison)
+{
+    const analysis::Evaluation& evaluation = *comparison.evaluation;
+    json["indeterminate_kinds"]["rounding"] = comparison.metrics.pixels.of(ClassReason::rounding);
+    if (evaluation.level == 0) {
+        json["pixels"]["attached"] = nullptr;
+    }
+    if (evaluation.bias_causes) {
+        add_bias_causes(json, *evaluation.bias_causes);
+    }
+    if (!evaluation.has_map) {
+        json["frustum"] = nullptr;
+    }
+    json["subpixel_bits"] = nullptr;
+    json["evaluate"] = evaluate_object(comparison);
+}
+
+std::string check_json(const analysis::ImportCheck& check)
+{
+    const Json json{{"schema", 1}, {"import_check", import_check_json(check)}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace gnomon::reports

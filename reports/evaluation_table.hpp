@@ -1,0 +1,20 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+
+#include <string>
+
+namespace gnomon::reports {
+
+/// The head of a case's table: renderer, scene, light, image and how P lies to the mesh.
+/// @param comparison  has an evaluation.
+[[nodiscard]] std::string evaluation_settings(const analysis::Comparison& comparison);
+
+/// What a case tells of its errors where there is no diagnosis, and what it cannot tell.
+/// @param comparison  has an evaluation.
+[[nodiscard]] std::string evaluation_table(const analysis::Comparison& comparison);
+
+/// What `gnomon evaluate --check` prints, with a final newline.
+[[nodiscard]] std::string check_text(const analysis::ImportCheck& check);
+
+} // namespace gnomon::reports

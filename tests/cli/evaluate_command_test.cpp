@@ -1,0 +1,222 @@
+#include "case_folder.hpp"
+#include "run_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using CaseJson = nlohmann::json;
+using ::testing::HasSubstr;
+
+CaseJson evaluated(const CaseFolder& folder, const std::vector<std::string>& more = {})
+{
+    const Ending ending = folder.evaluate(with({"--json"}, more));
+    EXPECT_EQ(ending.exit_code, 0) << ending.command << ending.err;
+    return CaseJson::parse(ending.out, nullptr, false);
+}
+
+/// The scene, and settings that decide which lookups a case holds.
+struct RoundTrip {
+    std::string scene;
+    std::vector<std::string> settings;
+};
+
+TEST(Evaluate, GivesTheCountsOfCompareForGlsOwnCase)
+{
+    const std::vector<RoundTrip> trips{
+        {"sphere-plane", {}},
+        {"yard", {}}, // pcf3
+        {"playground", {"--set", "bias.normal_texels=2"}},
+        {"sphere-cube", {"--set", "lookup.filter=hardware"}},
+        {"terrain", {"--set", "lookup.filter=linear", "--set", "bias.slope=1e-4"}},
+        {"wall", {"--set", "shadow_map.reversed=true", "--set", "shadow_map.fit=camera"}},
+        {"room",
+         {"--set", "camera.eye=[0,2,6]", "--set", "camera.target=[0,0.5,0]", "--set",
+          "camera.orthographic_height=4"}},
+    };
+    for (const RoundTrip& trip : trips) {
+        const CaseFolder folder{trip.scene, trip.settings};
+        const CaseJson own = CaseJson::parse(folder.compared.out);
+        const CaseJson back = evaluated(folder);
+        for (const char* const name :
+             {"false_shadow", "false_lit", "error_rate", "mean_abs_error", "causes", "labels",
+              "peter_panning_gap_m", "bias_curve", "by_object"}) {
+            EXPECT_EQ(own.at(name), back.at(name)) << folder.compared.command << "\n" << name;
+        }
+        for (const char* const name :
+             {"attached", "out_of_light", "indeterminate", "lit", "blocked"}) {
+            EXPECT_EQ(own.at("pixels").at(name), back.at("pixels").at(name))
+                << folder.compared.command << "\n"
+                << name;
+        }
+        EXPECT_EQ(back.at("indeterminate_kinds").at("rounding"), 0) << folder.compared.command;
+        EXPECT_TRUE(back.at("evaluate").at("cannot_know").empty()) << folder.compared.command;
+    }
+}
+
+TEST(Evaluate, SaysAtLevel0WhatItCannotKnow)
+{
+    CaseFolder folder{"sphere-plane"};
+    folder.keep_level_0();
+    folder.drop_table("camera");
+    folder.write();
+    const CaseJson json = evaluated(folder);
+    EXPECT_EQ(json.at("evaluate").at("level"), 0);
+    EXPECT_TRUE(json.at("pixels").at("attached").is_null());
+    EXPECT_TRUE(json.at("causes").is_null());
+    EXPECT_THAT(json.at("evaluate").at("cannot_know").dump(), HasSubstr("Ng or camera.eye"));
+    EXPECT_THAT(folder.evaluate().out, HasSubstr("cannot know attached"));
+}
+
+TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)
+{
+    CaseFolder folder{"yard", {"--set", "bias.constant=0.02", "--set", "lookup.filter=nearest"}};
+    const CaseJson own = CaseJson::parse(folder.compared.out);
+    folder.channels.erase("texel.X");
+    folder.channels.erase("texel.Y");
+    folder.write();
+    const CaseJson json = evaluated(folder);
+    EXPECT_GT(own.at("causes").at("bias"), 100);
+    EXPECT_EQ(json.at("causes").at("bias"), own.at("causes").at("bias"));
+    EXPECT_EQ(json.at("labels").at("peter_panning"), own.at("labels").at("peter_panning"));
+    EXPECT_TRUE(json.at("causes").at("resolution").is_null());
+}
+
+TEST(Evaluate, LeavesARunForReportGateAndBaseline)
+{
+    CaseFolder folder{"sphere-plane"};
+    const std::string run = folder.at("run");
+    const std::string baseline = folder.at("baseline.json");
+    expect_done(folder.evaluate({"--out", run}));
+    EXPECT_EQ(gnomon({"baseline", "save", run, "--baseline", baseline}).exit_code, 0);
+    EXPECT_EQ(gnomon({"gate", run, "--baseline", baseline}).exit_code, 0);
+    EXPECT_EQ(gnomon({"report", run}).exit_code, 0);
+
+    auto& mask = folder.channels["shadow.V"];
+    for (int x = 110; x < 130; ++x) {
+        mask(x, 120) = 1 - mask(x, 120); // the sunny ground before the sphere
+    }
+    folder.write();
+    const std::string other = folder.at("other");
+    expect_done(folder.evaluate({"--out", other}));
+    EXPECT_EQ(gnomon({"gate", other, "--baseline", baseline}).exit_code, 1);
+
+    folder.replace("renderer = \"", "renderer = \"Another ");
+    folder.write();
+    const std::string foreign = folder.at("foreign");
+    expect_done(folder.evaluate({"--out", foreign}));
+    EXPECT_EQ(gnomon({"gate", foreign, "--baseline", baseline}).exit_code, 3);
+}
+
+TEST(Evaluate, KeepsARunWithoutASettingForTheReport)
+{
+    CaseFolder folder{"sphere-plane"};
+    folder.keep_level_0();
+    for (const char* const table : {"camera", "shadow_map", "lookup", "bias", "objects"}) {
+        folder.drop_table(table);
+    }
+    folder.write();
+    const std::string run = folder.at("run");
+    expect_done(folder.evaluate({"--out", run}));
+    const Ending report = gnomon({"report", run});
+    EXPECT_EQ(report.exit_code, 0);
+    EXPECT_EQ(report.err.find("left out"), std::string::npos) << report.err;
+    EXPECT_EQ(csv_rows(run + "/results.csv").at(0).at("shadow_map.resolution"), "");
+}
+
+TEST(Evaluate, TakesTheMeshIntoTheRenderersSpace)
+{
+    CaseFolder folder{"yard", {"--set", "light.direction=[-0.4,-1,-0.3]"}};
+    const CaseJson own = CaseJson::parse(folder.compared.out);
+    folder.keep_level_0();
+    folder.move([](float&, float& y, float& z) {
+        const float up = y;
+        y = -z;
+        z = up;
+    });
+    folder.drop_table("camera");
+    folder.replace("direction = [-0.4, -1, -0.3]", "direction = [-0.4, 0.3, -1]");
+    folder.toml += "\n[conventions]\nup = \"z\"\n";
+    folder.write();
+    const CaseJson json = evaluated(folder);
+    // Level 0 scores what level 1 calls attached, as blocked.
+    EXPECT_EQ(json.at("pixels").at("lit"), own.at("pixels").at("lit"));
+    EXPECT_EQ(json.at("false_shadow"), own.at("false_shadow"));
+}
+
+/// Changes a case.toml, and expects a refusal with that text.
+void expect_toml_refused(const std::string& from, const std::string& to, const std::string& text)
+{
+    static CaseFolder folder{"sphere-plane"};
+    folder.restore();
+    folder.replace(from, to);
+    folder.write();
+    expect_refused(folder.evaluate(), 2, text);
+}
+
+TEST(Evaluate, RefusesACaseTomlInOneLine)
+{
+    expect_toml_refused("schema = 1", "schema = 2", "schema = 2: must be");
+    expect_toml_refused("schema = 1", "", "schema = 1 is missing");
+    expect_toml_refused("renderer", "rendrer", "the nearest is renderer");
+    expect_toml_refused("file = \"mesh.glb\"", "fiel = \"mesh.glb\"", "the nearest is mesh.file");
+    expect_toml_refused("mesh.glb", "no.glb", "no.glb");
+    expect_toml_refused("[objects]\n", "[objects]\n\"nothing\" = 77\n", "the nearest is");
+    expect_toml_refused("[lookup]", "[lokup]", "the nearest is lookup");
+    expect_toml_refused("[light]", "[conventions]\naxes = [\"x\", \"x\", \"y\"]\n[light]",
+                        "conventions.axes");
+    expect_toml_refused("[light]", "[scene]\nground = true\n[light]", "unknown");
+}
+
+TEST(Evaluate, RefusesAnImageInOneLine)
+{
+    CaseFolder whole{"sphere-plane"};
+    const auto expect = [&whole](const std::function<void(CaseFolder&)>& change,
+                                 const std::string& text) {
+        CaseFolder& folder = whole;
+        folder.restore();
+        change(folder);
+        folder.write();
+        expect_refused(folder.evaluate(), 2, text);
+    };
+    expect([](CaseFolder& folder) { folder.channels.erase("shadow.V"); }, "no channel shadow.V");
+    expect([](CaseFolder& folder) { folder.channels.erase("P.Y"); }, "no channel P.Y");
+    expect([](CaseFolder& folder) { folder.channels["shadow.V"](120, 100) = NAN; },
+           "shadow.V is NaN at pixel (120, 100)");
+    expect([](CaseFolder& folder) { folder.channels["shadow.V"](120, 100) = 3; },
+           "channels.lit_above");
+    expect([](CaseFolder& folder) { folder.channels["P.X"](120, 100) = INFINITY; },
+           "P is not finite at pixel (120, 100)");
+    expect([](CaseFolder& folder) { folder.channels["P.X"](120, 100) = 1e30F; }, "beyond 1e15");
+    expect(
+        [](CaseFolder& folder) {
+            folder.channels["valid"] = scene::Image<float>{{240, 136}};
+        },
+        "no pixel is to be judged");
+}
+
+TEST(Evaluate, RefusesDamagedImagesInOneLine)
+{
+    const CaseFolder folder{"sphere-plane"};
+    const std::string whole = text_of(folder.at("aov.exr"));
+    for (const std::size_t length :
+         {std::size_t{0}, std::size_t{3}, std::size_t{100}, whole.size() / 2, whole.size() - 9}) {
+        std::ofstream{folder.at("aov.exr"), std::ios::binary} << whole.substr(0, length);
+        expect_refused(folder.evaluate(), 2, "aov.exr");
+    }
+    // The data window's right edge, in a header that is otherwise sound: far too many pixels.
+    std::string huge = whole;
+    huge.replace(huge.find("box2i", huge.find("dataWindow")) + 6 + 4 + 8, 8,
+                 std::string{"\xFF\xFF\x0F\x00\xFF\xFF\x0F\x00", 8});
+    std::ofstream{folder.at("aov.exr"), std::ios::binary} << huge;
+    expect_refused(folder.evaluate(), 2, "aov.exr");
+}
+
+} // namespace
+} // namespace gnomon::testing
