@@ -170,10 +170,9 @@ private:
 
     [[nodiscard]] const PlaneSection& section_of(std::size_t lane)
     {
-        if (!sections_[lane]) {
-            sections_[lane].emplace(starts_[lane].box, starts_[lane].facet, counts_);
-        }
-        return *sections_[lane];
+        std::optional<PlaneSection>& section = sections_[lane];
+        return section ? *section
+                       : section.emplace(starts_[lane].box, starts_[lane].facet, counts_);
     }
 
     [[nodiscard]] SuppositionVerdict verdict(std::size_t lane)
