@@ -69,7 +69,7 @@ TEST(Measure, CountsEveryClassAndReason)
     const ClassCounts& counts = metrics.pixels;
     EXPECT_EQ(counts.total, 14U);
     EXPECT_EQ(counts.by_class, (std::array<std::uint64_t, 7>{1, 4, 2, 1, 3, 2, 1}));
-    EXPECT_EQ(counts.by_reason, (std::array<std::uint64_t, 7>{7, 2, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(counts.by_reason, (std::array<std::uint64_t, 8>{7, 2, 1, 1, 1, 1, 1}));
     EXPECT_EQ(counts.scored(), 3U);
     EXPECT_EQ(counts.surface(), 13U);
     EXPECT_EQ(metrics.false_shadow + metrics.false_lit, 0U);

@@ -96,7 +96,8 @@ TEST(CaseFile, RefusesWhatIsMissingUnknownOrContradicts)
     };
     EXPECT_THAT(case_refusal(without("schema = 1")), HasSubstr("schema = 1 is missing"));
     EXPECT_THAT(case_refusal(without("renderer = \"Engine\"")), HasSubstr("renderer is missing"));
-    EXPECT_THAT(case_refusal(without("mesh.file = \"mesh.ply\"")), HasSubstr("mesh.file is missing"));
+    EXPECT_THAT(case_refusal(without("mesh.file = \"mesh.ply\"")),
+                HasSubstr("mesh.file is missing"));
     EXPECT_THAT(case_refusal(without("direction = [0, -1, 0.1]")), HasSubstr("[light] is missing"));
     for (const auto& [more, text] :
          {std::pair{"type = \"directional\"\ndirektion = 1", "the nearest is light.direction"},
@@ -126,9 +127,8 @@ TEST(CaseSpace, TurnsAndMirrorsWithoutLoss)
     space.axes = {{{0, 1}, {2, 1}, {1, 1}}};
     const TriangleScene moved = move_to_space(mesh, space);
     // Mirrored: the corners turn the other way, so that the front stays the front.
-    EXPECT_EQ(moved.corners(0),
-              (std::array{Vec3f{0.1F, 0.3F, 0.2F}, Vec3f{0.1F, 0.3F, 2.9F},
-                          Vec3f{1.7F, 0.3F, 0.2F}}));
+    EXPECT_EQ(moved.corners(0), (std::array{Vec3f{0.1F, 0.3F, 0.2F}, Vec3f{0.1F, 0.3F, 2.9F},
+                                            Vec3f{1.7F, 0.3F, 0.2F}}));
     EXPECT_EQ(moved.objects[0].name, "one");
 }
 
