@@ -113,7 +113,7 @@ private:
 };
 
 /// Before the work, not after it.
-void require_writable(const EvaluateOptions& options)
+void require_writable_results(const EvaluateOptions& options)
 {
     for (const std::string& path : {options.aov_path, options.picture_path}) {
         if (!path.empty()) {
@@ -147,7 +147,7 @@ void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFi
     run.record(std::move(source), file.name, comparison, {}, file.text, evaluate_command(options));
 }
 
-void write_outputs(const EvaluateOptions& options, const analysis::Comparison& comparison)
+void write_evaluation(const EvaluateOptions& options, const analysis::Comparison& comparison)
 {
     if (!options.aov_path.empty()) {
         reports::write_aov(options.aov_path, comparison, points_of(comparison));
@@ -161,7 +161,7 @@ void write_outputs(const EvaluateOptions& options, const analysis::Comparison& c
 
 void evaluate(const EvaluateOptions& options)
 {
-    require_writable(options);
+    require_writable_results(options);
     const CaseSession session{options};
     const analysis::CaseTruth truth = session.truth(options.threads);
     analysis::CheckedCase checked =
@@ -183,7 +183,7 @@ void evaluate(const EvaluateOptions& options)
     if (run) {
         record(*run, options, session.file(), comparison);
     }
-    write_outputs(options, comparison);
+    write_evaluation(options, comparison);
 }
 
 } // namespace

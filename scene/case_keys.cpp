@@ -105,9 +105,11 @@ std::vector<CaseKey> file_keys()
         plain_key<Text>(
             "conventions.handedness", WordDomain{{"right", "left"}},
             [](CaseDraft & draft) -> auto& { return draft.handedness; }),
-        plain_key<Names>(
-            "conventions.axes", TextListDomain{},
-            [](CaseDraft & draft) -> auto& { return draft.axes; }),
+        {"conventions.axes", TextListDomain{},
+         [](CaseDraft& draft, const JobValue& value) {
+             draft.axes = std::get<Names>(value);
+             draft.has_own_axes = true;
+         }},
         plain_key<double>(
             "conventions.metres_per_unit", unit_m,
             [](CaseDraft & draft) -> auto& { return draft.file.space.metres_per_unit; }),

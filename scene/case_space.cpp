@@ -11,12 +11,12 @@ namespace gnomon::scene {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using ObjectCorners = std::array<std::uint32_t, 3>;
 
 /// An object's triangles, numbered within its own vertices.
 struct MovedObject {
     std::vector<Vec3d> vertices;
-    std::vector<Corners> triangles;
+    std::vector<ObjectCorners> triangles;
 };
 
 /// @param number_of  [vertex of the mesh] work space, `no_triangle` everywhere before and after.
@@ -26,7 +26,7 @@ MovedObject moved_object(const TriangleScene& mesh, const Object& object, const 
     MovedObject moved;
     std::vector<std::uint32_t> seen;
     for (std::uint32_t t = 0; t < object.triangle_count; ++t) {
-        Corners corners = mesh.triangles[object.first_triangle + t];
+        ObjectCorners corners = mesh.triangles[object.first_triangle + t];
         for (std::uint32_t& corner : corners) {
             std::uint32_t& number = number_of[corner];
             if (number == no_triangle) {

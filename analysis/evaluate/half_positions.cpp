@@ -17,16 +17,16 @@ bool is_half_vector(const Vec3f& v)
 }
 
 /// How positions step from pixel to pixel along rows.
-struct Steps {
+struct RowSteps {
     std::size_t pairs = 0;
     std::size_t repeated = 0;
     std::size_t triples = 0;
     std::size_t even = 0;
 };
 
-Steps count_steps(const scene::Image<Vec3f>& position)
+RowSteps count_steps(const scene::Image<Vec3f>& position)
 {
-    Steps steps;
+    RowSteps steps;
     const auto [width, height] = position.size();
     for (int y = 0; y < height; ++y) {
         for (int x = 1; x < width; ++x) {
@@ -79,7 +79,7 @@ bool are_rounded_to_half(const scene::Image<Vec3f>& position, bool is_off_surfac
     if (judged < fewest) {
         return false;
     }
-    const Steps steps = count_steps(position);
+    const RowSteps steps = count_steps(position);
     const bool repeats = steps.repeated * 100 >= steps.pairs && steps.repeated > 0;
     const bool is_even = steps.triples > 0 && steps.even * 2 >= steps.triples;
     return is_off_surfaces || repeats || !is_even;

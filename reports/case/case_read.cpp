@@ -28,7 +28,7 @@ using scene::InputError;
 using scene::Vec3f;
 
 constexpr const char* case_advice = "write it as docs/evaluate.md says";
-constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float no_position = std::numeric_limits<float>::quiet_NaN();
 /// As of a job's image.
 constexpr std::uint64_t most_pixels = 134'217'728;
 
@@ -203,7 +203,7 @@ void drop_positions(CaseImageFile& file, const scene::CaseFile& description,
         const bool is_void = background && Vec3f{*background} == position[i];
         if ((!valid.empty() && valid[i] == 0) || is_void ||
             (valid.empty() && !is_finite(position[i]))) {
-            position[i] = Vec3f{no_number};
+            position[i] = Vec3f{no_position};
             continue;
         }
         if (!is_finite(position[i])) {

@@ -192,7 +192,9 @@ TEST(Merge, RefusesResultsThatDiffer)
                 }),
                 HasSubstr("another mean_abs_error than"));
     EXPECT_THAT(
-        refusal_of_changed([](analysis::FinishedCurve& curve) { curve.curve.near_m += 1e-15; }),
+        refusal_of_changed([](analysis::FinishedCurve& curve) {
+            curve.curve.near_m = *curve.curve.near_m + 1e-15;
+        }),
         AllOf(HasSubstr("curve " + configurations[2].curve), HasSubstr("another map_near_m")));
     EXPECT_THAT(refusal_of_changed([](analysis::FinishedCurve& curve) {
                     curve.curve.points.back().errors.false_lit = 0;
