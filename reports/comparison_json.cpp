@@ -153,7 +153,7 @@ std::string comparison_json(const analysis::Comparison& comparison)
     json["subpixel_bits"] = comparison.subpixel_bits;
     json["exact_inputs"] = exact_inputs_object(comparison);
     if (comparison.evaluation) {
-        add_evaluation(json, comparison);
+        add_evaluation(json, comparison, *comparison.evaluation);
     }
     return text(json, 2) + "\n";
 }

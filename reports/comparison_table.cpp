@@ -31,7 +31,8 @@ std::string signs(const scene::TruthSigns& signs)
 std::string settings(const analysis::Comparison& comparison)
 {
     if (comparison.evaluation) {
-        return evaluation_settings(comparison) + signs(comparison.truth.signs);
+        return evaluation_settings(comparison, *comparison.evaluation) +
+               signs(comparison.truth.signs);
     }
     const Description words = describe(comparison);
     const analysis::Environment& environment = comparison.environment;
@@ -144,10 +145,10 @@ std::string seconds_line(const analysis::StageSeconds& seconds)
 std::string comparison_table(const analysis::Comparison& comparison)
 {
     if (comparison.evaluation) {
-        return fmt::format("{}\n{}\n{}{}{}{}", settings(comparison),
-                           classes(comparison.metrics.pixels), errors(comparison.metrics),
-                           diagnosis_table(comparison), evaluation_table(comparison),
-                           findings_text(comparison));
+        return fmt::format(
+            "{}\n{}\n{}{}{}{}", settings(comparison), classes(comparison.metrics.pixels),
+            errors(comparison.metrics), diagnosis_table(comparison),
+            evaluation_table(comparison, *comparison.evaluation), findings_text(comparison));
     }
     return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
                        classes(comparison.metrics.pixels), errors(comparison.metrics),

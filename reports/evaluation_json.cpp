@@ -43,9 +43,8 @@ Json cannot_know(const std::vector<analysis::CannotKnow>& all)
     return json;
 }
 
-Json evaluate_object(const analysis::Comparison& comparison)
+Json evaluate_object(const analysis::Comparison& comparison, const analysis::Evaluation& evaluation)
 {
-    const analysis::Evaluation& evaluation = *comparison.evaluation;
     const auto& found = evaluation.bias_causes;
     return {{"case", evaluation.case_name},
             {"renderer", comparison.environment.gl_renderer},
@@ -75,9 +74,9 @@ Json import_check_json(const analysis::ImportCheck& check)
     return json;
 }
 
-void add_evaluation(Json& json, const analysis::Comparison& comparison)
+void add_evaluation(Json& json, const analysis::Comparison& comparison,
+                    const analysis::Evaluation& evaluation)
 {
-    const analysis::Evaluation& evaluation = *comparison.evaluation;
     json["indeterminate_kinds"]["rounding"] = comparison.metrics.pixels.of(ClassReason::rounding);
     if (evaluation.level == 0) {
         json["pixels"]["attached"] = nullptr;
@@ -89,7 +88,7 @@ void add_evaluation(Json& json, const analysis::Comparison& comparison)
         json["frustum"] = nullptr;
     }
     json["subpixel_bits"] = nullptr;
-    json["evaluate"] = evaluate_object(comparison);
+    json["evaluate"] = evaluate_object(comparison, evaluation);
 }
 
 std::string check_json(const analysis::ImportCheck& check)

@@ -8,8 +8,9 @@ namespace gnomon::reports {
 
 /// Turns a comparison's JSON into that of another renderer's case: adds `evaluate`, what r and d
 /// tell of the causes, and `indeterminate_kinds.rounding`; makes null what the case does not tell.
-/// @param comparison  has an evaluation.
-void add_evaluation(nlohmann::ordered_json& json, const analysis::Comparison& comparison);
+/// @param evaluation  of that comparison.
+void add_evaluation(nlohmann::ordered_json& json, const analysis::Comparison& comparison,
+                    const analysis::Evaluation& evaluation);
 
 /// `evaluate.import_check`.
 [[nodiscard]] nlohmann::ordered_json import_check_json(const analysis::ImportCheck& check);

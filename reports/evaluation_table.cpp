@@ -29,9 +29,9 @@ std::string bias_lines(const analysis::BiasCauses& found)
 
 } // namespace
 
-std::string evaluation_settings(const analysis::Comparison& comparison)
+std::string evaluation_settings(const analysis::Comparison& comparison,
+                                const analysis::Evaluation& evaluation)
 {
-    const analysis::Evaluation& evaluation = *comparison.evaluation;
     const Description words = describe(comparison);
     std::string text = setting_line("case", evaluation.case_name);
     text += setting_line("renderer", comparison.environment.gl_renderer);
@@ -50,9 +50,9 @@ std::string evaluation_settings(const analysis::Comparison& comparison)
                                                     comparison.environment.embree));
 }
 
-std::string evaluation_table(const analysis::Comparison& comparison)
+std::string evaluation_table(const analysis::Comparison& comparison,
+                             const analysis::Evaluation& evaluation)
 {
-    const analysis::Evaluation& evaluation = *comparison.evaluation;
     std::string text;
     if (!comparison.diagnosis) {
         if (evaluation.bias_causes) {

@@ -164,9 +164,9 @@ std::string listed(const std::vector<std::string>& words)
 }
 
 /// Causes as far as they can be known, and why no further.
-void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& comparison)
+void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& comparison,
+                     Evaluation& evaluation)
 {
-    Evaluation& evaluation = *comparison.evaluation;
     const auto cannot = [&](std::string needs) {
         evaluation.cannot_know.push_back({"causes, labels, bias curve", std::move(needs)});
     };
@@ -198,14 +198,13 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
 }
 
 /// What r and d say where nothing else does.
-void find_some_causes(const Case& subject, Comparison& comparison)
+void find_some_causes(const Case& subject, const Comparison& comparison, Evaluation& evaluation)
 {
     const scene::CaseLayers& layers = subject.layers;
     const bool has_one_tap = subject.file.says("lookup.filter") &&
                              comparison.job.lookup.filter == scene::Filter::nearest;
     const bool is_unmoved =
         subject.file.says("bias.normal_texels") && comparison.job.bias.normal_texels == 0;
-    Evaluation& evaluation = *comparison.evaluation;
     std::vector<std::string> missing;
     for (const auto& [is_there, what] : {std::pair{!layers.z_light.empty(), "z.light"},
                                          {!layers.z_map.empty(), "z.map"},
@@ -224,7 +223,7 @@ void find_some_causes(const Case& subject, Comparison& comparison)
 }
 
 void find_gaps(const Case& subject, const CheckedCase& checked, const CaseTruth& truth,
-               Comparison& comparison)
+               const Comparison& comparison, Evaluation& evaluation)
 {
     std::vector<std::size_t> pixels;
     for (std::size_t i = 0; i < subject.layers.mask.pixel_count(); ++i) {
@@ -241,7 +240,7 @@ void find_gaps(const Case& subject, const CheckedCase& checked, const CaseTruth&
          truth.find_blockers(checked.view.light, checked.receivers, checked.truth, pixels)) {
         gaps_m.push_back(static_cast<float>(hit.gap_m * subject.file.space.metres_per_unit));
     }
-    comparison.evaluation->false_lit_gap_m = find_quantiles(std::move(gaps_m));
+    evaluation.false_lit_gap_m = find_quantiles(std::move(gaps_m));
 }
 
 std::vector<std::string> keys_given(const scene::CaseFile& file)
@@ -321,17 +320,17 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.truth = checked.truth.truth;
     result.truth_method = "exact for all positions that round to P";
     result.environment = {subject.file.renderer, "another renderer", truth.embree, truth.gnomon};
-    result.evaluation = make_evaluation(subject, checked);
+    Evaluation& evaluation = result.evaluation.emplace(make_evaluation(subject, checked));
     result.metrics =
         measure(result.truth, result.lookup,
                 subject.file.says("lookup.filter") ? equal_taps(result.job.lookup.filter) : 0);
-    result.evaluation->by_object = errors_by_object(result.truth.pixel_class, result.lookup,
-                                                    result.receivers.triangle, subject.mesh);
-    find_all_causes(subject, truth, result);
+    evaluation.by_object = errors_by_object(result.truth.pixel_class, result.lookup,
+                                            result.receivers.triangle, subject.mesh);
+    find_all_causes(subject, truth, result, evaluation);
     if (!result.diagnosis) {
-        find_some_causes(subject, result);
+        find_some_causes(subject, result, evaluation);
     }
-    find_gaps(subject, checked, truth, result);
+    find_gaps(subject, checked, truth, result, evaluation);
     return result;
 }
 
