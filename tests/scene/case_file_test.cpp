@@ -22,7 +22,7 @@ mesh.file = "mesh.ply"
 direction = [0, -1, 0.1]
 )";
 
-CaseFile read(const std::string& text, std::string_view from = {})
+CaseFile read_case(const std::string& text, std::string_view from = {})
 {
     const TemporaryFolder folder;
     folder.write("case.toml", text);
@@ -32,7 +32,7 @@ CaseFile read(const std::string& text, std::string_view from = {})
 std::string case_refusal(const std::string& text)
 {
     try {
-        (void)read(text);
+        (void)read_case(text);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -42,7 +42,7 @@ std::string case_refusal(const std::string& text)
 
 TEST(CaseFile, NeedsNoMoreThanMeshLightAndRenderer)
 {
-    const CaseFile file = read(smallest_case);
+    const CaseFile file = read_case(smallest_case);
     EXPECT_EQ(file.renderer, "Engine");
     EXPECT_EQ(file.image.filename(), "aov.exr");
     EXPECT_EQ(file.name, file.path.parent_path().filename());
@@ -56,7 +56,7 @@ TEST(CaseFile, NeedsNoMoreThanMeshLightAndRenderer)
 
 TEST(CaseFile, TakesPointLights)
 {
-    const CaseFile file = read("schema = 1\nrenderer = \"E\"\nmesh.file = \"m.ply\"\n"
+    const CaseFile file = read_case("schema = 1\nrenderer = \"E\"\nmesh.file = \"m.ply\"\n"
                                "light = {type = \"point\", position = [1, 2, 3]}\n");
     const Light light = make_light(*make_job(file.source).light);
     EXPECT_EQ(light.type, LightType::point);
@@ -65,7 +65,7 @@ TEST(CaseFile, TakesPointLights)
 
 TEST(CaseFile, TakesAnEyeWithoutACamera)
 {
-    const CaseFile file = read(std::string{smallest_case} + "[camera]\neye = [1, 2, 3.1]\n");
+    const CaseFile file = read_case(std::string{smallest_case} + "[camera]\neye = [1, 2, 3.1]\n");
     EXPECT_EQ(file.eye, (Vec3d{1, 2, double{3.1F}}));
     EXPECT_FALSE(file.says("camera.eye"));
     EXPECT_FALSE(make_job(file.source).camera);
@@ -73,17 +73,17 @@ TEST(CaseFile, TakesAnEyeWithoutACamera)
 
 TEST(CaseFile, LaysItsOwnConventionsOverAnExporters)
 {
-    const CaseFile unreal = read(smallest_case, "unreal");
+    const CaseFile unreal = read_case(smallest_case, "unreal");
     EXPECT_EQ(unreal.space.from_mesh({1, 2, 3}), (Vec3d{100, 300, 200}));
     EXPECT_TRUE(unreal.space.is_mirrored());
     EXPECT_EQ(unreal.space.metres_per_unit, 0.01);
-    const CaseFile own = read(std::string{smallest_case} +
+    const CaseFile own = read_case(std::string{smallest_case} +
                               "[conventions]\nfrom = \"blender\"\naxes = [\"x\", \"y\", "
                               "\"z\"]\n[channels]\nshadow = \"V\"\n");
     EXPECT_TRUE(own.space.is_of_mesh());
     EXPECT_EQ(own.conventions.channels.shadow, std::vector<std::string>{"V"});
     EXPECT_EQ(own.conventions.channels.position.back(), "ViewLayer.Position");
-    EXPECT_EQ(read(smallest_case, "blender").space.from_mesh({1, 2, 3}), (Vec3d{1, -3, 2}));
+    EXPECT_EQ(read_case(smallest_case, "blender").space.from_mesh({1, 2, 3}), (Vec3d{1, -3, 2}));
 }
 
 TEST(CaseFile, RefusesWhatIsMissingUnknownOrContradicts)
