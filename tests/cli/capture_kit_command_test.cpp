@@ -1,27 +1,17 @@
 #include "child_process.hpp"
 
 #include "cli/capture_kit_command.hpp"
+#include "run_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 
 namespace gnomon::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string text_of(const std::filesystem::path& path)
-{
-    std::ifstream file{path};
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 TEST(CaptureKit, WritesEveryFileAsItIsInTheSource)
 {

@@ -57,7 +57,7 @@ TEST(CaseFile, NeedsNoMoreThanMeshLightAndRenderer)
 TEST(CaseFile, TakesPointLights)
 {
     const CaseFile file = read_case("schema = 1\nrenderer = \"E\"\nmesh.file = \"m.ply\"\n"
-                               "light = {type = \"point\", position = [1, 2, 3]}\n");
+                                    "light = {type = \"point\", position = [1, 2, 3]}\n");
     const Light light = make_light(*make_job(file.source).light);
     EXPECT_EQ(light.type, LightType::point);
     EXPECT_EQ(light.position, (Vec3d{1, 2, 3}));
@@ -78,8 +78,8 @@ TEST(CaseFile, LaysItsOwnConventionsOverAnExporters)
     EXPECT_TRUE(unreal.space.is_mirrored());
     EXPECT_EQ(unreal.space.metres_per_unit, 0.01);
     const CaseFile own = read_case(std::string{smallest_case} +
-                              "[conventions]\nfrom = \"blender\"\naxes = [\"x\", \"y\", "
-                              "\"z\"]\n[channels]\nshadow = \"V\"\n");
+                                   "[conventions]\nfrom = \"blender\"\naxes = [\"x\", \"y\", "
+                                   "\"z\"]\n[channels]\nshadow = \"V\"\n");
     EXPECT_TRUE(own.space.is_of_mesh());
     EXPECT_EQ(own.conventions.channels.shadow, std::vector<std::string>{"V"});
     EXPECT_EQ(own.conventions.channels.position.back(), "ViewLayer.Position");
