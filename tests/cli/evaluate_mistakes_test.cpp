@@ -193,6 +193,9 @@ TEST(EvaluateMistakes, NamesAnAntiAliasedMask)
 
 TEST(EvaluateMistakes, AreNotSeenInShadowsThatAreMerelyBad)
 {
+    if (is_sanitized) {
+        GTEST_SKIP() << "36 runs take minutes under sanitizers";
+    }
     const std::vector<std::vector<std::string>> settings{
         {},
         {"--set", "bias.constant=0"},          // acne everywhere
