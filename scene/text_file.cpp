@@ -11,15 +11,8 @@
 
 namespace gnomon::scene {
 
-namespace {
-
-/// A job file with every key, axis and case that anybody needs has a few kilobytes.
-constexpr std::size_t most_bytes = 16U << 20U;
-
-} // namespace
-
 std::string read_text_file(const std::filesystem::path& path, const std::string& name,
-                           const std::string& kind)
+                           const std::string& kind, std::uint64_t most_bytes)
 {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {

@@ -3,12 +3,12 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/baseline_json.hpp"
 #include "reports/gate/gate_names.hpp"
-#include "reports/gate/limited_text.hpp"
 #include "reports/gate/pixel_mask.hpp"
 #include "reports/json_values.hpp"
 #include "reports/run/error_parts_json.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/job_toml.hpp"
+#include "scene/text_file.hpp"
 
 #include <fmt/format.h>
 
@@ -274,7 +274,9 @@ analysis::GateEntries read_baseline(const std::filesystem::path& file)
             "{}: there is no baseline: make one with `gnomon baseline save RUN --baseline FILE`",
             name));
     }
-    return parse_baseline(read_limited_text(file, most_baseline_bytes, "baseline"), name);
+    return parse_baseline(scene::read_text_file(file, scene::one_line(file.string()), "baseline",
+                                                most_baseline_bytes),
+                          name);
 }
 
 analysis::GateEntries parse_baseline(const std::string& text, const std::string& name)

@@ -1,11 +1,11 @@
 #include "reports/gate/gate_rule_file.hpp"
 
 #include "reports/gate/gate_rule_values.hpp"
-#include "reports/gate/limited_text.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
 #include "scene/job_file.hpp"
 #include "scene/job_toml.hpp"
+#include "scene/text_file.hpp"
 
 #include <fmt/format.h>
 
@@ -333,8 +333,9 @@ private:
 
 std::vector<GateRule> read_gate_rules(const std::filesystem::path& file)
 {
-    return parse_gate_rules(read_limited_text(file, most_rule_bytes, "rule file"),
-                            scene::one_line(file.string()));
+    return parse_gate_rules(
+        scene::read_text_file(file, scene::one_line(file.string()), "rule file", most_rule_bytes),
+        scene::one_line(file.string()));
 }
 
 std::vector<GateRule> parse_gate_rules(std::string_view text, const std::string& name)

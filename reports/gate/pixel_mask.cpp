@@ -2,12 +2,12 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/baseline_read.hpp"
-#include "reports/gate/limited_text.hpp"
 #include "reports/image_encoding.hpp"
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/job_toml.hpp"
+#include "scene/text_file.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -175,7 +175,8 @@ PixelMask read_mask(const fs::path& baseline, const std::string& name, scene::Im
         throw BaselineMissing(fmt::format("{}: the baseline's mask of wrong pixels is missing: {}",
                                           scene::one_line(path.string()), mask_advice));
     }
-    const std::string bytes = read_limited_text(path, most_mask_bytes, "mask of wrong pixels");
+    const std::string bytes = scene::read_text_file(path, scene::one_line(path.string()),
+                                                    "mask of wrong pixels", most_mask_bytes);
     const scene::ImageSize own = png_size(bytes);
     if (own.width_px < 1 || own.height_px < 1) {
         refuse_mask(path, "no PNG image, or cut short");
