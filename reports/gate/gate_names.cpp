@@ -61,8 +61,11 @@ std::string filter_text(const analysis::PixelFilter& filter)
         add("label", analysis::label_names[static_cast<std::size_t>(*filter.label)]);
     }
     if (filter.bands) {
-        add("zeta_band",
-            fmt::format("[{}, {}) m", filter.bands->first.lower_m(), filter.bands->last.upper_m()));
+        const auto& [first, last] = *filter.bands;
+        // The lowest band holds what is behind the light's camera plane, too.
+        add("zeta_band", first.octave == analysis::ZetaBand::lowest
+                             ? fmt::format("below {:.6g} m", last.upper_m())
+                             : fmt::format("[{}, {}) m", first.lower_m(), last.upper_m()));
     }
     return scene::one_line(text);
 }
