@@ -85,13 +85,32 @@ scene::Image<std::uint64_t> part_keys(const scene::Image<PixelClass>& classes,
     for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i != end; ++i) {
             if (scene::is_scored(classes[i])) {
-                const int band = zeta_band_of(zeta_m[i]).octave - ZetaBand::lowest;
+                const int band = zeta_band_of(zeta_m[i]).place - ZetaBand::lowest;
                 keys[i] =
                     objects.place_of(triangles[i]) * band_count + static_cast<std::uint64_t>(band);
             }
         }
     });
     return keys;
+}
+
+/// Where the band of that place begins [m].
+double border_m(int place)
+{
+    if (place < 0) {
+        return -border_m(-place);
+    }
+    if (place > ZetaBand::highest) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return place == 0 ? 0 : std::ldexp(1.0, place - 1 + ZetaBand::first_octave);
+}
+
+/// @param distance_m  At least 0.
+int place_of_distance(float distance_m)
+{
+    constexpr int below = ZetaBand::first_octave - 1;
+    return std::clamp(std::ilogb(distance_m), below, ZetaBand::last_octave) - below;
 }
 
 /// How the wrong pixels of each part and kind change from one bias to the next. Sums of integers:
@@ -150,19 +169,21 @@ private:
 
 double ZetaBand::lower_m() const
 {
-    return octave <= lowest ? 0 : std::ldexp(1.0, octave);
+    return border_m(place);
 }
 
 double ZetaBand::upper_m() const
 {
-    return octave >= highest ? std::numeric_limits<double>::infinity()
-                             : std::ldexp(1.0, octave + 1);
+    return border_m(place + 1);
 }
 
 ZetaBand zeta_band_of(float zeta_m)
 {
-    return {zeta_m > 0 ? std::clamp(std::ilogb(zeta_m), ZetaBand::lowest, ZetaBand::highest)
-                       : ZetaBand::lowest};
+    if (zeta_m >= 0) {
+        return {place_of_distance(zeta_m)};
+    }
+    // The bands below 0 mirror those above, but hold their lower end as those do.
+    return {-1 - place_of_distance(std::nextafter(-zeta_m, 0.0F))};
 }
 
 PartMap find_parts(const scene::Image<PixelClass>& classes,

@@ -16,15 +16,18 @@
 
 namespace gnomon::analysis {
 
-/// The band [2^octave, 2^(octave + 1)) of light distances ζ [m]; the lowest holds all that is
-/// smaller too, ζ <= 0 included, and the highest all that is larger. Bands are the same in every
-/// run, wherever its near plane and its pixels lie.
+/// One of the bands of light distances ζ [m]: octaves [2^k, 2^(k + 1)) and, as a directional
+/// light's ζ may be below 0, [-2^(k + 1), -2^k); beside 0 [0, 2^-10) and [-2^-10, 0). The outermost
+/// hold all that is 2^50 or more. Bands are the same in every run, wherever its near plane and its
+/// pixels lie.
 struct ZetaBand {
-    int octave = 0;
-    static constexpr int lowest = -64;
-    static constexpr int highest = 63;
+    int place = 0; ///< in the order of ζ; 0 begins at ζ = 0
+    static constexpr int first_octave = -10;
+    static constexpr int last_octave = 50;
+    static constexpr int highest = last_octave - first_octave + 1;
+    static constexpr int lowest = -1 - highest;
 
-    /// 0 for the lowest.
+    /// Negative infinity for the lowest.
     [[nodiscard]] double lower_m() const;
     /// Infinite for the highest.
     [[nodiscard]] double upper_m() const;
@@ -60,7 +63,7 @@ struct ErrorPart {
 struct PartMap {
     static constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();
     /// Scenes with more parts than this in view have none: they would fill the store.
-    static constexpr std::size_t most_parts = 256;
+    static constexpr std::size_t most_parts = 512;
 
     scene::Image<std::uint16_t> part; ///< index into `parts`; `none` where nothing is scored
     std::vector<ErrorPart> parts;     ///< by object and band, without wrong pixels; may be empty

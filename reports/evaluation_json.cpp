@@ -52,6 +52,9 @@ Json evaluate_object(const analysis::Comparison& comparison, const analysis::Eva
             {"cannot_know", cannot_know(evaluation.cannot_know)},
             {"import_check", import_check_json(evaluation.import_check)},
             {"false_lit_gap_m", quantiles_or_null(evaluation.false_lit_gap_m)},
+            {"contradicted_pixels", evaluation.contradicted_pixels
+                                        ? Json(*evaluation.contradicted_pixels)
+                                        : Json(nullptr)},
             {"errors_of_unknown_cause", found ? Json(found->unknown) : Json(nullptr)},
             {"overshadow_by_bias", found ? Json(found->overshadow) : Json(nullptr)},
             {"grown_pixels", evaluation.grown_pixels},

@@ -65,6 +65,13 @@ std::string evaluation_table(const analysis::Comparison& comparison,
                                              "median, {:.4g} m at 95 %, at most {:.4g} m",
                                              gap->median, gap->p95, gap->max));
     }
+    if (const std::uint64_t pixels = evaluation.contradicted_pixels.value_or(0); pixels > 0) {
+        text +=
+            fmt::format("\nThe mask contradicts its own lookup at {}: z.light, z.map and the bias "
+                        "give the other verdict.\nThe causes of those say nothing; look at how "
+                        "mask and depths are written.\n",
+                        counted(pixels, "scored pixel"));
+    }
     text += evaluation.cannot_know.empty() ? "" : "\n";
     for (const analysis::CannotKnow& one : evaluation.cannot_know) {
         text += fmt::format("cannot know {}; needs {}\n", one.what, one.needs);

@@ -163,6 +163,20 @@ std::string listed(const std::vector<std::string>& words)
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
+/// How many scored pixels the lookup of the case would have decided otherwise than its mask.
+std::uint64_t count_contradicted(const Comparison& comparison, const BiasAnswers& answers)
+{
+    std::uint64_t pixels = 0;
+    for (std::size_t i = 0; i < answers.critical_bias.pixel_count(); ++i) {
+        const bool is_lit = answers.critical_bias[i] <= comparison.view.bias.constant;
+        if (scene::is_scored(comparison.truth.pixel_class[i]) &&
+            scene::is_lit(comparison.lookup.samples[i].verdict) != is_lit) {
+            ++pixels;
+        }
+    }
+    return pixels;
+}
+
 /// Causes as far as they can be known, and why no further.
 void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& comparison,
                      Evaluation& evaluation)
@@ -195,6 +209,9 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
         diagnose(comparison.job, comparison.view,
                  {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup},
                  recorded_renderers(subject, truth));
+    if (const auto& biases = comparison.diagnosis->biases) {
+        evaluation.contradicted_pixels = count_contradicted(comparison, *biases);
+    }
 }
 
 /// What r and d say where nothing else does.

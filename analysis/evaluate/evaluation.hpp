@@ -65,6 +65,8 @@ struct Evaluation {
     bool has_map = false;    ///< the view's frustum is the renderer's
     /// Keys of the job that the case gives; the others mean nothing.
     std::vector<std::string> given_keys;
+    /// Scored pixels whose mask is not what r, d and the bias of the case give; empty: not known.
+    std::optional<std::uint64_t> contradicted_pixels;
     std::optional<BiasCauses> bias_causes; ///< empty: not known, or there is a diagnosis
     std::vector<ObjectErrors> by_object;
     std::optional<Quantiles> false_lit_gap_m; ///< from P to the blocker; empty: none is false lit

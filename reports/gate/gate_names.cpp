@@ -62,10 +62,7 @@ std::string filter_text(const analysis::PixelFilter& filter)
     }
     if (filter.bands) {
         const auto& [first, last] = *filter.bands;
-        // The lowest band holds what is behind the light's camera plane, too.
-        add("zeta_band", first.octave == analysis::ZetaBand::lowest
-                             ? fmt::format("below {:.6g} m", last.upper_m())
-                             : fmt::format("[{}, {}) m", first.lower_m(), last.upper_m()));
+        add("zeta_band", fmt::format("[{}, {}) m", first.lower_m(), last.upper_m()));
     }
     return scene::one_line(text);
 }
@@ -83,9 +80,11 @@ Json filter_json(const analysis::PixelFilter& filter)
         json["label"] = analysis::label_names[static_cast<std::size_t>(*filter.label)];
     }
     if (filter.bands) {
-        const double upper_m = filter.bands->last.upper_m();
-        json["zeta_band"] = {filter.bands->first.lower_m(),
-                             std::isfinite(upper_m) ? Json(upper_m) : Json(nullptr)};
+        const auto finite = [](double end_m) {
+            return std::isfinite(end_m) ? Json(end_m) : Json(nullptr);
+        };
+        json["zeta_band"] = {finite(filter.bands->first.lower_m()),
+                             finite(filter.bands->last.upper_m())};
     }
     return json;
 }

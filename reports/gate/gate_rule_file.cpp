@@ -248,8 +248,10 @@ private:
     /// `zeta_band = [4, 16]`, or "*".
     void read_bands(GateRule& rule, const TomlMember& setting) const
     {
-        constexpr const char* wanted = "\"*\", or two distances in metres that are powers of two "
-                                       "(0 and inf are allowed), as in [4, 16]";
+        constexpr const char* wanted =
+            "\"*\", or two distances in metres that are powers of two "
+            "from 2^-10 to 2^50, with or without a sign, 0 or inf, as in "
+            "[4, 16]";
         if (const auto* words = std::get_if<std::string>(&setting.node.value)) {
             if (*words != "*") {
                 fail_value(setting, wanted);
@@ -261,9 +263,9 @@ private:
         const auto lower =
             ends != nullptr && ends->size() == 2 ? distance((*ends)[0]) : std::nullopt;
         const auto upper = lower ? distance((*ends)[1]) : std::nullopt;
-        for (int octave = analysis::ZetaBand::lowest; octave <= analysis::ZetaBand::highest;
-             ++octave) {
-            const analysis::ZetaBand band{octave};
+        for (int place = analysis::ZetaBand::lowest; place <= analysis::ZetaBand::highest;
+             ++place) {
+            const analysis::ZetaBand band{place};
             if (lower && band.lower_m() == *lower) {
                 rule.pixels.bands = analysis::ZetaBands{band, band};
             }

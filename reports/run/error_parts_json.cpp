@@ -111,8 +111,8 @@ std::optional<ZetaBand> band_from_text(std::string_view text)
 {
     static const auto bands = [] {
         std::map<std::string, ZetaBand, std::less<>> all;
-        for (int octave = ZetaBand::lowest; octave <= ZetaBand::highest; ++octave) {
-            all.emplace(band_text({octave}), ZetaBand{octave});
+        for (int place = ZetaBand::lowest; place <= ZetaBand::highest; ++place) {
+            all.emplace(band_text({place}), ZetaBand{place});
         }
         return all;
     }();

@@ -38,7 +38,7 @@ inline std::string text_of(const std::optional<Quantiles>& value)
 inline std::string text_of(const ErrorPart& part)
 {
     std::string text =
-        fmt::format("{} {} {} {}", part.object, part.band.octave, part.lit, part.blocked);
+        fmt::format("{} {} {} {}", part.object, part.band.place, part.lit, part.blocked);
     for (const WrongCount& wrong : part.wrong) {
         text += fmt::format(" {}{}{}:{}", wrong.is_false_lit, static_cast<int>(wrong.cause),
                             static_cast<int>(wrong.label), wrong.pixels);

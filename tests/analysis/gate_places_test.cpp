@@ -16,10 +16,10 @@ namespace gnomon::analysis {
 namespace {
 
 const std::vector<ErrorPart> two_objects{
-    {"floor", {2}, 90, 10, {{false, Cause::resolution, Label::acne, 7}}},
-    {"floor", {3}, 50, 0, {}},
+    {"floor", zeta_band_of(4), 90, 10, {{false, Cause::resolution, Label::acne, 7}}},
+    {"floor", zeta_band_of(8), 50, 0, {}},
     {"wall",
-     {2},
+     zeta_band_of(4),
      20,
      30,
      {{false, Cause::bias, Label::overshadow, 2}, {true, Cause::bias, Label::peter_panning, 5}}}};
@@ -33,21 +33,31 @@ PixelFilter of_object(const std::string& name)
 
 TEST(ZetaBands, AreTheOctavesOfTheDistance)
 {
-    EXPECT_EQ(zeta_band_of(4).octave, 2);
-    EXPECT_EQ(zeta_band_of(std::nextafter(8.0F, 0.0F)).octave, 2);
-    EXPECT_EQ(zeta_band_of(8).octave, 3);
-    EXPECT_EQ((ZetaBand{2}.lower_m()), 4);
-    EXPECT_EQ((ZetaBand{2}.upper_m()), 8);
+    const ZetaBand band = zeta_band_of(4);
+    EXPECT_EQ(band.lower_m(), 4);
+    EXPECT_EQ(band.upper_m(), 8);
+    EXPECT_EQ(zeta_band_of(std::nextafter(8.0F, 0.0F)), band);
+    EXPECT_EQ(zeta_band_of(8).place, band.place + 1);
+    EXPECT_EQ(zeta_band_of(-4).lower_m(), -4) << "the lower end belongs to a band";
+    EXPECT_EQ(zeta_band_of(-4).upper_m(), -2);
+    EXPECT_EQ(zeta_band_of(std::nextafter(-4.0F, -5.0F)).lower_m(), -8);
 }
 
-TEST(ZetaBands, OfTheEndsHoldTheRest)
+TEST(ZetaBands, HoldAllDistances)
 {
-    for (const float zeta_m : {0.0F, -5.0F, std::numeric_limits<float>::denorm_min()}) {
-        EXPECT_EQ(zeta_band_of(zeta_m).octave, ZetaBand::lowest) << zeta_m;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(zeta_band_of(-infinity).place, ZetaBand::lowest);
+    EXPECT_EQ(zeta_band_of(infinity).place, ZetaBand::highest);
+    EXPECT_EQ(zeta_band_of(0).place, 0);
+    EXPECT_EQ(zeta_band_of(-0.0F).place, 0);
+    EXPECT_EQ(zeta_band_of(-std::numeric_limits<float>::denorm_min()).place, -1);
+    for (int place = ZetaBand::lowest; place <= ZetaBand::highest; ++place) {
+        const auto lower_m = static_cast<float>(ZetaBand{place}.lower_m());
+        const auto upper_m = static_cast<float>(ZetaBand{place}.upper_m());
+        EXPECT_EQ(zeta_band_of(lower_m).place, place);
+        EXPECT_EQ(zeta_band_of(std::nextafter(upper_m, -infinity)).place, place);
+        EXPECT_EQ(upper_m, ZetaBand{place + 1}.lower_m());
     }
-    EXPECT_EQ(ZetaBand{ZetaBand::lowest}.lower_m(), 0);
-    EXPECT_EQ(zeta_band_of(std::numeric_limits<float>::infinity()).octave, ZetaBand::highest);
-    EXPECT_TRUE(std::isinf(ZetaBand{ZetaBand::highest}.upper_m()));
 }
 
 TEST(PixelFilters, CountTheirPixels)
@@ -63,10 +73,10 @@ TEST(PixelFilters, CountTheirPixels)
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", filter), 0);
     EXPECT_EQ(metric_of_pixels(two_objects, "causes.bias", filter), 0);
     PixelFilter bands;
-    bands.bands = ZetaBands{{2}, {2}};
+    bands.bands = ZetaBands{zeta_band_of(4), zeta_band_of(4)};
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", bands), 14);
-    bands.bands->first = {3};
-    bands.bands->last = {9};
+    bands.bands->first = zeta_band_of(8);
+    bands.bands->last = zeta_band_of(512);
     EXPECT_EQ(metric_of_pixels(two_objects, "error_rate", bands), 0);
 }
 
@@ -74,7 +84,7 @@ TEST(PixelFilters, OfNoPixelsHaveNoValue)
 {
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", of_object("walls")), std::nullopt);
     PixelFilter far = of_object("floor");
-    far.bands = ZetaBands{{3}, {3}};
+    far.bands = ZetaBands{zeta_band_of(8), zeta_band_of(8)};
     EXPECT_EQ(metric_of_pixels(two_objects, "false_lit_rate", far), std::nullopt) << "0 / 0";
 }
 
@@ -89,7 +99,8 @@ TEST(EachObject, IsJudgedByItself)
     GateEntry now = before;
     now.parts[0].wrong[0].pixels = 4; // three fewer
     now.parts[2].wrong[1].pixels = 7; // two more
-    now.parts.push_back({"zebra", {2}, 9, 9, {{true, Cause::bias, Label::peter_panning, 9}}});
+    now.parts.push_back(
+        {"zebra", zeta_band_of(4), 9, 9, {{true, Cause::bias, Label::peter_panning, 9}}});
     const GateOutcome outcome = judge_run(gate_entries({before}), gate_entries({now}), rules);
     ASSERT_EQ(outcome.findings.size(), 1U) << "a new object has nothing to be compared with";
     EXPECT_EQ(outcome.findings[0].filter, of_object("wall"));
@@ -151,7 +162,7 @@ TEST(NewPixels, CanBeOfOneObjectCauseOrBand)
     filter.cause = Cause::coverage;
     EXPECT_EQ(find_new_pixels(before, now, filter).count, 0U);
     filter.cause = Cause::bias;
-    filter.bands = ZetaBands{{2}, {2}};
+    filter.bands = ZetaBands{zeta_band_of(4), zeta_band_of(4)};
     EXPECT_EQ(find_new_pixels(before, now, filter).count, 2U);
     EXPECT_TRUE(now.knows(filter));
     now.zeta_m = {};

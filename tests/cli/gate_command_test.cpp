@@ -31,9 +31,11 @@ int new_pixel_count(const GateJson& found)
 
 /// Plants a change of a job and expects the gate to find it, with that cause and that suspect.
 void expect_regression(const std::vector<std::string>& before, const std::string& change,
-                       const std::string& cause, const std::string& suspect)
+                       const std::string& cause, const std::string& suspect,
+                       const std::string& builtin = "sphere-plane")
 {
-    const GateFolder folder;
+    GateFolder folder;
+    folder.builtin = builtin;
     folder.compare("before", before);
     folder.compare("after", with(before, {"--set", change}));
     expect_done(folder.save("before"));
@@ -46,7 +48,7 @@ void expect_regression(const std::vector<std::string>& before, const std::string
     EXPECT_THAT(ending.out, HasSubstr("REGRESSION"));
     EXPECT_THAT(ending.out, HasSubstr("dominant cause: " + cause + ","));
     EXPECT_THAT(ending.out, HasSubstr("first suspects: " + suspect + "\n"));
-    EXPECT_THAT(ending.out, HasSubstr("see it: gnomon compare --builtin sphere-plane "));
+    EXPECT_THAT(ending.out, HasSubstr("see it: gnomon compare --builtin " + builtin + " "));
 
     const Ending json = folder.gate("after", {"--json"});
     EXPECT_EQ(json.exit_code, 1);
@@ -77,6 +79,15 @@ TEST(GateCommand, FindsAHundredthOfTheNearPlane)
     // A constant bias in depth units is 100 times as long then.
     expect_regression({"--set", "shadow_map.depth_format=d16"}, "shadow_map.near=0.005", "bias",
                       "shadow_map.near: 0.5 -> 0.005");
+}
+
+TEST(GateCommand, FindsPrecisionLostToTheNearPlane)
+{
+    // Nothing but the near plane's precision: an offset along the normal has no depth units.
+    expect_regression({"--set", "shadow_map.depth_format=d16", "--set", "bias.constant=0", "--set",
+                       "bias.normal_texels=3", "--set", "shadow_map.resolution=2048", "--set",
+                       "shadow_map.near=1"},
+                      "shadow_map.near=0.01", "precision", "shadow_map.near: 1 -> 0.01", "yard");
 }
 
 TEST(GateCommand, FindsACoarserDepthFormat)

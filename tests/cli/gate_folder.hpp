@@ -27,8 +27,8 @@ public:
     void compare(const std::string& name, const std::vector<std::string>& more) const
     {
         const Ending ending =
-            gnomon(with({"compare", "--builtin", "sphere-plane", "--set", "image.width=320",
-                         "--set", "image.height=180", "--out", at(name)},
+            gnomon(with({"compare", "--builtin", builtin, "--set", "image.width=320", "--set",
+                         "image.height=180", "--out", at(name)},
                         more));
         ASSERT_EQ(ending.exit_code, 0) << ending.command << ending.err;
     }
@@ -54,6 +54,8 @@ public:
         }
         return paths;
     }
+
+    std::string builtin = "sphere-plane"; ///< the scene that is compared
 
 private:
     TemporaryFolder folder_;

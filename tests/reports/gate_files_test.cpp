@@ -33,14 +33,14 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::vector<analysis::ErrorPart> example_parts{
-    {"a \"wall\"\n", {-3}, 9, 0, {}},
+    {"a \"wall\"\n", analysis::zeta_band_of(0.2F), 9, 0, {}},
     {"floor",
-     {analysis::ZetaBand::lowest},
+     analysis::zeta_band_of(-5),
      3,
      2,
      {{false, analysis::Cause::bias, analysis::Label::overshadow, 1}}},
     {"floor",
-     {2},
+     analysis::zeta_band_of(4),
      90,
      10,
      {{false, analysis::Cause::resolution, analysis::Label::acne, 7},
@@ -51,8 +51,8 @@ TEST(ErrorParts, ReadBackAsTheyWereWritten)
     const Json json = Json::parse(parts_json(example_parts).dump());
     EXPECT_EQ(parts_from_json(json, "parts"), example_parts);
     EXPECT_EQ(json.at("floor").at("[4, 8)").at("false_lit.coverage.leak"), 1);
-    for (int octave = analysis::ZetaBand::lowest; octave <= analysis::ZetaBand::highest; ++octave) {
-        EXPECT_EQ(band_from_text(band_text({octave})), analysis::ZetaBand{octave}) << octave;
+    for (int place = analysis::ZetaBand::lowest; place <= analysis::ZetaBand::highest; ++place) {
+        EXPECT_EQ(band_from_text(band_text({place})), analysis::ZetaBand{place}) << place;
     }
 }
 

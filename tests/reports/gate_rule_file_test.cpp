@@ -153,12 +153,15 @@ TEST(GateRuleFile, ReadsWhichPixelsAreMeant)
     EXPECT_EQ(all.pixels.object, "wall");
     EXPECT_EQ(all.pixels.cause, analysis::Cause::bias);
     EXPECT_EQ(all.pixels.label, analysis::Label::peter_panning);
-    EXPECT_EQ(all.pixels.bands, (analysis::ZetaBands{{2}, {3}}));
+    EXPECT_EQ(all.pixels.bands,
+              (analysis::ZetaBands{analysis::zeta_band_of(4), analysis::zeta_band_of(8)}));
     EXPECT_TRUE(all.where.empty());
     EXPECT_TRUE(rule("wrong_pixels", "object = \"*\"").each_object);
     EXPECT_TRUE(rule("wrong_pixels", "zeta_band = \"*\"").each_band);
     EXPECT_EQ(rule("new_pixels", "zeta_band = [0, inf]").pixels.bands,
-              (analysis::ZetaBands{{analysis::ZetaBand::lowest}, {analysis::ZetaBand::highest}}));
+              (analysis::ZetaBands{{0}, {analysis::ZetaBand::highest}}));
+    EXPECT_EQ(rule("new_pixels", "zeta_band = [-inf, -0.5]").pixels.bands,
+              (analysis::ZetaBands{{analysis::ZetaBand::lowest}, analysis::zeta_band_of(-1)}));
 }
 
 TEST(GateRuleFile, RefusesPixelsThatCannotBeMeant)
@@ -169,8 +172,8 @@ TEST(GateRuleFile, RefusesPixelsThatCannotBeMeant)
     };
     EXPECT_THAT(refusal("false_lit", "cause = \"bais\""), HasSubstr("nearest: \"bias\""));
     EXPECT_THAT(refusal("false_lit", "label = \"none\""), HasSubstr("is not a label"));
-    for (const char* const band :
-         {"[4, 15]", "[16, 4]", "[4]", "4", "\"far\"", "[4, 4]", "[nan, 8]", "[\"4\", 8]"}) {
+    for (const char* const band : {"[4, 15]", "[16, 4]", "[4]", "4", "\"far\"", "[4, 4]",
+                                   "[nan, 8]", "[-4, -8]", "[inf, inf]", "[\"4\", 8]"}) {
         EXPECT_THAT(refusal("false_lit", fmt::format("zeta_band = {}", band)),
                     HasSubstr("powers of two"))
             << band;

@@ -1,0 +1,203 @@
+// Cases of another renderer, changed on purpose, before the gate.
+
+#include "case_folder.hpp"
+#include "run_folder.hpp"
+
+#include "scene/pixel_class.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using JudgedJson = nlohmann::json;
+
+/// GL's shadows as a case, and a baseline of its evaluation.
+class JudgedCase {
+public:
+    JudgedCase(const std::string& scene, const std::vector<std::string>& more) : folder{scene, more}
+    {
+        expect_done(folder.evaluate({"--out", folder.at("before")}));
+        expect_done(gnomon(
+            {"baseline", "save", folder.at("before"), "--baseline", folder.at("baseline.json")}));
+    }
+
+    /// The class that each pixel has in the evaluation.
+    [[nodiscard]] scene::Image<scene::PixelClass> classes() const
+    {
+        for (const auto& file : std::filesystem::directory_iterator{folder.at("before/pixels")}) {
+            if (file.path().extension() == ".exr") {
+                return reports::LayerFile{file.path(), "a test needs it"}.classes();
+            }
+        }
+        ADD_FAILURE() << "no pixels were kept";
+        return {};
+    }
+
+    /// Evaluates the case as it is now, and judges it.
+    [[nodiscard]] Ending judge() const
+    {
+        folder.write();
+        std::filesystem::remove_all(folder.at("after"));
+        const Ending evaluated = folder.evaluate({"--out", folder.at("after")});
+        EXPECT_EQ(evaluated.exit_code, 0) << evaluated.err;
+        return gnomon(
+            {"gate", folder.at("after"), "--baseline", folder.at("baseline.json"), "--json"});
+    }
+
+    CaseFolder folder;
+};
+
+JudgedJson finding_of(const Ending& ending, const std::string& metric)
+{
+    const JudgedJson found = JudgedJson::parse(ending.out);
+    for (const JudgedJson& finding : found.at("findings")) {
+        if (finding.at("metric") == metric) {
+            return finding;
+        }
+    }
+    ADD_FAILURE() << metric << " in\n" << ending.out;
+    return {};
+}
+
+/// Flips that many random pixels that are right, row by row.
+std::set<std::pair<int, int>> flip_right_pixels(JudgedCase& judged, std::size_t count)
+{
+    const auto classes = judged.classes();
+    auto& mask = judged.folder.channels["shadow.V"];
+    const auto [width, height] = mask.size();
+    std::set<std::pair<int, int>> flipped; // y first: in the order of rows
+    std::mt19937 random{20};
+    while (flipped.size() < count) {
+        const int x = static_cast<int>(random() % static_cast<unsigned>(width));
+        const int y = static_cast<int>(random() % static_cast<unsigned>(height));
+        const bool is_right = scene::is_scored(classes(x, y)) &&
+                              (mask(x, y) > 0) == (classes(x, y) == scene::PixelClass::lit);
+        if (is_right && flipped.emplace(y, x).second) {
+            mask(x, y) = 1 - mask(x, y);
+        }
+    }
+    return flipped;
+}
+
+TEST(EvaluateGate, NamesTwentyFlippedPixelsInAMillion)
+{
+    if (is_sanitized) {
+        GTEST_SKIP() << "a million pixels take a minute under sanitizers";
+    }
+    JudgedCase judged{"columns", {"--set", "image.width=1280", "--set", "image.height=800"}};
+    const auto flipped = flip_right_pixels(judged, 20);
+    const JudgedJson found = finding_of(judged.judge(), "new_pixels");
+    EXPECT_EQ(found.at("reason"), "worse_than_baseline");
+    EXPECT_EQ(found.at("now"), 20);
+    JudgedJson first = JudgedJson::array();
+    for (const auto& [y, x] : flipped) {
+        if (first.size() < 10) {
+            first.push_back({x, y});
+        }
+    }
+    EXPECT_EQ(found.at("pixels").at("first"), first);
+    EXPECT_EQ(found.at("pixels").at("box").at(1), flipped.begin()->first);
+    EXPECT_EQ(found.at("pixels").at("box").at(3), flipped.rbegin()->first);
+    EXPECT_TRUE(std::filesystem::exists(found.at("picture").get<std::string>()));
+    // No bias, map or filter made them: the depths beside the mask say otherwise.
+    const Ending evaluated = judged.folder.evaluate();
+    EXPECT_THAT(evaluated.out, HasSubstr("contradicts its own lookup at 20 scored pixels"));
+}
+
+TEST(EvaluateGate, FindsAMaskThatIsShiftedByOnePixel)
+{
+    JudgedCase judged{"yard", {}};
+    auto& mask = judged.folder.channels["shadow.V"];
+    const auto [width, height] = mask.size();
+    for (int y = 0; y < height; ++y) {
+        for (int x = width - 1; x > 0; --x) {
+            mask(x, y) = mask(x - 1, y);
+        }
+    }
+    const JudgedJson found = finding_of(judged.judge(), "new_pixels");
+    EXPECT_GE(found.at("now"), 100);
+    EXPECT_FALSE(found.at("dominant_cause").is_null());
+    const Ending evaluated = judged.folder.evaluate({"--json"});
+    EXPECT_GE(JudgedJson::parse(evaluated.out).at("evaluate").at("contradicted_pixels"), 100);
+}
+
+TEST(EvaluateGate, PassesTheSameCaseAgain)
+{
+    const JudgedCase judged{"yard", {}};
+    const Ending ending = judged.judge();
+    EXPECT_EQ(ending.exit_code, 0) << ending.out;
+    EXPECT_TRUE(JudgedJson::parse(ending.out).at("findings").empty()) << ending.out;
+    const Ending evaluated = judged.folder.evaluate({"--json"});
+    EXPECT_EQ(JudgedJson::parse(evaluated.out).at("evaluate").at("contradicted_pixels"), 0);
+}
+
+/// Replaces, cuts, doubles or removes a few bytes.
+std::string with_damage(std::string bytes, std::uint32_t seed)
+{
+    std::mt19937 random{seed};
+    for (std::size_t edits = 1 + random() % 4; edits > 0 && bytes.size() > 16; --edits) {
+        // Half of the places are in the header of an image, which is what gives it its shape.
+        const std::size_t range =
+            random() % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 900);
+        const std::size_t at = random() % range;
+        switch (random() % 5) {
+        case 0:
+            bytes.erase(at, 1 + random() % 8);
+            break;
+        case 1:
+            bytes.insert(at, bytes.substr(random() % bytes.size(), 1 + random() % 8));
+            break;
+        case 2:
+            if (const std::size_t digit = bytes.find_first_of("0123456789", at);
+                digit != std::string::npos) {
+                bytes[digit] = static_cast<char>('0' + random() % 10);
+            }
+            break;
+        case 3:
+            bytes.resize(random() % 8 == 0 ? at : bytes.size());
+            break;
+        default:
+            bytes[at] = static_cast<char>(random() & 0xFFU);
+        }
+    }
+    return bytes;
+}
+
+TEST(DamagedCases, AreEvaluatedOrRefusedInOneLine)
+{
+    const CaseFolder folder{"sphere-plane",
+                            {"--set", "image.width=64", "--set", "image.height=36"}};
+    const std::uint32_t count = runs_full_tests() ? 500 : 40;
+    for (const char* const name : {"case.toml", "aov.exr", "mesh.glb"}) {
+        const std::string whole = text_of(folder.at(name));
+        int refused = 0;
+        for (std::uint32_t seed = 0; seed < count && !HasFailure(); ++seed) {
+            std::ofstream{folder.at(name), std::ios::binary} << with_damage(whole, seed);
+            const Ending ending = folder.evaluate();
+            SCOPED_TRACE(std::string{name} + " with seed " + std::to_string(seed));
+            if (ending.exit_code != 0) {
+                ++refused;
+                expect_refused(ending, 2, "");
+            }
+        }
+        std::ofstream{folder.at(name), std::ios::binary} << whole;
+        EXPECT_GT(refused, 0) << name;
+    }
+    expect_done(folder.evaluate());
+}
+
+} // namespace
+} // namespace gnomon::testing
