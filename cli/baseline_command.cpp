@@ -35,9 +35,11 @@ void save_baseline(const BaselineOptions& options)
                             : reports::curve_points_of(reports::read_gate_rules(options.rules));
     const reports::GateRun run = reports::read_gate_run(options.run, points);
     require_whole_run(run);
-    reports::write_baseline(options.file, reports::write_masks(options.file, run));
-    print(fmt::format("wrote {}: {}\n", scene::one_line(options.file),
-                      reports::counted(run.results.entries.size(), "configuration")));
+    const analysis::GateEntries results = reports::write_masks(options.file, run);
+    reports::write_baseline(options.file, results);
+    print(fmt::format("wrote {}: {}, {}\n", scene::one_line(options.file),
+                      reports::counted(results.entries.size(), "configuration"),
+                      reports::masks_text(results)));
 }
 
 void list_baseline(const BaselineOptions& options)
@@ -48,11 +50,8 @@ void list_baseline(const BaselineOptions& options)
 void compare_with_baseline(const BaselineOptions& options)
 {
     const analysis::GateEntries baseline = baseline_or_end(options.file);
-    analysis::GateEntries run = reports::read_gate_run(options.run).results;
-    for (analysis::GateEntry& entry : run.entries) {
-        entry.pixels.clear(); // no masks are made of them here
-    }
-    print(reports::baseline_difference(baseline, run));
+    const reports::GateRun run = reports::read_gate_run(options.run);
+    print(reports::baseline_difference(baseline, reports::with_mask_names(run)));
 }
 
 } // namespace

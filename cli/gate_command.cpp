@@ -117,9 +117,10 @@ void gate(const GateOptions& options)
     if (!options.junit.empty()) {
         reports::write_file(options.junit, reports::gate_junit(report));
     }
-    print(options.json ? reports::gate_json(report) : reports::gate_table(report));
     if (options.github) {
         print_for_github(report);
+    } else {
+        print(options.json ? reports::gate_json(report) : reports::gate_table(report));
     }
     end_as_verdict(report.verdict);
 }
@@ -143,20 +144,24 @@ void add_gate_command(CLI::App& program)
                       "Compare with a baseline of another renderer, too");
     command->add_option("--pictures", options->pictures,
                         "DIR for pictures of pixels that became wrong; default: RUN/gate");
-    command
-        ->add_option("--update", options->update,
-                     "Take the run's results into the baseline instead of judging them: "
-                     "configurations that it lacks, those that changed, or all")
-        ->check(CLI::IsMember({"missing", "changed", "all"}));
+    CLI::Option* update =
+        command
+            ->add_option("--update", options->update,
+                         "Take the run's results into the baseline instead of judging them: "
+                         "configurations that it lacks, those that changed, or all")
+            ->check(CLI::IsMember({"missing", "changed", "all"}));
     command->add_flag("--allow-ci-update", options->allows_ci_update,
                       "Let --update write where CI is set");
     CLI::Option* json =
-        command->add_flag("--json", options->json, "Print it as JSON (docs/gate.md)");
-    command->add_option("--junit", options->junit, "Also write it to FILE as JUnit XML");
+        command->add_flag("--json", options->json, "Print it as JSON (docs/gate.md)")
+            ->excludes(update);
+    command->add_option("--junit", options->junit, "Also write it to FILE as JUnit XML")
+        ->excludes(update);
     command
         ->add_flag("--github", options->github,
                    "Also annotate a build of GitHub Actions, and write its step summary")
-        ->excludes(json);
+        ->excludes(json)
+        ->excludes(update);
     command->footer(
         "Exit status: 0 pass; 1 regression; 2 there is no run in RUN, or a baseline, mask "
         "or rule is bad; 3 there is no baseline, a mask of it is missing, or it is of "

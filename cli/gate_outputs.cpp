@@ -3,6 +3,7 @@
 #include "cli/standard_output.hpp"
 #include "reports/gate/gate_github.hpp"
 #include "reports/gate/gate_pictures.hpp"
+#include "reports/gate/gate_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -57,7 +59,13 @@ void draw_gate_pictures(reports::GateReport& report, const std::filesystem::path
 
 void print_for_github(const reports::GateReport& report)
 {
-    print(reports::github_annotations(report));
+    // Names in the table may look like commands to the runner: it is told to take none until a word
+    // that nobody can have put there.
+    std::random_device random;
+    const std::string word =
+        fmt::format("gnomon-{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
+    print(fmt::format("::stop-commands::{}\n{}::{}::\n{}", word, reports::gate_table(report), word,
+                      reports::github_annotations(report)));
     const char* const file = std::getenv("GITHUB_STEP_SUMMARY");
     if (file != nullptr && *file != '\0') {
         append_summary(file, report);

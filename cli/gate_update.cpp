@@ -99,8 +99,9 @@ void update_baseline(const UpdateOptions& options, const reports::GateRun& run)
     reports::write_baseline(options.baseline, updated);
     const std::string changes =
         known ? reports::baseline_difference(*known, updated) : std::string{};
-    print(fmt::format("{}wrote {}: {}\n", changes, scene::one_line(options.baseline.string()),
-                      reports::counted(updated.entries.size(), "configuration")));
+    print(fmt::format("{}wrote {}: {}, {}\n", changes, scene::one_line(options.baseline.string()),
+                      reports::counted(updated.entries.size(), "configuration"),
+                      reports::masks_text(updated)));
 }
 
 } // namespace gnomon::cli

@@ -13,6 +13,22 @@ bool is_as_before(const GateEntry& before, const GateEntry& now)
            before.parts == now.parts && (now.pixels.empty() || before.pixels == now.pixels);
 }
 
+/// The run's entries, with the baseline's masks where the run kept no pixels of what is as before.
+GateEntries with_known_pixels(const GateEntries& baseline, GateEntries run)
+{
+    if (!can_be_united(baseline, run)) {
+        return run;
+    }
+    for (GateEntry& now : run.entries) {
+        const auto known = std::find_if(baseline.entries.begin(), baseline.entries.end(),
+                                        [&](const GateEntry& one) { return one.key == now.key; });
+        if (known != baseline.entries.end() && now.pixels.empty() && is_as_before(*known, now)) {
+            now.pixels = known->pixels;
+        }
+    }
+    return run;
+}
+
 } // namespace
 
 bool can_be_united(const GateEntries& baseline, const GateEntries& run)
@@ -24,7 +40,7 @@ GateEntries updated_baseline(const GateEntries& baseline, const GateEntries& run
                              BaselineUpdate update)
 {
     if (update == BaselineUpdate::all) {
-        return run;
+        return with_known_pixels(baseline, run);
     }
     if (!can_be_united(baseline, run)) {
         throw std::invalid_argument(

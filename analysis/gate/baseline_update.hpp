@@ -14,8 +14,8 @@ enum class BaselineUpdate : std::uint8_t {
 };
 
 /// The baseline after an update.
-/// @param run  Its `GateEntry::pixels` are names of masks. One whose pixels were not kept changes
-///             nothing if all else is as it was.
+/// @param run  Its `GateEntry::pixels` are names of masks. One whose pixels were not kept keeps the
+///             baseline's mask if all else is as it was, its renderer included.
 /// @throws std::invalid_argument  unless all is taken, if axes or renderers differ.
 [[nodiscard]] GateEntries updated_baseline(const GateEntries& baseline, const GateEntries& run,
                                            BaselineUpdate update);

@@ -14,6 +14,19 @@ constexpr std::array<std::string_view, 8> pixel_metrics{
     "false_shadow",   "false_lit",  "wrong_pixels", "false_shadow_rate",
     "false_lit_rate", "error_rate", "pixels.lit",   "pixels.blocked"};
 
+/// Every kind of wrong pixel that exists. Source: docs/causes.md.
+constexpr std::array<WrongCount, 11> possible_kinds{{{false, Cause::bias, Label::overshadow},
+                                                     {false, Cause::coverage, Label::overshadow},
+                                                     {false, Cause::precision, Label::acne},
+                                                     {false, Cause::precision, Label::edge},
+                                                     {false, Cause::resolution, Label::acne},
+                                                     {false, Cause::resolution, Label::edge},
+                                                     {true, Cause::bias, Label::peter_panning},
+                                                     {true, Cause::precision, Label::leak},
+                                                     {true, Cause::coverage, Label::leak},
+                                                     {true, Cause::resolution, Label::edge},
+                                                     {true, Cause::resolution, Label::leak}}};
+
 /// Where the name stands among the others behind the prefix; 0, "none", if it does not.
 template <typename Names>
 std::size_t code_in(std::string_view metric, std::string_view prefix, const Names& names)
@@ -103,6 +116,22 @@ std::optional<PixelFilter> counted_pixels(std::string_view metric, const PixelFi
 {
     return is_of_pixels(metric) && !metric.starts_with("pixels.") ? narrowed(filter, metric)
                                                                   : std::nullopt;
+}
+
+bool can_count(std::string_view metric, const PixelFilter& filter)
+{
+    if (metric.starts_with("pixels.")) {
+        return !filter.cause && !filter.label;
+    }
+    const auto meant = narrowed(filter, metric);
+    return meant &&
+           std::any_of(possible_kinds.begin(), possible_kinds.end(), [&](const WrongCount& kind) {
+               const bool is_meant =
+                   metric.starts_with("false_lit")
+                       ? kind.is_false_lit
+                       : !metric.starts_with("false_shadow") || !kind.is_false_lit;
+               return is_meant && meant->has(kind);
+           });
 }
 
 std::optional<double> metric_of_pixels(const std::vector<ErrorPart>& parts, std::string_view metric,

@@ -42,6 +42,10 @@ struct PixelFilter {
 [[nodiscard]] std::optional<PixelFilter> counted_pixels(std::string_view metric,
                                                         const PixelFilter& filter);
 
+/// Whether any wrong pixel can be of that metric and filter: acne, for one, is never false lit
+/// (docs/causes.md). Metrics that count right pixels too take no cause or label.
+[[nodiscard]] bool can_count(std::string_view metric, const PixelFilter& filter);
+
 /// That metric of the pixels that the filter takes.
 /// @param metric  `is_of_pixels`.
 /// @return  Empty if no part is such: there are no such pixels, or parts are not known; or if a

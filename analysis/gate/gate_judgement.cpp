@@ -49,6 +49,20 @@ double allowed_change(const GateRule& rule, double before, const GateEntry& now)
     return std::max(allowed, rule.allow_share.value_or(0) * image_pixels);
 }
 
+/// How far a metric may be worse as the price of other pixels that became right.
+double traded_change(const GateRule& rule, const GateEntry& before, const GateEntry& now)
+{
+    const std::string name{wrong_pixels_metric};
+    const auto was = before.metric(name);
+    const auto is = now.metric(name);
+    const double fall = was && is ? *was - *is : 0;
+    // Causes and labels share out the wrong pixels: without more of those, one grew for another.
+    const bool shares_out =
+        rule.metric.starts_with("causes.") || rule.metric.starts_with("labels.");
+    const bool is_enough = fall > 0 || (fall == 0 && was && shares_out);
+    return rule.trade_off && is_enough ? *rule.trade_off * std::max(fall, 1.0) : 0;
+}
+
 /// Judges configurations by one rule.
 class Judge {
 public:
@@ -103,7 +117,7 @@ private:
         finding.cause = answer.found->cause;
         finding.new_pixels = std::move(answer.found);
         judge_limits(finding, *finding.now);
-        judge_change(finding, *finding.now, now);
+        judge_change(finding, *finding.now, before, now);
         return true;
     }
 
@@ -126,7 +140,7 @@ private:
         }
         judge_limits(finding, *finding.now);
         if (before != nullptr && rule_->judges_change()) {
-            judge_change(finding, *finding.now, now);
+            judge_change(finding, *finding.now, *before, now);
         }
         return true;
     }
@@ -140,7 +154,8 @@ private:
         }
     }
 
-    void judge_change(GateFinding finding, double value, const GateEntry& now)
+    void judge_change(GateFinding finding, double value, const GateEntry& before,
+                      const GateEntry& now)
     {
         if (!finding.before) {
             finding.obstacle = "the baseline has no such value";
@@ -153,7 +168,9 @@ private:
         const double worse = worsening(rule_->worse, *finding.before, value);
         const double allowed = allowed_change(*rule_, *finding.before, now);
         if (worse > allowed) {
-            add(std::move(finding), GateReason::worse_than_baseline, allowed);
+            const bool is_traded = worse <= traded_change(*rule_, before, now);
+            add(std::move(finding),
+                is_traded ? GateReason::traded_off : GateReason::worse_than_baseline, allowed);
         } else if (worse < 0 && finding.filter.takes_all()) {
             outcome_->improvements.push_back(
                 {finding.entry, rule_->metric, *finding.before, value});
@@ -201,11 +218,15 @@ std::tuple<bool, bool, bool, double> finding_rank(const GateFinding& finding,
     const GateMetric* const metric = find_gate_metric(rule.metric);
     const bool is_count = metric != nullptr && metric->is_pixel_count;
     const double now = finding.now.value_or(0);
-    const double reference = finding.before.value_or(
-        finding.reason == GateReason::worse_than_baseline ? 0 : finding.limit.value_or(0));
+    const double reference =
+        finding.before.value_or(finding.reason == GateReason::worse_than_baseline ||
+                                        finding.reason == GateReason::traded_off
+                                    ? 0
+                                    : finding.limit.value_or(0));
     const double size = std::abs(now - reference);
     const double scale = std::max(std::abs(reference), std::numeric_limits<double>::min());
-    return {rule.severity == Severity::warn, finding.reason == GateReason::not_available, !is_count,
+    return {severity_of(finding, rules) == Severity::warn,
+            finding.reason == GateReason::not_available, !is_count,
             is_count ? -size : -size / scale};
 }
 
@@ -223,12 +244,17 @@ void tidy_improvements(GateOutcome& outcome)
 
 } // namespace
 
+Severity severity_of(const GateFinding& finding, std::span<const GateRule> rules)
+{
+    return finding.reason == GateReason::traded_off ? Severity::warn : rules[finding.rule].severity;
+}
+
 std::size_t GateOutcome::broken(std::span<const GateRule> rules, Severity severity) const
 {
     return static_cast<std::size_t>(
         std::count_if(findings.begin(), findings.end(), [&](const GateFinding& finding) {
             return finding.reason != GateReason::not_available &&
-                   rules[finding.rule].severity == severity;
+                   severity_of(finding, rules) == severity;
         }));
 }
 
@@ -237,7 +263,7 @@ bool GateOutcome::is_incomplete(std::span<const GateRule> rules) const
     return !missing.empty() ||
            std::any_of(findings.begin(), findings.end(), [&](const GateFinding& finding) {
                return finding.reason == GateReason::not_available &&
-                      rules[finding.rule].severity == Severity::fail;
+                      severity_of(finding, rules) == Severity::fail;
            });
 }
 

@@ -18,6 +18,7 @@ enum class GateReason : std::uint8_t {
     above_max,
     below_min,
     worse_than_baseline,
+    traded_off,    ///< worse than the baseline, by no more than the rule's trade-off: a warning
     not_available, ///< a value that it takes to judge does not exist
 };
 
@@ -35,6 +36,9 @@ struct GateFinding {
     std::optional<DominantCause> cause = {};
     std::optional<NewPixels> new_pixels = {}; ///< of `new_pixels`: where they are
 };
+
+/// What it means for the gate: what its rule says, or a warning where it is traded off.
+[[nodiscard]] Severity severity_of(const GateFinding& finding, std::span<const GateRule> rules);
 
 /// A metric that a rule on its change judges, and that changed for the better.
 struct GateImprovement {
@@ -81,7 +85,7 @@ struct GateOutcome {
 /// Compares a run with a baseline, configuration by configuration and rule by rule. Rules on a
 /// change judge configurations that both have; `max` and `min` judge all of the run.
 ///
-/// Worst first: failing rules before warnings, values that are not available after all others;
+/// Worst first: what fails before warnings, values that are not available after all others;
 /// then counts of pixels by how many more, then other metrics by how much more for its size.
 ///
 /// Of `new_pixels`, which compares places, an optional rule judges the configurations whose pixels

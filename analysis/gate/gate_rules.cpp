@@ -5,13 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace gnomon::analysis {
 
 namespace {
 
-constexpr double changed_job_share = 1e-4;
+constexpr double changed_job_share = 1e-5;
 constexpr double changed_job_gap = 0.05;
+constexpr double changed_job_trade_off = 0.1;
+constexpr double any_trade_off = std::numeric_limits<double>::infinity();
 
 bool is_same_value(std::string_view wanted, std::string_view value)
 {
@@ -30,13 +33,14 @@ GateRule optional_rule(std::string_view metric, JobState job)
     return rule;
 }
 
-void add_count_rules(std::vector<GateRule>& rules, std::string_view metric)
+void add_count_rules(std::vector<GateRule>& rules, std::string_view metric, double trade_off)
 {
     GateRule unchanged = optional_rule(metric, JobState::unchanged);
     unchanged.allow_pixels = 0;
     rules.push_back(std::move(unchanged));
     GateRule changed = optional_rule(metric, JobState::changed);
     changed.allow_share = changed_job_share;
+    changed.trade_off = trade_off;
     rules.push_back(std::move(changed));
 }
 
@@ -55,6 +59,7 @@ void add_part_rules(std::vector<GateRule>& rules)
             } else {
                 rule.id += ", changed job";
                 rule.allow_share = changed_job_share;
+                rule.trade_off = changed_job_trade_off;
             }
             rules.push_back(std::move(rule));
         }
@@ -79,6 +84,7 @@ void add_gap_rules(std::vector<GateRule>& rules, std::string_view metric)
     rules.push_back(std::move(unchanged));
     GateRule changed = optional_rule(metric, JobState::changed);
     changed.rel = changed_job_gap;
+    changed.trade_off = any_trade_off; // of fewer pixels, the longest gaps may be those that stay
     rules.push_back(std::move(changed));
 }
 
@@ -126,13 +132,13 @@ std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* befor
 std::vector<GateRule> default_gate_rules()
 {
     std::vector<GateRule> rules;
-    add_count_rules(rules, "false_shadow");
-    add_count_rules(rules, "false_lit");
+    add_count_rules(rules, "false_shadow", changed_job_trade_off);
+    add_count_rules(rules, "false_lit", changed_job_trade_off);
     for (std::size_t i = 1; i < cause_names.size(); ++i) { // the first is "none"
-        add_count_rules(rules, fmt::format("causes.{}", cause_names[i]));
+        add_count_rules(rules, fmt::format("causes.{}", cause_names[i]), any_trade_off);
     }
     for (std::size_t i = 1; i < label_names.size(); ++i) {
-        add_count_rules(rules, fmt::format("labels.{}", label_names[i]));
+        add_count_rules(rules, fmt::format("labels.{}", label_names[i]), any_trade_off);
     }
     add_part_rules(rules);
     add_new_pixel_rules(rules);

@@ -41,6 +41,9 @@ struct GateRule {
     std::optional<double> rel;          ///< times the baseline's value; >= 0
     std::optional<double> allow_pixels; ///< of a count; >= 0
     std::optional<double> allow_share;  ///< of a count, times the image's pixels; in [0, 1]
+    /// More than that only warns up to this share of what the configuration's wrong pixels fell
+    /// by: the price of others that became right. >= 0; of what is no count, infinite.
+    std::optional<double> trade_off;
 
     Worse worse = Worse::up;
     Severity severity = Severity::fail;
@@ -58,8 +61,10 @@ struct GateRule {
 /// The rules that hold where there is no file: no count of wrong pixels, cause or label, none of an
 /// object or a band of light distance, and no gap may grow, and no pixel may become wrong.
 /// Everything is deterministic, so nothing at all is allowed while the job is unchanged; where it
-/// changed, counts may grow by 1 in 10,000 of the image's pixels and gaps by 5 %, and pixels that
-/// become wrong are a warning.
+/// changed, counts may grow by 1 in 100,000 of the image's pixels and gaps by 5 %, and pixels that
+/// become wrong are a warning. So are, then, counts that grow by at most a tenth of what all wrong
+/// pixels fell by, and causes and labels that grow while those do not: pixels that stay wrong have
+/// another cause where the one before it is mended.
 [[nodiscard]] std::vector<GateRule> default_gate_rules();
 
 /// The filters that a rule is judged by in one configuration: its own, or one for each object or

@@ -1,6 +1,7 @@
 #include "reports/gate/baseline_read.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
+#include "reports/gate/baseline_checks.hpp"
 #include "reports/gate/baseline_json.hpp"
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/pixel_mask.hpp"
@@ -207,6 +208,9 @@ private:
         }
         entry.metrics = read_metrics(json["metrics"], place + ".metrics");
         read_places(entry, json, place);
+        if (const std::string contradiction = find_contradiction(entry); !contradiction.empty()) {
+            fail(place, contradiction);
+        }
         return entry;
     }
 

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gnomon::reports {
 
 namespace {
@@ -33,6 +35,9 @@ std::string differing_parts(const analysis::GateEntry& before, const analysis::G
     }
     if (!before.pixels.empty() && !now.pixels.empty() && before.pixels != now.pixels) {
         text += "  other pixels are wrong\n";
+    }
+    if (!before.pixels.empty() && now.pixels.empty()) {
+        text += "  no mask of wrong pixels any more: the run kept no pixels\n";
     }
     return text;
 }
@@ -73,13 +78,23 @@ std::string environment_difference(const analysis::Environment& before,
 
 } // namespace
 
+std::string masks_text(const analysis::GateEntries& baseline)
+{
+    const auto masks = static_cast<std::size_t>(
+        std::count_if(baseline.entries.begin(), baseline.entries.end(),
+                      [](const analysis::GateEntry& entry) { return !entry.pixels.empty(); }));
+    return masks == 0 ? "without masks of wrong pixels"
+                      : fmt::format("with masks of wrong pixels for {}", grouped(masks));
+}
+
 std::string baseline_table(const analysis::GateEntries& baseline)
 {
     std::string text = fmt::format(
         "{}, {}\n{}\n\n  {} {} {}  configuration\n", renderer_text(baseline.environment),
         scene::one_line(baseline.environment.gnomon),
-        counted(baseline.entries.size(), "configuration"), pad_left("false shadow", 14),
-        pad_left("false lit", 14), pad_left("error rate", 12));
+        fmt::format("{}, {}", counted(baseline.entries.size(), "configuration"),
+                    masks_text(baseline)),
+        pad_left("false shadow", 14), pad_left("false lit", 14), pad_left("error rate", 12));
     for (const analysis::GateEntry& entry : baseline.entries) {
         text += fmt::format("  {} {} {}  {}\n",
                             pad_left(metric_text("false_shadow", entry.metric("false_shadow")), 14),

@@ -6,6 +6,9 @@
 
 namespace gnomon::reports {
 
+/// "with masks of wrong pixels for 16", or that it has none.
+[[nodiscard]] std::string masks_text(const analysis::GateEntries& baseline);
+
 /// What `gnomon baseline list` prints: where the baseline comes from, and a line a configuration.
 [[nodiscard]] std::string baseline_table(const analysis::GateEntries& baseline);
 

@@ -13,6 +13,17 @@
 
 namespace gnomon::reports {
 
+analysis::GateEntries with_mask_names(const GateRun& run)
+{
+    analysis::GateEntries results = run.results;
+    for (analysis::GateEntry& entry : results.entries) {
+        if (!entry.pixels.empty()) {
+            entry.pixels = mask_name(read_wrong_pixels(run.folder, entry.pixels).mask);
+        }
+    }
+    return results;
+}
+
 analysis::GateEntries write_masks(const std::filesystem::path& baseline, const GateRun& run)
 {
     analysis::GateEntries results = run.results;

@@ -7,6 +7,10 @@
 
 namespace gnomon::reports {
 
+/// A run's results with the names that the masks of its wrong pixels have, without writing them.
+/// @throws scene::InputError  if kept pixels cannot be read.
+[[nodiscard]] analysis::GateEntries with_mask_names(const GateRun& run);
+
 /// Writes the masks of wrong pixels that a run's configurations have beside a baseline.
 /// @return  The run's results with the masks' names; none where no pixels were kept.
 /// @throws scene::InputError        if kept pixels cannot be read.

@@ -38,7 +38,8 @@ std::string annotation(std::string_view level, const std::string& title, const s
 
 std::string annotation_of(const GateReport& report, const GateFinding& finding)
 {
-    const bool is_warning = report.rules[finding.rule].severity == analysis::Severity::warn;
+    const bool is_warning =
+        analysis::severity_of(finding, report.rules) == analysis::Severity::warn;
     const analysis::ConfigurationKey& key = report.run.results.entries[finding.entry].key;
     std::string text = finding_sentence(report, finding);
     if (const auto cause = cause_of_finding(report, finding)) {
@@ -62,7 +63,8 @@ std::string summary_row(const GateReport& report, const GateFinding& finding)
     const std::string part = filter_text(finding.filter);
     return fmt::format(
         "| {} | {} | {} | {} | {} | {} | {} | {} |\n",
-        rule.severity == analysis::Severity::warn ? "warning" : "**fail**",
+        analysis::severity_of(finding, report.rules) == analysis::Severity::warn ? "warning"
+                                                                                 : "**fail**",
         markdown_cell(key_text(report.run.results.entries[finding.entry].key)),
         markdown_cell(part.empty() ? rule.metric : fmt::format("{}, {}", rule.metric, part)),
         metric_text(rule.metric, finding.before), metric_text(rule.metric, finding.now),

@@ -65,7 +65,9 @@ Json finding_json(const GateReport& report, const analysis::GateFinding& finding
     const analysis::ConfigurationKey& key = report.run.results.entries[finding.entry].key;
     const analysis::GatePair* const pair = report.outcome.pair_of(finding.entry);
     Json json{{"rule", rule.id},
-              {"severity", rule.severity == analysis::Severity::fail ? "fail" : "warn"},
+              {"severity", analysis::severity_of(finding, report.rules) == analysis::Severity::fail
+                               ? "fail"
+                               : "warn"},
               {"reason", reason_code(finding.reason)},
               {"configuration", key_json(key)},
               {"metric", rule.metric},
@@ -81,6 +83,19 @@ Json finding_json(const GateReport& report, const analysis::GateFinding& finding
     json["pixels"] = finding.new_pixels ? pixels_json(*finding.new_pixels) : Json(nullptr);
     const std::string picture = picture_of(report, finding);
     json["picture"] = picture.empty() ? Json(nullptr) : Json(picture);
+    return json;
+}
+
+/// The configurations whose job is not what it was.
+Json changed_json(const GateReport& report)
+{
+    Json json = Json::array();
+    for (const analysis::GatePair& pair : report.outcome.pairs) {
+        if (!pair.changes.empty()) {
+            json.push_back({{"configuration", key_json(report.run.results.entries[pair.now].key)},
+                            {"changed_parameters", changes_json(pair.changes)}});
+        }
+    }
     return json;
 }
 
@@ -131,6 +146,7 @@ std::string gate_json(const GateReport& report)
           {"failed", status.failed},
           {"not_computed", status.missing}}},
         {"findings", std::move(findings)},
+        {"changed", changed_json(report)},
         {"missing", keys_json(outcome.missing, report.baseline)},
         {"new", keys_json(outcome.added, report.run.results)},
         {"improvements", improvements_json(report)},

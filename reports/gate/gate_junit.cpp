@@ -42,7 +42,7 @@ std::map<std::size_t, std::vector<const GateFinding*>> failing_findings(const Ga
 {
     std::map<std::size_t, std::vector<const GateFinding*>> found;
     for (const GateFinding& finding : report.outcome.findings) {
-        if (report.rules[finding.rule].severity == analysis::Severity::fail) {
+        if (analysis::severity_of(finding, report.rules) == analysis::Severity::fail) {
             found[finding.entry].push_back(&finding);
         }
     }
@@ -107,7 +107,7 @@ std::string junit_notes(const GateReport& report)
 {
     std::string text = verdict_sentence(report) + '\n';
     for (const GateFinding& finding : report.outcome.findings) {
-        if (report.rules[finding.rule].severity == analysis::Severity::warn) {
+        if (analysis::severity_of(finding, report.rules) == analysis::Severity::warn) {
             text += fmt::format("warning: {}: {}\n",
                                 key_text(report.run.results.entries[finding.entry].key),
                                 finding_sentence(report, finding));

@@ -133,6 +133,8 @@ std::string_view reason_code(analysis::GateReason reason)
         return "below_min";
     case analysis::GateReason::worse_than_baseline:
         return "worse_than_baseline";
+    case analysis::GateReason::traded_off:
+        return "traded_off";
     case analysis::GateReason::not_available:
         break;
     }

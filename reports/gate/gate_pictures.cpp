@@ -41,8 +41,9 @@ std::optional<Pictured> pictured_pixels(const GateReport& report, const GateFind
 {
     const analysis::GateRule& rule = report.rules[finding.rule];
     const analysis::GatePair* const pair = report.outcome.pair_of(finding.entry);
-    const bool is_broken = rule.severity == analysis::Severity::fail &&
-                           finding.reason != analysis::GateReason::not_available;
+    const bool is_broken =
+        analysis::severity_of(finding, report.rules) == analysis::Severity::fail &&
+        finding.reason != analysis::GateReason::not_available;
     if (!is_broken || pair == nullptr || report.baseline.entries[pair->before].pixels.empty() ||
         report.run.results.entries[finding.entry].pixels.empty()) {
         return std::nullopt;

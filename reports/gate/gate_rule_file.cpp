@@ -8,6 +8,7 @@
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,8 @@ private:
              [](const auto& in, auto& to, const auto& key) { to.allow_pixels = in.count(key); }},
             {"allow_share",
              [](const auto& in, auto& to, const auto& key) { to.allow_share = in.share(key); }},
+            {"trade_off",
+             [](const auto& in, auto& to, const auto& key) { to.trade_off = in.trade_off(key); }},
             {"direction",
              [](const auto& in, auto& to, const auto& key) { in.read_direction(to, key); }},
             {"severity",
@@ -124,6 +127,16 @@ private:
                                     rule.id));
         }
         const bool counts = analysis::find_gate_metric(rule.metric)->is_pixel_count;
+        if (rule.trade_off && !rule.judges_change()) {
+            fail(first, fmt::format("rule \"{}\" has a trade_off: it goes with abs, rel, "
+                                    "allow_pixels or allow_share",
+                                    rule.id));
+        }
+        if (rule.trade_off && !counts && std::isfinite(*rule.trade_off)) {
+            fail(first, fmt::format("rule \"{}\" trades pixels, but {} is no count of pixels: say "
+                                    "trade_off = inf",
+                                    rule.id, rule.metric));
+        }
         if ((rule.allow_pixels || rule.allow_share) && !counts) {
             fail(first, fmt::format("rule \"{}\" allows pixels, but {} is no count of pixels: use "
                                     "abs or rel",
@@ -145,6 +158,11 @@ private:
                  fmt::format("rule \"{}\" names an object, cause, label or zeta_band, but {} "
                              "is not counted by them",
                              rule.id, rule.metric));
+        }
+        if (!analysis::can_count(rule.metric, rule.pixels)) {
+            fail(first, fmt::format("rule \"{}\": no pixel of {} has that cause and label: see "
+                                    "docs/causes.md",
+                                    rule.id, rule.metric));
         }
         if (is_each && takes_places) {
             fail(first, fmt::format("rule \"{}\": \"*\" does not go with {}: name one", rule.id,
@@ -286,10 +304,26 @@ private:
         return real == nullptr ? std::nullopt : std::optional{*real};
     }
 
+    [[nodiscard]] std::string vector_text(const TomlMember& setting,
+                                          const scene::TomlArray& list) const
+    {
+        if (list.size() != 3) {
+            fail_value(setting, "a number, a text or a vector of three numbers");
+        }
+        std::vector<std::string> parts;
+        for (const scene::TomlNode& part : list) {
+            parts.push_back(fmt::format("{}", number({setting.key, part, setting.line})));
+        }
+        return fmt::format("[{}]", fmt::join(parts, ", "));
+    }
+
     /// As results.csv has the value.
     [[nodiscard]] std::string setting_text(const TomlMember& setting) const
     {
         const auto& value = setting.node.value;
+        if (const auto* list = std::get_if<scene::TomlArray>(&value)) {
+            return vector_text(setting, *list);
+        }
         if (const auto* words = std::get_if<std::string>(&value)) {
             return *words;
         }

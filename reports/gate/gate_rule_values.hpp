@@ -86,6 +86,13 @@ protected:
         return value;
     }
 
+    [[nodiscard]] double trade_off(const TomlMember& member) const
+    {
+        const auto* const value = std::get_if<double>(&member.node.value);
+        const bool is_infinite = value != nullptr && std::isinf(*value) && *value > 0;
+        return is_infinite ? *value : positive(member);
+    }
+
     [[nodiscard]] double count(const TomlMember& member) const
     {
         const auto* const value = std::get_if<std::int64_t>(&member.node.value);

@@ -53,6 +53,8 @@ std::string broken_limit_text(const GateReport& report, const analysis::GateFind
         return fmt::format("min {}", limit);
     case analysis::GateReason::worse_than_baseline:
         return fmt::format("{} allowed", limit);
+    case analysis::GateReason::traded_off:
+        return fmt::format("{} allowed, traded for fewer wrong pixels", limit);
     case analysis::GateReason::not_available:
         break;
     }

@@ -39,12 +39,35 @@ std::string environment_lines(const GateReport& report)
     return text;
 }
 
+/// What of the job changed where nothing is found: its limits were those of changed jobs.
+std::string changed_lines(const GateReport& report)
+{
+    std::string text;
+    std::size_t more = 0;
+    for (const analysis::GatePair& pair : report.outcome.pairs) {
+        const bool is_found =
+            std::any_of(report.outcome.findings.begin(), report.outcome.findings.end(),
+                        [&](const GateFinding& finding) { return finding.entry == pair.now; });
+        if (pair.changes.empty() || is_found) {
+            continue;
+        }
+        if (text.empty()) {
+            text = fmt::format("  the job changed: {}\n", suspects_text(pair.changes));
+        } else {
+            ++more;
+        }
+    }
+    return text + (more > 0 ? fmt::format("  and of {} more\n", counted(more, "configuration"))
+                            : std::string{});
+}
+
 /// "  false_shadow    1,234    2,345    +1,111  at most +0: rule false_shadow".
 std::string finding_line(const GateReport& report, const GateFinding& finding)
 {
     const analysis::GateRule& rule = report.rules[finding.rule];
     const std::string part = filter_text(finding.filter);
-    const bool is_warning = rule.severity == analysis::Severity::warn;
+    const bool is_warning =
+        analysis::severity_of(finding, report.rules) == analysis::Severity::warn;
     std::string line =
         fmt::format("  {} {} {} {}  {}{}: {}\n", pad_right(rule.metric, 34),
                     pad_left(metric_text(rule.metric, finding.before), 12),
@@ -70,16 +93,20 @@ std::string configuration_block(const GateReport& report, std::size_t entry)
     std::string text =
         fmt::format("\n{}\n  {} {} {} {}\n", key_text(key), pad_right("metric", 34),
                     pad_left("baseline", 12), pad_left("now", 12), pad_left("change", 12));
+    std::string cause_line; // of the worst that has a cause
     for (const GateFinding& finding : report.outcome.findings) {
         if (finding.entry == entry) {
             text += finding_line(report, finding);
+            const auto cause =
+                cause_line.empty() ? cause_of_finding(report, finding) : std::nullopt;
+            cause_line =
+                cause ? fmt::format("  dominant cause: {}, {} more\n", cause->name,
+                                    counted(static_cast<std::uint64_t>(cause->pixels), "pixel"))
+                      : cause_line;
         }
     }
+    text += cause_line;
     if (const analysis::GatePair* const pair = report.outcome.pair_of(entry)) {
-        if (pair->cause) {
-            text += fmt::format("  dominant cause: {}, {} pixels more\n", pair->cause->name,
-                                grouped(static_cast<std::uint64_t>(pair->cause->pixels)));
-        }
         if (!pair->changes.empty()) {
             text += fmt::format("  first suspects: {}\n", suspects_text(pair->changes));
         }
@@ -157,8 +184,8 @@ std::string gate_table(const GateReport& report)
     for (const std::string& line : unfinished_sentences(report)) {
         unfinished += fmt::format("  {}\n", line);
     }
-    return verdict_sentence(report) + '\n' + environment_lines(report) + unfinished +
-           configuration_blocks(report) +
+    return verdict_sentence(report) + '\n' + environment_lines(report) + changed_lines(report) +
+           unfinished + configuration_blocks(report) +
            key_lines("of the baseline that the run lacks", report.outcome.missing,
                      report.baseline) +
            key_lines("of the run that the baseline lacks", report.outcome.added,

@@ -214,7 +214,15 @@ void require_masks(const fs::path& baseline, const analysis::GateEntries& entrie
 {
     for (const analysis::GateEntry& entry : entries.entries) {
         if (!entry.pixels.empty()) {
-            (void)read_mask(baseline, entry.pixels, image_size_of(entry));
+            const PixelMask mask = read_mask(baseline, entry.pixels, image_size_of(entry));
+            const auto wrong = entry.metric(std::string{analysis::wrong_pixels_metric});
+            const auto white = static_cast<double>(std::count(mask.begin(), mask.end(), 1));
+            if (wrong && *wrong != white) {
+                throw scene::InputError(fmt::format(
+                    "{}: the mask {} has {} wrong pixels, the configuration's metrics {}: save it "
+                    "anew with `gnomon baseline save`",
+                    scene::one_line(baseline.string()), entry.pixels, white, *wrong));
+            }
         }
     }
 }

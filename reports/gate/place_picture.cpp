@@ -25,6 +25,8 @@ constexpr Rgb place_ink{0x22, 0x22, 0x22};
 constexpr Rgb place_faint_ink{0x66, 0x66, 0x66};
 constexpr Rgb place_rule{0xC8, 0xC8, 0xC4};
 constexpr int magnification = 8;
+/// With more new pixels than this, one panel pixel each shows where they are.
+constexpr std::size_t most_dots = 200;
 
 struct MarkStyle {
     PlaceMark mark;
@@ -193,6 +195,9 @@ public:
         const Part part = NewPixelSums{picture_.marks, detail}.densest();
         const int right_left = 2 * margin_ + panel_.width_px;
         draw_panel(margin_, all, fmt::format("whole image, {}x{} pixels", width_px, height_px));
+        if (new_pixels() <= most_dots) {
+            draw_dots();
+        }
         outline(part);
         draw_panel(right_left, part,
                    fmt::format("pixels ({}, {}) to ({}, {}), where most are new", part.left,
@@ -223,6 +228,35 @@ private:
         canvas_.fill(left - 1, panel_top_ - 1, {panel_.width_px + 2, panel_.height_px + 2},
                      place_rule);
         canvas_.paste(drawn_part(picture_, part, panel_), left, panel_top_);
+    }
+
+    [[nodiscard]] std::size_t new_pixels() const
+    {
+        return count_of(picture_.marks, PlaceMark::new_false_shadow) +
+               count_of(picture_.marks, PlaceMark::new_false_lit);
+    }
+
+    /// Shows each new wrong pixel in the whole image as a dot: where there are few, one pixel of
+    /// the panel is lost on the reader.
+    void draw_dots()
+    {
+        const auto [width_px, height_px] = picture_.marks.size();
+        const int radius = std::max(2, panel_.width_px / 250);
+        for (int y = 0; y < height_px; ++y) {
+            for (int x = 0; x < width_px; ++x) {
+                if (!became_wrong(picture_.marks(x, y))) {
+                    continue;
+                }
+                const int left = (2 * x + 1) * panel_.width_px / (2 * width_px) - radius;
+                const int top = (2 * y + 1) * panel_.height_px / (2 * height_px) - radius;
+                const int side = 2 * radius + 1;
+                const int clipped_left = std::clamp(left, 0, panel_.width_px - side);
+                const int clipped_top = std::clamp(top, 0, panel_.height_px - side);
+                canvas_.fill(
+                    margin_ + clipped_left, panel_top_ + clipped_top, {side, side},
+                    mark_styles[picture_.marks(x, y) == PlaceMark::new_false_lit ? 1 : 0].colour);
+            }
+        }
     }
 
     /// Shows in the whole image which part is magnified.

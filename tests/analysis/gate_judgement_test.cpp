@@ -269,7 +269,8 @@ TEST(DefaultGateRules, AllowNothingWhileTheJobIsUnchanged)
                              const std::string& renderer) {
         const auto entry = [](double wrong, const std::string& slope) {
             return gate_entries(
-                {gate_entry("1", {{"false_shadow", wrong}}, {{"bias.slope", slope}})});
+                {gate_entry("1", {{"false_shadow", wrong}, {"pixels.total", 100'000}},
+                            {{"bias.slope", slope}})});
         };
         GateEntries now = entry(pixels, bias_slope);
         now.environment.gl_renderer = renderer;
@@ -277,11 +278,56 @@ TEST(DefaultGateRules, AllowNothingWhileTheJobIsUnchanged)
     };
     EXPECT_EQ(verdict(50, "0", "llvmpipe"), GateVerdict::pass);
     EXPECT_EQ(verdict(51, "0", "llvmpipe"), GateVerdict::regression);
-    // 1 of 10,000 pixels.
+    // 1 of 100,000 pixels.
     EXPECT_EQ(verdict(51, "1", "llvmpipe"), GateVerdict::pass);
     EXPECT_EQ(verdict(52, "1", "llvmpipe"), GateVerdict::regression);
     EXPECT_EQ(verdict(51, "0", "another"), GateVerdict::pass);
     EXPECT_EQ(verdict(52, "0", "another"), GateVerdict::regression);
+}
+
+/// The verdict of the default rules where the job changed, and the findings' reasons.
+std::pair<GateVerdict, std::vector<GateReason>>
+judged_change(const std::map<std::string, double>& before, const std::map<std::string, double>& now)
+{
+    const std::vector<GateRule> rules = default_gate_rules();
+    const GateOutcome outcome =
+        judge_run(gate_entries({gate_entry("1", before, {{"bias.slope", "0"}})}),
+                  gate_entries({gate_entry("1", now, {{"bias.slope", "1"}})}), rules);
+    std::vector<GateReason> reasons;
+    for (const GateFinding& finding : outcome.findings) {
+        reasons.push_back(finding.reason);
+    }
+    return {gate_verdict(outcome, rules, true), reasons};
+}
+
+TEST(DefaultGateRules, LetAnImprovementHaveItsPrice)
+{
+    const auto [passes, warnings] = judged_change({{"false_shadow", 1000}, {"false_lit", 0}},
+                                                  {{"false_shadow", 0}, {"false_lit", 90}});
+    EXPECT_EQ(passes, GateVerdict::pass);
+    EXPECT_EQ(warnings, std::vector<GateReason>{GateReason::traded_off});
+    // A tenth of the fall, 1000 - 91, is less than 91.
+    EXPECT_EQ(judged_change({{"false_shadow", 1000}, {"false_lit", 0}},
+                            {{"false_shadow", 0}, {"false_lit", 91}})
+                  .first,
+              GateVerdict::regression);
+}
+
+TEST(DefaultGateRules, LetPixelsThatStayWrongChangeTheirCause)
+{
+    const std::map<std::string, double> before{{"false_shadow", 1000},
+                                               {"false_lit", 0},
+                                               {"causes.precision", 1000},
+                                               {"causes.resolution", 0}};
+    const auto now = [](double wrong) {
+        return std::map<std::string, double>{{"false_shadow", wrong},
+                                             {"false_lit", 0},
+                                             {"causes.precision", 0},
+                                             {"causes.resolution", wrong}};
+    };
+    EXPECT_EQ(judged_change(before, now(999)).first, GateVerdict::pass);
+    EXPECT_EQ(judged_change(before, now(1000)).first, GateVerdict::pass);
+    EXPECT_EQ(judged_change(before, now(1001)).first, GateVerdict::regression);
 }
 
 TEST(DefaultGateRules, AllowNoMismatch)

@@ -84,9 +84,9 @@ TEST(GateCommand, FindsAHundredthOfTheNearPlane)
 TEST(GateCommand, FindsPrecisionLostToTheNearPlane)
 {
     // Nothing but the near plane's precision: an offset along the normal has no depth units.
-    expect_regression({"--set", "shadow_map.depth_format=d16", "--set", "bias.constant=0", "--set",
-                       "bias.normal_texels=3", "--set", "shadow_map.resolution=2048", "--set",
-                       "shadow_map.near=1"},
+    expect_regression({"--set", "light.type=spot", "--set", "shadow_map.depth_format=d16", "--set",
+                       "bias.constant=0", "--set", "bias.normal_texels=3", "--set",
+                       "shadow_map.resolution=2048", "--set", "shadow_map.near=1"},
                       "shadow_map.near=0.01", "precision", "shadow_map.near: 1 -> 0.01", "yard");
 }
 
@@ -109,13 +109,43 @@ TEST(GateCommand, PassesImprovementsAndReportsThem)
     EXPECT_THAT(ending.out, HasSubstr("better than in the baseline\n"));
 }
 
+/// Expects that a change of a job passes, and is said to be better.
+void expect_improvement(const std::string& builtin, const std::vector<std::string>& before,
+                        const std::string& change)
+{
+    GateFolder folder;
+    folder.builtin = builtin;
+    folder.compare("before", before);
+    folder.compare("after", with(before, {"--set", change}));
+    expect_done(folder.save("before"));
+    const Ending ending = folder.gate("after");
+    EXPECT_EQ(ending.exit_code, 0) << builtin << change << ending.out;
+    EXPECT_THAT(ending.out, HasSubstr("better than in the baseline\n"));
+}
+
+TEST(GateCommand, PassesAnImprovementThatMovesCausesAndBorders)
+{
+    for (const char* const builtin : {"yard", "playground", "terrain", "columns"}) {
+        expect_improvement(builtin, {}, "shadow_map.resolution=4096");
+    }
+    expect_improvement("yard",
+                       {"--set", "light.type=spot", "--set", "bias.constant=2e-5", "--set",
+                        "shadow_map.depth_format=d16"},
+                       "shadow_map.depth_format=d24");
+    expect_improvement("yard",
+                       {"--set", "light.type=spot", "--set", "bias.constant=1e-4", "--set",
+                        "shadow_map.near=0.01"},
+                       "shadow_map.near=1");
+}
+
 TEST(GateCommand, PassesASweepAgainstItsOwnBaseline)
 {
     const GateFolder folder;
     ExampleRun{2, 3}.compute(folder.at("run"));
     const Ending saved = folder.save("run");
     expect_done(saved);
-    EXPECT_THAT(saved.out, HasSubstr("baseline.json: 6 configurations\n"));
+    EXPECT_THAT(saved.out,
+                HasSubstr("baseline.json: 6 configurations, without masks of wrong pixels\n"));
     const Ending ending = folder.gate("run");
     expect_done(ending);
     EXPECT_THAT(ending.out, HasSubstr("pass: 6 configurations compared with "));

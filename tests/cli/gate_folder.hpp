@@ -1,5 +1,7 @@
 #pragma once
 
+#include "analysis/ratio.hpp"
+
 #include "child_process.hpp"
 #include "example_run.hpp"
 #include "run_folder.hpp"
@@ -60,6 +62,21 @@ public:
 private:
     TemporaryFolder folder_;
 };
+
+/// One pixel more that is false lit, by coverage.
+inline void add_leak(analysis::ConfigurationResult& result)
+{
+    analysis::Metrics& metrics = result.metrics;
+    ++metrics.false_lit;
+    auto causes = result.causes.value_or(analysis::CauseCounts{});
+    ++causes.by_cause[static_cast<std::size_t>(analysis::Cause::coverage)];
+    ++causes.by_label[static_cast<std::size_t>(analysis::Label::leak)];
+    result.causes = causes;
+    const auto lit = metrics.pixels.of(scene::PixelClass::lit);
+    const auto blocked = metrics.pixels.of(scene::PixelClass::blocked);
+    metrics.false_lit_rate = analysis::ratio(metrics.false_lit, blocked);
+    metrics.error_rate = analysis::ratio(metrics.false_shadow + metrics.false_lit, lit + blocked);
+}
 
 /// Records the example with changed results or descriptions.
 template <typename Change>

@@ -20,6 +20,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <random>
 #include <string>
@@ -184,12 +185,32 @@ TEST(DamagedMasks, AreRefusedOrHoldTheSamePixels)
     });
 }
 
+/// Those of `example_parts`.
+const std::map<std::string, double> example_metrics{{"pixels.total", 921'600},
+                                                    {"pixels.lit", 102},
+                                                    {"pixels.blocked", 12},
+                                                    {"false_shadow", 8},
+                                                    {"false_lit", 1},
+                                                    {"false_shadow_rate", 8.0 / 102},
+                                                    {"false_lit_rate", 1.0 / 12},
+                                                    {"error_rate", 9.0 / 114},
+                                                    {"causes.bias", 1},
+                                                    {"causes.precision", 0},
+                                                    {"causes.resolution", 7},
+                                                    {"causes.coverage", 1},
+                                                    {"labels.acne", 7},
+                                                    {"labels.peter_panning", 0},
+                                                    {"labels.leak", 1},
+                                                    {"labels.edge", 0},
+                                                    {"labels.overshadow", 1}};
+
 analysis::GateEntries example_entries()
 {
     const TemporaryFolder folder;
     ExampleRun{1, 2}.compute(folder / "run");
     analysis::GateEntries entries = read_gate_run(folder / "run").results;
     entries.entries[0].parts = example_parts;
+    entries.entries[0].metrics = example_metrics;
     entries.entries[0].pixels = "0123456789abcdef";
     return entries;
 }
@@ -206,6 +227,21 @@ TEST(DamagedBaselines, AreRefusedInOneLineOrAreAnotherBaseline)
             EXPECT_THAT(error.what(), AllOf(HasSubstr("b.json: "), Not(HasSubstr("\n")))) << what;
         }
     });
+}
+
+TEST(DamagedBaselines, ContradictThemselvesWhereANumberIsEdited)
+{
+    const Json whole = Json::parse(baseline_json(example_entries()));
+    (void)parse_baseline(whole.dump(), "b.json");
+    for (const auto& [name, value] : example_metrics) {
+        Json edited = whole;
+        Json& metric = edited["configurations"][0]["metrics"][name];
+        metric = name.ends_with("_rate") ? Json(value / 2) : Json(metric.get<std::uint64_t>() + 1);
+        EXPECT_THROW((void)parse_baseline(edited.dump(), "b.json"), scene::InputError) << name;
+    }
+    Json edited = whole;
+    edited["configurations"][0]["parts"]["floor"]["[4, 8)"]["false_shadow.resolution.acne"] = 6;
+    EXPECT_THROW((void)parse_baseline(edited.dump(), "b.json"), scene::InputError);
 }
 
 TEST(DamagedRuleFiles, AreRefusedInOneLineOrAreOtherRules)

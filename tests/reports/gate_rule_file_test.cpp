@@ -105,6 +105,9 @@ TEST(GateRuleFile, RefusesWithFileLineAndKey)
         {rule_with("where = {bias.konstant = 1}"),
          "gate.toml:4: konstant: bias.konstant is no key of a job; nearest: bias.constant"},
         {rule_with("where = {bias.constant = [1]}"), "gate.toml:4: constant: "},
+        {rule_with("where = {camera.eye = [1, 2, \"x\"]}"), "gate.toml:4: eye: "},
+        {rule_with("trade_off = -1"), "gate.toml:4: trade_off: "},
+        {rule_with("max = 1\ntrade_off = 1"), "goes with abs, rel"},
         {rule_with("where = {bias.constant = 1979-05-27}"), "gate.toml:4: constant: "},
         {rule_with("max = 1\nmax = 2"), "gate.toml:5:"},
         {rule_with("max = 1\nmin = 2"), "has a max below its min"},
@@ -157,6 +160,8 @@ TEST(GateRuleFile, ReadsWhichPixelsAreMeant)
               (analysis::ZetaBands{analysis::zeta_band_of(4), analysis::zeta_band_of(8)}));
     EXPECT_TRUE(all.where.empty());
     EXPECT_TRUE(rule("wrong_pixels", "object = \"*\"").each_object);
+    EXPECT_EQ(rule("wrong_pixels", "camera.eye = [3, 4.5, -7]").where.at("camera.eye"),
+              "[3, 4.5, -7]");
     EXPECT_TRUE(rule("wrong_pixels", "zeta_band = \"*\"").each_band);
     EXPECT_EQ(rule("new_pixels", "zeta_band = [0, inf]").pixels.bands,
               (analysis::ZetaBands{{0}, {analysis::ZetaBand::highest}}));
@@ -177,6 +182,14 @@ TEST(GateRuleFile, RefusesPixelsThatCannotBeMeant)
         EXPECT_THAT(refusal("false_lit", fmt::format("zeta_band = {}", band)),
                     HasSubstr("powers of two"))
             << band;
+    }
+    for (const auto& [metric, where] : std::vector<std::pair<std::string, std::string>>{
+             {"labels.peter_panning", "label = \"acne\""},
+             {"false_shadow", "label = \"peter_panning\""},
+             {"wrong_pixels", "cause = \"bias\", label = \"acne\""},
+             {"pixels.lit", "cause = \"bias\""},
+             {"new_pixels", "cause = \"bias\", label = \"leak\""}}) {
+        EXPECT_THAT(refusal(metric, where), HasSubstr("no pixel of " + metric)) << where;
     }
     EXPECT_THAT(refusal("map_bytes", "object = \"a\""), HasSubstr("is not counted by them"));
     EXPECT_THAT(refusal("new_pixels", "object = \"*\""), HasSubstr("name one"));

@@ -1,0 +1,167 @@
+#include "reports/gate/baseline_checks.hpp"
+
+#include "analysis/gate/gate_metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::GateEntry;
+using Names = std::vector<std::string>;
+
+/// The sum of metrics; empty if one of them is not there.
+std::optional<double> sum_of(const GateEntry& entry, const Names& names)
+{
+    double sum = 0;
+    for (const std::string& name : names) {
+        const auto value = entry.metric(name);
+        if (!value) {
+            return std::nullopt;
+        }
+        sum += *value;
+    }
+    return sum;
+}
+
+template <typename List>
+Names names_of(std::string_view prefix, const List& list)
+{
+    Names names;
+    for (std::size_t i = 1; i < list.size(); ++i) { // the first is "none"
+        names.push_back(fmt::format("{}{}", prefix, list[i]));
+    }
+    return names;
+}
+
+std::string unequal(std::string_view what, const std::optional<double>& a, std::string_view other,
+                    const std::optional<double>& b)
+{
+    return a && b && *a != *b ? fmt::format("{} is {}, but {} {}", what, *a, other, *b)
+                              : std::string{};
+}
+
+std::string contradicted_total(const GateEntry& entry)
+{
+    const auto total = entry.metric("pixels.total");
+    for (const auto& [name, value] : entry.metrics) {
+        const analysis::GateMetric* const metric = analysis::find_gate_metric(name);
+        if (total && metric != nullptr && metric->is_pixel_count && value > *total) {
+            return fmt::format("{} is {}, but pixels.total {}", name, value, *total);
+        }
+    }
+    const auto side = [&](const char* key) {
+        const auto text = entry.setting(key);
+        return text ? analysis::number_in(*text) : std::nullopt;
+    };
+    const auto width = side("image.width");
+    const auto height = side("image.height");
+    if (!width || !height) {
+        return {};
+    }
+    return unequal("pixels.total", total, "the image has", *width * *height);
+}
+
+std::string contradicted_sum(const GateEntry& entry)
+{
+    const auto wrong = sum_of(entry, {"false_shadow", "false_lit"});
+    const std::string sums =
+        unequal("pixels.total", entry.metric("pixels.total"), "its classes sum to",
+                sum_of(entry, {"pixels.background", "pixels.unmatched", "pixels.attached",
+                               "pixels.out_of_light", "pixels.indeterminate", "pixels.lit",
+                               "pixels.blocked"}));
+    if (!sums.empty()) {
+        return sums;
+    }
+    const std::string causes = unequal("false_shadow + false_lit", wrong, "all causes sum to",
+                                       sum_of(entry, names_of("causes.", analysis::cause_names)));
+    if (!causes.empty()) {
+        return causes;
+    }
+    return unequal("false_shadow + false_lit", wrong, "all labels sum to",
+                   sum_of(entry, names_of("labels.", analysis::label_names)));
+}
+
+/// Rates are the quotients of two counts, written so that they read back exactly.
+std::string contradicted_rate(const GateEntry& entry)
+{
+    struct Rate {
+        const char* name;
+        Names part;
+        Names whole;
+    };
+    static const std::array<Rate, 3> rates{
+        {{"false_shadow_rate", {"false_shadow"}, {"pixels.lit"}},
+         {"false_lit_rate", {"false_lit"}, {"pixels.blocked"}},
+         {"error_rate", {"false_shadow", "false_lit"}, {"pixels.lit", "pixels.blocked"}}}};
+    for (const Rate& rate : rates) {
+        const auto part = sum_of(entry, rate.part);
+        const auto whole = sum_of(entry, rate.whole);
+        if (!part || !whole) {
+            continue;
+        }
+        if (*part > *whole) {
+            return fmt::format("{} are wrong of {}", *part, *whole);
+        }
+        const std::string differs =
+            unequal(rate.name, entry.metric(rate.name), "its counts give",
+                    *whole > 0 ? std::optional{*part / *whole} : std::nullopt);
+        if (!differs.empty()) {
+            return differs;
+        }
+    }
+    return {};
+}
+
+/// Parts hold every scored pixel, and where causes are known every wrong one.
+std::string contradicted_parts(const GateEntry& entry)
+{
+    if (entry.parts.empty()) {
+        return {};
+    }
+    double lit = 0;
+    double blocked = 0;
+    double false_shadow = 0;
+    double false_lit = 0;
+    for (const analysis::ErrorPart& part : entry.parts) {
+        lit += static_cast<double>(part.lit);
+        blocked += static_cast<double>(part.blocked);
+        for (const analysis::WrongCount& wrong : part.wrong) {
+            (wrong.is_false_lit ? false_lit : false_shadow) += static_cast<double>(wrong.pixels);
+        }
+    }
+    std::map<std::string, double> sums{{"pixels.lit", lit}, {"pixels.blocked", blocked}};
+    if (sum_of(entry, names_of("causes.", analysis::cause_names))) {
+        sums.insert({{"false_shadow", false_shadow}, {"false_lit", false_lit}});
+    }
+    for (const auto& [name, sum] : sums) {
+        const std::string differs = unequal(name, entry.metric(name), "its parts sum to", sum);
+        if (!differs.empty()) {
+            return differs;
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+std::string find_contradiction(const GateEntry& entry)
+{
+    for (const auto check :
+         {contradicted_total, contradicted_sum, contradicted_rate, contradicted_parts}) {
+        const std::string found = check(entry);
+        if (!found.empty()) {
+            return found;
+        }
+    }
+    return {};
+}
+
+} // namespace gnomon::reports
