@@ -28,6 +28,10 @@
 namespace gnomon::cli {
 namespace {
 
+/// Errors by object and light distance are for baselines, and no baseline holds them of more rows:
+/// they are kilobytes each.
+constexpr std::uint64_t most_rows_with_parts = 2'000;
+
 namespace fs = std::filesystem;
 using analysis::Configuration;
 using analysis::CurveRequest;
@@ -281,6 +285,7 @@ private:
         };
         hooks.should_stop = [] { return is_interrupted(); };
         hooks.verifies_biases = options_.verifies;
+        hooks.counts_parts = space_.size() <= most_rows_with_parts;
         if (options_.keeps_pixels) {
             hooks.keep_pixels = [this](std::uint64_t ordinal,
                                        const analysis::Comparison& comparison) {

@@ -68,8 +68,9 @@ std::string evaluation_table(const analysis::Comparison& comparison,
     if (const std::uint64_t pixels = evaluation.contradicted_pixels.value_or(0); pixels > 0) {
         text +=
             fmt::format("\nThe mask contradicts its own lookup at {}: z.light, z.map and the bias "
-                        "give the other verdict.\nThe causes of those say nothing; look at how "
-                        "mask and depths are written.\n",
+                        "give the other verdict.\nTheir causes and the bias curve are the "
+                        "lookup's, not the mask's: look at "
+                        "how mask and depths are written.\n",
                         counted(pixels, "scored pixel"));
     }
     text += evaluation.cannot_know.empty() ? "" : "\n";

@@ -55,12 +55,15 @@ double traded_change(const GateRule& rule, const GateEntry& before, const GateEn
     const std::string name{wrong_pixels_metric};
     const auto was = before.metric(name);
     const auto is = now.metric(name);
-    const double fall = was && is ? *was - *is : 0;
+    if (!rule.trade_off || !was || !is) {
+        return 0;
+    }
+    const double fall = *was - *is;
     // Causes and labels share out the wrong pixels: without more of those, one grew for another.
     const bool shares_out =
         rule.metric.starts_with("causes.") || rule.metric.starts_with("labels.");
-    const bool is_enough = fall > 0 || (fall == 0 && was && shares_out);
-    return rule.trade_off && is_enough ? *rule.trade_off * std::max(fall, 1.0) : 0;
+    const bool is_enough = fall > 0 || (fall == 0 && shares_out);
+    return is_enough ? *rule.trade_off * std::max(fall, 1.0) : 0;
 }
 
 /// Judges configurations by one rule.

@@ -35,8 +35,11 @@ std::shared_ptr<const PartMap> SweepSubject::parts(const scene::LightFrustum& fr
     count_from(frustum);
     if (parts_ == nullptr) {
         parts_ = std::make_shared<const PartMap>(
-            find_parts(truth.pixel_class, receivers.triangle,
-                       light_distances_m(truth.pixel_class, geometry), triangles));
+            counts_parts_
+                ? find_parts(truth.pixel_class, receivers.triangle,
+                             light_distances_m(truth.pixel_class, geometry), triangles)
+                : PartMap{scene::Image<std::uint16_t>{truth.pixel_class.size(), PartMap::none},
+                          {}});
     }
     return parts_;
 }

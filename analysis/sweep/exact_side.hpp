@@ -24,7 +24,12 @@ namespace gnomon::analysis {
 
 /// A camera before a light: what GL sees there and what is true, whatever the map.
 struct SweepSubject {
-    explicit SweepSubject(scene::ImageSize image) : gaps{image} {}
+    /// @param counts_parts  whether its pixels are told apart by object and light distance.
+    SweepSubject(scene::ImageSize image, bool counts_parts)
+        : gaps{image},
+          counts_parts_{counts_parts}
+    {
+    }
 
     scene::ReceiverLayers receivers;
     scene::TruthLayers truth;
@@ -35,7 +40,7 @@ struct SweepSubject {
     /// the last time.
     [[nodiscard]] std::shared_ptr<const Binning> distances(const scene::LightFrustum& frustum,
                                                            const ReceiverGeometry& geometry);
-    /// The same with their objects.
+    /// The same with their objects; no parts if they are not to be counted.
     [[nodiscard]] std::shared_ptr<const PartMap> parts(const scene::LightFrustum& frustum,
                                                        const ReceiverGeometry& geometry,
                                                        const scene::TriangleScene& triangles);
@@ -43,6 +48,7 @@ struct SweepSubject {
 private:
     void count_from(const scene::LightFrustum& frustum);
 
+    bool counts_parts_;
     std::shared_ptr<const Binning> distances_;
     std::shared_ptr<const PartMap> parts_;
     scene::Vec3d distances_from_{}; ///< ζ is 0 there

@@ -166,7 +166,7 @@ private:
         subjects_[slot] = make<SweepSubject>([&] {
             const auto receivers = need(receivers_[slot]);
             const scene::View view = stage_view();
-            auto subject = std::make_shared<SweepSubject>(view.image);
+            auto subject = std::make_shared<SweepSubject>(view.image, hooks_.counts_parts);
             subject->receivers = *receivers;
             subject->truth = renderers().find_truth(view, subject->receivers);
             subject->classes = count_classes(subject->truth);

@@ -72,7 +72,7 @@ std::string contradicted_total(const GateEntry& entry)
 std::string contradicted_sum(const GateEntry& entry)
 {
     const auto wrong = sum_of(entry, {"false_shadow", "false_lit"});
-    const std::string sums =
+    std::string sums =
         unequal("pixels.total", entry.metric("pixels.total"), "its classes sum to",
                 sum_of(entry, {"pixels.background", "pixels.unmatched", "pixels.attached",
                                "pixels.out_of_light", "pixels.indeterminate", "pixels.lit",
@@ -80,8 +80,8 @@ std::string contradicted_sum(const GateEntry& entry)
     if (!sums.empty()) {
         return sums;
     }
-    const std::string causes = unequal("false_shadow + false_lit", wrong, "all causes sum to",
-                                       sum_of(entry, names_of("causes.", analysis::cause_names)));
+    std::string causes = unequal("false_shadow + false_lit", wrong, "all causes sum to",
+                                 sum_of(entry, names_of("causes.", analysis::cause_names)));
     if (!causes.empty()) {
         return causes;
     }
@@ -110,9 +110,8 @@ std::string contradicted_rate(const GateEntry& entry)
         if (*part > *whole) {
             return fmt::format("{} are wrong of {}", *part, *whole);
         }
-        const std::string differs =
-            unequal(rate.name, entry.metric(rate.name), "its counts give",
-                    *whole > 0 ? std::optional{*part / *whole} : std::nullopt);
+        std::string differs = unequal(rate.name, entry.metric(rate.name), "its counts give",
+                                      *whole > 0 ? std::optional{*part / *whole} : std::nullopt);
         if (!differs.empty()) {
             return differs;
         }
@@ -142,7 +141,7 @@ std::string contradicted_parts(const GateEntry& entry)
         sums.insert({{"false_shadow", false_shadow}, {"false_lit", false_lit}});
     }
     for (const auto& [name, sum] : sums) {
-        const std::string differs = unequal(name, entry.metric(name), "its parts sum to", sum);
+        std::string differs = unequal(name, entry.metric(name), "its parts sum to", sum);
         if (!differs.empty()) {
             return differs;
         }
@@ -156,7 +155,7 @@ std::string find_contradiction(const GateEntry& entry)
 {
     for (const auto check :
          {contradicted_total, contradicted_sum, contradicted_rate, contradicted_parts}) {
-        const std::string found = check(entry);
+        std::string found = check(entry);
         if (!found.empty()) {
             return found;
         }

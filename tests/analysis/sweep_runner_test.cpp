@@ -48,6 +48,22 @@ TEST(SweepRunner, GivesWhatAComparisonGives)
     }
 }
 
+TEST(SweepRunner, CountsPartsOnlyWhereTheyAreWanted)
+{
+    for (const bool is_wanted : {true, false}) {
+        FakeSweep sweep{{"bias.constant=0.0625,0"}, {}};
+        sweep.hooks.counts_parts = is_wanted;
+        sweep.hooks.record = [&](const FinishedCurve& finished) {
+            ASSERT_EQ(finished.rows.size(), 2U);
+            for (const FinishedCurve::Row& row : finished.rows) {
+                EXPECT_EQ(row.result.parts.empty(), !is_wanted);
+                EXPECT_GT(row.result.metrics.pixels.total, 0U);
+            }
+        };
+        EXPECT_EQ(sweep.run(), sweep.planned);
+    }
+}
+
 TEST(SweepRunner, GivesTheSameRowsWhenItKeepsPixels)
 {
     const std::vector<std::string> axes{"lookup.filter=nearest,pcf3,hardware",
