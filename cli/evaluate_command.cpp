@@ -64,8 +64,9 @@ public:
     [[nodiscard]] analysis::CaseTruth truth(int threads) const
     {
         analysis::CaseTruth truth;
-        truth.nearest_surfaces = [this, threads](std::span<const scene::Vec3d> points) {
-            return reference_rt::nearest_surfaces(reference_, points, threads);
+        truth.nearest_surfaces = [this, threads](std::span<const scene::Vec3d> points,
+                                                 std::span<const scene::SurfaceScope> scopes) {
+            return reference_rt::nearest_surfaces(reference_, points, scopes, threads);
         };
         truth.find_truth = [this, threads](const scene::Light& light,
                                            const scene::RoundedReceivers& receivers) {

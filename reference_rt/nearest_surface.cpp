@@ -17,6 +17,7 @@ namespace gnomon::reference_rt {
 using scene::NearestSurface;
 using scene::no_object;
 using scene::no_triangle;
+using scene::SurfaceScope;
 using scene::Vec3d;
 
 namespace {
@@ -56,7 +57,7 @@ NearestSurface NearbySurfaces::find_nearest(const Vec3d& point, const SurfaceSco
     spread_ = 1;
     gathers_ = false;
     search(point, scope);
-    return nearest_;
+    return is_near_enough() ? nearest_ : NearestSurface{};
 }
 
 const std::vector<NearbyTriangle>& NearbySurfaces::find_all(const Vec3d& point, double extent_m,
@@ -66,6 +67,9 @@ const std::vector<NearbyTriangle>& NearbySurfaces::find_all(const Vec3d& point, 
     spread_ = std::numbers::sqrt3;
     gathers_ = true;
     search(point, scope);
+    if (!is_near_enough()) {
+        found_.clear();
+    }
     std::erase_if(found_, [&](const NearbyTriangle& t) { return t.distance_m > reach_m(); });
     std::sort(found_.begin(), found_.end(), [](const NearbyTriangle& a, const NearbyTriangle& b) {
         return a.triangle < b.triangle;
@@ -146,7 +150,12 @@ void NearbySurfaces::consider(std::uint32_t triangle)
 
 double NearbySurfaces::reach_m() const
 {
-    return extent_m_ + spread_ * nearest_.distance_m;
+    return extent_m_ + spread_ * std::min(nearest_.distance_m, scope_.most_distance_m);
+}
+
+bool NearbySurfaces::is_near_enough() const
+{
+    return nearest_.distance_m <= scope_.most_distance_m;
 }
 
 bool NearbySurfaces::is_in_scope(std::uint32_t triangle) const
@@ -160,11 +169,15 @@ bool NearbySurfaces::is_in_scope(std::uint32_t triangle) const
 }
 
 std::vector<NearestSurface> nearest_surfaces(const ReferenceScene& reference,
-                                             std::span<const Vec3d> points, int threads)
+                                             std::span<const Vec3d> points,
+                                             std::span<const SurfaceScope> scopes, int threads)
 {
     const auto& implementation = reference.implementation();
     if (!implementation.padded) {
         throw std::invalid_argument{"nearest_surfaces: the reference must serve exact truth"};
+    }
+    if (!scopes.empty() && scopes.size() != points.size()) {
+        throw std::invalid_argument{"nearest_surfaces: not a scope for each point"};
     }
     std::vector<NearestSurface> found(points.size());
     with_threads(threads, [&] {
@@ -173,7 +186,8 @@ std::vector<NearestSurface> nearest_surfaces(const ReferenceScene& reference,
                               NearbySurfaces search{implementation};
                               for (std::size_t i = range.begin(); i != range.end(); ++i) {
                                   if (std::isfinite(glm::dot(points[i], Vec3d{1.0}))) {
-                                      found[i] = search.find_nearest(points[i], {});
+                                      found[i] = search.find_nearest(
+                                          points[i], scopes.empty() ? SurfaceScope{} : scopes[i]);
                                   }
                               }
                           });

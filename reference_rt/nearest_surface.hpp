@@ -11,11 +11,6 @@
 
 namespace gnomon::reference_rt {
 
-/// Which triangles count in a search.
-struct SurfaceScope {
-    std::uint32_t object = scene::no_object; ///< index; `no_object`: all that receive
-};
-
 /// The distance from a point to a closed triangle [m], in double precision.
 /// Source: Ericson, Real-Time Collision Detection, 5.1.5.
 [[nodiscard]] double distance_m(const scene::Vec3d& point, const Corners& triangle);
@@ -33,23 +28,24 @@ public:
     explicit NearbySurfaces(const ReferenceScene::Implementation& reference);
 
     /// The nearest triangle; of several at the same distance the lowest index. `no_triangle` where
-    /// the scope holds none.
+    /// the scope holds none, not farther away than it says.
     ///
     /// Fastest where the point asked for before was near.
     [[nodiscard]] scene::NearestSurface find_nearest(const scene::Vec3d& point,
-                                                     const SurfaceScope& scope);
+                                                     const scene::SurfaceScope& scope);
     /// Every triangle not farther than `extent_m` + √3·(the distance of the nearest), in order of
-    /// index.
+    /// index; none where the nearest is farther away than the scope says.
     [[nodiscard]] const std::vector<NearbyTriangle>&
-    find_all(const scene::Vec3d& point, double extent_m, const SurfaceScope& scope);
+    find_all(const scene::Vec3d& point, double extent_m, const scene::SurfaceScope& scope);
 
 private:
     static bool visit(RTCPointQueryFunctionArguments* arguments) noexcept;
 
-    void search(const scene::Vec3d& point, const SurfaceScope& scope);
+    void search(const scene::Vec3d& point, const scene::SurfaceScope& scope);
     /// Takes a triangle in, and narrows the search.
     void consider(std::uint32_t triangle);
     [[nodiscard]] double reach_m() const;
+    [[nodiscard]] bool is_near_enough() const;
     /// Of the search that is left, in the unit frame.
     [[nodiscard]] float search_radius() const;
     [[nodiscard]] bool is_in_scope(std::uint32_t triangle) const;
@@ -60,7 +56,7 @@ private:
     double extent_m_ = 0;
     double spread_ = 1; ///< how many times the nearest distance is searched
     bool gathers_ = false;
-    SurfaceScope scope_;
+    scene::SurfaceScope scope_;
     scene::NearestSurface nearest_;
     std::vector<NearbyTriangle> found_;
     std::exception_ptr failure_; ///< waits until Embree is left

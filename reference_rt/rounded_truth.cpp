@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -28,6 +29,7 @@ using scene::no_triangle;
 using scene::PixelClass;
 using scene::RoundedReceivers;
 using scene::RoundedTruth;
+using scene::SurfaceScope;
 using scene::Vec3d;
 using scene::Vec3f;
 
@@ -142,11 +144,13 @@ private:
     void suppose_pixel(std::size_t pixel, const Vec3f& position, NearbySurfaces& search,
                        std::vector<Supposition>& found, SignCounts& counts)
     {
-        const SurfaceScope scope{receivers_.object.empty() ? no_object : receivers_.object[pixel]};
+        const SurfaceScope scope{receivers_.object.empty() ? no_object : receivers_.object[pixel],
+                                 receivers_.most_distance_m};
         const RoundingBox box = rounding_box(position, 0);
         const double extent_m = 0.5 * glm::length(box.upper - box.lower);
         const auto& nearby = search.find_all(Vec3d{position}, extent_m, scope);
         if (nearby.empty()) {
+            leave_open(pixel, search.find_nearest(Vec3d{position}, {}));
             return;
         }
         const auto nearest = std::min_element(nearby.begin(), nearby.end(),
@@ -170,6 +174,19 @@ private:
                 found.push_back({pixel, t.triangle, growth_m});
             }
         }
+    }
+
+    /// P is on no surface that it may be on.
+    void leave_open(std::size_t pixel, const scene::NearestSurface& nearest)
+    {
+        if (nearest.triangle == no_triangle) {
+            return;
+        }
+        truth_.triangle[pixel] = nearest.triangle;
+        truth_.distance_m[pixel] = static_cast<float>(nearest.distance_m);
+        truth_.growth_m[pixel] = std::numeric_limits<float>::infinity();
+        truth_.truth.pixel_class[pixel] = PixelClass::indeterminate;
+        truth_.truth.reason[pixel] = ClassReason::rounding;
     }
 
     [[nodiscard]] double reach_of(const Supposition& supposition) const

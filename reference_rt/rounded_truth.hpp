@@ -17,8 +17,9 @@ namespace gnomon::reference_rt {
 /// T is the receiving triangle nearest to P, of the pixel's object where that is known; P may have
 /// been every point of the plane of T in the box of all that round to P. The box is grown by the
 /// same length on each side until it meets the plane. A class is given where it is shown to hold
-/// for all of these points, and for each T where several are nearest. Deterministic for any number
-/// of threads. Source: docs/evaluate.md.
+/// for all of these points, and for each T where several are nearest; none where P is farther from
+/// its surface than `most_distance_m`. Deterministic for any number of threads. Source:
+/// docs/evaluate.md.
 /// @param reference  serves exact truth.
 /// @param light      a point light has `LightType::point`.
 /// @throws std::invalid_argument  if images differ in size, or an object is out of range.
@@ -27,11 +28,12 @@ namespace gnomon::reference_rt {
                                                         const scene::RoundedReceivers& receivers,
                                                         int threads = 0);
 
-/// The receiving triangle nearest to each point, in double precision; for finding out what is wrong
-/// with points that are on no surface. Points that are not finite have none.
+/// The triangle of its scope nearest to each point, in double precision; for finding out what is
+/// wrong with points that are on no surface. Points that are not finite have none.
+/// @param scopes  one for each point; empty: all that receive.
 [[nodiscard]] std::vector<scene::NearestSurface>
 nearest_surfaces(const ReferenceScene& reference, std::span<const scene::Vec3d> points,
-                 int threads = 0);
+                 std::span<const scene::SurfaceScope> scopes = {}, int threads = 0);
 
 /// The blocker nearest to the light of blocked pixels, for the point of T nearest to P.
 /// @param pixels  row-major indices, `blocked` in `truth`.

@@ -58,7 +58,8 @@ Json evaluate_object(const analysis::Comparison& comparison, const analysis::Eva
             {"errors_of_unknown_cause", found ? Json(found->unknown) : Json(nullptr)},
             {"overshadow_by_bias", found ? Json(found->overshadow) : Json(nullptr)},
             {"grown_pixels", evaluation.grown_pixels},
-            {"largest_growth_m", evaluation.largest_growth_m}};
+            {"largest_growth_m", evaluation.largest_growth_m},
+            {"off_surface_pixels", evaluation.off_surface_pixels}};
 }
 
 } // namespace
@@ -74,6 +75,7 @@ Json import_check_json(const analysis::ImportCheck& check)
         {"agreement", number_or_null(check.agreement)}};
     json["mistake"] = check.mistake.empty() ? Json(nullptr) : Json(check.mistake);
     json["sentence"] = check.sentence.empty() ? Json(nullptr) : Json(check.sentence);
+    json["warning"] = check.warning.empty() ? Json(nullptr) : Json(check.warning);
     return json;
 }
 

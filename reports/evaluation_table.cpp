@@ -17,6 +17,11 @@ std::string distance_words(const analysis::ImportDistances& distances)
                        distances.median_m, distances.p99_m, distances.max_m, distances.tolerance_m);
 }
 
+std::string warning_line(const analysis::ImportCheck& check)
+{
+    return check.warning.empty() ? "" : fmt::format("Warning: {}.\n", check.warning);
+}
+
 std::string bias_lines(const analysis::BiasCauses& found)
 {
     std::string text = "\n";
@@ -46,6 +51,12 @@ std::string evaluation_settings(const analysis::Comparison& comparison,
                                              counted(evaluation.grown_pixels, "pixel"),
                                              evaluation.largest_growth_m));
     }
+    if (evaluation.off_surface_pixels > 0) {
+        text +=
+            setting_line("", fmt::format("{} not decided: farther than {:.2g} m from the surface",
+                                         counted(evaluation.off_surface_pixels, "pixel"),
+                                         evaluation.most_distance_m));
+    }
     return text + setting_line("truth", fmt::format("{}, {}", comparison.truth_method,
                                                     comparison.environment.embree));
 }
@@ -73,6 +84,9 @@ std::string evaluation_table(const analysis::Comparison& comparison,
                         "how mask and depths are written.\n",
                         counted(pixels, "scored pixel"));
     }
+    if (!evaluation.import_check.warning.empty()) {
+        text += fmt::format("\n{}", warning_line(evaluation.import_check));
+    }
     text += evaluation.cannot_know.empty() ? "" : "\n";
     for (const analysis::CannotKnow& one : evaluation.cannot_know) {
         text += fmt::format("cannot know {}; needs {}\n", one.what, one.needs);
@@ -88,6 +102,7 @@ std::string check_text(const analysis::ImportCheck& check)
             setting_line("mask and truth",
                          fmt::format("agree by {:.3f} (1 all, 0 as by chance)", *check.agreement));
     }
+    text += warning_line(check);
     return text + (check.sentence.empty() ? "The case can be scored.\n" : check.sentence + "\n");
 }
 

@@ -22,6 +22,9 @@ struct RoundedReceivers {
     std::optional<Vec3d> eye{}; ///< of a perspective camera, float32-representable [m]
     /// Empty, or index into `TriangleScene::objects`; `no_object` where it is not known.
     Image<std::uint32_t> object = {};
+    /// How far P may be from its surface [m]; farther away nothing is decided, however large a box
+    /// would be.
+    double most_distance_m = std::numeric_limits<double>::infinity();
 };
 
 /// What is true of rounded receivers: of each, what holds for every point that P may have been.
@@ -30,9 +33,18 @@ struct RoundedTruth {
     /// `indeterminate` by `rounding` where the truth is not shown to be the same for all points.
     TruthLayers truth;
     Image<std::uint32_t> triangle; ///< T, nearest to P; of several the lowest index
-    Image<float> distance_m;       ///< from P to T
-    /// By how much P's rounding box was grown on each side to meet the plane of T; 0 as a rule.
+    Image<float> distance_m;       ///< from P to T [m]
+    /// By how much P's rounding box was grown on each side to meet the plane of T; 0 as a rule,
+    /// infinite where P is too far from every surface of its scope: `indeterminate`, with the
+    /// nearest triangle of any object for T.
     Image<float> growth_m;
+};
+
+/// Which triangles count in a search.
+struct SurfaceScope {
+    std::uint32_t object = no_object; ///< index; `no_object`: all that receive
+    /// Triangles farther away need not be found [m]: the search ends there.
+    double most_distance_m = std::numeric_limits<double>::infinity();
 };
 
 /// The surface nearest to a point.

@@ -16,7 +16,9 @@ namespace gnomon::analysis {
 
 /// What knows the truth of a case's scene, as callables: `analysis` needs no Embree.
 struct CaseTruth {
-    std::function<std::vector<scene::NearestSurface>(std::span<const scene::Vec3d>)>
+    /// One scope for each point, or none: all that receive.
+    std::function<std::vector<scene::NearestSurface>(std::span<const scene::Vec3d>,
+                                                     std::span<const scene::SurfaceScope>)>
         nearest_surfaces;
     std::function<scene::RoundedTruth(const scene::Light&, const scene::RoundedReceivers&)>
         find_truth;

@@ -4,6 +4,7 @@
 #include "analysis/evaluate/bias_causes.hpp"
 #include "analysis/evaluate/mask_check.hpp"
 #include "analysis/evaluate/position_check.hpp"
+#include "analysis/evaluate/surface_check.hpp"
 #include "analysis/evaluate/view_check.hpp"
 #include "scene/error.hpp"
 #include "scene/job_file.hpp"
@@ -59,7 +60,7 @@ std::map<std::uint32_t, std::uint32_t> objects_by_number(const Case& subject)
 scene::RoundedReceivers receivers_of(const Case& subject)
 {
     const scene::CaseLayers& layers = subject.layers;
-    scene::RoundedReceivers receivers{layers.position, layers.normal, subject.file.eye, {}};
+    scene::RoundedReceivers receivers{layers.position, layers.normal, subject.file.eye};
     if (!layers.object_number.empty()) {
         const auto objects = objects_by_number(subject);
         receivers.object = Image<std::uint32_t>{layers.size(), scene::no_object};
@@ -269,11 +270,26 @@ std::vector<std::string> keys_given(const scene::CaseFile& file)
     return keys;
 }
 
+/// Whether any pixel's Ng says which side is seen.
+bool has_normals(const scene::CaseLayers& layers)
+{
+    for (std::size_t i = 0; i < layers.normal.pixel_count(); ++i) {
+        const Vec3d normal{layers.normal[i]};
+        const double square = glm::dot(normal, normal);
+        if (square > 0 && std::isfinite(square) && !std::isnan(layers.position[i].x)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 Evaluation make_evaluation(const Case& subject, const CheckedCase& checked)
 {
     Evaluation evaluation;
     evaluation.case_name = subject.file.name;
-    const bool knows_side = subject.file.eye || !subject.layers.normal.empty();
+    const bool knows_side = subject.file.eye || has_normals(subject.layers);
+    evaluation.most_distance_m =
+        checked.receivers.most_distance_m * subject.file.space.metres_per_unit;
     evaluation.level = knows_side ? 1 : 0;
     evaluation.import_check = checked.check;
     evaluation.points = subject.layers.position;
@@ -281,6 +297,10 @@ Evaluation make_evaluation(const Case& subject, const CheckedCase& checked)
     evaluation.has_camera = subject.file.says("camera.target") && !subject.file.space.is_mirrored();
     evaluation.given_keys = keys_given(subject.file);
     for (const float growth : checked.truth.growth_m) {
+        if (std::isinf(growth)) {
+            ++evaluation.off_surface_pixels;
+            continue;
+        }
         const double growth_m = double{growth} * subject.file.space.metres_per_unit;
         evaluation.largest_growth_m = std::max(evaluation.largest_growth_m, growth_m);
         evaluation.grown_pixels += growth_m > 0 ? 1 : 0;
@@ -301,12 +321,21 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     checked.job = job_of(subject);
     checked.view = scene::resolve_view(checked.job, subject.mesh, {});
     checked.receivers = receivers_of(subject);
-    const PositionCheck positions = check_positions(
-        subject.file, subject.layers, truth,
-        tolerance_m.value_or(default_tolerance_m(subject.mesh, subject.file.space)));
+    const double usual_m = default_tolerance_m(subject.mesh, subject.file.space);
+    const double tolerated_m = tolerance_m.value_or(usual_m);
+    const PositionCheck positions =
+        check_positions(subject.file, subject.layers, subject.mesh, truth, tolerated_m);
     ImportCheck& check = checked.check;
     check.distances = positions.distances;
     note(check, positions.mistake);
+    // The work grows with the boxes, and what is tolerated may be all of the scene.
+    constexpr double most_of_usual = 64;
+    const double most_m = std::clamp(tolerated_m, usual_m, most_of_usual * usual_m);
+    checked.receivers.most_distance_m = most_m / subject.file.space.metres_per_unit;
+    if (!positions.mistake) {
+        note(check, check_surfaces(subject.file, subject.layers, subject.mesh, checked.receivers,
+                                   truth, most_m));
+    }
     if (subject.file.says("camera.target") && !subject.file.space.is_mirrored()) {
         note(check, check_camera(checked.view, subject.layers));
     }
@@ -322,6 +351,13 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     }
     note(check,
          check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth, truth));
+    if (found.lit + found.blocked == 0) {
+        check.warning = "no pixel is scored: each is turned from the light, outside its cone or "
+                        "left open; look at the light, and at Ng or camera.eye";
+    } else if (check.mistake.empty() && check.agreement.value_or(1) <= 0) {
+        check.warning = "mask and truth agree no better than by chance, and no usual mistake "
+                        "explains it: look at the light and at the mask";
+    }
     return checked;
 }
 

@@ -30,6 +30,7 @@ struct ImportCheck {
     std::optional<double> agreement;
     std::string mistake = {};  ///< "units", "axes", …; empty: none found
     std::string sentence = {}; ///< that names the mistake and what to do; empty: none found
+    std::string warning = {};  ///< of what no mistake explains, and may be as it is; often empty
 };
 
 /// Something that a case's data cannot tell, and what would tell it.
@@ -61,6 +62,9 @@ struct Evaluation {
     /// many.
     double largest_growth_m = 0;
     std::uint64_t grown_pixels = 0;
+    /// Farther from their surface than `most_distance_m`: left open, whatever the light.
+    std::uint64_t off_surface_pixels = 0;
+    double most_distance_m = 0;
     bool has_camera = false; ///< the view's camera is the renderer's
     bool has_map = false;    ///< the view's frustum is the renderer's
     /// Keys of the job that the case gives; the others mean nothing.

@@ -97,14 +97,16 @@ const std::vector<UnitMistake>& unit_mistakes()
 {
     static const std::vector<UnitMistake> all{
         {1, ""},
-        {100, "P is in centimetres where the mesh is in metres"},
+        {0.001, "P is in metres where the mesh is in millimetres, or in kilometres where it is in "
+                "metres"},
         {0.01, "P is in metres where the mesh is in centimetres"},
-        {1000, "P is in millimetres where the mesh is in metres"},
-        {0.001, "P is in metres where the mesh is in millimetres"},
-        {1 / 0.3048, "P is in feet where the mesh is in metres"},
-        {0.3048, "P is in metres where the mesh is in feet"},
-        {1 / 0.0254, "P is in inches where the mesh is in metres"},
         {0.0254, "P is in metres where the mesh is in inches"},
+        {0.3048, "P is in metres where the mesh is in feet"},
+        {1 / 0.3048, "P is in feet where the mesh is in metres"},
+        {1 / 0.0254, "P is in inches where the mesh is in metres"},
+        {100, "P is in centimetres where the mesh is in metres"},
+        {1000, "P is in millimetres where the mesh is in metres, or in metres where it is in "
+               "kilometres"},
     };
     return all;
 }

@@ -30,7 +30,7 @@ struct UnitMistake {
     double factor = 1; ///< P is too large by it
     std::string_view words;
 };
-/// The first is none at all.
+/// The first is none at all, and of the others each leaves P larger than the next does.
 [[nodiscard]] const std::vector<UnitMistake>& unit_mistakes();
 
 } // namespace gnomon::analysis

@@ -36,14 +36,26 @@ bool explains_far_better(const MaskAgreement& other, double given)
     return other.has_both() && other.index() >= 0.8 && given <= 0.5;
 }
 
-/// The mask with its rows or columns in the opposite order.
-Image<float> flipped(const Image<float>& mask, bool rows)
+/// How an image may be turned against another.
+struct Flip {
+    bool rows = false;
+    bool columns = false;
+
+    template <typename Pixel>
+    [[nodiscard]] const Pixel& read(const Image<Pixel>& image, int x, int y) const
+    {
+        const auto [width, height] = image.size();
+        return image(columns ? width - 1 - x : x, rows ? height - 1 - y : y);
+    }
+};
+
+Image<float> flipped(const Image<float>& mask, const Flip& flip)
 {
     const auto [width, height] = mask.size();
     Image<float> result{mask.size()};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            result(x, y) = rows ? mask(x, height - 1 - y) : mask(width - 1 - x, y);
+            result(x, y) = flip.read(mask, x, y);
         }
     }
     return result;
@@ -51,19 +63,46 @@ Image<float> flipped(const Image<float>& mask, bool rows)
 
 /// Classes of the pixels that also the flipped image judges.
 Image<PixelClass> judged_in_both(const Image<PixelClass>& classes,
-                                 const Image<scene::Vec3f>& points, bool rows)
+                                 const Image<scene::Vec3f>& points, const Flip& flip)
 {
     const auto [width, height] = classes.size();
     Image<PixelClass> result = classes;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const scene::Vec3f& p = rows ? points(x, height - 1 - y) : points(width - 1 - x, y);
-            if (std::isnan(p.x)) {
+            if (std::isnan(flip.read(points, x, y).x)) {
                 result(x, y) = PixelClass::background;
             }
         }
     }
     return result;
+}
+
+/// The mistake of a mask that is flipped against P, and perhaps inverted too.
+std::optional<ImportMistake> check_flips(const scene::CaseLayers& layers,
+                                         const Image<PixelClass>& classes)
+{
+    double best = 0;
+    std::optional<ImportMistake> mistake;
+    for (const auto& [flip, words] : {std::pair{Flip{true, false}, "rows are"},
+                                      {Flip{false, true}, "columns are"},
+                                      {Flip{true, true}, "rows and columns are"}}) {
+        const auto both = judged_in_both(classes, layers.position, flip);
+        const double given = agreement(layers.mask, both).index();
+        const double turned = agreement(flipped(layers.mask, flip), both).index();
+        for (const bool inverts : {false, true}) {
+            const double index = inverts ? -turned : turned;
+            if (index > best + 0.01 && explains_better(index, given)) {
+                best = index;
+                mistake = ImportMistake{
+                    "flipped_image",
+                    fmt::format("the mask is flipped against P: its {} in the opposite order{}; "
+                                "an image begins at its top left{}",
+                                words, inverts ? ", and it is inverted" : "",
+                                inverts ? ", and a mask is 1 where lit" : "")};
+            }
+        }
+    }
+    return mistake;
 }
 
 /// Some of the receivers, evenly spread, as a row, with their part of the mask.
@@ -82,7 +121,8 @@ Tried spread_pixels(const scene::RoundedReceivers& receivers, const Image<float>
     }
     const std::size_t count = std::min(pixels.size(), most_tried_pixels);
     const scene::ImageSize size{static_cast<int>(count), 1};
-    Tried tried{{Image<scene::Vec3f>{size}, {}, receivers.eye, {}}, Image<float>{size}};
+    Tried tried{{Image<scene::Vec3f>{size}, {}, receivers.eye, {}, receivers.most_distance_m},
+                Image<float>{size}};
     if (!receivers.normal.empty()) {
         tried.receivers.normal = Image<scene::Vec3f>{size};
     }
@@ -261,16 +301,8 @@ std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers, const L
                              "the mask is inverted: it is 1 where the truth is shadow and 0 where "
                              "it is light; a mask is 1 where lit"};
     }
-    for (const bool rows : {true, false}) {
-        const auto both = judged_in_both(classes, layers.position, rows);
-        if (explains_better(agreement(flipped(layers.mask, rows), both).index(),
-                            agreement(layers.mask, both).index())) {
-            return ImportMistake{
-                "flipped_image",
-                fmt::format("the mask is flipped against P: its {} are in the opposite order; an "
-                            "image begins at its top left",
-                            rows ? "rows" : "columns")};
-        }
+    if (auto mistake = check_flips(layers, classes)) {
+        return mistake;
     }
     if (given.index() > 0.5) { // nothing can explain it far better
         return std::nullopt;

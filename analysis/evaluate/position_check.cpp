@@ -2,6 +2,7 @@
 
 #include "analysis/evaluate/half_positions.hpp"
 #include "analysis/evaluate/hypotheses.hpp"
+#include "analysis/evaluate/shared_position.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <tuple>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -59,7 +58,7 @@ double quantile(std::vector<double>& values, double share)
 std::vector<double> distances_of(const CaseTruth& truth, std::span<const Vec3d> points)
 {
     std::vector<double> distances;
-    for (const scene::NearestSurface& surface : truth.nearest_surfaces(points)) {
+    for (const scene::NearestSurface& surface : truth.nearest_surfaces(points, {})) {
         distances.push_back(surface.distance_m);
     }
     return distances;
@@ -77,57 +76,105 @@ struct Hypothesis {
     }
 };
 
+/// The largest coordinate of all points but the farthest hundredth.
+double reach_of(std::span<const Vec3d> points)
+{
+    std::vector<double> sizes;
+    for (const Vec3d& point : points) {
+        sizes.push_back(std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}));
+    }
+    return quantile(sizes, 0.99);
+}
+
 /// Tries mistakes on the positions.
 class MistakeFinder {
 public:
-    MistakeFinder(const CaseTruth& truth, const std::vector<Vec3d>& points, double tolerance)
+    /// @param tolerance  of distances, as a share of the largest coordinate.
+    MistakeFinder(const CaseTruth& truth, const std::vector<Vec3d>& points, double mesh_reach,
+                  double tolerance)
         : truth_{truth},
           points_{points},
           few_{spread(points, screening_points)},
+          mesh_reach_{mesh_reach},
           tolerance_{slack * tolerance}
     {
     }
 
-    [[nodiscard]] bool holds(const Hypothesis& hypothesis) const
+    /// The share of the points that are on the mesh then; 0 if it is too small.
+    ///
+    /// A mistake that shrinks P must bring it the nearer to the mesh, or it would pass for having
+    /// drawn all points together on a ground through the origin.
+    [[nodiscard]] double fit(const Hypothesis& hypothesis) const
     {
-        return is_near(hypothesis, few_) && is_near(hypothesis, points_);
+        // A few points may miss what holds for 99 % of all.
+        if (share_near(hypothesis, few_) < 0.96) {
+            return 0;
+        }
+        const double share = share_near(hypothesis, points_);
+        return share >= 0.99 ? share : 0;
     }
 
-    /// The likeliest first: one mistake before two.
+    /// One mistake before two; of those that fit alike the likeliest, and the largest P.
     [[nodiscard]] std::optional<Hypothesis> find(const std::optional<Vec3d>& eye) const
     {
-        if (eye && holds({1, all_axes().front(), *eye})) {
+        if (eye && fit({1, all_axes().front(), *eye}) > 0) {
             return Hypothesis{1, all_axes().front(), *eye};
         }
-        for (const UnitMistake& unit : unit_mistakes()) {
-            if (unit.factor != 1 && holds({unit.factor})) {
-                return Hypothesis{unit.factor};
-            }
-        }
+        std::vector<Hypothesis> one;
+        std::vector<Hypothesis> two;
         for (const UnitMistake& unit : unit_mistakes()) {
             for (const MixedAxes& axes : all_axes()) {
-                if (holds({unit.factor, axes})) {
-                    return Hypothesis{unit.factor, axes};
+                const bool has_units_only = axes == all_axes().front();
+                if (!has_units_only || unit.factor != 1) {
+                    (has_units_only ? one : two).push_back({unit.factor, axes});
                 }
             }
         }
-        return std::nullopt;
+        const auto found = best_of(one);
+        return found ? found : best_of(two);
+    }
+
+    /// True for points far smaller than the mesh that are near it only for being so small.
+    [[nodiscard]] bool may_be_shrunk() const
+    {
+        return reach_of(points_) * 64 < mesh_reach_ && fit({}) == 0;
     }
 
 private:
-    [[nodiscard]] bool is_near(const Hypothesis& hypothesis, std::span<const Vec3d> points) const
+    [[nodiscard]] std::optional<Hypothesis> best_of(const std::vector<Hypothesis>& all) const
+    {
+        constexpr double alike = 5e-4;
+        std::optional<Hypothesis> found;
+        double best = 0;
+        for (const Hypothesis& hypothesis : all) {
+            if (const double share = fit(hypothesis); share > best + alike) {
+                best = share;
+                found = hypothesis;
+            }
+            if (best >= 1 - alike) { // nothing fits better by more than that
+                break;
+            }
+        }
+        return found;
+    }
+
+    [[nodiscard]] double share_near(const Hypothesis& hypothesis,
+                                    std::span<const Vec3d> points) const
     {
         std::vector<Vec3d> corrected;
         for (const Vec3d& point : points) {
             corrected.push_back(hypothesis.corrected(point));
         }
-        std::vector<double> distances = distances_of(truth_, corrected);
-        return quantile(distances, 0.99) <= tolerance_;
+        const double limit = tolerance_ * std::min(mesh_reach_, reach_of(corrected));
+        const auto near = std::ranges::count_if(distances_of(truth_, corrected),
+                                                [&](double distance) { return distance <= limit; });
+        return static_cast<double>(near) / static_cast<double>(points.size());
     }
 
     const CaseTruth& truth_;
     const std::vector<Vec3d>& points_;
     std::vector<Vec3d> few_;
+    double mesh_reach_;
     double tolerance_;
 };
 
@@ -136,13 +183,32 @@ std::string vector_text(const Vec3d& v)
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
+std::string unit_words(const Hypothesis& found, const scene::CaseFile& file)
+{
+    const auto unit = std::ranges::find(unit_mistakes(), found.factor, &UnitMistake::factor);
+    if (file.space.units_per_mesh_unit == 1 && file.space.metres_per_unit == 1) {
+        return std::string{unit->words};
+    }
+    return fmt::format("P is {:.6g} times as large as the case's units make the mesh",
+                       found.factor);
+}
+
 std::string unit_remedy(const Hypothesis& found, const scene::CaseFile& file)
 {
     if (found.factor == 1) {
         return {};
     }
-    return fmt::format("conventions.metres_per_unit = {:.6g}",
-                       file.space.metres_per_unit / found.factor);
+    const double metres_per_unit = file.space.metres_per_unit;
+    const std::string of_renderer =
+        fmt::format("conventions.metres_per_unit = {:.8g}", metres_per_unit / found.factor);
+    if (found.factor > 1) {
+        return of_renderer;
+    }
+    // The mesh's unit is the smaller one: as a rule it is the mesh that is not in metres.
+    return fmt::format("conventions.mesh_metres_per_unit = {:.8g}, or, if the mesh's is as the "
+                       "case says, {}",
+                       file.space.units_per_mesh_unit * metres_per_unit * found.factor,
+                       of_renderer);
 }
 
 ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
@@ -153,9 +219,9 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
                             "mesh; write world positions",
                             vector_text(found.eye))};
     }
-    const auto unit = std::ranges::find(unit_mistakes(), found.factor, &UnitMistake::factor);
     if (found.axes == all_axes().front()) {
-        return {"units", fmt::format("{}: set {}", unit->words, unit_remedy(found, file))};
+        return {"units",
+                fmt::format("{}: set {}", unit_words(found, file), unit_remedy(found, file))};
     }
     // What corrects P turned it into the space that the mesh was moved to; the mesh belongs into
     // that of P.
@@ -166,7 +232,8 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
     }
     const MixedAxes axes = mixed_twice(file.space.axes, back);
     const bool is_left = mirrors(found.axes);
-    const std::string units = found.factor == 1 ? "" : fmt::format(", and {}", unit->words);
+    const std::string units =
+        found.factor == 1 ? "" : fmt::format(", and {}", unit_words(found, file));
     const std::string remedy =
         found.factor == 1 ? "" : fmt::format(" and {}", unit_remedy(found, file));
     return {is_left ? "handedness" : "axes",
@@ -174,22 +241,6 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
                         is_left ? "P is of another handedness than the mesh: an axis is mirrored"
                                 : "P has other axes than the mesh, as where z is up instead of y",
                         units, axes_text(axes), remedy)};
-}
-
-/// The position that more than a hundredth of the pixels share, as a cleared background does.
-std::optional<Vec3d> shared_position(const std::vector<Vec3d>& points)
-{
-    std::map<std::tuple<double, double, double>, std::size_t> counts;
-    for (const Vec3d& p : points) {
-        ++counts[{p.x, p.y, p.z}];
-    }
-    const auto most =
-        std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
-    if (most->second < 16 || most->second * 100 < points.size()) {
-        return std::nullopt;
-    }
-    const auto [x, y, z] = most->first;
-    return Vec3d{x, y, z};
 }
 
 /// Whether the eye that positions along rows and columns of pixels point to is the origin: then
@@ -235,31 +286,38 @@ ImportMistake unknown_mistake(const scene::CaseFile& file, const scene::CaseLaye
                         distances.median_m, distances.p99_m, distances.tolerance_m)};
 }
 
-ImportMistake find_mistake(const scene::CaseFile& file, const scene::CaseLayers& layers,
-                           const CaseTruth& truth, const std::vector<Vec3d>& points,
-                           const ImportDistances& distances)
+/// The mistake of positions that do not suit the mesh.
+/// @param is_off  not even within the tolerance.
+std::optional<ImportMistake> find_mistake(const scene::CaseFile& file,
+                                          const scene::CaseLayers& layers,
+                                          const std::vector<Vec3d>& points,
+                                          const MistakeFinder& finder,
+                                          const ImportDistances& distances, bool is_off)
 {
-    const double tolerance = distances.tolerance_m / file.space.metres_per_unit;
-    const MistakeFinder finder{truth, points, tolerance};
+    if (!is_off && !finder.may_be_shrunk()) {
+        return std::nullopt;
+    }
     if (const auto found = finder.find(file.eye)) {
         return mistake_of(*found, file);
     }
-    if (const auto shared = shared_position(points)) {
-        return {"background",
-                fmt::format("many pixels have the position {}, which is not on the mesh: write "
-                            "valid = 0 where nothing is seen, or set conventions.background",
-                            vector_text(*shared))};
+    if (auto shared = check_shared_position(points)) {
+        return shared;
     }
-    return unknown_mistake(file, layers, distances);
+    return is_off ? std::optional{unknown_mistake(file, layers, distances)} : std::nullopt;
+}
+
+double reach_of_mesh(const scene::TriangleScene& mesh)
+{
+    const scene::Box box = mesh.bounds();
+    const Vec3d reach = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    return std::max({reach.x, reach.y, reach.z});
 }
 
 } // namespace
 
 double default_tolerance_m(const scene::TriangleScene& scene, const scene::CaseSpace& space)
 {
-    const scene::Box box = scene.bounds();
-    const Vec3d reach = glm::max(glm::abs(box.lower), glm::abs(box.upper));
-    return std::ldexp(std::max({reach.x, reach.y, reach.z}), -16) * space.metres_per_unit;
+    return std::ldexp(reach_of_mesh(scene), -16) * space.metres_per_unit;
 }
 
 ImportDistances summarise_distances(std::span<const double> distances, double metres_per_unit,
@@ -276,20 +334,27 @@ ImportDistances summarise_distances(std::span<const double> distances, double me
 }
 
 PositionCheck check_positions(const scene::CaseFile& file, const scene::CaseLayers& layers,
-                              const CaseTruth& truth, double tolerance_m)
+                              const scene::TriangleScene& mesh, const CaseTruth& truth,
+                              double tolerance_m)
 {
     const std::vector<Vec3d> points = judged_points(layers.position);
     PositionCheck check;
     check.distances =
         summarise_distances(distances_of(truth, points), file.space.metres_per_unit, tolerance_m);
     const bool is_off = !(check.distances.p99_m <= tolerance_m);
+    const double reach = reach_of_mesh(mesh);
+    const MistakeFinder finder{truth, points, reach,
+                               tolerance_m / file.space.metres_per_unit / reach};
     if (are_rounded_to_half(layers.position, is_off)) {
         check.mistake = {"half_float",
                          "P was rounded to half floats before it was written: near 100 half's step "
                          "is 0.0625, and no shadow can be judged from there; render and write full "
                          "floats"};
-    } else if (is_off) {
-        check.mistake = find_mistake(file, layers, truth, points, check.distances);
+    } else {
+        check.mistake = find_mistake(file, layers, points, finder, check.distances, is_off);
+    }
+    if (!check.mistake) {
+        check.mistake = check_shared_position(points);
     }
     return check;
 }

@@ -37,9 +37,11 @@ struct PositionCheck {
 
 /// Finds out whether positions are on the mesh, and if not, which mistake puts them there: half
 /// floats, units, axes, handedness, camera-relative, or the position of pixels that show nothing.
-/// @param truth  of the mesh in the renderer's space.
+/// @param mesh   in the renderer's space.
+/// @param truth  of that mesh.
 [[nodiscard]] PositionCheck check_positions(const scene::CaseFile& file,
-                                            const scene::CaseLayers& layers, const CaseTruth& truth,
-                                            double tolerance_m);
+                                            const scene::CaseLayers& layers,
+                                            const scene::TriangleScene& mesh,
+                                            const CaseTruth& truth, double tolerance_m);
 
 } // namespace gnomon::analysis

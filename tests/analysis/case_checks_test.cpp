@@ -3,6 +3,7 @@
 #include "analysis/evaluate/hypotheses.hpp"
 #include "analysis/evaluate/mask_check.hpp"
 #include "analysis/evaluate/position_check.hpp"
+#include "analysis/evaluate/shared_position.hpp"
 
 #include <gtest/gtest.h>
 
@@ -106,6 +107,22 @@ TEST(BiasCauses, AreWhatTheVerdictWithoutBiasGetsRight)
     EXPECT_EQ(found.cause[0], Cause::bias);
     EXPECT_EQ(found.label[4], Label::overshadow);
     EXPECT_EQ(find_bias_causes(layers, truth, true).peter_panning, 1U); // r < d: pixel 1
+}
+
+TEST(SharedPosition, StandsOutFromNeighboursThatRepeat)
+{
+    std::vector<Vec3d> points;
+    for (int i = 0; i < 1000; ++i) {
+        points.emplace_back(i / 8, 0, 0); // float32 is too coarse for this camera
+    }
+    EXPECT_FALSE(check_shared_position(points));
+    points.insert(points.end(), 79, Vec3d{-1, 0, 0}); // less than ten times as many
+    EXPECT_FALSE(check_shared_position(points));
+    points.emplace_back(-1, 0, 0);
+    ASSERT_TRUE(check_shared_position(points));
+    EXPECT_EQ(check_shared_position(points)->name, "background");
+    EXPECT_FALSE(
+        check_shared_position(std::vector<Vec3d>(15, Vec3d{0.0}))); // few pixels are no background
 }
 
 TEST(ImportDistances, AreNearestRanks)

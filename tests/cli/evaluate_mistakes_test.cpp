@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::testing {
@@ -49,6 +52,11 @@ void expect_named(const std::function<void(CaseFolder&)>& make_mistake, const st
     }
 }
 
+void change_each(scene::Image<float>& image, const std::function<float(float)>& change)
+{
+    std::transform(image.begin(), image.end(), image.data(), change);
+}
+
 void flip_rows(scene::Image<float>& image)
 {
     const auto [width, height] = image.size();
@@ -67,6 +75,46 @@ TEST(EvaluateMistakes, NamesCentimetres)
             folder.drop_table("camera");
         },
         "centimetres where the mesh is in metres: set conventions.metres_per_unit = 0.01");
+}
+
+TEST(EvaluateMistakes, NamesTheUnitOfTheTwoThatFitsBest)
+{
+    // The ground goes through the origin: whatever makes P small enough draws it onto the ground.
+    const std::map<double, std::string> factors{
+        {0.001, "mesh_metres_per_unit = 0.001, or"},
+        {0.01, "metres where the mesh is in centimetres: set conventions.mesh_metres_per_unit"},
+        {0.0254, "metres where the mesh is in inches"},
+        {0.3048, "metres where the mesh is in feet"},
+        {1 / 0.3048, "feet where the mesh is in metres: set conventions.metres_per_unit = 0.3048"},
+        {1 / 0.0254, "inches where the mesh is in metres"},
+        {1000, "metres_per_unit = 0.001"},
+    };
+    for (const auto& [factor, sentence] : factors) {
+        CaseFolder& folder = case_of("yard");
+        folder.keep_level_0();
+        folder.drop_table("camera");
+        folder.move([factor = static_cast<float>(factor)](float& x, float& y, float& z) {
+            x *= factor, y *= factor, z *= factor;
+        });
+        folder.write();
+        EXPECT_THAT(folder.evaluate({"--check"}).out, HasSubstr(sentence)) << factor;
+    }
+}
+
+TEST(EvaluateMistakes, NamesAPositionThatTooManyPixelsShare)
+{
+    CaseFolder& folder = case_of("sphere-plane");
+    folder.keep_level_0();
+    for (int y = 0; y < 10; ++y) {
+        for (int x = 0; x < 240; ++x) {
+            for (const char* const name : {"P.X", "P.Y", "P.Z"}) {
+                folder.channels[name](x, y) = 0; // a point of the ground
+            }
+            folder.channels["valid"](x, y) = 1;
+        }
+    }
+    folder.write();
+    expect_refused(folder.evaluate(), 2, "the very same position (0, 0, 0)");
 }
 
 TEST(EvaluateMistakes, NamesZUp)
@@ -133,6 +181,21 @@ TEST(EvaluateMistakes, NamesAMaskUpsideDown)
                  "the mask is flipped against P: its rows");
 }
 
+TEST(EvaluateMistakes, NamesAMaskThatIsTurnedRound)
+{
+    for (const bool inverts : {false, true}) {
+        CaseFolder& folder = case_of("yard");
+        folder.keep_level_0();
+        auto& mask = folder.channels["shadow.V"];
+        change_each(mask, [inverts](float verdict) { return inverts ? 1 - verdict : verdict; });
+        std::reverse(mask.data(), mask.data() + mask.pixel_count());
+        folder.write();
+        const std::string out = folder.evaluate({"--check"}).out;
+        EXPECT_THAT(out, HasSubstr("flipped against P: its rows and columns"));
+        EXPECT_EQ(out.find("and it is inverted") != std::string::npos, inverts) << out;
+    }
+}
+
 TEST(EvaluateMistakes, NamesAnImageUpsideDownAgainstItsCamera)
 {
     expect_named(
@@ -173,6 +236,98 @@ TEST(EvaluateMistakes, NamesALightThatShinesTheOtherWay)
             expect_refused(folder.evaluate(), 2, "the light seems to shine the other way");
         }
     }
+}
+
+TEST(EvaluateMistakes, NamesNumbersOfOtherObjects)
+{
+    CaseFolder& folder = case_of("yard");
+    auto& numbers = folder.channels["id.geom"];
+    change_each(numbers, [](float number) { return number + 1; });
+    folder.write();
+    expect_refused(folder.evaluate(), 2, "every number is 1 larger than [objects] says");
+    folder.drop_table("objects");
+    folder.write();
+    expect_refused(folder.evaluate(), 2, "1 larger than the object's place in the mesh file");
+    change_each(numbers, [](float number) {
+        return number == 1 ? 2.0F : number == 2 ? 1.0F : number;
+    });
+    folder.write();
+    expect_refused(folder.evaluate(), 2, "they fit with \"");
+}
+
+TEST(EvaluateMistakes, LeaveFewPixelsOnNoSurfaceOpen)
+{
+    CaseFolder& folder = case_of("sphere-plane");
+    auto& numbers = folder.channels["id.geom"];
+    for (int x = 110; x < 130; ++x) { // the ground before the sphere
+        numbers(x, 120) = 1 - numbers(x, 120);
+    }
+    folder.write();
+    const Ending ending = folder.evaluate({"--json"});
+    EXPECT_THAT(ending.out, HasSubstr("\"off_surface_pixels\": 20"));
+    EXPECT_THAT(ending.out, HasSubstr("\"rounding\": 20"));
+    EXPECT_THAT(folder.evaluate().out, HasSubstr("20 pixels not decided: farther than"));
+    // However much is tolerated, boxes do not grow to the size of the scene.
+    folder.restore();
+    folder.keep_level_0();
+    folder.drop_table("camera");
+    folder.move([](float&, float& y, float&) { y += 1; });
+    folder.write();
+    EXPECT_THAT(folder.evaluate({"--tolerance-m", "100"}).out, HasSubstr("pixels not decided"));
+}
+
+TEST(EvaluateMistakes, NamesNormalsOfAnotherSideOrNone)
+{
+    const auto change = [](const std::function<void(float&, float&, float&)>& change_normal) {
+        CaseFolder& folder = case_of("yard");
+        auto& x = folder.channels["Ng.X"];
+        for (std::size_t i = 0; i < x.pixel_count(); ++i) {
+            change_normal(x[i], folder.channels["Ng.Y"][i], folder.channels["Ng.Z"][i]);
+        }
+        folder.write();
+    };
+    const CaseFolder& folder = case_of("yard");
+    change([](float& x, float& y, float& z) { x = -x, y = -y, z = -z; });
+    expect_refused(folder.evaluate(), 2, "Ng points away from camera.eye");
+    change([](float& x, float& y, float& z) { std::swap(x, y), std::swap(y, z); });
+    expect_refused(folder.evaluate(), 2, "Ng is not the geometric normal of the mesh");
+    for (const float nothing : {0.0F, NAN}) {
+        CaseFolder& blind = case_of("yard");
+        for (const char* const name : {"Ng.X", "Ng.Y", "Ng.Z"}) {
+            change_each(blind.channels[name], [nothing](float) { return nothing; });
+        }
+        blind.drop_table("camera");
+        blind.write();
+        const Ending ending = blind.evaluate({"--json"});
+        EXPECT_THAT(ending.out, HasSubstr("\"level\": 0"));
+        EXPECT_THAT(ending.out, HasSubstr("\"attached\": null"));
+    }
+}
+
+TEST(EvaluateMistakes, WarnOfAMaskThatSaysNothing)
+{
+    CaseFolder& folder = case_of("yard");
+    change_each(folder.channels["shadow.V"], [](float) { return 1.0F; });
+    folder.write();
+    const Ending checked = folder.evaluate({"--check"});
+    EXPECT_EQ(checked.exit_code, 0);
+    EXPECT_THAT(checked.out, HasSubstr("Warning: mask and truth agree no better than by chance"));
+    EXPECT_THAT(folder.evaluate().out, HasSubstr("Warning: mask and truth"));
+    EXPECT_THAT(folder.evaluate({"--json"}).out, HasSubstr("\"warning\": \"mask and truth"));
+}
+
+TEST(EvaluateMistakes, WarnWhereNothingIsScored)
+{
+    CaseFolder& folder = case_of("sphere-plane");
+    folder.keep_level_0();
+    folder.drop_table("camera");
+    folder.toml += "\n[camera]\neye = [0, -5, 0]\n"; // below the ground, turned from the light
+    auto& valid = folder.channels["valid"];
+    for (std::size_t i = 0; i < valid.pixel_count(); ++i) {
+        valid[i] = folder.channels["P.Y"][i] == 0 ? valid[i] : 0.0F;
+    }
+    folder.write();
+    EXPECT_THAT(folder.evaluate({"--check"}).out, HasSubstr("Warning: no pixel is scored"));
 }
 
 TEST(EvaluateMistakes, NamesAnAntiAliasedMask)

@@ -181,39 +181,24 @@ TEST(RoundedTruth, RefusesImagesThatDoNotFit)
                  std::invalid_argument);
 }
 
-TEST(NearestSurfaces, AgreesWithTryingEveryTriangle)
+TEST(RoundedTruth, LeavesPointsOpenThatAreTooFarFromTheirSurface)
 {
-    std::mt19937 random{31};
-    std::uniform_real_distribution<double> place{-2, 2};
-    SceneBuilder builder;
-    add_sphere(builder, {0, 0, 0}, 1, 6);
-    add_box(builder, {1, 0, -1}, {1.5, 0.75, 1});
-    const TriangleScene scene = builder.take();
-    std::vector<Vec3d> points;
-    for (int i = 0; i < 150; ++i) {
-        // A few far outside the scene's box.
-        points.push_back((i % 10 == 0 ? 100.0 : 1.0) *
-                         Vec3d{place(random), place(random), place(random)});
-    }
-    const auto found = nearest_surfaces(ReferenceScene{scene}, points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        // Barycentric search in rationals would say the same; a dense sampling bounds it from
-        // above.
-        double nearest = std::numeric_limits<double>::infinity();
-        for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-            const auto [a, b, c] = scene.corners(t);
-            for (int u = 0; u <= 24; ++u) {
-                for (int v = 0; u + v <= 24; ++v) {
-                    const Vec3d sample = Vec3d{a} + u / 24.0 * (Vec3d{b} - Vec3d{a}) +
-                                         v / 24.0 * (Vec3d{c} - Vec3d{a});
-                    nearest = std::min(nearest, glm::length(points[i] - sample));
-                }
-            }
-        }
-        EXPECT_LE(found[i].distance_m, nearest * (1 + 1e-12)) << "point " << i;
-        // No triangle's edge is longer than 2.1 m: samples are within 2.1/24 of any of its points.
-        EXPECT_GE(found[i].distance_m, nearest - 2.1 / 24) << "point " << i;
-    }
+    RoundedReceivers receivers = receivers_at({{0.25F, 0.125F, 0.5F}, {-1, 0, 0.5F}, {-1, 0, 0}});
+    receivers.object = scene::Image<std::uint32_t>{{3, 1}, scene::no_object};
+    receivers.object[2] = 1; // the plate, and it lies on the ground
+    receivers.most_distance_m = 0.125;
+    auto truth = truth_at(plate_over_ground(), sun({0, -1, 0}), receivers);
+    EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::blocked); // not beyond it
+    receivers.most_distance_m = 0.0625;
+    truth = truth_at(plate_over_ground(), sun({0, -1, 0}), receivers);
+    EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::indeterminate);
+    EXPECT_EQ(truth.truth.reason[0], ClassReason::rounding);
+    EXPECT_EQ(truth.distance_m[0], 0.125F);
+    EXPECT_TRUE(std::isinf(truth.growth_m[0]));
+    EXPECT_EQ(truth.truth.pixel_class[1], PixelClass::lit);
+    EXPECT_EQ(truth.growth_m[1], 0);
+    EXPECT_EQ(truth.truth.pixel_class[2], PixelClass::indeterminate);
+    EXPECT_EQ(truth.distance_m[2], 0);
 }
 
 struct RoundedScene {

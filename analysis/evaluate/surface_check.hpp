@@ -1,0 +1,27 @@
+#pragma once
+
+#include "analysis/evaluate/case_truth.hpp"
+#include "analysis/evaluate/position_check.hpp"
+#include "scene/case_file.hpp"
+#include "scene/case_layers.hpp"
+#include "scene/rounded_receivers.hpp"
+#include "scene/triangles.hpp"
+
+#include <optional>
+
+namespace gnomon::analysis {
+
+/// The mistake of object numbers or normals that do not suit the surfaces that P lies on.
+///
+/// Numbers: with them more than a hundredth of the positions is farther off than tolerated, without
+/// them not. Normals: their angle to those of the triangles is beyond acos(0.9) at half the pixels
+/// or more, sides ignored; or they point away from the eye there.
+/// @param mesh       in the renderer's space, with its roles.
+/// @param receivers  of the case.
+/// @param truth      of that mesh.
+[[nodiscard]] std::optional<ImportMistake>
+check_surfaces(const scene::CaseFile& file, const scene::CaseLayers& layers,
+               const scene::TriangleScene& mesh, const scene::RoundedReceivers& receivers,
+               const CaseTruth& truth, double tolerance_m);
+
+} // namespace gnomon::analysis
