@@ -45,6 +45,17 @@ struct EvaluateOptions {
     int threads = 0;
 };
 
+/// Does the work; what it refuses about keys is said of those that the case has.
+template <typename Work>
+auto in_words_of(const scene::CaseFile& file, const Work& work)
+{
+    try {
+        return work();
+    } catch (const scene::InputError& error) {
+        throw scene::InputError(scene::case_message(file, error.what()));
+    }
+}
+
 /// A case with everything that it names in memory, and its mesh in Embree's hands.
 class CaseSession {
 public:
@@ -92,8 +103,10 @@ public:
 private:
     static scene::TriangleScene load_mesh(const scene::CaseFile& file)
     {
-        return scene::move_to_space(scene::load_scene(scene::make_job(file.source).scene).scene,
-                                    file.space);
+        return in_words_of(file, [&] {
+            return scene::move_to_space(scene::load_scene(scene::make_job(file.source).scene).scene,
+                                        file.space);
+        });
     }
 
     /// The image says it, and a run's configuration names it.
@@ -165,8 +178,9 @@ void evaluate(const EvaluateOptions& options)
     require_writable_results(options);
     const CaseSession session{options};
     const analysis::CaseTruth truth = session.truth(options.threads);
-    analysis::CheckedCase checked =
-        analysis::check_case(session.subject(), truth, options.tolerance_m);
+    analysis::CheckedCase checked = in_words_of(session.file(), [&] {
+        return analysis::check_case(session.subject(), truth, options.tolerance_m);
+    });
     if (options.check) {
         print_check(options, checked.check);
         return;

@@ -109,7 +109,7 @@ private:
         const auto [left, top, right, bottom] = window;
         if (left != 0 || top != 0 || right < 0 || bottom < 0 || right > largest ||
             bottom > largest) {
-            refuse("the data window is not an image's");
+            refuse("the data window is not an image's: it must begin at (0, 0)");
         }
         return {right + 1, bottom + 1};
     }
@@ -299,6 +299,19 @@ scene::Image<float> LayerFile::numbers(const std::string& name)
     OIIO::convert_pixel_values(OIIO::TypeDesc::HALF, from.data(), OIIO::TypeDesc::FLOAT,
                                image.data(), static_cast<int>(image.pixel_count()));
     return image;
+}
+
+std::string LayerFile::compression()
+{
+    const std::string name{reader().spec.get_string_attribute("compression")};
+    return name.substr(0, name.find(':')); // "dwaa:45": with its level
+}
+
+bool LayerFile::is_whole_display()
+{
+    const OIIO::ImageSpec& spec = reader().spec;
+    return spec.full_x == 0 && spec.full_y == 0 && spec.full_width == size_.width_px &&
+           spec.full_height == size_.height_px;
 }
 
 std::map<std::string, std::string> LayerFile::texts()

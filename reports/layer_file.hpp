@@ -43,6 +43,10 @@ public:
     [[nodiscard]] scene::Image<float> numbers(const std::string& name);
     /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
     [[nodiscard]] scene::Image<scene::PixelClass> classes();
+    /// "zip", "dwaa", …; empty: not said.
+    [[nodiscard]] std::string compression();
+    /// False where the display window is another than the data window.
+    [[nodiscard]] bool is_whole_display();
     /// The header's texts that begin with "gnomon:", by their names without it: "eye", "job", ….
     [[nodiscard]] std::map<std::string, std::string> texts();
 

@@ -90,6 +90,9 @@ private:
                 throw InputError(
                     fmt::format("{}: {}", label, refusal_text(key->domain, member.node)));
             }
+            if (name == "name" || name == "renderer") {
+                require_one_line(std::get<std::string>(*value), label);
+            }
             Layer& layer = draft_.file.source.file;
             const std::size_t settings = layer.size();
             key->set(draft_, *value);
@@ -106,6 +109,17 @@ private:
         }
         for (const TomlMember& inner : *nested) {
             read_own(inner, fmt::format("{}.{}", name, inner.key));
+        }
+    }
+
+    /// They stand in tables, pictures and runs.
+    static void require_one_line(const std::string& text, const std::string& label)
+    {
+        constexpr std::size_t longest_bytes = 200;
+        if (text.size() > longest_bytes || one_line(text) != text) {
+            throw InputError(fmt::format("{}: must be one line of at most {} bytes, without "
+                                         "control characters",
+                                         label, longest_bytes));
         }
     }
 
@@ -159,10 +173,19 @@ private:
         const auto type = std::ranges::find(light, "type", &TomlMember::key);
         const auto* word =
             type == light.end() ? nullptr : std::get_if<std::string>(&type->node.value);
-        if (word != nullptr && *word == light_type_name(LightType::point)) {
-            layer.push_back(
-                {find_key("light.type"), JobValue{*word},
-                 fmt::format("{}light.type = \"point\"", KeyPlace{source_, type->line}.text())});
+        if (word == nullptr) {
+            return;
+        }
+        const std::string label = fmt::format(
+            "{}light.type = {}", KeyPlace{source_, type->line}.text(), toml_excerpt(type->node));
+        const WordDomain types{{std::string{light_type_name(LightType::directional)},
+                                std::string{light_type_name(LightType::spot)},
+                                std::string{light_type_name(LightType::point)}}};
+        if (!read_value(types, type->node)) {
+            throw InputError(fmt::format("{}: {}", label, refusal_text(types, type->node)));
+        }
+        if (*word == light_type_name(LightType::point)) {
+            layer.push_back({find_key("light.type"), JobValue{*word}, label});
             light.erase(type);
         }
     }
@@ -253,7 +276,8 @@ void require_all(const CaseDraft& draft)
     const CaseFile& file = draft.file;
     const auto require = [&](bool is_there, std::string_view what) {
         if (!is_there) {
-            throw InputError(fmt::format("{}: {}; `gnomon compare --export-case` writes an example",
+            throw InputError(fmt::format("{}: {}; `gnomon capture-kit` writes a template, "
+                                         "`gnomon compare --export-case` an example",
                                          file.source.name, what));
         }
     };
@@ -315,8 +339,24 @@ CaseFile read_case_file(const fs::path& path, std::string_view from)
     file.name = file.name.empty() ? folder_name(file.path) : file.name;
     file.image = file.source.folder / (file.image.empty() ? fs::path{"aov.exr"} : file.image);
     file.map = file.map.empty() ? fs::path{} : file.source.folder / file.map;
-    (void)make_job(file.source); // keys that do not go together are refused here
+    try {
+        (void)make_job(file.source); // keys that do not go together are refused here
+    } catch (const InputError& error) {
+        throw InputError(case_message(file, error.what()));
+    }
     return std::move(draft.file);
+}
+
+std::string case_message(const CaseFile& file, std::string_view message)
+{
+    constexpr std::string_view scene_table = "scene.";
+    if (message.starts_with(scene_table)) {
+        return fmt::format("{}: mesh.{}", file.source.name, message.substr(scene_table.size()));
+    }
+    const bool is_of_key = std::ranges::any_of(job_tables, [&](std::string_view table) {
+        return message.starts_with(table) && message.substr(table.size()).starts_with('.');
+    });
+    return is_of_key ? fmt::format("{}: {}", file.source.name, message) : std::string{message};
 }
 
 } // namespace gnomon::scene

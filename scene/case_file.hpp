@@ -63,6 +63,10 @@ struct CaseFile {
 [[nodiscard]] CaseFile read_case_file(const std::filesystem::path& path,
                                       std::string_view from = {});
 
+/// A message about a job's keys as the case says it that gave them: "case.toml: mesh.no_cast: …"
+/// for "scene.no_cast: …". Other messages are returned as they are.
+[[nodiscard]] std::string case_message(const CaseFile& file, std::string_view message);
+
 /// "blender", "falcor", "mitsuba", "unreal".
 [[nodiscard]] const std::vector<std::string>& exporter_names();
 

@@ -61,8 +61,8 @@ scene::RoundedReceivers receivers_of(const Case& subject)
 {
     const scene::CaseLayers& layers = subject.layers;
     scene::RoundedReceivers receivers{layers.position, layers.normal, subject.file.eye};
+    const auto objects = objects_by_number(subject);
     if (!layers.object_number.empty()) {
-        const auto objects = objects_by_number(subject);
         receivers.object = Image<std::uint32_t>{layers.size(), scene::no_object};
         for (std::size_t i = 0; i < receivers.object.pixel_count(); ++i) {
             const auto found = objects.find(layers.object_number[i]);

@@ -1,6 +1,7 @@
 // gnomon_capture.glsl: what `gnomon evaluate` needs of a fragment, for GLSL 3.30, ES 3.00 and later.
 //
-// Include it in the shader that looks up the shadow map, and write what the functions return to
+// Include it after #version and any precision statement, for it has none of its own, in the shader
+// that looks up the shadow map, and write what the functions return to
 // targets of 32-bit floats (GL_RGBA32F, VK_FORMAT_R32G32B32A32_SFLOAT), cleared to NaN, without
 // blending, multisampling or temporal filters:
 //

@@ -1,19 +1,15 @@
 #include "reports/case/case_read.hpp"
 
-#include "reports/layer_file.hpp"
-#include "scene/error.hpp"
+#include "reports/case/case_image_file.hpp"
 #include "scene/job_file.hpp"
 #include "scene/job_toml.hpp"
 #include "scene/triangles.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,143 +19,9 @@ namespace gnomon::reports {
 namespace {
 
 using scene::CaseLayers;
-using scene::ImageSize;
-using scene::InputError;
 using scene::Vec3f;
 
-constexpr const char* case_advice = "write it as docs/evaluate.md says";
 constexpr float no_position = std::numeric_limits<float>::quiet_NaN();
-/// As of a job's image.
-constexpr std::uint64_t most_pixels = 134'217'728;
-
-/// A case's EXR file and how messages speak of it.
-class CaseImageFile {
-public:
-    CaseImageFile(const std::filesystem::path& path, std::uint64_t memory_bytes)
-        : name_{scene::one_line(path.string())},
-          file_{path, case_advice}
-    {
-        const ImageSize size = file_.size();
-        if (size.pixel_count() > most_pixels) {
-            refuse(fmt::format("{}x{} pixels; must be at most {}", size.width_px, size.height_px,
-                               most_pixels));
-        }
-        // What is decoded, and about as much again for the layers and the truth.
-        const std::uint64_t needed = file_.decoded_bytes() + 128 * size.pixel_count();
-        if (memory_bytes != 0 && needed > memory_bytes) {
-            constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
-            refuse(fmt::format("{}x{} pixels of {} channels need about {:.1f} GiB of memory and "
-                               "{:.1f} GiB are available; leave channels out or make it smaller",
-                               size.width_px, size.height_px, file_.names().size(),
-                               static_cast<double>(needed) / gibibyte,
-                               static_cast<double>(memory_bytes) / gibibyte));
-        }
-    }
-
-    [[nodiscard]] ImageSize size() const { return file_.size(); }
-
-    /// The first of the names that the file has, whole or as a vector; empty if it has none.
-    [[nodiscard]] std::string find(const std::vector<std::string>& names,
-                                   std::string_view suffix = "")
-    {
-        for (const std::string& name : names) {
-            if (file_.has(fmt::format("{}{}", name, suffix))) {
-                return name;
-            }
-        }
-        return {};
-    }
-
-    /// A vector's first channel is named .X, .R or .x.
-    [[nodiscard]] std::optional<std::array<std::string, 3>>
-    find_vector(const std::vector<std::string>& names)
-    {
-        constexpr std::array<std::array<std::string_view, 3>, 3> endings{
-            {{".X", ".Y", ".Z"}, {".R", ".G", ".B"}, {".x", ".y", ".z"}}};
-        for (const auto& ending : endings) {
-            if (const std::string name = find(names, ending[0]); !name.empty()) {
-                return std::array{fmt::format("{}{}", name, ending[0]),
-                                  fmt::format("{}{}", name, ending[1]),
-                                  fmt::format("{}{}", name, ending[2])};
-            }
-        }
-        return std::nullopt;
-    }
-
-    [[nodiscard]] LayerType type(const std::string& name) { return file_.type(name); }
-
-    [[nodiscard]] scene::Image<float> numbers(const std::string& name)
-    {
-        require(name);
-        return file_.numbers(name);
-    }
-
-    /// Depths and positions: half would round them away.
-    [[nodiscard]] scene::Image<float> exact_numbers(const std::string& name,
-                                                    std::string_view why_not_half)
-    {
-        require(name);
-        if (file_.type(name) != LayerType::float32) {
-            refuse(fmt::format("channel {} is not 32-bit float: {}", scene::one_line(name),
-                               why_not_half));
-        }
-        return file_.floats(name);
-    }
-
-    [[nodiscard]] scene::Image<std::uint32_t> whole_numbers(const std::string& name)
-    {
-        if (file_.type(name) == LayerType::uint32) {
-            return file_.integers(name);
-        }
-        const scene::Image<float> from = numbers(name);
-        scene::Image<std::uint32_t> result{size()};
-        for (std::size_t i = 0; i < from.pixel_count(); ++i) {
-            constexpr float beyond_whole = 16777216; // 2^24: float32 skips whole numbers above
-            const bool is_whole =
-                from[i] >= 0 && from[i] <= beyond_whole && from[i] == std::floor(from[i]);
-            result[i] = is_whole ? static_cast<std::uint32_t>(from[i])
-                                 : std::numeric_limits<std::uint32_t>::max();
-        }
-        return result;
-    }
-
-    [[noreturn]] void refuse(const std::string& what) const
-    {
-        throw InputError(fmt::format("{}: {}", name_, what));
-    }
-    [[noreturn]] void refuse_pixel(std::string_view what, std::size_t pixel,
-                                   std::string_view remedy) const
-    {
-        const auto width = static_cast<std::size_t>(size().width_px);
-        refuse(fmt::format("{} at pixel ({}, {}): {}", what, pixel % width, pixel / width, remedy));
-    }
-
-    /// "channels: R, G, B", cut after some.
-    [[nodiscard]] std::string listing()
-    {
-        std::vector<std::string> names = file_.names();
-        const bool is_long = names.size() > 12;
-        names.resize(std::min<std::size_t>(names.size(), 12));
-        return scene::one_line(
-            fmt::format("it has {}{}", fmt::join(names, ", "), is_long ? ", …" : ""));
-    }
-
-private:
-    void require(const std::string& name)
-    {
-        const LayerType type = file_.type(name);
-        if (type == LayerType::missing) {
-            refuse(fmt::format("no channel {}: {}", scene::one_line(name), listing()));
-        }
-        if (type == LayerType::other) {
-            refuse(fmt::format("channel {} is neither half, float nor uint: write it as one",
-                               scene::one_line(name)));
-        }
-    }
-
-    std::string name_;
-    LayerFile file_;
-};
 
 scene::Image<Vec3f> read_position(CaseImageFile& file, const scene::CaseFile& description)
 {
@@ -168,7 +30,8 @@ scene::Image<Vec3f> read_position(CaseImageFile& file, const scene::CaseFile& de
     if (!channels) {
         file.refuse(
             fmt::format("no channel {}.X: the world position of each pixel is required; {}; "
-                        "channels.position gives it another name",
+                        "channels.position gives it another name; `gnomon capture-kit` writes "
+                        "what makes it",
                         scene::one_line(names.front()), file.listing()));
     }
     constexpr std::string_view why =
@@ -227,7 +90,7 @@ scene::Image<float> read_mask(CaseImageFile& file, const scene::CaseFile& descri
     const std::string name = file.find(names);
     if (name.empty()) {
         file.refuse(fmt::format("no channel {}: the mask is required; {}; channels.shadow gives it "
-                                "another name",
+                                "another name; `gnomon capture-kit` writes what makes it",
                                 scene::one_line(names.front()), file.listing()));
     }
     scene::Image<float> mask = file.numbers(name);
@@ -251,10 +114,56 @@ scene::Image<float> read_mask(CaseImageFile& file, const scene::CaseFile& descri
 
 constexpr std::string_view why_depths = "half would round depths away; write full floats";
 
-/// Where the lookup ended without a comparison there is no depth.
-scene::Image<float> read_depth(CaseImageFile& file, const std::string& name)
+/// A channel that a case may lack.
+scene::Image<float> read_optional(CaseImageFile& file, const std::string& name)
 {
     return name.empty() ? scene::Image<float>{} : file.exact_numbers(name, why_depths);
+}
+
+/// Depths of the map; NaN where the lookup ended without a comparison.
+scene::Image<float> read_map_depths(CaseImageFile& file, const std::string& name,
+                                    const scene::Image<Vec3f>& position)
+{
+    scene::Image<float> depths = read_optional(file, name);
+    for (std::size_t i = 0; i < depths.pixel_count(); ++i) {
+        if (!std::isnan(position[i].x) && std::isfinite(depths[i]) &&
+            !(depths[i] >= 0 && depths[i] <= 1)) {
+            file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), depths[i]), i,
+                              "a shadow map's depths are from 0 to 1; write NaN where none was "
+                              "compared");
+        }
+    }
+    return depths;
+}
+
+/// Depths of receivers. Some that were compared may be before the near or behind the far plane, but
+/// not most of them.
+/// @param map_depths  NaN where nothing was compared; may be empty.
+scene::Image<float> read_receiver_depths(CaseImageFile& file, const std::string& name,
+                                         const scene::Image<Vec3f>& position,
+                                         const scene::Image<float>& map_depths)
+{
+    scene::Image<float> depths = read_optional(file, name);
+    std::size_t compared = 0;
+    std::size_t outside = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < depths.pixel_count(); ++i) {
+        if (std::isnan(position[i].x) || !std::isfinite(depths[i]) ||
+            (!map_depths.empty() && std::isnan(map_depths[i]))) {
+            continue;
+        }
+        ++compared;
+        if (!(depths[i] >= 0 && depths[i] <= 1)) {
+            first = outside == 0 ? i : first;
+            ++outside;
+        }
+    }
+    if (outside * 2 > compared) {
+        file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), depths[first]), first,
+                          "most depths are not from 0 to 1; write what the lookup compares, not a "
+                          "distance");
+    }
+    return depths;
 }
 
 scene::Image<scene::Vec2f> read_texels(CaseImageFile& file, const std::string& name)
@@ -276,8 +185,8 @@ scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>&
     if (file.find({"unmoved.V"}).empty()) {
         return {};
     }
-    const auto r = read_depth(file, "unmoved.z.light");
-    const auto d = read_depth(file, "unmoved.z.map");
+    const auto r = file.exact_numbers("unmoved.z.light", why_depths);
+    const auto d = file.exact_numbers("unmoved.z.map", why_depths);
     const auto verdict = file.numbers("unmoved.V");
     scene::LookupLayers unmoved{scene::Image<scene::LookupSample>{file.size()},
                                 read_texels(file, "unmoved.texel")};
@@ -317,12 +226,13 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
         }
     }
     if (const std::string object = file.find(names.object); !object.empty()) {
-        layers.object_number = file.whole_numbers(object);
+        layers.object_number = file.whole_numbers(object, layers.position);
     }
-    layers.z_light = read_depth(file, file.find(names.z_light));
-    layers.z_map = read_depth(file, file.find(names.z_map));
+    layers.z_map = read_map_depths(file, file.find(names.z_map), layers.position);
+    layers.z_light =
+        read_receiver_depths(file, file.find(names.z_light), layers.position, layers.z_map);
     layers.texels = read_texels(file, "texel");
-    layers.tan_theta = read_depth(file, file.find({"tan_theta"}));
+    layers.tan_theta = read_optional(file, file.find({"tan_theta"}));
     layers.unmoved = read_unmoved(file, layers.tan_theta);
     if (!description.map.empty()) {
         layers.map_depths = read_map(description.map, memory_bytes);

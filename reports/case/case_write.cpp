@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
@@ -188,6 +189,12 @@ void write_case(const std::filesystem::path& folder, const analysis::Comparison&
 {
     if (extras.points.size() != comparison.truth.pixel_class.size()) {
         throw std::invalid_argument("write_case: extras.points: not of the image's size");
+    }
+    if (std::ranges::none_of(comparison.truth.pixel_class, is_judged)) {
+        throw scene::InputError(
+            fmt::format("{}: no case is written, for no pixel of the image can be judged: point "
+                        "the camera at the scene",
+                        scene::one_line(folder.string())));
     }
     make_case_folder(folder);
     write_file(folder / "mesh.glb", encode_glb(*comparison.triangles));

@@ -1,11 +1,18 @@
 #include "case_folder.hpp"
 #include "run_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::testing {
@@ -58,6 +65,14 @@ TEST(Evaluate, GivesTheCountsOfCompareForGlsOwnCase)
         EXPECT_EQ(back.at("indeterminate_kinds").at("rounding"), 0) << folder.compared.command;
         EXPECT_TRUE(back.at("evaluate").at("cannot_know").empty()) << folder.compared.command;
     }
+}
+
+TEST(Evaluate, TakesReceiversBeyondTheFarPlane)
+{
+    const CaseFolder folder{"yard", {"--set", "shadow_map.far=30"}};
+    const CaseJson own = CaseJson::parse(folder.compared.out);
+    EXPECT_GT(own.at("causes").at("coverage"), 0);
+    EXPECT_EQ(evaluated(folder).at("causes"), own.at("causes"));
 }
 
 TEST(Evaluate, SaysAtLevel0WhatItCannotKnow)
@@ -168,10 +183,24 @@ TEST(Evaluate, RefusesACaseTomlInOneLine)
     expect_toml_refused("file = \"mesh.glb\"", "fiel = \"mesh.glb\"", "the nearest is mesh.file");
     expect_toml_refused("mesh.glb", "no.glb", "no.glb");
     expect_toml_refused("[objects]\n", "[objects]\n\"nothing\" = 77\n", "the nearest is");
+    expect_toml_refused("no_cast = []", "no_cast = [\"nothing\"]",
+                        "case.toml: mesh.no_cast = [\"nothing\"]: ");
+    expect_toml_refused("schema = 1", "", "`gnomon capture-kit` writes a template");
     expect_toml_refused("[lookup]", "[lokup]", "the nearest is lookup");
     expect_toml_refused("[light]", "[conventions]\naxes = [\"x\", \"x\", \"y\"]\n[light]",
                         "conventions.axes");
     expect_toml_refused("[light]", "[scene]\nground = true\n[light]", "unknown");
+}
+
+TEST(Evaluate, NamesTheFileOfALightThatIsNone)
+{
+    CaseFolder folder{"sphere-plane"};
+    folder.keep_level_0();
+    folder.drop_table("light");
+    folder.drop_table("shadow_map");
+    folder.toml += "\n[light]\ntype = \"spot\"\nposition = [0, 1, 0]\ntarget = [0, 1, 0]\n";
+    folder.write();
+    expect_refused(folder.evaluate(), 2, "case.toml: light.position equals light.target");
 }
 
 TEST(Evaluate, RefusesAnImageInOneLine)
@@ -194,11 +223,70 @@ TEST(Evaluate, RefusesAnImageInOneLine)
     expect([](CaseFolder& folder) { folder.channels["P.X"](120, 100) = INFINITY; },
            "P is not finite at pixel (120, 100)");
     expect([](CaseFolder& folder) { folder.channels["P.X"](120, 100) = 1e30F; }, "beyond 1e15");
+    for (const float depth : {-0.5F, 1.5F}) {
+        expect([&](CaseFolder& folder) { folder.channels["z.map"](120, 100) = depth; },
+               fmt::format("z.map = {} at pixel (120, 100): a shadow map's depths", depth));
+    }
+    expect(
+        [](CaseFolder& folder) {
+            auto& depths = folder.channels["z.light"];
+            depths = scene::Image<float>{depths.size(), 5.0F}; // in metres
+        },
+        "z.light = 5 at pixel (");
+    for (const float number : {0.5F, -1.0F, NAN, 2e7F}) {
+        expect([&](CaseFolder& folder) { folder.channels["id.geom"](120, 100) = number; },
+               "at pixel (120, 100): an object's number is a whole number");
+    }
+    expect(
+        [](CaseFolder& folder) {
+            folder.channels.erase("id.geom");
+            folder.replace("[objects]\n", "[objects]\n\"nothing\" = 77\n");
+        },
+        "the mesh has no such object");
     expect(
         [](CaseFolder& folder) {
             folder.channels["valid"] = scene::Image<float>{{240, 136}};
         },
         "no pixel is to be judged");
+}
+
+/// Writes the file with some bytes of a header attribute's value replaced.
+void overwrite_attribute(const std::filesystem::path& file, std::string_view name,
+                         std::string_view type, const std::string& bytes)
+{
+    std::string whole = text_of(file);
+    const std::string head = fmt::format("{}{}{}{}", name, '\0', type, '\0');
+    whole.replace(whole.find(head) + head.size() + 4, bytes.size(), bytes);
+    std::ofstream{file, std::ios::binary} << whole;
+}
+
+TEST(Evaluate, RefusesImagesThatAreEncodedOtherwise)
+{
+    const CaseFolder folder{"sphere-plane"};
+    const auto file = folder.at("aov.exr");
+    for (const auto& [code, name] : {std::pair{'\5', "pxr24"},
+                                     {'\6', "b44"},
+                                     {'\7', "b44a"},
+                                     {'\10', "dwaa"},
+                                     {'\11', "dwab"}}) {
+        overwrite_attribute(file, "compression", "compression", std::string(1, code));
+        expect_refused(folder.evaluate(), 2,
+                       fmt::format("compressed with {}, which changes numbers", name));
+    }
+    folder.write();
+    overwrite_attribute(file, "displayWindow", "box2i", std::string{"\1\0\0\0", 4});
+    expect_refused(folder.evaluate(), 2, "the data window is not the display window");
+}
+
+TEST(Evaluate, RefusesToExportAnImageOfNothing)
+{
+    const TemporaryFolder folder;
+    const std::string case_path = (folder.path() / "case").string();
+    const Ending ending =
+        gnomon({"compare", "--builtin", "sphere-plane", "--export-case", case_path, "--set",
+                "camera.eye=[0,5,0]", "--set", "camera.target=[0,9,1]"});
+    expect_refused(ending, 2, "no pixel of the image can be judged");
+    EXPECT_FALSE(std::filesystem::exists(case_path));
 }
 
 TEST(Evaluate, RefusesDamagedImagesInOneLine)

@@ -4,6 +4,7 @@
 #include "scene/error.hpp"
 #include "scene_file_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -103,6 +104,8 @@ TEST(CaseFile, RefusesWhatIsMissingUnknownOrContradicts)
          {std::pair{"type = \"directional\"\ndirektion = 1", "the nearest is light.direction"},
           {"cone_deg = 30", "only a spot has a cone"},
           {"[mesh.fiel]", "unknown key"},
+          {"type = \"area\"", "light.type = \"area\": must be one of directional, spot, point"},
+          {"type = 3", "light.type = 3: must be"},
           {"[sweep]", "unknown key \"sweep\""},
           {"[camera]\ntarget = [0, 0, 0]", "needs camera.eye"},
           {"[camera]\nup = [0, 0, 1]", "needs camera.target"},
@@ -115,6 +118,32 @@ TEST(CaseFile, RefusesWhatIsMissingUnknownOrContradicts)
           {"[light2]", "the nearest is light"}}) {
         EXPECT_THAT(case_refusal(whole + more + "\n"), HasSubstr(text)) << more;
     }
+}
+
+TEST(CaseFile, RefusesNamesThatAreNoLine)
+{
+    const std::string own = std::string{smallest_case};
+    const std::string longest(200, 'x');
+    EXPECT_EQ(read_case(fmt::format("name = \"{}\"\n{}", longest, own)).name, longest);
+    for (const std::string& name :
+         {longest + "x", std::string{"a\\nb"}, std::string{"a\\u001bb"}}) {
+        EXPECT_THAT(case_refusal(fmt::format("name = \"{}\"\n{}", name, own)),
+                    HasSubstr("must be one line of at most 200 bytes"));
+    }
+    std::string renderer = own;
+    renderer.replace(renderer.find("Engine"), 6, "En\\ngine");
+    EXPECT_THAT(case_refusal(renderer),
+                HasSubstr("renderer = \"En\\u000Agine\": must be one line"));
+}
+
+TEST(CaseMessage, SpeaksOfTheKeysThatACaseHas)
+{
+    CaseFile file;
+    file.source.name = "case.toml";
+    EXPECT_EQ(case_message(file, "scene.no_cast: no"), "case.toml: mesh.no_cast: no");
+    EXPECT_EQ(case_message(file, "light.position: no"), "case.toml: light.position: no");
+    EXPECT_EQ(case_message(file, "lights.obj: no"), "lights.obj: no");
+    EXPECT_EQ(case_message(file, "mesh.obj: no"), "mesh.obj: no");
 }
 
 TEST(CaseSpace, TurnsAndMirrorsWithoutLoss)
