@@ -103,6 +103,25 @@ void measure_distances(const Case& subject, CheckedCase& checked)
     found = summarise_distances(distances, subject.file.space.metres_per_unit, found.tolerance_m);
 }
 
+/// Holds the mask to the truth.
+void check_agreement(const Case& subject, const CaseTruth& truth, CheckedCase& checked)
+{
+    ImportCheck& check = checked.check;
+    const MaskAgreement found = agreement(subject.layers.mask, checked.truth.truth.pixel_class);
+    if (found.has_both()) {
+        check.agreement = found.index();
+    }
+    note(check,
+         check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth, truth));
+    if (found.lit + found.blocked == 0) {
+        check.warning = "no pixel is scored: each is turned from the light, outside its cone or "
+                        "left open; look at the light, and at Ng or camera.eye";
+    } else if (check.mistake.empty() && check.agreement.value_or(1) <= 0) {
+        check.warning = "mask and truth agree no better than by chance, and no usual mistake "
+                        "explains it: look at the light and at the mask";
+    }
+}
+
 /// The normal of T on the side that is seen; NaN where neither normal nor eye tell.
 Image<Vec3f> seen_sides(const Case& subject, const CheckedCase& checked)
 {
@@ -345,19 +364,7 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     }
     checked.truth = truth.find_truth(checked.view.light, checked.receivers);
     measure_distances(subject, checked);
-    const MaskAgreement found = agreement(subject.layers.mask, checked.truth.truth.pixel_class);
-    if (found.has_both()) {
-        check.agreement = found.index();
-    }
-    note(check,
-         check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth, truth));
-    if (found.lit + found.blocked == 0) {
-        check.warning = "no pixel is scored: each is turned from the light, outside its cone or "
-                        "left open; look at the light, and at Ng or camera.eye";
-    } else if (check.mistake.empty() && check.agreement.value_or(1) <= 0) {
-        check.warning = "mask and truth agree no better than by chance, and no usual mistake "
-                        "explains it: look at the light and at the mask";
-    }
+    check_agreement(subject, truth, checked);
     return checked;
 }
 
