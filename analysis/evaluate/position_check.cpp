@@ -199,7 +199,7 @@ std::string unit_remedy(const Hypothesis& found, const scene::CaseFile& file)
         return {};
     }
     const double metres_per_unit = file.space.metres_per_unit;
-    const std::string of_renderer =
+    std::string of_renderer =
         fmt::format("conventions.metres_per_unit = {:.8g}", metres_per_unit / found.factor);
     if (found.factor > 1) {
         return of_renderer;

@@ -175,8 +175,13 @@ TEST(PlacePicture, LosesNoNewPixelWhereItIsScaledDown)
     picture.marks(2998, 1199) = PlaceMark::wrong_before;
     const std::size_t legend =
         drawn_pixels(draw_place_picture(picture_of_marks({3000, 1200})), blue);
-    // One panel pixel in the whole image, and 8×8 in the magnified part.
-    EXPECT_EQ(drawn_pixels(draw_place_picture(picture), blue), legend + 1 + 64);
+    // Where there are few, a dot of 7×7 in the whole image, and 8×8 in the magnified part.
+    EXPECT_EQ(drawn_pixels(draw_place_picture(picture), blue), legend + 49 + 64);
+    // Where there are many, one panel pixel; here the others are magnified.
+    for (int x = 0; x < 250; ++x) {
+        picture.marks(x, 0) = PlaceMark::new_false_shadow;
+    }
+    EXPECT_EQ(drawn_pixels(draw_place_picture(picture), blue), legend + 1);
 }
 
 TEST(PlacePicture, DrawsTheSmallestImage)
