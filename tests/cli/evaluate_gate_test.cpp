@@ -180,7 +180,7 @@ TEST(DamagedCases, AreEvaluatedOrRefusedInOneLine)
 {
     const CaseFolder folder{"sphere-plane",
                             {"--set", "image.width=64", "--set", "image.height=36"}};
-    const std::uint32_t count = runs_full_tests() ? 500 : is_sanitized ? 12 : 25;
+    const std::uint32_t count = runs_full_tests() ? 200 : is_sanitized ? 12 : 25;
     for (const char* const name : {"case.toml", "aov.exr", "mesh.glb"}) {
         const std::string whole = text_of(folder.at(name));
         int refused = 0;
