@@ -16,21 +16,9 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-/// A ground at y = 0 and a plate of two triangles at y = 1, x and z from −1/3 to 1.
-TriangleScene plate_above_ground()
-{
-    SceneBuilder builder;
-    add_ground(builder, 4, 1);
-    const double third = 1.0 / 3;
-    builder.add("plate",
-                std::vector<Vec3d>{{-third, 1, -third}, {-third, 1, 1}, {1, 1, 1}, {1, 1, -third}},
-                std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
-    return builder.take();
-}
-
 TEST(NearestSurfaces, SearchNoFartherThanTheirScope)
 {
-    const ReferenceScene reference{plate_above_ground()};
+    const ReferenceScene reference{plate_over_ground()};
     const std::vector<Vec3d> points{{0.25, 0.25, 0.5}, {0.25, 0.25, 0.5}, {0.25, 0.25, 0.5}};
     const std::vector<scene::SurfaceScope> scopes{{scene::no_object, 0.25}, {1, 0.5}, {1, 0.75}};
     const auto found = nearest_surfaces(reference, points, scopes);

@@ -31,18 +31,6 @@ RoundedReceivers receivers_at(const std::vector<Vec3f>& points)
     return receivers;
 }
 
-/// A ground at y = 0 and a plate of two triangles at y = 1, x and z from −1/3 to 1.
-TriangleScene plate_over_ground()
-{
-    SceneBuilder builder;
-    add_ground(builder, 4, 1);
-    const double third = 1.0 / 3;
-    builder.add("plate",
-                std::vector<Vec3d>{{-third, 1, -third}, {-third, 1, 1}, {1, 1, 1}, {1, 1, -third}},
-                std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
-    return builder.take();
-}
-
 RoundedTruth truth_at(const TriangleScene& scene, const scene::LightSettings& light,
                       const RoundedReceivers& receivers)
 {

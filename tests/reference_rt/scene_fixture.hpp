@@ -51,6 +51,18 @@ inline void add_ground(SceneBuilder& builder, double half_side, int n, double he
     builder.add(name, vertices, triangles);
 }
 
+/// A ground at y = 0 and a plate of two triangles at y = 1, x and z from −1/3 to 1.
+inline TriangleScene plate_over_ground()
+{
+    SceneBuilder builder;
+    add_ground(builder, 4, 1);
+    const double third = 1.0 / 3;
+    builder.add("plate",
+                std::vector<Vec3d>{{-third, 1, -third}, {-third, 1, 1}, {1, 1, 1}, {1, 1, -third}},
+                std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
+    return builder.take();
+}
+
 /// A closed box, faces counter-clockwise from outside.
 inline void add_box(SceneBuilder& builder, const Vec3d& lower, const Vec3d& upper,
                     std::string_view name = "box")
