@@ -13,26 +13,32 @@
 
 namespace gnomon::reports {
 
-analysis::GateEntries with_mask_names(const GateRun& run)
+namespace {
+
+/// The run's results with the mask's name, by `name_mask`, where pixels were kept.
+template <typename NameMask>
+analysis::GateEntries with_names(const GateRun& run, const NameMask& name_mask)
 {
     analysis::GateEntries results = run.results;
     for (analysis::GateEntry& entry : results.entries) {
         if (!entry.pixels.empty()) {
-            entry.pixels = mask_name(read_wrong_pixels(run.folder, entry.pixels).mask);
+            entry.pixels = name_mask(read_wrong_pixels(run.folder, entry.pixels).mask);
         }
     }
     return results;
 }
 
+} // namespace
+
+analysis::GateEntries with_mask_names(const GateRun& run)
+{
+    return with_names(run, mask_name);
+}
+
 analysis::GateEntries write_masks(const std::filesystem::path& baseline, const GateRun& run)
 {
-    analysis::GateEntries results = run.results;
-    for (analysis::GateEntry& entry : results.entries) {
-        if (!entry.pixels.empty()) {
-            entry.pixels = write_mask(baseline, read_wrong_pixels(run.folder, entry.pixels).mask);
-        }
-    }
-    return results;
+    return with_names(run,
+                      [&](const analysis::PixelMask& mask) { return write_mask(baseline, mask); });
 }
 
 void write_baseline(const std::filesystem::path& file, const analysis::GateEntries& entries)
