@@ -300,6 +300,7 @@ void ReferenceScene::Implementation::find_candidates(LaneBits lanes, const Float
 void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRayHit16& rays,
                                                      CandidateJudge& judge) const
 {
+    idle_other_lanes(rays.ray, valid);
     embree::Query query{embree::Coherence::coherent, nullptr, &judge};
     embree::intersect16(valid.lane.data(), padded.get(), query, rays);
     rethrow_failure(judge);

@@ -69,7 +69,7 @@ struct ReferenceScene::Implementation {
     void find_candidates(LaneBits lanes, const FloatRays& rays, RayMask mask,
                          CandidateJudge& judge) const;
     /// As above, from near to far as a rule, and only up to the judge's distances. Each lane's id
-    /// must be its index.
+    /// must be its index; idle lanes are overwritten.
     void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateJudge& judge) const;
     void find_candidates(RTCRayHit& ray, CandidateJudge& judge) const;
 

@@ -234,5 +234,28 @@ TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
     EXPECT_EQ(one->are_crossed(pixels), three->are_crossed(pixels));
 }
 
+TEST(ExactLight, AnswersTheSameWithAnyInstructionSet)
+{
+    // Packets of all sizes: a CPU that traces fewer rays at a time sees their idle lanes.
+    const LightCase light = light_cases().back();
+    const LitScene lit{random_sheets(3, true), light.light, light.frustum, 37};
+    const auto texels = lit.all_texels();
+    const auto expected = lit.exact_light()->first_hits(texels, HitDetail::placed);
+    for (const char* const isa : {"sse2", "sse4.2", "avx", "avx2"}) {
+        const ReferenceScene reference{lit.triangles, {.embree_isa = isa}};
+        const auto exact =
+            make_exact_light(reference, lit.view, lit.receivers, lit.resolution, Cull::none);
+        std::size_t first = 0;
+        for (std::size_t count = 1; first + count <= texels.size(); first += count, ++count) {
+            const auto hits =
+                exact->first_hits(std::span{texels}.subspan(first, count), HitDetail::placed);
+            for (std::size_t i = 0; i < count; ++i) {
+                ASSERT_EQ(hits[i].triangle, expected[first + i].triangle) << isa << ", " << count;
+                ASSERT_EQ(hits[i].depth, expected[first + i].depth) << isa << ", " << count;
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace gnomon::reference_rt::test
