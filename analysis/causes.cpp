@@ -78,6 +78,9 @@ private:
     /// Explains the pixels of a rectangle.
     void explain(const Range& columns, const Range& rows)
     {
+        if (memory_ != nullptr && recall(columns, rows)) {
+            return;
+        }
         Lookups lit{{}, {}, footprint_.tap_count()};
         Lookups blocked{{}, {}, footprint_.tap_count()};
         const auto pixels = static_cast<std::size_t>(rows.end - rows.begin) *
@@ -101,10 +104,43 @@ private:
         remember(traced_blocked);
     }
 
+    /// Takes over what is remembered of the rectangle's wrong pixels; true if that is all of them.
+    /// Without branches: which pixels are wrong is hardly to be foreseen.
+    bool recall(const Range& columns, const Range& rows)
+    {
+        constexpr PixelCause right;
+        unsigned unknown = 0;
+        for (int y = rows.begin; y < rows.end; ++y) {
+            const std::size_t last = pixel_at(columns.end - 1, y);
+            for (std::size_t pixel = pixel_at(columns.begin, y); pixel <= last; ++pixel) {
+                const bool is_wrong_here = is_wrong(pixel);
+                unknown |= static_cast<unsigned>(is_wrong_here) &
+                           static_cast<unsigned>(!memory_->knows(pixel));
+                causes_[pixel] = *(is_wrong_here ? &memory_->known(pixel) : &right);
+            }
+        }
+        return unknown == 0;
+    }
+
+    /// Whether the map is wrong about it without any bias.
+    [[nodiscard]] bool is_wrong(std::size_t pixel) const
+    {
+        const PixelClass truth = inputs_.truth.pixel_class[pixel];
+        const bool is_lit = scene::is_lit(inputs_.unbiased.samples[pixel].verdict);
+        return (static_cast<unsigned>(truth == PixelClass::lit && !is_lit) |
+                static_cast<unsigned>(truth == PixelClass::blocked && is_lit)) != 0;
+    }
+
     void remember(const TracedLookups& lookups)
     {
-        for (std::size_t i = 0; memory_ != nullptr && i < lookups.size(); ++i) {
-            memory_->remember(lookups.pixel(i), causes_[lookups.pixel(i)]);
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            remember(lookups.pixel(i));
+        }
+    }
+    void remember(std::size_t pixel)
+    {
+        if (memory_ != nullptr) {
+            memory_->remember(pixel, causes_[pixel]);
         }
     }
 
@@ -114,25 +150,20 @@ private:
                static_cast<std::size_t>(x);
     }
 
-    /// Keeps the pixel when the map is wrong about it without any bias.
+    /// Keeps a wrong pixel that is not remembered.
     void collect(std::size_t pixel, Lookups& lit, Lookups& blocked)
     {
-        const PixelClass truth = inputs_.truth.pixel_class[pixel];
+        if (!is_wrong(pixel) || (memory_ != nullptr && memory_->knows(pixel))) {
+            return;
+        }
+        const bool is_lit_truth = inputs_.truth.pixel_class[pixel] == PixelClass::lit;
         const scene::LookupSample& sample = inputs_.unbiased.samples[pixel];
-        if (!scene::is_scored(truth) ||
-            scene::is_lit(sample.verdict) == (truth == PixelClass::lit)) {
-            return;
-        }
-        const PixelCause* const known = memory_ == nullptr ? nullptr : memory_->find(pixel);
-        if (known != nullptr) {
-            causes_[pixel] = *known;
-            return;
-        }
-        Lookups& lookups = truth == PixelClass::lit ? lit : blocked;
+        Lookups& lookups = is_lit_truth ? lit : blocked;
         const std::size_t before = lookups.taps.size();
         footprint_.append_taps(inputs_.unbiased.texels[pixel], lookups.taps);
         if (rules_.is_policy(sample.receiver_depth, std::span{lookups.taps}.subspan(before))) {
             causes_[pixel] = {Cause::coverage, false, std::numeric_limits<float>::infinity()};
+            remember(pixel);
             lookups.taps.resize(before);
             return;
         }

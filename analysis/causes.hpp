@@ -68,10 +68,9 @@ class CauseMemory {
 public:
     explicit CauseMemory(scene::ImageSize size) : causes_{size}, is_known_{size} {}
 
-    [[nodiscard]] const PixelCause* find(std::size_t pixel) const
-    {
-        return is_known_[pixel] != 0 ? &causes_[pixel] : nullptr;
-    }
+    [[nodiscard]] bool knows(std::size_t pixel) const { return is_known_[pixel] != 0; }
+    /// What is known of the pixel; as of one that is right, if nothing is.
+    [[nodiscard]] const PixelCause& known(std::size_t pixel) const { return causes_[pixel]; }
     void remember(std::size_t pixel, const PixelCause& cause)
     {
         causes_[pixel] = cause;

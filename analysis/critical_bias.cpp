@@ -4,6 +4,7 @@
 #include "analysis/pcf_taps.hpp"
 #include "analysis/pixel_runs.hpp"
 #include "scene/infinity.hpp"
+#include "scene/widest_vectors.hpp"
 
 #include <fmt/format.h>
 
@@ -110,10 +111,22 @@ float search_critical_bias(const Comparison& comparison)
     return bias_of_rank(lit);
 }
 
+constexpr std::size_t block_size = 256;
+using BlockOf = std::array<float, block_size>;
+
+GNOMON_WIDEST_VECTORS
+void guess_all(const BlockOf& addends, const BlockOf& thresholds, const BlockOf& slope_terms,
+               BlockOf& guesses)
+{
+    for (std::size_t i = 0; i < block_size; ++i) {
+        guesses[i] = guess_critical_bias({addends[i], thresholds[i], slope_terms[i]});
+    }
+}
+
 /// Comparisons laid out for vector instructions.
 class ComparisonBlock {
 public:
-    static constexpr std::size_t size = 256;
+    static constexpr std::size_t size = block_size;
 
     void fill(const scene::LookupSample* samples, std::size_t count, const LookupRule& rule)
     {
@@ -122,12 +135,7 @@ public:
                                    rule.slope * samples[i].tan_theta, rule.reversed));
         }
     }
-    void guess()
-    {
-        for (std::size_t i = 0; i < size; ++i) {
-            guesses_[i] = guess_critical_bias(get(i));
-        }
-    }
+    void guess() { guess_all(addends_, thresholds_, slope_terms_, guesses_); }
     [[nodiscard]] float critical(std::size_t i, float map_depth, float policy) const
     {
         if (!std::isnan(guesses_[i])) [[likely]] {
@@ -148,10 +156,10 @@ private:
         return {addends_[i], thresholds_[i], slope_terms_[i]};
     }
 
-    std::array<float, size> addends_{};
-    std::array<float, size> thresholds_{};
-    std::array<float, size> slope_terms_{};
-    std::array<float, size> guesses_{};
+    BlockOf addends_{};
+    BlockOf thresholds_{};
+    BlockOf slope_terms_{};
+    BlockOf guesses_{};
 };
 
 /// The median of the taps' depths; NaN where the policy decides.

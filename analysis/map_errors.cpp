@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -19,40 +20,44 @@ scene::Texel texel_at(const scene::Vec2f& point)
     return {static_cast<int>(point.x), static_cast<int>(point.y)};
 }
 
-std::vector<CentreHits::Seen> seen_texels(const CauseInputs& inputs)
-{
-    const auto& classes = inputs.truth.pixel_class;
-    const Footprint footprint{inputs.lookup, inputs.resolution_texels};
-    std::vector<CentreHits::Seen> seen;
-    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
-            seen.push_back({i, texel_at(inputs.unbiased.texels[i]), 0});
-        }
-    }
-    return seen;
-}
-
-std::vector<scene::Texel> texels_of(const std::vector<CentreHits::Seen>& seen)
-{
-    std::vector<scene::Texel> texels;
-    texels.reserve(seen.size());
-    for (const CentreHits::Seen& each : seen) {
-        texels.push_back(each.texel);
-    }
-    return texels;
-}
-
 } // namespace
 
 CentreHits::CentreHits(const CauseInputs& inputs)
-    : seen_{seen_texels(inputs)},
-      hits_{inputs.light, texels_of(seen_), scene::HitDetail::placed}
+    : CentreHits{inputs, [&](std::span<const scene::Texel> texels) {
+                     return inputs.light.first_hits(texels, scene::HitDetail::placed);
+                 }}
+{
+}
+
+CentreHits::CentreHits(const CauseInputs& inputs, const FindFirstHits& find)
+    : CentreHits{find_centres(inputs), find}
+{
+}
+
+CentreHits::CentreHits(const Centres& centres, const FindFirstHits& find)
+    : seen_(centres.pixels.size()),
+      hits_{centres.texels, find}
 {
     for_each_run(seen_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
-            seen_[i].hit = static_cast<std::uint32_t>(hits_.number_of(seen_[i].texel));
+            const std::size_t hit = hits_.number_of(centres.texels[i]);
+            seen_[i] = {centres.pixels[i], static_cast<std::uint32_t>(hit)};
         }
     });
+}
+
+CentreHits::Centres CentreHits::find_centres(const CauseInputs& inputs)
+{
+    const auto& classes = inputs.truth.pixel_class;
+    const Footprint footprint{inputs.lookup, inputs.resolution_texels};
+    Centres centres;
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
+            centres.pixels.push_back(static_cast<std::uint32_t>(i));
+            centres.texels.push_back(texel_at(inputs.unbiased.texels[i]));
+        }
+    }
+    return centres;
 }
 
 scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHits& hits,
@@ -67,7 +72,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
     for_each_run(seen.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             const scene::TexelHit& hit = hits.hit(seen[i]);
-            const float stored = inputs.stored_depth(seen[i].pixel, seen[i].texel);
+            const float stored = inputs.stored_depth(seen[i].pixel, hits.texel(seen[i]));
             // The farthest depth stands for nothing, unless what is seen rounds to it.
             const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
                                                              depth_step(format, farthest);

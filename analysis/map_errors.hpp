@@ -18,11 +18,13 @@ class CentreHits {
 public:
     /// @throws std::invalid_argument  as `find_causes` does.
     explicit CentreHits(const CauseInputs& inputs);
+    /// @param find  gives the first hits of texels, placed, as the inputs' light does.
+    CentreHits(const CauseInputs& inputs, const FindFirstHits& find);
 
+    /// A pixel, and the number of its texel's hit.
     struct Seen {
-        std::size_t pixel = 0;
-        scene::Texel texel;
-        std::uint32_t hit = 0; ///< its number
+        std::uint32_t pixel = 0;
+        std::uint32_t hit = 0;
     };
     [[nodiscard]] const std::vector<Seen>& seen() const { return seen_; }
     [[nodiscard]] const TexelHits& hits() const { return hits_; }
@@ -30,8 +32,21 @@ public:
     {
         return hits_.by_number(seen.hit);
     }
+    [[nodiscard]] const scene::Texel& texel(const Seen& seen) const
+    {
+        return hits_.texel(seen.hit);
+    }
 
 private:
+    /// Pixels, and the texel of each.
+    struct Centres {
+        std::vector<std::uint32_t> pixels;
+        std::vector<scene::Texel> texels;
+    };
+
+    CentreHits(const Centres& centres, const FindFirstHits& find);
+    static Centres find_centres(const CauseInputs& inputs);
+
     std::vector<Seen> seen_; ///< by pixel
     TexelHits hits_;
 };

@@ -11,6 +11,12 @@ TexelHits::TexelHits(const scene::ExactLight& light, std::span<const Texel> texe
 {
 }
 
+TexelHits::TexelHits(std::span<const Texel> texels, const FindFirstHits& find)
+    : index_{texels},
+      hits_{find(index_.texels())}
+{
+}
+
 std::vector<Texel> texels_of(std::span<const Tap> taps)
 {
     std::vector<Texel> texels;

@@ -4,10 +4,15 @@
 #include "analysis/texel_index.hpp"
 #include "scene/exact_light.hpp"
 
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace gnomon::analysis {
+
+/// Finds the first hits of texels, in their order.
+using FindFirstHits =
+    std::function<std::vector<scene::TexelHit>(std::span<const scene::Texel> texels)>;
 
 /// What the light sees through a set of texels, each traced once.
 class TexelHits {
@@ -15,12 +20,18 @@ public:
     /// @param texels  of the map, in any order, repetitions included.
     TexelHits(const scene::ExactLight& light, std::span<const scene::Texel> texels,
               scene::HitDetail detail);
+    /// @param find  gives the first hits of texels.
+    TexelHits(std::span<const scene::Texel> texels, const FindFirstHits& find);
 
     /// The texel's place among the hits. Precondition: it was among those given.
     [[nodiscard]] std::size_t number_of(const scene::Texel& texel) const { return index_[texel]; }
     [[nodiscard]] const scene::TexelHit& by_number(std::size_t number) const
     {
         return hits_[number];
+    }
+    [[nodiscard]] const scene::Texel& texel(std::size_t number) const
+    {
+        return index_.texels()[number];
     }
     /// Null if the texel was not among those given.
     [[nodiscard]] const scene::TexelHit* find(const scene::Texel& texel) const

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -57,7 +60,57 @@ std::optional<std::uint64_t> free_address_space_bytes()
     return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
 }
 
+/// What of the process is in memory [bytes]; 0 if unknown.
+std::uint64_t resident_bytes()
+{
+    std::uint64_t pages = 0;
+    std::uint64_t resident_pages = 0;
+    std::ifstream{"/proc/self/statm"} >> pages >> resident_pages;
+    return resident_pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// @param is_kept  else only so much as glibc's own limits grow to.
+void keep_freed_memory([[maybe_unused]] bool is_kept)
+{
+#if defined(__GLIBC__)
+    constexpr int most_mappings = 65'536;             // glibc's own
+    constexpr int largest_unmapped = 32 << 20;        // the largest that glibc takes
+    constexpr int trim_threshold = 64 << 20;          // twice that, as glibc has it
+    mallopt(M_MMAP_MAX, is_kept ? 0 : most_mappings); // a mapping goes back when it is freed
+    mallopt(M_MMAP_THRESHOLD, largest_unmapped);
+    mallopt(M_TRIM_THRESHOLD, is_kept ? std::numeric_limits<int>::max() : trim_threshold);
+    if (!is_kept) {
+        malloc_trim(0);
+    }
+#endif
+}
+
 } // namespace
+
+FreedMemoryKeeper::~FreedMemoryKeeper()
+{
+    if (keeps_) {
+        keep_freed_memory(false);
+    }
+}
+
+void FreedMemoryKeeper::keep(std::uint64_t needed_bytes)
+{
+    constexpr auto most_bytes = static_cast<std::uint64_t>(0.6 * gibibyte);
+    if (!keeps_ && resident_bytes() + needed_bytes <= most_bytes) {
+        keep_freed_memory(true);
+        keeps_ = true;
+    }
+}
+
+void FreedMemoryKeeper::limit()
+{
+    constexpr auto most_bytes = static_cast<std::uint64_t>(1.2 * gibibyte);
+    if (keeps_ && resident_bytes() > most_bytes) {
+        keep_freed_memory(false);
+        keeps_ = false;
+    }
+}
 
 std::uint64_t available_memory_bytes()
 {

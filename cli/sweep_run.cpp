@@ -107,8 +107,9 @@ public:
             compute();
         }
         store_.write_csv();
-        outcome_.done = store_.ordinals(RunState::done).size();
-        outcome_.failed = store_.ordinals(RunState::failed).size();
+        const reports::PlanOutcome counts = store_.outcome();
+        outcome_.done = counts.done;
+        outcome_.failed = counts.failed;
         outcome_.retriable = outcome_.failed > 0 ? store_.retriable() : 0;
         outcome_.checks = store_.checks();
         return outcome_;
@@ -130,6 +131,7 @@ private:
             }
             const std::string message =
                 error.empty() ? refusal_of([&] { require_memory(job); }) : error;
+            largest_need_bytes_ = std::max(largest_need_bytes_, needed_memory_bytes(job));
             identities_.push_back(analysis::identify_scene(job, content.hash, content.defaults));
             is_refused_.push_back(!message.empty());
             if (!message.empty()) {
@@ -264,15 +266,23 @@ private:
         }
         const auto plan = analysis::make_plan(requests_, analysis::camera_slots(requests_));
         stop_on_signals();
-        outcome_.counts = analysis::run_sweep(plan, hooks(progress));
+        FreedMemoryKeeper memory;
+        outcome_.counts = analysis::run_sweep(plan, hooks(progress, memory));
         outcome_.is_interrupted = is_interrupted();
     }
 
-    analysis::SweepHooks hooks(Progress& progress)
+    analysis::SweepHooks hooks(Progress& progress, FreedMemoryKeeper& memory)
     {
         analysis::SweepHooks hooks;
-        hooks.open_scene = [this](const scene::Job& job) { return scenes_.open(job); };
-        hooks.task = [this, &progress](std::size_t curve) { return task(curve, progress); };
+        hooks.open_scene = [this, &memory](const scene::Job& job) {
+            const analysis::OpenScene open = scenes_.open(job);
+            memory.keep(largest_need_bytes_);
+            return open;
+        };
+        hooks.task = [this, &progress, &memory](std::size_t curve) {
+            memory.limit();
+            return task(curve, progress);
+        };
         hooks.record = [this, &progress](const analysis::FinishedCurve& finished) {
             store_.record(finished);
             progress.add(finished.rows.size(), 0);
@@ -318,6 +328,7 @@ private:
     std::optional<tbb::global_control> threads_;
     std::vector<analysis::SceneIdentity> identities_;    ///< of scenes, by request of the catalogue
     std::vector<bool> is_refused_;                       ///< likewise
+    std::uint64_t largest_need_bytes_ = 0;               ///< of a request's image and map
     std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
     std::vector<std::uint64_t> repeated_;      ///< ordinals whose results are those of earlier ones
     std::vector<CurveRequest> requests_;       ///< what is still to be computed

@@ -2,6 +2,7 @@
 
 #include "reference_rt/critical_bias.hpp"
 #include "reference_rt/crossing.hpp"
+#include "reference_rt/known_hits.hpp"
 #include "reference_rt/light_depth.hpp"
 #include "reference_rt/own_sheet.hpp"
 #include "reference_rt/pixel_packets.hpp"
@@ -20,6 +21,7 @@ using scene::BlockerHit;
 using scene::ExactTap;
 using scene::HitDetail;
 using scene::Image;
+using scene::KnownHits;
 using scene::LinearQuery;
 using scene::NearestQuery;
 using scene::no_triangle;
@@ -125,19 +127,34 @@ public:
     {
         const TexelFirstHits finder{reference_, rays_, depth_, cull_, detail};
         std::vector<TexelHit> hits(texels.size());
-        constexpr std::size_t at_once = 16 * packet_size;
-        const std::size_t runs = (texels.size() + at_once - 1) / at_once;
-        with_threads(threads_, [&] {
-            tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t i) {
-                const std::size_t first = i * at_once;
-                const auto run = texels.subspan(first, std::min(at_once, texels.size() - first));
-                for (const Texel& texel : run) {
-                    check(texel);
-                }
-                finder.find(run, std::span{hits}.subspan(first, run.size()));
-            });
+        for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
+            finder.find(run, std::span{hits}.subspan(first, run.size()));
         });
         reference_.errors.check("first_hits");
+        return hits;
+    }
+
+    std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+                                     const KnownHits& known) const override
+    {
+        if (known.triangles.size() != texels.size()) {
+            throw std::invalid_argument{"first_hits: known: not of these texels"};
+        }
+        if (!keeps_first_hits(view_.light, known.frustum, view_.frustum)) {
+            return first_hits(texels, HitDetail::placed);
+        }
+        const KnownHitPlacer placer{reference_.triangles, rays_, depth_};
+        std::vector<TexelHit> hits(texels.size());
+        for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
+            const auto triangles = known.triangles.subspan(first, run.size());
+            for (const std::uint32_t triangle : triangles) {
+                if (triangle != no_triangle) {
+                    check(triangle);
+                }
+            }
+            placer.place(run, triangles, std::span{hits}.subspan(first, run.size()));
+        });
+        trace_rest(texels, hits);
         return hits;
     }
 
@@ -218,6 +235,42 @@ public:
     }
 
 private:
+    /// Calls `run(first, texels)` for runs of the texels, several at the same time; `first` is the
+    /// index of a run's first one.
+    template <typename Run>
+    void for_each_texel_run(std::span<const Texel> texels, const Run& run) const
+    {
+        constexpr std::size_t at_once = 16 * packet_size;
+        const std::size_t runs = (texels.size() + at_once - 1) / at_once;
+        with_threads(threads_, [&] {
+            tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t i) {
+                const std::size_t first = i * at_once;
+                const auto part = texels.subspan(first, std::min(at_once, texels.size() - first));
+                for (const Texel& texel : part) {
+                    check(texel);
+                }
+                run(first, part);
+            });
+        });
+    }
+
+    /// Finds the hits that are not known yet: those without a triangle.
+    void trace_rest(std::span<const Texel> texels, std::span<TexelHit> hits) const
+    {
+        std::vector<std::size_t> rest;
+        std::vector<Texel> rest_texels;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (hits[i].triangle == no_triangle) {
+                rest.push_back(i);
+                rest_texels.push_back(texels[i]);
+            }
+        }
+        const auto found = first_hits(rest_texels, HitDetail::placed);
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+            hits[rest[i]] = found[i];
+        }
+    }
+
     /// Calls `run(i, point)` for every query, several at the same time; neighbours share the point,
     /// which is where the last query left it.
     template <typename Query, typename Run>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference_rt/packet.hpp"
+#include "scene/widest_vectors.hpp"
 
 #include <bit>
 #include <cstddef>
@@ -9,14 +10,6 @@
 /// Numbers for all lanes of a packet, component by component, for loops over the lanes that the
 /// compiler turns into vector instructions.
 namespace gnomon::reference_rt {
-
-/// Compiles a function for several instruction sets and takes the best at run time; results are the
-/// same, as nothing is contracted. The choice is made before AddressSanitizer is ready.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define GNOMON_WIDEST_VECTORS [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
-#else
-#define GNOMON_WIDEST_VECTORS
-#endif
 
 template <typename Number>
 struct alignas(64) Lanes : PacketOf<Number> {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/light_frustum.hpp"
 #include "scene/triangles.hpp"
 
 #include <array>
@@ -33,6 +34,13 @@ struct TexelHit {
     /// Light distance [m], to a relative 2^-44, or NaN where only bounded; infinite without a hit.
     double zeta_m = std::numeric_limits<double>::infinity();
     double depth_error = 0; ///< the exact depth is no farther than this from `depth`
+};
+
+/// What another frustum of the same light saw first through texels, with maps of the same
+/// resolution and the same culling.
+struct KnownHits {
+    const LightFrustum& frustum;
+    std::span<const std::uint32_t> triangles; ///< by texel, or `no_triangle`
 };
 
 /// The depth that one tap of a lookup would find in a map of infinite precision: that of a triangle
@@ -91,6 +99,11 @@ public:
     /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
     [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
                                                            HitDetail detail) const = 0;
+
+    /// The same, placed. What is known makes it faster where the frusta differ in their near planes
+    /// alone and this one's is not nearer.
+    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+                                                           const KnownHits& known) const = 0;
 
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).

@@ -9,24 +9,28 @@ namespace {
 
 using StepKind = SweepStep::Kind;
 
-// Bytes a pixel: receivers 40 and lookup 24 on the GPU; triangle, class, reason, witness and gap 18
-// for each camera; two lookups under way, each 24, with causes, distances and errors 60.
-constexpr std::uint64_t camera_bytes = 40 + 18;
+// Bytes a pixel: receivers 40 and lookup 24 on the GPU; for each camera its truth, gaps and bins
+// 24, what exact rays say of one map's texels, causes and gaps 66, and what is remembered of other
+// maps' texels 32; two lookups under way, each 24, with causes, distances and errors 60.
+constexpr std::uint64_t camera_bytes = 40 + 24 + 66 + 32;
 constexpr std::uint64_t lookup_bytes = 24 + 2 * 24 + 60;
 constexpr std::uint64_t peak_texel_bytes =
     12; ///< u-formats, or a GL format and its depths read back
 
-/// Pixels of all cameras that are kept side by side.
-constexpr std::uint64_t kept_pixels = 4U << 20U;
-constexpr std::uint64_t most_slots = 8;
+/// What cameras that are kept side by side may take, with the largest map: an image of 1920×1080
+/// beside one of 8192² has the memory for itself.
+constexpr std::uint64_t most_bytes = std::uint64_t{5} << 28U;
+constexpr std::size_t most_slots = 8;
 
-std::uint64_t most_pixels(std::span<const CurveRequest> requests)
+std::uint64_t estimate_bytes(std::size_t slots, std::span<const CurveRequest> requests)
 {
-    std::uint64_t most = 1;
+    std::uint64_t pixels = 1;
+    std::uint64_t texels = 0;
     for (const CurveRequest& request : requests) {
-        most = std::max(most, request.pixels);
+        pixels = std::max(pixels, request.pixels);
+        texels = std::max(texels, request.texels);
     }
-    return most;
+    return pixels * (slots * camera_bytes + lookup_bytes) + texels * peak_texel_bytes;
 }
 
 } // namespace
@@ -63,17 +67,16 @@ double estimate_seconds(const SweepPlan& plan, std::span<const CurveRequest> req
 
 std::uint64_t estimate_bytes(const SweepPlan& plan, std::span<const CurveRequest> requests)
 {
-    std::uint64_t most_texels = 0;
-    for (const CurveRequest& request : requests) {
-        most_texels = std::max(most_texels, request.texels);
-    }
-    return most_pixels(requests) * (plan.slots * camera_bytes + lookup_bytes) +
-           most_texels * peak_texel_bytes;
+    return estimate_bytes(plan.slots, requests);
 }
 
 std::size_t camera_slots(std::span<const CurveRequest> requests)
 {
-    return std::clamp<std::uint64_t>(kept_pixels / most_pixels(requests), 1, most_slots);
+    std::size_t slots = most_slots;
+    while (slots > 1 && estimate_bytes(slots, requests) > most_bytes) {
+        --slots;
+    }
+    return slots;
 }
 
 std::vector<std::uint32_t> divide(const SweepPlan& plan, std::span<const CurveRequest> requests,

@@ -49,6 +49,7 @@ ExactSide::ExactSide(const scene::TriangleScene& triangles, std::shared_ptr<Swee
     : subject_{std::move(subject)},
       view_{view},
       resolution_texels_{job.shadow_map.resolution_texels},
+      cull_{job.shadow_map.cull},
       geometry_{triangles, view_, subject_->receivers.triangle},
       light_{renderers.make_exact_light(job, view_, subject_->receivers)},
       distances_{subject_->distances(view_.frustum, geometry_)},
@@ -74,7 +75,10 @@ scene::Image<PixelCause> ExactSide::causes(const CauseInputs& inputs)
 const CentreHits& ExactSide::centre_hits(const CauseInputs& inputs)
 {
     if (!centre_hits_) {
-        centre_hits_.emplace(inputs);
+        centre_hits_.emplace(inputs, [&](std::span<const scene::Texel> texels) {
+            return subject_->first_hits.first_hits(
+                {*light_, view_.frustum, resolution_texels_, cull_}, texels);
+        });
     }
     return *centre_hits_;
 }

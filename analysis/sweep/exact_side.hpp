@@ -4,6 +4,7 @@
 #include "analysis/breakdown.hpp"
 #include "analysis/causes.hpp"
 #include "analysis/error_parts.hpp"
+#include "analysis/first_hit_memory.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/metrics.hpp"
@@ -27,6 +28,7 @@ struct SweepSubject {
     /// @param counts_parts  whether its pixels are told apart by object and light distance.
     SweepSubject(scene::ImageSize image, bool counts_parts)
         : gaps{image},
+          first_hits{texels_each_pixel * image.pixel_count()},
           counts_parts_{counts_parts}
     {
     }
@@ -35,6 +37,7 @@ struct SweepSubject {
     scene::TruthLayers truth;
     ClassCounts classes;
     BlockerGaps gaps;
+    FirstHitMemory first_hits;
 
     /// The scored receivers by light distance; found anew only where that is counted otherwise than
     /// the last time.
@@ -46,6 +49,9 @@ struct SweepSubject {
                                                        const scene::TriangleScene& triangles);
 
 private:
+    /// Its pixels see at most one centre texel each of every map: room for maps of this many sizes.
+    static constexpr std::size_t texels_each_pixel = 4;
+
     void count_from(const scene::LightFrustum& frustum);
 
     bool counts_parts_;
@@ -92,6 +98,7 @@ private:
     std::shared_ptr<SweepSubject> subject_;
     scene::View view_;
     int resolution_texels_;
+    scene::Cull cull_;
     ReceiverGeometry geometry_;
     std::unique_ptr<scene::ExactLight> light_;
     std::shared_ptr<const Binning> distances_;

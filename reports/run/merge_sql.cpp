@@ -143,10 +143,12 @@ constexpr const char* new_environments =
 
 std::string new_curves()
 {
-    return fmt::format("INSERT OR IGNORE INTO main.curves (id) SELECT v.id FROM input.curves v"
+    Names names{"id", "scene_hash"};
+    append_names(names, curve_key_columns());
+    return fmt::format("INSERT OR IGNORE INTO main.curves ({}) SELECT {} FROM input.curves v"
                        " WHERE v.number IN (SELECT i.curve FROM input.configurations i WHERE {})"
                        " ORDER BY v.number",
-                       planned);
+                       fmt::join(names, ", "), listed("v", names), planned);
 }
 
 std::string better_curves()
@@ -172,8 +174,8 @@ std::string worst_verifications()
 
 std::string new_configurations()
 {
-    Names names{"id", "scene_hash", "status", "message", "may_pass"};
-    append_names(names, job_columns());
+    Names names{"id", "status", "message", "may_pass"};
+    append_names(names, bias_key_columns());
     append_names(names, result_columns());
     append_names(names, part_columns());
     return fmt::format("INSERT INTO main.configurations (curve, environment, {})"

@@ -3,11 +3,14 @@
 #include "reports/run/error_parts_json.hpp"
 #include "scene/job_keys.hpp"
 #include "scene/job_toml.hpp"
+#include "scene/sweep_space.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -205,6 +208,15 @@ void add_quantile_columns(std::vector<RunColumn<ErrorBin>>& columns, std::string
     }
 }
 
+std::vector<JobColumn> job_columns_where(bool is_constant_bias)
+{
+    std::vector<JobColumn> columns;
+    std::ranges::copy_if(job_columns(), std::back_inserter(columns), [&](const JobColumn& column) {
+        return scene::is_constant_bias(column.name) == is_constant_bias;
+    });
+    return columns;
+}
+
 /// What the double quotes of a TOML text hold.
 std::string unquoted(const std::string& toml)
 {
@@ -237,6 +249,18 @@ const std::vector<JobColumn>& job_columns()
         }
         return all;
     }();
+    return columns;
+}
+
+const std::vector<JobColumn>& bias_key_columns()
+{
+    static const std::vector<JobColumn> columns = job_columns_where(true);
+    return columns;
+}
+
+const std::vector<JobColumn>& curve_key_columns()
+{
+    static const std::vector<JobColumn> columns = job_columns_where(false);
     return columns;
 }
 

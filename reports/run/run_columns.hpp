@@ -28,6 +28,10 @@ struct JobColumn {
 /// The columns of a run's tables, in the order of the CSV files (docs/csv_schema.md). Names are the
 /// paths of `gnomon compare --json`, joined with dots; a value that is null there is NULL.
 [[nodiscard]] const std::vector<JobColumn>& job_columns();
+/// Of these the constant biases, in which the configurations of a curve differ.
+[[nodiscard]] const std::vector<JobColumn>& bias_key_columns();
+/// The others, which a curve has.
+[[nodiscard]] const std::vector<JobColumn>& curve_key_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& map_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& result_columns();
 /// Of the database alone: no CSV file has them.

@@ -6,13 +6,16 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_pipeline.h>
 
 #include <cstdint>
-#include <limits>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::reports {
@@ -35,6 +38,17 @@ void append_cell(std::string& out, const sqlite::ValueView& value)
     }
 }
 
+/// Appends columns of the statement's row, with commas between them.
+void append_cells(std::string& out, const Statement& statement, int first, int count)
+{
+    for (int i = first; i < first + count; ++i) {
+        if (i > first) {
+            out += ',';
+        }
+        append_cell(out, statement.value(i));
+    }
+}
+
 /// Appends the statement's rows, as far as it has any.
 /// @param most_bytes  where to stop, after a whole row.
 /// @return  False after the last row.
@@ -45,12 +59,7 @@ bool append_rows(std::string& out, Statement& statement, std::size_t most_bytes)
         if (!statement.step()) {
             return false;
         }
-        for (int i = 0; i < columns; ++i) {
-            if (i > 0) {
-                out += ',';
-            }
-            append_cell(out, statement.value(i));
-        }
+        append_cells(out, statement, 0, columns);
         out += '\n';
     }
     return true;
@@ -125,13 +134,47 @@ std::vector<ExportedCurve> exported_curves(const Database& database)
     return curves;
 }
 
-/// Reads a range of the results, on a connection of its own.
+/// Columns of `results` that stand side by side and are all of the same kind.
+struct ResultsSpan {
+    ResultsColumn::Of of;
+    int columns = 0;
+};
+
+std::vector<ResultsSpan> results_spans()
+{
+    std::vector<ResultsSpan> spans;
+    for (const ResultsColumn& column : results_columns()) {
+        if (spans.empty() || spans.back().of != column.of) {
+            spans.push_back({column.of, 0});
+        }
+        ++spans.back().columns;
+    }
+    return spans;
+}
+
+/// The columns of one kind, each after a comma.
+std::string listed_columns(ResultsColumn::Of of)
+{
+    std::string text;
+    for (const ResultsColumn& column : results_columns()) {
+        text += column.of == of ? ", " + column.expression : std::string{};
+    }
+    return text;
+}
+
+/// Reads a range of the results, on a connection of its own. What is the same for a curve's
+/// configurations is read and written out once.
 class ResultsReader {
 public:
     explicit ResultsReader(const std::filesystem::path& path)
         : database_{path, Database::Access::read},
-          rows_{database_, "SELECT * FROM results WHERE ordinal >= ? AND ordinal < ?"
-                           " ORDER BY ordinal"}
+          rows_{database_, fmt::format("SELECT c.curve, c.status = 'done'{} FROM part p CROSS JOIN"
+                                       " configurations c ON c.number = p.configuration"
+                                       " WHERE ordinal >= ? AND ordinal < ? ORDER BY ordinal",
+                                       listed_columns(ResultsColumn::Of::configuration))},
+          curve_{database_, fmt::format("SELECT k.number{} FROM curves k LEFT JOIN curves v"
+                                        " ON v.number = k.number AND ?2 WHERE k.number = ?1",
+                                        listed_columns(ResultsColumn::Of::curve))}
     {
     }
 
@@ -139,19 +182,68 @@ public:
     {
         std::string text;
         rows_.bind(1, first).bind(2, last);
-        append_rows(text, rows_, std::numeric_limits<std::size_t>::max());
+        while (rows_.step()) {
+            read_curve({rows_.integer(0), rows_.integer(1)});
+            append_row(text);
+        }
         return text;
     }
 
 private:
+    /// A curve's number, and whether the configuration is done.
+    using CurveKey = std::pair<std::int64_t, std::int64_t>;
+
+    void read_curve(const CurveKey& key)
+    {
+        if (curve_key_ == key) {
+            return;
+        }
+        curve_texts_.clear();
+        if (!curve_.bind(1, key.first).bind(2, key.second).step()) {
+            throw std::logic_error{"ResultsReader: a configuration's curve is missing"};
+        }
+        int column = 1;
+        for (const ResultsSpan& span : spans_) {
+            if (span.of == ResultsColumn::Of::curve) {
+                std::string text;
+                append_cells(text, curve_, column, span.columns);
+                curve_texts_.push_back(std::move(text));
+                column += span.columns;
+            }
+        }
+        curve_.reset();
+        curve_key_ = key;
+    }
+
+    void append_row(std::string& out)
+    {
+        int column = 2;
+        auto curve_text = curve_texts_.begin();
+        for (const ResultsSpan& span : spans_) {
+            out += &span == spans_.data() ? "" : ",";
+            if (span.of == ResultsColumn::Of::curve) {
+                out += *curve_text++;
+            } else {
+                append_cells(out, rows_, column, span.columns);
+                column += span.columns;
+            }
+        }
+        out += '\n';
+    }
+
     Database database_;
     Statement rows_;
+    Statement curve_;
+    std::vector<ResultsSpan> spans_ = results_spans();
+    std::optional<CurveKey> curve_key_;
+    std::vector<std::string> curve_texts_; ///< of its spans
 };
 
 /// Writes the results by ordinal; several threads read and format them. Nobody writes to the
 /// database meanwhile, so that all of them see the same.
-void write_results(const Database& database, const std::filesystem::path& path)
+void write_results(const std::filesystem::path& results, const std::filesystem::path& path)
 {
+    const Database database{results, Database::Access::read};
     constexpr std::int64_t rows_at_once = 512;
     constexpr std::size_t texts_at_once = 16;
     CsvFile file{path};
@@ -170,7 +262,7 @@ void write_results(const Database& database, const std::filesystem::path& path)
     const auto read = [&](std::int64_t first) {
         auto& reader = readers.local();
         if (!reader) {
-            reader = std::make_unique<ResultsReader>(database.path());
+            reader = std::make_unique<ResultsReader>(results);
         }
         return reader->text(first, first + rows_at_once);
     };
@@ -233,10 +325,16 @@ void write_run_csv(const Database& database, const std::filesystem::path& folder
     Transaction moment{database, Transaction::Kind::read};
     const std::vector<ExportedCurve> curves = exported_curves(database);
     const auto [results, error_vs_z, bias_curves] = run_csv_names;
-    write_results(database, folder / results);
-    write_curves(database, curves, error_vs_z_query(), folder / error_vs_z);
-    write_curves(database, curves, "SELECT * FROM bias_curves WHERE curve = ? ORDER BY bias",
-                 folder / bias_curves);
+    const std::filesystem::path results_file = folder / results;
+    const std::filesystem::path error_file = folder / error_vs_z;
+    const std::filesystem::path curves_file = folder / bias_curves;
+    tbb::parallel_invoke([&] { write_results(database.path(), results_file); },
+                         [&] {
+                             write_curves(database, curves, error_vs_z_query(), error_file);
+                             write_curves(database, curves,
+                                          "SELECT * FROM bias_curves WHERE curve = ? ORDER BY bias",
+                                          curves_file);
+                         });
     moment.commit();
 }
 

@@ -33,27 +33,66 @@ constexpr std::array<std::pair<std::string_view, std::string Environment::*>, 4>
                          {"embree", &Environment::embree},
                          {"gnomon", &Environment::gnomon}}};
 
+/// "INSERT INTO table (first, …, columns) VALUES (?, …)", followed by `rest`.
+std::string insertion(std::string_view table, std::string_view first, int first_count,
+                      const std::vector<JobColumn>& columns, std::string_view rest)
+{
+    std::string names;
+    std::string values = "?";
+    for (int i = 1; i < first_count; ++i) {
+        values += ", ?";
+    }
+    for (const JobColumn& column : columns) {
+        names += ", " + sql_name(column.name);
+        values += ", ?";
+    }
+    return fmt::format("INSERT INTO {} ({}{}) VALUES ({}){}", table, first, names, values, rest);
+}
+
+/// The parameters that stand for job keys in a statement.
+class KeyParameters {
+public:
+    /// @param first  the parameter of the first column.
+    KeyParameters(int first, const std::vector<JobColumn>& columns)
+    {
+        for (const JobColumn& column : columns) {
+            parameters_.emplace_back(column.name, first++);
+        }
+    }
+
+    /// Binds those of the configuration's values that have a parameter, and NULL to the others.
+    void bind(Statement& statement, const Configuration& configuration) const
+    {
+        const auto& held = configuration.parameters;
+        for (const auto& [key, parameter] : parameters_) {
+            const auto found =
+                std::ranges::find(held, key, &std::pair<std::string, std::string>::first);
+            statement.bind(parameter, found == held.end() ? Value{} : job_cell(found->second));
+        }
+    }
+
+private:
+    std::vector<std::pair<std::string_view, int>> parameters_; ///< with their keys
+};
+
 /// Writes configurations into the plan.
 class Planner {
 public:
     explicit Planner(const Database& database)
         : database_{&database},
+          insert_{database, insertion("configurations", "id, curve, status", 3, bias_key_columns(),
+                                      " ON CONFLICT (id) DO NOTHING")},
           find_{database, "SELECT number FROM configurations WHERE id = ?"},
-          insert_{database, insertion()},
+          insert_curve_{database, insertion("curves", "id, scene_hash", 2, curve_key_columns(),
+                                            " ON CONFLICT (id) DO NOTHING")},
           find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
-          insert_curve_{database, "INSERT INTO curves (id) VALUES (?)"},
           plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?, ?)"}
     {
-        const auto& columns = job_columns();
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            parameters_.emplace(columns[i].name, first_key + static_cast<int>(i));
-        }
     }
 
     void add(const Configuration& configuration)
     {
-        const auto known = find_.bind(1, std::string_view{configuration.id}).first();
-        const std::int64_t number = known ? *known : insert(configuration);
+        const std::int64_t number = configuration_number(configuration);
         remember_planned(static_cast<std::size_t>(number));
         plan_.bind(1, static_cast<std::int64_t>(configuration.ordinal))
             .bind(2, number)
@@ -77,89 +116,55 @@ private:
         is_planned_[number] = true;
     }
 
-    static constexpr int first_key = 4; ///< parameter of `insert_`
-
-    static std::string insertion()
+    /// Runs an insertion that does nothing if the id is known; returns the number of its row.
+    std::int64_t insert(Statement& insertion, Statement& find, const std::string& id)
     {
-        std::string names;
-        std::string values;
-        for (const JobColumn& column : job_columns()) {
-            names += ", " + sql_name(column.name);
-            values += ", ?";
+        insertion.run();
+        if (database_->changes() == 1) {
+            return database_->last_inserted();
         }
-        return fmt::format("INSERT INTO configurations (id, curve, scene_hash{}, status)"
-                           " VALUES (?, ?, ?{}, 'planned')",
-                           names, values);
+        return find.bind(1, std::string_view{id}).first().value_or(0); // it is there
     }
 
-    std::int64_t insert(const Configuration& configuration)
+    std::int64_t configuration_number(const Configuration& configuration)
     {
-        if (!has_keys_of(configuration)) {
-            insert_.clear();
-            bound_.clear();
-        }
         insert_.bind(1, std::string_view{configuration.id})
-            .bind(2, curve_number(configuration.curve))
-            .bind(3, std::string_view{configuration.scene_hash});
-        for (std::size_t i = 0; i < configuration.parameters.size(); ++i) {
-            bind_parameter(i, configuration.parameters[i]);
-        }
-        insert_.run();
-        return database_->last_inserted();
+            .bind(2, curve_number(configuration))
+            .bind(3, std::string_view{"planned"});
+        biases_.bind(insert_, configuration);
+        return insert(insert_, find_, configuration.id);
     }
 
-    using Parameter = std::pair<std::string, std::string>;
-
-    /// Whether it names the keys of the configuration before.
-    [[nodiscard]] bool has_keys_of(const Configuration& configuration) const
+    std::int64_t curve_number(const Configuration& configuration)
     {
-        return std::ranges::equal(bound_, configuration.parameters, {}, &Parameter::first,
-                                  &Parameter::first);
-    }
-
-    /// Binds the i-th parameter, if it is not bound already: from one configuration to the next
-    /// little changes.
-    void bind_parameter(std::size_t i, const Parameter& parameter)
-    {
-        if (i < bound_.size() && bound_[i].second == parameter.second) {
-            return;
-        }
-        const auto column = parameters_.find(parameter.first);
-        if (column == parameters_.end()) {
-            throw std::invalid_argument(
-                fmt::format("RunStore::plan: no job key {}", parameter.first));
-        }
-        insert_.bind(column->second, job_cell(parameter.second));
-        if (i < bound_.size()) {
-            bound_[i] = parameter;
-        } else {
-            bound_.push_back(parameter);
-        }
-    }
-
-    std::int64_t curve_number(const std::string& id)
-    {
-        const auto [entry, is_new] = curves_.try_emplace(id);
+        const auto [entry, is_new] = curves_.try_emplace(configuration.curve);
         if (is_new) {
-            const auto known = find_curve_.bind(1, std::string_view{id}).first();
-            entry->second = known ? *known : insert_curve(id);
+            require_known_keys(configuration);
+            insert_curve_.bind(1, std::string_view{configuration.curve})
+                .bind(2, std::string_view{configuration.scene_hash});
+            curve_keys_.bind(insert_curve_, configuration);
+            entry->second = insert(insert_curve_, find_curve_, configuration.curve);
         }
         return entry->second;
     }
-    std::int64_t insert_curve(const std::string& id)
+
+    static void require_known_keys(const Configuration& configuration)
     {
-        insert_curve_.bind(1, std::string_view{id}).run();
-        return database_->last_inserted();
+        for (const auto& [key, value] : configuration.parameters) {
+            if (std::ranges::find(job_columns(), key, &JobColumn::name) == job_columns().end()) {
+                throw std::invalid_argument(fmt::format("RunStore::plan: no job key {}", key));
+            }
+        }
     }
 
     const Database* database_;
-    Statement find_;
     Statement insert_;
-    Statement find_curve_;
+    Statement find_;
     Statement insert_curve_;
+    Statement find_curve_;
     Statement plan_;
-    std::unordered_map<std::string_view, int> parameters_; ///< of `insert_`, by key
-    std::vector<Parameter> bound_;                         ///< to `insert_`
+    KeyParameters biases_{4, bias_key_columns()};          ///< of `insert_`
+    KeyParameters curve_keys_{3, curve_key_columns()};     ///< of `insert_curve_`
     std::unordered_map<std::string, std::int64_t> curves_; ///< numbers by id
     std::vector<bool> is_planned_;                         ///< by number of the configuration
     bool has_equal_ids_ = false;

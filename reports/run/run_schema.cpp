@@ -3,9 +3,12 @@
 #include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
+#include "scene/sweep_space.hpp"
 
 #include <fmt/format.h>
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::reports {
@@ -25,16 +28,6 @@ std::string definitions(const Columns& columns)
     std::string text;
     for (const auto& column : columns) {
         text += fmt::format(", {} {}", sql_name(column.name), column.type);
-    }
-    return text;
-}
-
-template <typename Columns>
-std::string selections(std::string_view table, const Columns& columns)
-{
-    std::string text;
-    for (const auto& column : columns) {
-        text += fmt::format(", {}.{}", table, sql_name(column.name));
     }
     return text;
 }
@@ -63,18 +56,19 @@ constexpr const char* verifications_table =
 std::string curves_table()
 {
     return fmt::format("CREATE TABLE curves (number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE,"
-                       " environment INTEGER REFERENCES environments, lit INTEGER,"
-                       " blocked INTEGER{}{})",
-                       definitions(map_columns()), definitions(bias_curve_columns()));
+                       " scene_hash TEXT NOT NULL{}, environment INTEGER REFERENCES environments,"
+                       " lit INTEGER, blocked INTEGER{}{})",
+                       definitions(curve_key_columns()), definitions(map_columns()),
+                       definitions(bias_curve_columns()));
 }
 
 std::string configurations_table()
 {
     return fmt::format("CREATE TABLE configurations (number INTEGER PRIMARY KEY,"
                        " id TEXT NOT NULL UNIQUE, curve INTEGER NOT NULL REFERENCES curves,"
-                       " scene_hash TEXT NOT NULL, environment INTEGER REFERENCES environments,"
-                       " status TEXT NOT NULL, message TEXT, may_pass INTEGER{}{}{})",
-                       definitions(job_columns()), definitions(result_columns()),
+                       " environment INTEGER REFERENCES environments, status TEXT NOT NULL,"
+                       " message TEXT, may_pass INTEGER{}{}{})",
+                       definitions(bias_key_columns()), definitions(result_columns()),
                        definitions(part_columns()));
 }
 
@@ -96,14 +90,12 @@ std::string part_view()
 
 std::string results_view()
 {
-    return fmt::format(
-        "CREATE VIEW results AS SELECT {} AS \"schema\", p.ordinal AS ordinal, c.id AS id,"
-        " (SELECT id FROM curves WHERE number = c.curve) AS curve, p.\"case\" AS \"case\","
-        " c.status AS status, c.message AS message, c.scene_hash AS scene_hash{}{}{}{}"
-        " FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
-        " LEFT JOIN curves v ON v.number = c.curve AND c.status = 'done'",
-        run_schema, selections("c", job_columns()), selections("v", map_columns()),
-        selections("c", result_columns()), selections("v", bias_curve_columns()));
+    std::string columns;
+    for (const ResultsColumn& column : results_columns()) {
+        columns += fmt::format("{}{} AS {}", columns.empty() ? "" : ", ", column.expression,
+                               sql_name(column.name));
+    }
+    return fmt::format("CREATE VIEW results AS SELECT {} FROM {}", columns, results_tables());
 }
 
 /// The three rates of counts, as columns; NULL where there is nothing to divide by.
@@ -117,6 +109,39 @@ std::string rates(std::string_view counts, std::string_view pixels)
 }
 
 } // namespace
+
+std::vector<ResultsColumn> results_columns()
+{
+    using Of = ResultsColumn::Of;
+    std::vector<ResultsColumn> all{{"schema", fmt::format("{}", run_schema), Of::curve},
+                                   {"ordinal", "p.ordinal", Of::configuration},
+                                   {"id", "c.id", Of::configuration},
+                                   {"curve", "k.id", Of::curve},
+                                   {"case", "p.\"case\"", Of::configuration},
+                                   {"status", "c.status", Of::configuration},
+                                   {"message", "c.message", Of::configuration},
+                                   {"scene_hash", "k.scene_hash", Of::curve}};
+    const auto add = [&](const auto& columns, std::string_view table, Of of) {
+        for (const auto& column : columns) {
+            all.push_back({column.name, fmt::format("{}.{}", table, sql_name(column.name)), of});
+        }
+    };
+    for (const JobColumn& column : job_columns()) {
+        const bool is_bias = scene::is_constant_bias(column.name);
+        add(std::array{column}, is_bias ? "c" : "k", is_bias ? Of::configuration : Of::curve);
+    }
+    add(map_columns(), "v", Of::curve);
+    add(result_columns(), "c", Of::configuration);
+    add(bias_curve_columns(), "v", Of::curve);
+    return all;
+}
+
+std::string results_tables()
+{
+    return "part p CROSS JOIN configurations c ON c.number = p.configuration"
+           " JOIN curves k ON k.number = c.curve"
+           " LEFT JOIN curves v ON v.number = c.curve AND c.status = 'done'";
+}
 
 std::string error_vs_z_columns()
 {

@@ -139,12 +139,11 @@ std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
     const std::vector<std::string> axes = known_keys(description().axes);
     std::string columns;
     for (const std::string& axis : axes) {
-        columns += ", c." + sqlite::sql_name(axis);
+        columns += ", " + sqlite::sql_name(axis);
     }
     Statement find{parts_->database,
-                   fmt::format("SELECT p.ordinal, c.id, p.\"case\", c.message{} FROM part p"
-                               " CROSS JOIN configurations c ON c.number = p.configuration"
-                               " WHERE c.status = ? ORDER BY p.ordinal LIMIT ?",
+                   fmt::format("SELECT ordinal, id, \"case\", message{} FROM results"
+                               " WHERE status = ? ORDER BY ordinal LIMIT ?",
                                columns)};
     find.bind(1, state_names[static_cast<std::size_t>(state)])
         .bind(2, static_cast<std::int64_t>(std::min(most, most_rows)));

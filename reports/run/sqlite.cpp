@@ -126,12 +126,6 @@ Statement& Statement::bind(int parameter, const Value& value)
     return *this;
 }
 
-Statement& Statement::clear()
-{
-    sqlite3_clear_bindings(statement_.get());
-    return *this;
-}
-
 void Statement::run()
 {
     while (step()) {

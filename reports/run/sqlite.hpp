@@ -33,8 +33,6 @@ public:
     Statement& bind(int parameter, std::string_view value);
     /// Copies a text.
     Statement& bind(int parameter, const Value& value);
-    /// Makes every parameter NULL.
-    Statement& clear();
 
     /// Runs it to its end.
     void run();

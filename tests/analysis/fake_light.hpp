@@ -19,11 +19,21 @@ public:
     std::set<std::pair<std::size_t, std::uint32_t>> own; ///< pixel and triangle
     std::map<std::size_t, scene::BlockerHit> blockers;   ///< by pixel
     mutable std::size_t traced_texels = 0;
+    mutable std::vector<scene::LightFrustum> known_frusta; ///< of what was known, call by call
+    mutable std::vector<std::vector<std::uint32_t>> known_triangles;
 
     [[nodiscard]] std::vector<scene::TexelHit>
     first_hits(std::span<const scene::Texel> texels, scene::HitDetail /*detail*/) const override
     {
         traced_texels += texels.size();
+        return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
+    }
+
+    [[nodiscard]] std::vector<scene::TexelHit>
+    first_hits(std::span<const scene::Texel> texels, const scene::KnownHits& known) const override
+    {
+        known_frusta.push_back(known.frustum);
+        known_triangles.emplace_back(known.triangles.begin(), known.triangles.end());
         return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
     }
 

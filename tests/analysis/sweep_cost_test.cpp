@@ -34,6 +34,22 @@ TEST(SweepCost, KeepsFewerCamerasOfLargerImages)
     EXPECT_EQ(camera_slots({}), most);
 }
 
+TEST(SweepCost, KeepsFewerCamerasBesideLargerMaps)
+{
+    const auto slots = [](std::uint64_t pixels, std::uint64_t map_side) {
+        std::vector<CurveRequest> requests(1);
+        requests[0].pixels = pixels;
+        requests[0].texels = map_side * map_side;
+        return camera_slots(requests);
+    };
+    constexpr std::uint64_t hd = std::uint64_t{1280} * 720;
+    constexpr std::uint64_t full_hd = std::uint64_t{1920} * 1080;
+    EXPECT_EQ(slots(full_hd, 8192), 1U); // of 1.5 GiB, which a sweep stays below
+    EXPECT_GE(slots(full_hd, 4096), 2U);
+    EXPECT_GE(slots(hd, 8192), 2U);
+    EXPECT_GT(slots(hd, 1024), slots(hd, 8192));
+}
+
 TEST(SweepCost, GrowsWithTheWork)
 {
     CurveRequest small;

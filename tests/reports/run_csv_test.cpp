@@ -1,4 +1,5 @@
 #include "reports/comparison_json.hpp"
+#include "reports/run/run_csv.hpp"
 #include "reports/run/run_store.hpp"
 
 #include "csv_table.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -295,6 +297,35 @@ TEST(RunCsv, DoesNotDependOnTheOrderOfTheResults)
     }
     store.write_csv();
     EXPECT_EQ(csv_texts(folder / "b"), csv_texts(folder / "a"));
+}
+
+TEST(RunCsv, HoldsWhatTheViewSelectsForCurvesThatAreDoneInPart)
+{
+    const TemporaryFolder folder;
+    const ExampleRun example{3, 4};
+    RunStore store{folder.path(), RunStore::Access::write};
+    store.plan(example.description(), example.configurations());
+    store.record(example.curve(0));
+    FinishedCurve partly = example.curve(1);
+    const std::uint64_t failed = partly.rows.back().ordinal;
+    partly.rows.resize(2);
+    store.record(partly);
+    store.record_failure({&failed, 1}, "it, too, failed", analysis::Retry::may_help);
+    store.write_csv();
+    const CsvTable results = read_csv(folder / "results.csv");
+    const sqlite::Database database{folder / "results.sqlite", sqlite::Database::Access::read};
+    sqlite::Statement rows{database, "SELECT * FROM results ORDER BY ordinal"};
+    std::set<std::string> statuses;
+    for (const auto& row : results.rows) {
+        ASSERT_TRUE(rows.step());
+        for (int i = 0; i < rows.column_count(); ++i) {
+            EXPECT_EQ(row.at(rows.column_name(i)), cell_text(rows.value(i)))
+                << rows.column_name(i) << " of ordinal " << row.at("ordinal");
+        }
+        statuses.insert(row.at("status"));
+    }
+    EXPECT_FALSE(rows.step());
+    EXPECT_EQ(statuses.size(), 3U);
 }
 
 TEST(RunCsv, HasARowForWhatIsMissing)

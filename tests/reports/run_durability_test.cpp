@@ -267,10 +267,10 @@ TEST(RunDurability, RefusesADamagedDatabase)
     const TemporaryFolder folder;
     durable_run.compute(folder.path());
     {
-        std::fstream file{folder / "results.sqlite",
-                          std::ios::in | std::ios::out | std::ios::binary};
-        file.seekp(0, std::ios::end);
-        for (std::streamoff page = 20 * 4096; page < file.tellp(); page += 4096) {
+        const auto path = folder / "results.sqlite";
+        const auto size = static_cast<std::streamoff>(std::filesystem::file_size(path));
+        std::fstream file{path, std::ios::in | std::ios::out | std::ios::binary};
+        for (std::streamoff page = 20 * 4096; page < size; page += 4096) {
             file.seekp(page);
             file << "rubbish in the header of a page";
         }
