@@ -3,6 +3,7 @@
 #include "reference_rt/terms.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace gnomon::reference_rt {
 
@@ -26,6 +27,12 @@ Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, 
 {
     const Dyadic value = scaled_row(ExactField{}, row, hit.ray(), plane);
     return hit.delta_sign > 0 ? value : Dyadic{} - value;
+}
+
+/// As close as a place's ζ is to be.
+bool is_near_zeta(const Bounded& zeta_m)
+{
+    return zeta_m.error <= 0x1p-45 * std::abs(zeta_m.value);
 }
 
 } // namespace
@@ -85,55 +92,85 @@ bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit, const Bo
            (exact - Fraction{Dyadic{1}, Dyadic{1}}).sign() <= 0;
 }
 
-void LightDepth::remember(const Receiver& hit, PlaceMemory& memory) const
+Bounded LightDepth::closely_at(const ClipLine& line, const Bounded& t) const
+{
+    if (is_parallel_) {
+        return at(line, t);
+    }
+    // d/dt z/w = (z_step w_start − z_start w_step)/w²; no w within t's error is smaller than this.
+    const Bounded turn = line.z_step * line.w_start - line.z_start * line.w_step;
+    const Bounded w = line.w(t);
+    const double smallest_w = std::abs(w.value) - w.error;
+    if (!(smallest_w > 0)) {
+        return {0, std::numeric_limits<double>::infinity()};
+    }
+    // The factor pays for the roundings of the bound.
+    const double largest_slope =
+        1.01 * (std::abs(turn.value) + turn.error) / (smallest_w * smallest_w);
+    return at(line, {t.value, 0}) + Bounded{0, largest_slope * t.error};
+}
+
+void LightDepth::remember_origin(const Receiver& hit, PlaceMemory& memory) const
 {
     const Vec3d& origin = hit.ray().origin;
-    const bool has_origin = memory.triangle != scene::no_triangle && memory.origin == origin;
-    if (!has_origin) {
-        const Vec3d& forward = frustum_.forward;
-        const Vec3d& eye = frustum_.origin;
-        memory.origin = origin;
-        memory.z_start = row_at(rows_.z, origin, 1);
-        memory.w_start = is_parallel_ ? Bounded{rows_.w.w, 0} : row_at(rows_.w, origin, 1);
-        memory.zeta_start = compensated_dot<6>(
-            {forward.x, forward.y, forward.z, -forward.x, -forward.y, -forward.z},
-            {origin.x, origin.y, origin.z, eye.x, eye.y, eye.z});
+    if (memory.has_origin && memory.origin == origin) {
+        return;
     }
-    if (!has_origin || memory.triangle != hit.triangle()) {
+    const Vec3d& forward = frustum_.forward;
+    const Vec3d& eye = frustum_.origin;
+    memory = {};
+    memory.has_origin = true;
+    memory.origin = origin;
+    memory.z_start = row_at(rows_.z, origin, 1);
+    memory.w_start = is_parallel_ ? Bounded{rows_.w.w, 0} : row_at(rows_.w, origin, 1);
+    memory.zeta_start =
+        compensated_dot<6>({forward.x, forward.y, forward.z, -forward.x, -forward.y, -forward.z},
+                           {origin.x, origin.y, origin.z, eye.x, eye.y, eye.z});
+}
+
+Bounded LightDepth::sharp_parameter(const Receiver& hit, PlaceMemory& memory)
+{
+    if (!hit.is_tame()) {
+        return parameter_of(hit);
+    }
+    if (memory.triangle != hit.triangle()) {
         memory.triangle = hit.triangle();
         memory.normal = normal_of<WideField>(hit.corners());
-        memory.nu = dot(memory.normal, difference<WideField>(hit.corners()[0], origin));
+        memory.nu = dot(memory.normal, difference<WideField>(hit.corners()[0], memory.origin));
     }
+    return memory.nu.rounded() /
+           dot(memory.normal, vector<WideField>(hit.ray().direction)).rounded();
 }
 
 LightDepth::Place LightDepth::place(const Receiver& hit, PlaceMemory& memory) const
 {
     constexpr double largest_error = 0x1p-48;
-    remember(hit, memory);
+    remember_origin(hit, memory);
     const Vec3d& direction = hit.ray().direction;
-    // Within a few roundings, wherever twice the precision is enough for that.
-    const Bounded t = hit.is_tame() ? memory.nu.rounded() /
-                                          dot(memory.normal, vector<WideField>(direction)).rounded()
-                                    : parameter_of(hit);
-    const ClipLine line{memory.z_start, row_at(rows_.z, direction, 0), memory.w_start,
-                        is_parallel_ ? Bounded{0, 0} : row_at(rows_.w, direction, 0)};
-    const Bounded depth = at(line, t);
+    const Vec4d forward{frustum_.forward, 0};
+    const auto line_along = [&](const auto& row_along) {
+        return ClipLine{memory.z_start, row_along(rows_.z, direction, 0), memory.w_start,
+                        is_parallel_ ? Bounded{0, 0} : row_along(rows_.w, direction, 0)};
+    };
+    const Bounded plain_t = parameter_of(hit);
+    const Bounded plain_depth = closely_at(line_along(plain_row_at), plain_t);
+    const Bounded plain_zeta = memory.zeta_start + plain_t * plain_row_at(forward, direction, 0);
+    if (plain_depth.error <= largest_error && is_near_zeta(plain_zeta)) {
+        return {plain_depth, plain_zeta.value};
+    }
+    const Bounded t = sharp_parameter(hit, memory);
+    const Bounded depth = at(line_along(row_at), t);
+    const Bounded zeta = memory.zeta_start + t * row_at(forward, direction, 0);
     return {depth.error <= largest_error ? depth : Bounded{exactly_at(hit).value(), largest_error},
-            zeta_m(hit, t, memory.zeta_start)};
+            is_near_zeta(zeta) ? zeta.value : exact_zeta_m(hit)};
 }
 
-double LightDepth::zeta_m(const Receiver& hit, const Bounded& t, const Bounded& zeta_start) const
+double LightDepth::exact_zeta_m(const Receiver& hit) const
 {
     const Ray& ray = hit.ray();
-    const Vec3d& forward = frustum_.forward;
     const Vec3d& origin = frustum_.origin;
-    const Bounded step = row_at(Vec4d{forward, 0}, ray.direction, 0);
-    const Bounded zeta = zeta_start + t * step;
-    if (zeta.error <= 0x1p-45 * std::abs(zeta.value)) {
-        return zeta.value;
-    }
     const auto plane = plane_hit(ExactField{}, hit);
-    const auto along = vector<ExactField>(forward);
+    const auto along = vector<ExactField>(frustum_.forward);
     return Dyadic::quotient(plane.delta * dot(along, difference<ExactField>(ray.origin, origin)) +
                                 plane.nu * dot(along, vector<ExactField>(ray.direction)),
                             plane.delta);

@@ -75,24 +75,32 @@ public:
         Bounded depth;
         double zeta_m = 0;
     };
-    /// What places of hits with one facet and rays of one origin have in common.
+    /// What places of hits have in common: with rays of one origin, and with one facet.
     struct PlaceMemory {
-        std::uint32_t triangle = scene::no_triangle;
+        bool has_origin = false;
         scene::Vec3d origin{};
-        Vec3<Wide> normal{}; ///< n
-        Wide nu;             ///< n·(a − E)
         Bounded z_start, w_start;
         Bounded zeta_start; ///< ζ of the origin
+        std::uint32_t triangle = scene::no_triangle;
+        Vec3<Wide> normal{}; ///< n
+        Wide nu;             ///< n·(a − E)
     };
     /// @param memory  of this light and one scene; kept up to date.
     [[nodiscard]] Place place(const Receiver& hit, PlaceMemory& memory) const;
 
 private:
+    /// As `at`, but t's error counts for no more than the depth that it spans: `at` forgets that z
+    /// and w depend on the same t.
+    [[nodiscard]] Bounded closely_at(const ClipLine& line, const Bounded& t) const;
     /// True where the facet's plane certainly has one depth: it faces a directional light.
     [[nodiscard]] bool is_level(const Facet& facet) const;
-    void remember(const Receiver& hit, PlaceMemory& memory) const;
-    [[nodiscard]] double zeta_m(const Receiver& hit, const Bounded& t,
-                                const Bounded& zeta_start) const;
+    void remember_origin(const Receiver& hit, PlaceMemory& memory) const;
+    /// The parameter of a hit within a few roundings, wherever twice the precision is enough for
+    /// that.
+    /// @param memory  of the hit's origin.
+    [[nodiscard]] static Bounded sharp_parameter(const Receiver& hit, PlaceMemory& memory);
+    /// ζ of the hit, rounded. Precondition: δ is not 0.
+    [[nodiscard]] double exact_zeta_m(const Receiver& hit) const;
 
     const scene::LightFrustum& frustum_;
     ClipRows rows_;
