@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace gnomon::analysis {
@@ -36,25 +35,48 @@ public:
     float min = 0;
     float max = 0;
 
-    /// @param rank  from 1.
-    [[nodiscard]] float at(std::size_t rank) const
+    /// The values at two ranks, in one pass over all values.
+    /// @param ranks  from 1.
+    [[nodiscard]] std::array<float, 2> at(const std::array<std::size_t, 2>& ranks) const
+    {
+        std::array<Cell, 2> cells{cell_at(ranks[0]), cell_at(ranks[1])};
+        for (const float value : values_) {
+            const std::size_t cell = cell_of(value);
+            for (Cell& asked : cells) {
+                asked.candidates[asked.filled] = value;
+                asked.filled += cell == asked.cell ? 1 : 0;
+            }
+        }
+        return {nth(cells[0]), nth(cells[1])};
+    }
+
+private:
+    static constexpr int cell_bits = 12;
+
+    /// The cell that a rank lies in.
+    struct Cell {
+        std::size_t cell = 0;
+        std::size_t rank = 0;          ///< in the cell, from 0
+        std::vector<float> candidates; ///< the cell's values, and room for one more
+        std::size_t filled = 0;
+    };
+
+    [[nodiscard]] Cell cell_at(std::size_t rank) const
     {
         std::size_t cell = 0;
         std::size_t before = 0;
         while (before + counts_[cell] < rank) {
             before += counts_[cell++];
         }
-        std::vector<float> candidates;
-        candidates.reserve(counts_[cell]);
-        std::ranges::copy_if(values_, std::back_inserter(candidates),
-                             [&](float value) { return cell_of(value) == cell; });
-        const auto nth = candidates.begin() + static_cast<std::ptrdiff_t>(rank - before - 1);
-        std::ranges::nth_element(candidates, nth);
+        return {cell, rank - before - 1, std::vector<float>(counts_[cell] + std::size_t{1}), 0};
+    }
+    [[nodiscard]] static float nth(Cell& cell)
+    {
+        const auto begin = cell.candidates.begin();
+        const auto nth = begin + static_cast<std::ptrdiff_t>(cell.rank);
+        std::nth_element(begin, nth, begin + static_cast<std::ptrdiff_t>(cell.filled));
         return *nth;
     }
-
-private:
-    static constexpr int cell_bits = 12;
 
     [[nodiscard]] std::size_t cell_of(float value) const
     {
@@ -80,8 +102,8 @@ std::optional<Quantiles> find_quantiles(std::span<float> values)
     const Ranks ranks{finite};
     const std::size_t count = finite.size();
     // Which of two equal zeros stands at a rank is chance: −0 becomes 0.
-    return Quantiles{count, ranks.min + 0.0F, ranks.at(quantile_rank(count, 50)) + 0.0F,
-                     ranks.at(quantile_rank(count, 95)) + 0.0F, ranks.max + 0.0F};
+    const auto [median, p95] = ranks.at({quantile_rank(count, 50), quantile_rank(count, 95)});
+    return Quantiles{count, ranks.min + 0.0F, median + 0.0F, p95 + 0.0F, ranks.max + 0.0F};
 }
 
 std::optional<Quantiles> find_quantiles(std::vector<float>&& values)

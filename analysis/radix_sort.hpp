@@ -26,13 +26,14 @@ namespace gnomon::analysis {
 ///
 /// Least significant digit first, three digits of 11 bits; a digit that all keys share costs
 /// nothing.
+/// @param items   fewer than 2^32.
 /// @param key_of  std::uint32_t(const Item&), cheap.
 template <typename Item, typename KeyOf>
 void radix_sort(std::vector<Item>& items, const KeyOf& key_of)
 {
     constexpr int digit_bits = 11;
     constexpr std::uint32_t digits = 1U << digit_bits;
-    using Histogram = std::array<std::size_t, digits>;
+    using Histogram = std::array<std::uint32_t, digits>; // three of them fit the innermost cache
     const auto digit_of = [](std::uint32_t key, std::size_t pass) {
         return (key >> (digit_bits * pass)) & (digits - 1);
     };
@@ -49,8 +50,8 @@ void radix_sort(std::vector<Item>& items, const KeyOf& key_of)
         if (items.empty() || next[digit_of(key_of(items.front()), pass)] == items.size()) {
             continue;
         }
-        std::size_t position = 0;
-        for (std::size_t& count : next) {
+        std::uint32_t position = 0;
+        for (std::uint32_t& count : next) {
             position += std::exchange(count, position);
         }
         for (const Item& item : items) {

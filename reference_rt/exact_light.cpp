@@ -84,11 +84,11 @@ public:
     [[nodiscard]] const DepthTerm& term()
     {
         if (!has_term_) {
-            term_ =
-                receiver_.delta_sign == 0
-                    ? DepthTerm{}
-                    : DepthTerm{depth_, receiver_,
-                                depth_.at(depth_.plainly_along(ray_.ray), parameter_of(receiver_))};
+            term_ = receiver_.delta_sign == 0
+                        ? DepthTerm{}
+                        : DepthTerm{depth_, receiver_,
+                                    depth_.closely_at(depth_.plainly_along(ray_.ray),
+                                                      parameter_of(receiver_))};
             has_term_ = true;
         }
         return term_;

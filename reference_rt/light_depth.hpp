@@ -58,6 +58,9 @@ public:
         constexpr Bounded half{0.5, 0};
         return is_reversed() ? ratio : half * ratio + half;
     }
+    /// As `at`, but t's error counts for no more than the depth that it spans: `at` forgets that z
+    /// and w depend on the same t.
+    [[nodiscard]] Bounded closely_at(const ClipLine& line, const Bounded& t) const;
     /// The same point's depth, exactly. The denominator has the sign of W·H: 0 in the light's
     /// camera plane. Precondition: δ is not 0.
     [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
@@ -89,9 +92,6 @@ public:
     [[nodiscard]] Place place(const Receiver& hit, PlaceMemory& memory) const;
 
 private:
-    /// As `at`, but t's error counts for no more than the depth that it spans: `at` forgets that z
-    /// and w depend on the same t.
-    [[nodiscard]] Bounded closely_at(const ClipLine& line, const Bounded& t) const;
     /// True where the facet's plane certainly has one depth: it faces a directional light.
     [[nodiscard]] bool is_level(const Facet& facet) const;
     void remember_origin(const Receiver& hit, PlaceMemory& memory) const;

@@ -170,6 +170,16 @@ private:
     bool has_equal_ids_ = false;
 };
 
+/// Deletes what was planned and is no longer; returns how many results stay that the plan does not
+/// ask for.
+std::uint64_t retire(const Database& database)
+{
+    const std::string unplanned = "number NOT IN (SELECT configuration FROM plan)";
+    database.run("DELETE FROM configurations WHERE status = 'planned' AND " + unplanned);
+    return static_cast<std::uint64_t>(database.integer(
+        "SELECT count(*) FROM configurations WHERE status = 'done' AND " + unplanned));
+}
+
 void require_valid(const Shard& shard)
 {
     if (shard.index < 1 || shard.index > shard.count) {
@@ -272,11 +282,12 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     }
     write_description(database, description);
     database.run("DELETE FROM plan");
+    const bool has_earlier_rows = database.integer("SELECT 1 FROM configurations LIMIT 1") == 1;
     Planner planner{database};
     show([&](const Configuration& configuration) { planner.add(configuration); });
-    database.run("DELETE FROM configurations WHERE status = 'planned'"
-                 " AND number NOT IN (SELECT configuration FROM plan)");
+    const std::uint64_t retired = has_earlier_rows ? retire(database) : 0;
     PlanOutcome result = read_outcome(database);
+    result.retired = retired;
     result.has_equal_ids = planner.has_equal_ids();
     transaction.commit();
     return result;
@@ -284,19 +295,19 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
 
 PlanOutcome read_outcome(const Database& database)
 {
+    Statement counts{database, "SELECT coalesce(sum(c.status = 'done'), 0),"
+                               " coalesce(sum(c.status = 'failed'), 0),"
+                               " coalesce(sum(c.status = 'planned'), 0)"
+                               " FROM part p CROSS JOIN configurations c"
+                               " ON c.number = p.configuration"};
+    counts.step(); // an aggregate has one row
+    const auto count = [&](int column) {
+        return static_cast<std::uint64_t>(counts.integer(column));
+    };
     PlanOutcome result;
-    Statement counts{database, "SELECT c.status, count(*) FROM part p CROSS JOIN configurations c"
-                               " ON c.number = p.configuration GROUP BY c.status"};
-    while (counts.step()) {
-        const std::string status = counts.text(0);
-        std::uint64_t& count = status == "done"     ? result.done
-                               : status == "failed" ? result.failed
-                                                    : result.planned;
-        count = static_cast<std::uint64_t>(counts.integer(1));
-    }
-    result.retired = static_cast<std::uint64_t>(
-        database.integer("SELECT count(*) FROM configurations WHERE status = 'done'"
-                         " AND number NOT IN (SELECT configuration FROM plan)"));
+    result.done = count(0);
+    result.failed = count(1);
+    result.planned = count(2);
     return result;
 }
 

@@ -60,7 +60,7 @@ struct PlanOutcome {
     std::uint64_t done = 0;    ///< of this part's configurations: they are not to be computed again
     std::uint64_t failed = 0;  ///< of this part's
     std::uint64_t planned = 0; ///< of this part's
-    std::uint64_t retired = 0; ///< results in the database that the plan does not ask for
+    std::uint64_t retired = 0; ///< of `plan`: results in the database that it does not ask for
     bool has_equal_ids = false; ///< of `plan`: two ordinals have the same id
 };
 
