@@ -1,7 +1,6 @@
 #include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/plan.hpp"
-#include "cli/sweep_run.hpp"
 #include "raw_embree.hpp"
 #include "scene/job_file.hpp"
 #include "scene/job_source.hpp"
@@ -18,16 +17,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
-/// A whole sweep, database and CSV files included, against its floor in the same run: its GL passes
-/// with the readbacks that they need, textures allocated before, and one raw Embree pass for each
-/// truth and for each distinct set of texel-centre rays. And against the program, run once for each
-/// of a few of its configurations.
+/// A whole sweep by the program, database and CSV files included, against its floor in the same
+/// run: its GL passes with the readbacks that they need, textures allocated before, and one raw
+/// Embree pass for each truth and for each distinct set of texel-centre rays. And against the
+/// program, run once for each of a few of its configurations.
 namespace gnomon::benchmarks {
 namespace {
 
@@ -35,24 +36,61 @@ namespace fs = std::filesystem;
 using Kind = analysis::SweepStep::Kind;
 
 /// columns at 1280×720 under a spot: 1000 biases × resolutions × 4 formats × near planes × 2
-/// cameras; 200,000 configurations, or a tenth of that.
-scene::SweepSpace make_space(bool is_whole)
+/// cameras; 200,000 configurations, or a sixth of that.
+std::string job_text(bool is_whole)
 {
-    scene::JobSource source =
-        scene::builtin_job_source("columns", {{"image.width", "1280"},
-                                              {"image.height", "720"},
-                                              {"light.type", "spot"},
-                                              {"light.position", "[-14, 19, 10]"},
-                                              {"light.target", "[0, 0, 0]"},
-                                              {"light.cone_deg", "60"}});
-    source.cases = {{"corner", scene::layer_from_overrides({{"camera.eye", "[11.5, 3.6, 11.5]"}})},
-                    {"front", scene::layer_from_overrides({{"camera.eye", "[2, 4, 16]"}})}};
-    const std::string resolutions = is_whole ? "512,1024,2048,4096,8192" : "1024,4096";
-    return scene::SweepSpace{
-        std::move(source),
-        {"bias.constant={from = 1e-7, to = 1e-2, count = 1000, scale = \"log\"}",
-         "shadow_map.resolution=" + resolutions, "shadow_map.depth_format=d16,d24,d32,d32f",
-         is_whole ? "shadow_map.near=0.1,0.3,0.6,1,2" : "shadow_map.near=0.1,0.6"}};
+    return fmt::format(R"([scene]
+builtin = "columns"
+[image]
+width = 1280
+height = 720
+[light]
+type = "spot"
+position = [-14, 19, 10]
+target = [0, 0, 0]
+cone_deg = 60
+[sweep]
+"bias.constant" = {{from = 1e-7, to = 1e-2, count = 1000, scale = "log"}}
+"shadow_map.resolution" = [{}]
+"shadow_map.depth_format" = ["d16", "d24", "d32", "d32f"]
+"shadow_map.near" = [{}]
+[[case]]
+name = "corner"
+camera.eye = [11.5, 3.6, 11.5]
+[[case]]
+name = "front"
+camera.eye = [2, 4, 16]
+)",
+                       is_whole ? "512, 1024, 2048, 4096, 8192" : "1024, 4096",
+                       is_whole ? "0.1, 0.3, 0.6, 1, 2" : "0.1, 0.6");
+}
+
+/// An empty folder, which goes with everything in it.
+class Folder {
+public:
+    Folder()
+    {
+        fs::remove_all(path_);
+        fs::create_directories(path_);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder()
+    {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_ =
+        fs::temp_directory_path() / ("gnomon_sweep_bench." + std::to_string(::getpid()));
+};
+
+fs::path program()
+{
+    return fs::read_symlink("/proc/self/exe").parent_path() / "gnomon";
 }
 
 /// The floor of a plan.
@@ -154,11 +192,10 @@ void run_program(std::vector<std::string> words)
 double compare_s(const scene::SweepSpace& space)
 {
     constexpr std::uint64_t runs = 5;
-    const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "gnomon";
     double sum_s = 0;
     for (std::uint64_t i = 0; i < runs; ++i) {
         const scene::Job job = space.job(space.at(i * (space.size() - 1) / (runs - 1)));
-        std::vector<std::string> words{program.string(), "compare", "--json", "--builtin",
+        std::vector<std::string> words{program().string(), "compare", "--json", "--builtin",
                                        job.scene.builtin};
         for (const auto& [key, value] : scene::resolved_keys(job)) {
             if (!key.starts_with("scene.")) {
@@ -175,12 +212,14 @@ double compare_s(const scene::SweepSpace& space)
 
 void sweep_against_floor(benchmark::State& state, bool is_whole)
 {
-    const scene::SweepSpace space = make_space(is_whole);
+    const Folder folder;
+    const fs::path job = folder.path() / "job.toml";
+    const fs::path run = folder.path() / "run";
+    std::ofstream{job} << job_text(is_whole);
+    const scene::SweepSpace space{scene::read_job_source(job, {}), {}};
     const analysis::SweepCatalogue catalogue{space, false, "bench"};
     const auto& requests = catalogue.requests();
     const auto plan = analysis::make_plan(requests, analysis::camera_slots(requests));
-    const fs::path folder =
-        fs::temp_directory_path() / ("gnomon_sweep_bench." + std::to_string(::getpid()));
     double floor_s = 0;
     double gl_s = 0;
     double sweep_s = 0;
@@ -192,16 +231,14 @@ void sweep_against_floor(benchmark::State& state, bool is_whole)
             floor_s += floor.gl_s + floor.embree_s;
             gl_s += floor.gl_s;
         }
-        fs::remove_all(folder);
-        cli::SweepRunOptions options;
-        options.folder = folder;
-        options.is_quiet = true;
-        const double now_s = seconds_of(
-            [&] { benchmark::DoNotOptimize(cli::run_sweep_command(space, options).done); });
+        fs::remove_all(run);
+        const double now_s = seconds_of([&] {
+            run_program(
+                {program().string(), "sweep", job.string(), "--out", run.string(), "--quiet"});
+        });
         sweep_s += now_s;
         state.SetIterationTime(now_s);
     }
-    fs::remove_all(folder);
     const auto runs = static_cast<double>(state.iterations());
     const auto configurations = static_cast<double>(space.size());
     state.counters["ratio"] = sweep_s / floor_s;

@@ -17,10 +17,13 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <future>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -101,17 +104,18 @@ public:
     SweepOutcome run()
     {
         read_scenes();
-        plan();
-        select_missing();
+        start_planning();
+        if (begins_at_once()) {
+            select_all();
+        } else {
+            finish_planning();
+            select_missing();
+        }
         if (!requests_.empty() || !refusals_.empty()) {
             compute();
         }
-        store_.write_csv();
-        const reports::PlanOutcome counts = store_.outcome();
-        outcome_.done = counts.done;
-        outcome_.failed = counts.failed;
-        outcome_.retriable = outcome_.failed > 0 ? store_.retriable() : 0;
-        outcome_.checks = store_.checks();
+        finish_planning();
+        tbb::parallel_invoke([&] { store_.write_csv(); }, [&] { read_outcome(); });
         return outcome_;
     }
 
@@ -143,30 +147,57 @@ private:
         }
     }
 
-    /// Records what the run is to compute.
-    void plan()
+    /// Says how all configurations stand, by a connection of its own: nobody writes any more.
+    void read_outcome()
+    {
+        const RunStore store{options_.folder, RunStore::Access::read};
+        const reports::PlanOutcome counts = store.outcome();
+        outcome_.done = counts.done;
+        outcome_.failed = counts.failed;
+        outcome_.retriable = outcome_.failed > 0 ? store.retriable() : 0;
+        outcome_.checks = store.checks();
+    }
+
+    /// Begins to record what the run is to compute.
+    void start_planning()
     {
         const auto& requests = catalogue_.requests();
         const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
         auto shards = analysis::divide(whole, requests, options_.shard.count);
         keep_equals_together(shards);
-        const auto show = [&](const reports::VisitConfiguration& visit) {
-            const auto keep_id = [&](const Configuration& configuration) {
-                if (options_.keeps_pixels) {
-                    ids_.emplace(configuration.ordinal, configuration.id);
-                }
-                visit(configuration);
-            };
-            for (const Refusal& refusal : catalogue_.refusals()) {
-                catalogue_.describe(refusal, keep_id);
+        has_earlier_results_ = store_.has_configurations();
+        planning_ = std::async(std::launch::async, [this, shards = std::move(shards)] {
+            return store_.plan(
+                description(), [&](const auto& visit) { show(shards, visit); },
+                options_.allows_mixed ? reports::Environments::several
+                                      : reports::Environments::one);
+        });
+    }
+
+    /// Shows every configuration of the sweep.
+    void show(const std::vector<std::uint32_t>& shards, const reports::VisitConfiguration& visit)
+    {
+        const auto keep_id = [&](const Configuration& configuration) {
+            if (options_.keeps_pixels) {
+                ids_.emplace(configuration.ordinal, configuration.id);
             }
-            for (std::size_t i = 0; i < requests.size(); ++i) {
-                catalogue_.describe(i, identities_[i], keep_id, shards[i]);
-            }
+            visit(configuration);
         };
-        const auto outcome = store_.plan(description(), show,
-                                         options_.allows_mixed ? reports::Environments::several
-                                                               : reports::Environments::one);
+        for (const Refusal& refusal : catalogue_.refusals()) {
+            catalogue_.describe(refusal, keep_id);
+        }
+        for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
+            catalogue_.describe(i, identities_[i], keep_id, shards[i]);
+        }
+    }
+
+    /// Waits until the plan is recorded, if that was not done yet; nobody may use the store before.
+    void finish_planning()
+    {
+        if (!planning_.valid()) {
+            return;
+        }
+        const reports::PlanOutcome outcome = planning_.get();
         outcome_.configurations = outcome.done + outcome.failed + outcome.planned;
         outcome_.retired = outcome.retired;
         if (outcome.has_equal_ids) {
@@ -175,15 +206,21 @@ private:
         outcome_.repeated = repeated_.size();
     }
 
+    /// Whether all of the plan is to be computed, which then need not wait until it is recorded.
+    [[nodiscard]] bool begins_at_once() const
+    {
+        return !has_earlier_results_ && !options_.keeps_pixels && options_.shard.count == 1 &&
+               refusals_.empty() && !catalogue_.may_repeat(identities_);
+    }
+
     /// Moves requests that differ in nothing but the place of the same scene to one shard, which
     /// then computes them once.
     void keep_equals_together(std::vector<std::uint32_t>& shards) const
     {
         std::unordered_map<std::string, std::uint32_t> known;
         for (std::size_t i = 0; i < shards.size(); ++i) {
-            const analysis::StageKeys& keys = catalogue_.requests()[i].keys;
-            const std::string key = identities_[i].name() + keys.curve.substr(keys.scene.size());
             if (!is_refused_[i]) {
+                const std::string key = catalogue_.curve_key(i, identities_[i]);
                 shards[i] = known.try_emplace(key, shards[i]).first->second;
             }
         }
@@ -227,6 +264,14 @@ private:
         std::sort(missing.begin(), missing.end());
         missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
         return without(missing, repeated_);
+    }
+
+    void select_all()
+    {
+        requests_ = catalogue_.requests();
+        request_numbers_.resize(requests_.size());
+        std::iota(request_numbers_.begin(), request_numbers_.end(), std::size_t{0});
+        outcome_.configurations = space_.size();
     }
 
     /// Keeps of requests and refusals what is still to be done here.
@@ -284,12 +329,14 @@ private:
             return task(curve, progress);
         };
         hooks.record = [this, &progress](const analysis::FinishedCurve& finished) {
+            finish_planning();
             store_.record(finished);
             progress.add(finished.rows.size(), 0);
         };
         hooks.record_failure = [this, &progress](std::span<const std::uint64_t> ordinals,
                                                  const std::string& message,
                                                  analysis::Retry retry) {
+            finish_planning();
             store_.record_failure(ordinals, message, retry);
             progress.add(0, ordinals.size());
         };
@@ -334,6 +381,8 @@ private:
     std::vector<CurveRequest> requests_;       ///< what is still to be computed
     std::vector<std::size_t> request_numbers_; ///< theirs in the catalogue
     SweepOutcome outcome_;
+    bool has_earlier_results_ = false;
+    std::future<reports::PlanOutcome> planning_; ///< reads what is above
 };
 
 } // namespace

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -147,6 +149,33 @@ SweepTask SweepCatalogue::task(std::size_t request, const SceneIdentity& scene) 
         task.rows.push_back({ordinal, job.bias});
     }
     return task;
+}
+
+std::string SweepCatalogue::curve_key(std::size_t request, const SceneIdentity& scene) const
+{
+    const StageKeys& keys = requests_[request].keys;
+    return scene.name() + keys.curve.substr(keys.scene.size());
+}
+
+bool SweepCatalogue::may_repeat(std::span<const SceneIdentity> scenes) const
+{
+    std::set<std::string> curves;
+    for (std::size_t i = 0; i < requests_.size(); ++i) {
+        if (!curves.insert(curve_key(i, scenes[i])).second || has_equal_biases(requests_[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool SweepCatalogue::has_equal_biases(const CurveRequest& request) const
+{
+    std::set<std::pair<double, std::optional<double>>> biases;
+    scene::Job job = space_.job(space_.at(request.ordinals.front()));
+    return std::ranges::any_of(request.ordinals, [&](std::uint64_t ordinal) {
+        space_.set_constant_bias(job, space_.at(ordinal));
+        return !biases.emplace(job.bias.constant, job.bias.constant_m).second;
+    });
 }
 
 void SweepCatalogue::describe(std::size_t request, const SceneIdentity& scene, const Visit& visit,

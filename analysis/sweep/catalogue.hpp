@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ public:
     /// @param scene  the request's, which could be read.
     [[nodiscard]] SweepTask task(std::size_t request, const SceneIdentity& scene) const;
 
+    /// The request's curve: equal for requests that differ in nothing but the place of the same
+    /// scene.
+    [[nodiscard]] std::string curve_key(std::size_t request, const SceneIdentity& scene) const;
+    /// False only if no two of the requests' configurations are the same under two numbers.
+    /// @param scenes  of all requests, in their order.
+    [[nodiscard]] bool may_repeat(std::span<const SceneIdentity> scenes) const;
+
     using Visit = std::function<void(const Configuration&)>;
     /// Says who the request's configurations are.
     /// @param scene  the request's; if it cannot be read, its file stands for it in the ids.
@@ -53,6 +61,7 @@ public:
 private:
     void add_structure(std::vector<std::uint64_t> ordinals);
     void add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals);
+    [[nodiscard]] bool has_equal_biases(const CurveRequest& request) const;
 
     const scene::SweepSpace& space_;
     bool keeps_every_bias_;

@@ -323,13 +323,13 @@ std::string cell_text(const sqlite::ValueView& value)
 void write_run_csv(const Database& database, const std::filesystem::path& folder)
 {
     Transaction moment{database, Transaction::Kind::read};
-    const std::vector<ExportedCurve> curves = exported_curves(database);
     const auto [results, error_vs_z, bias_curves] = run_csv_names;
     const std::filesystem::path results_file = folder / results;
     const std::filesystem::path error_file = folder / error_vs_z;
     const std::filesystem::path curves_file = folder / bias_curves;
     tbb::parallel_invoke([&] { write_results(database.path(), results_file); },
                          [&] {
+                             const auto curves = exported_curves(database);
                              write_curves(database, curves, error_vs_z_query(), error_file);
                              write_curves(database, curves,
                                           "SELECT * FROM bias_curves WHERE curve = ? ORDER BY bias",

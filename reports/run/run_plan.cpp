@@ -282,7 +282,7 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     }
     write_description(database, description);
     database.run("DELETE FROM plan");
-    const bool has_earlier_rows = database.integer("SELECT 1 FROM configurations LIMIT 1") == 1;
+    const bool has_earlier_rows = has_configurations(database);
     Planner planner{database};
     show([&](const Configuration& configuration) { planner.add(configuration); });
     const std::uint64_t retired = has_earlier_rows ? retire(database) : 0;
@@ -291,6 +291,11 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     result.has_equal_ids = planner.has_equal_ids();
     transaction.commit();
     return result;
+}
+
+bool has_configurations(const Database& database)
+{
+    return database.integer("SELECT 1 FROM configurations LIMIT 1") == 1;
 }
 
 PlanOutcome read_outcome(const Database& database)

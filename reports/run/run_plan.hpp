@@ -11,6 +11,9 @@ namespace gnomon::reports {
 PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& description,
                        const ShowConfigurations& show, Environments environments);
 
+/// `RunStore::has_configurations`
+[[nodiscard]] bool has_configurations(const sqlite::Database& database);
+
 /// How the plan's configurations stand.
 [[nodiscard]] PlanOutcome read_outcome(const sqlite::Database& database);
 

@@ -120,6 +120,11 @@ PlanOutcome RunStore::plan(const RunDescription& description, const ShowConfigur
     return outcome;
 }
 
+bool RunStore::has_configurations() const
+{
+    return reports::has_configurations(parts_->database);
+}
+
 RunDescription RunStore::description() const
 {
     return read_description(parts_->database);

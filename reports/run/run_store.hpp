@@ -113,6 +113,9 @@ public:
     PlanOutcome plan(const RunDescription& description, const ShowConfigurations& show,
                      Environments environments = Environments::one);
 
+    /// Whether anything was ever planned here.
+    [[nodiscard]] bool has_configurations() const;
+
     /// What was planned; its environment is that of the last plan.
     [[nodiscard]] RunDescription description() const;
 

@@ -49,6 +49,13 @@ std::string sqlite_remedy(int code)
     }
 }
 
+/// Keeps SQLite from counting what it allocates, for which its threads would wait for each other.
+/// Has an effect before the first database is opened.
+void stop_counting_memory()
+{
+    [[maybe_unused]] static const int code = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
+}
+
 /// The path as an SQLite URI, which reserves some characters.
 std::string uri(const std::filesystem::path& path)
 {
@@ -220,6 +227,7 @@ void Database::Close::operator()(sqlite3* handle) const noexcept
 Database::Database(const std::filesystem::path& path, Access access)
     : path_{std::filesystem::absolute(path)}
 {
+    stop_counting_memory();
     const int flags =
         access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
     sqlite3* handle = nullptr;
