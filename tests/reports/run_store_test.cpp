@@ -36,7 +36,9 @@ TEST(RunStore, StartsWithEverythingPlanned)
 {
     const TemporaryFolder folder;
     RunStore store{folder.path(), Access::write};
+    EXPECT_FALSE(store.has_configurations());
     const PlanOutcome outcome = store.plan(small_run.description(), small_run.configurations());
+    EXPECT_TRUE(store.has_configurations());
     EXPECT_EQ(outcome.planned, 6U);
     EXPECT_EQ(outcome.done + outcome.failed + outcome.retired, 0U);
     EXPECT_THAT(store.ordinals(RunState::planned), ElementsAre(0, 1, 2, 3, 4, 5));
