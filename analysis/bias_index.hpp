@@ -1,28 +1,36 @@
 #pragma once
 
 #include "analysis/radix_sort.hpp"
+#include "scene/infinity.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
 namespace gnomon::analysis {
 
-/// Finds places in an ascending list of biases: a table by a value's leading bits leads to its
-/// neighbourhood, where few biases are left to be compared with.
+/// Finds places in an ascending list of biases: a table over their range, finer than the biases
+/// mostly are, leads to a value's place or close to it.
 class BiasIndex {
 public:
     /// @param ascending  Must outlive the index; fewer than 2^32.
-    explicit BiasIndex(std::span<const float> ascending) : biases_{ascending}, starts_(cells + 1)
+    explicit BiasIndex(std::span<const float> ascending) : biases_{ascending}
     {
+        if (!biases_.empty()) {
+            smallest_ = sort_key(biases_.front());
+            beyond_ = sort_key(biases_.back()) + 1;
+        }
+        const std::uint32_t width = std::bit_width(beyond_ - smallest_);
+        shift_ = width > cell_bits ? width - cell_bits : 0;
+        starts_.resize(cell_of(scene::infinity) + 2);
         for (const float bias : biases_) {
             ++starts_[cell_of(bias) + 1];
         }
-        for (std::size_t cell = 0; cell < cells; ++cell) {
-            starts_[cell + 1] += starts_[cell];
-        }
+        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     }
 
     /// Index of the first bias that is not below `value`; the number of biases if all are.
@@ -36,11 +44,18 @@ public:
     }
 
 private:
-    static constexpr std::size_t cells = std::size_t{1} << 16U; ///< sign, exponent, 7 digits
+    static constexpr std::uint32_t cell_bits = 16;
 
-    static std::size_t cell_of(float value) { return sort_key(value) >> 16U; }
+    /// Values below all biases are of the first cell, values above them of the last one.
+    [[nodiscard]] std::size_t cell_of(float value) const
+    {
+        return (std::clamp(sort_key(value), smallest_, beyond_) - smallest_) >> shift_;
+    }
 
     std::span<const float> biases_;
+    std::uint32_t smallest_ = 0; ///< sort key of the first bias
+    std::uint32_t beyond_ = 0;   ///< after that of the last one
+    std::uint32_t shift_ = 0;
     std::vector<std::uint32_t> starts_; ///< of each cell's biases; the last is the list's end
 };
 

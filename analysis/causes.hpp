@@ -33,9 +33,12 @@ struct PixelCause {
 [[nodiscard]] Label label_of(const PixelCause& pixel, scene::PixelClass truth, Cause cause);
 
 /// True when a lit pixel is acne wherever it is false shadow: this does not depend on the bias.
+/// Without branches: which pixels are acne is hardly to be foreseen.
 [[nodiscard]] inline bool is_acne_if_shadowed(const PixelCause& pixel, scene::PixelClass truth)
 {
-    return truth == scene::PixelClass::lit && pixel.unbiased == Cause::resolution && pixel.sees;
+    return (static_cast<unsigned>(truth == scene::PixelClass::lit) &
+            static_cast<unsigned>(pixel.unbiased == Cause::resolution) &
+            static_cast<unsigned>(pixel.sees)) != 0;
 }
 
 /// What the causes are found from.

@@ -1,10 +1,12 @@
 #include "cli/sweep_run.hpp"
 
+#include "analysis/sweep/background.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/scene_identity.hpp"
 #include "cli/kept_pixels.hpp"
 #include "cli/memory.hpp"
+#include "cli/ordinals.hpp"
 #include "cli/process.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep_scenes.hpp"
@@ -20,8 +22,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <future>
-#include <iterator>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -34,6 +34,11 @@ namespace {
 /// Errors by object and light distance are for baselines, and no baseline holds them of more rows:
 /// they are kilobytes each.
 constexpr std::uint64_t most_rows_with_parts = 2'000;
+
+/// Results that wait in memory until they are recorded: those of so many curves at most, or fewer
+/// if they would have more rows.
+constexpr std::size_t most_waiting_curves = 16;
+constexpr std::size_t most_waiting_rows = 16'384;
 
 namespace fs = std::filesystem;
 using analysis::Configuration;
@@ -55,33 +60,15 @@ std::string refusal_of(const Work& work)
     }
 }
 
-/// Of ascending numbers those that are not among others, ascending too.
-std::vector<std::uint64_t> without(const std::vector<std::uint64_t>& all,
-                                   const std::vector<std::uint64_t>& others)
+/// How many curves' results may wait until they are recorded.
+std::size_t waiting_curves(const std::vector<CurveRequest>& requests)
 {
-    std::vector<std::uint64_t> rest;
-    std::set_difference(all.begin(), all.end(), others.begin(), others.end(),
-                        std::back_inserter(rest));
-    return rest;
-}
-
-/// Numbers as a sorted list, to be asked for.
-class Ordinals {
-public:
-    explicit Ordinals(std::vector<std::uint64_t> ascending) : ascending_{std::move(ascending)} {}
-
-    [[nodiscard]] std::vector<std::uint64_t>
-    common(const std::vector<std::uint64_t>& ordinals) const
-    {
-        std::vector<std::uint64_t> common;
-        std::set_intersection(ascending_.begin(), ascending_.end(), ordinals.begin(),
-                              ordinals.end(), std::back_inserter(common));
-        return common;
+    std::size_t most_rows = 1;
+    for (const CurveRequest& request : requests) {
+        most_rows = std::max(most_rows, request.ordinals.size());
     }
-
-private:
-    std::vector<std::uint64_t> ascending_;
-};
+    return std::clamp<std::size_t>(most_waiting_rows / most_rows, 1, most_waiting_curves);
+}
 
 class SweepRun {
 public:
@@ -108,13 +95,13 @@ public:
         if (begins_at_once()) {
             select_all();
         } else {
-            finish_planning();
+            finish_recording();
             select_missing();
         }
         if (!requests_.empty() || !refusals_.empty()) {
             compute();
         }
-        finish_planning();
+        finish_recording();
         tbb::parallel_invoke([&] { store_.write_csv(); }, [&] { read_outcome(); });
         return outcome_;
     }
@@ -158,7 +145,7 @@ private:
         outcome_.checks = store.checks();
     }
 
-    /// Begins to record what the run is to compute.
+    /// Begins to record what the run is to compute; nothing is recorded before it is.
     void start_planning()
     {
         const auto& requests = catalogue_.requests();
@@ -166,8 +153,8 @@ private:
         auto shards = analysis::divide(whole, requests, options_.shard.count);
         keep_equals_together(shards);
         has_earlier_results_ = store_.has_configurations();
-        planning_ = std::async(std::launch::async, [this, shards = std::move(shards)] {
-            return store_.plan(
+        recording_.add([this, shards = std::move(shards)] {
+            planned_ = store_.plan(
                 description(), [&](const auto& visit) { show(shards, visit); },
                 options_.allows_mixed ? reports::Environments::several
                                       : reports::Environments::one);
@@ -191,16 +178,13 @@ private:
         }
     }
 
-    /// Waits until the plan is recorded, if that was not done yet; nobody may use the store before.
-    void finish_planning()
+    /// Waits until the plan is recorded, and what was to be recorded after it.
+    void finish_recording()
     {
-        if (!planning_.valid()) {
-            return;
-        }
-        const reports::PlanOutcome outcome = planning_.get();
-        outcome_.configurations = outcome.done + outcome.failed + outcome.planned;
-        outcome_.retired = outcome.retired;
-        if (outcome.has_equal_ids) {
+        recording_.finish();
+        outcome_.configurations = planned_.done + planned_.failed + planned_.planned;
+        outcome_.retired = planned_.retired;
+        if (planned_.has_equal_ids) {
             repeated_ = store_.repeated();
         }
         outcome_.repeated = repeated_.size();
@@ -304,19 +288,21 @@ private:
         for (const Refusal& refusal : refusals_) {
             total += refusal.ordinals.size();
         }
-        Progress progress{total, outcome_.configurations - total, options_.is_quiet};
+        progress_.emplace(total, outcome_.configurations - total, options_.is_quiet);
         for (const Refusal& refusal : refusals_) {
             store_.record_failure(refusal.ordinals, refusal.message, refusal.retry);
-            progress.add(0, refusal.ordinals.size());
+            progress_->add(0, refusal.ordinals.size());
         }
         const auto plan = analysis::make_plan(requests_, analysis::camera_slots(requests_));
         stop_on_signals();
         FreedMemoryKeeper memory;
-        outcome_.counts = analysis::run_sweep(plan, hooks(progress, memory));
+        outcome_.counts = analysis::run_sweep(plan, hooks(memory));
+        recording_.finish();
+        progress_.reset();
         outcome_.is_interrupted = is_interrupted();
     }
 
-    analysis::SweepHooks hooks(Progress& progress, FreedMemoryKeeper& memory)
+    analysis::SweepHooks hooks(FreedMemoryKeeper& memory)
     {
         analysis::SweepHooks hooks;
         hooks.open_scene = [this, &memory](const scene::Job& job) {
@@ -324,21 +310,23 @@ private:
             memory.keep(largest_need_bytes_);
             return open;
         };
-        hooks.task = [this, &progress, &memory](std::size_t curve) {
+        hooks.task = [this, &memory](std::size_t curve) {
             memory.limit();
-            return task(curve, progress);
+            return task(curve);
         };
-        hooks.record = [this, &progress](const analysis::FinishedCurve& finished) {
-            finish_planning();
-            store_.record(finished);
-            progress.add(finished.rows.size(), 0);
+        hooks.record = [this](analysis::FinishedCurve&& finished) {
+            recording_.add([this, finished = std::move(finished)] {
+                store_.record(finished);
+                progress_->add(finished.rows.size(), 0);
+            });
         };
-        hooks.record_failure = [this, &progress](std::span<const std::uint64_t> ordinals,
-                                                 const std::string& message,
-                                                 analysis::Retry retry) {
-            finish_planning();
-            store_.record_failure(ordinals, message, retry);
-            progress.add(0, ordinals.size());
+        hooks.record_failure = [this](std::span<const std::uint64_t> ordinals,
+                                      const std::string& message, analysis::Retry retry) {
+            recording_.add(
+                [this, message, retry, failed = std::vector(ordinals.begin(), ordinals.end())] {
+                    store_.record_failure(failed, message, retry);
+                    progress_->add(0, failed.size());
+                });
         };
         hooks.should_stop = [] { return is_interrupted(); };
         hooks.verifies_biases = options_.verifies;
@@ -352,7 +340,7 @@ private:
         return hooks;
     }
 
-    analysis::SweepTask task(std::size_t curve, Progress& progress) const
+    analysis::SweepTask task(std::size_t curve)
     {
         const std::size_t number = request_numbers_[curve];
         analysis::SweepTask task = catalogue_.task(number, identities_[number]);
@@ -360,7 +348,7 @@ private:
         std::erase_if(task.rows, [&](const analysis::SweepTask::Row& row) {
             return !std::binary_search(wanted.begin(), wanted.end(), row.ordinal);
         });
-        progress.begin(point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
+        progress_->begin(point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
         return task;
     }
 
@@ -382,7 +370,11 @@ private:
     std::vector<std::size_t> request_numbers_; ///< theirs in the catalogue
     SweepOutcome outcome_;
     bool has_earlier_results_ = false;
-    std::future<reports::PlanOutcome> planning_; ///< reads what is above
+    reports::PlanOutcome planned_;
+    std::optional<Progress> progress_; ///< while configurations are computed
+    /// Has the store to itself between `start_planning` and `finish_recording`; reads what is
+    /// above.
+    analysis::Background recording_{waiting_curves(catalogue_.requests())};
 };
 
 } // namespace

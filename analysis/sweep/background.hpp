@@ -33,7 +33,7 @@ public:
     }
 
     /// Waits for room, and hands the piece over.
-    /// Throws what an earlier piece threw; those after it were dropped.
+    /// Throws what an earlier piece threw; those after it were dropped, and no more are taken on.
     void add(std::function<void()> piece)
     {
         std::unique_lock lock{mutex_};
@@ -56,7 +56,7 @@ private:
     void rethrow()
     {
         if (error_) {
-            std::rethrow_exception(std::exchange(error_, nullptr));
+            std::rethrow_exception(error_);
         }
     }
 

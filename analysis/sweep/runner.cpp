@@ -26,10 +26,10 @@ class Teller {
 public:
     explicit Teller(const SweepHooks& hooks) : hooks_{hooks} {}
 
-    void finished(const FinishedCurve& curve)
+    void finished(FinishedCurve&& curve)
     {
         const std::lock_guard lock{mutex_};
-        hooks_.record(curve);
+        hooks_.record(std::move(curve));
     }
     void failed(const std::vector<std::uint64_t>& ordinals, const std::string& message, Retry retry)
     {
@@ -276,8 +276,8 @@ private:
         }
         if (!made.value) {
             teller_.failed(ordinals_of(task), made.error, made.retry);
-        } else if (const auto& finished = *made.value) {
-            teller_.finished(*finished);
+        } else if (auto& finished = *made.value) {
+            teller_.finished(std::move(*finished));
         }
     }
 
@@ -311,7 +311,7 @@ private:
             finished.curve.verification = verify_comparison(comparison, renderers());
             verified_ = task_.id;
         }
-        teller_.finished(finished);
+        teller_.finished(std::move(finished));
     }
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)

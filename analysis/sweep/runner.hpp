@@ -38,7 +38,7 @@ struct SweepHooks {
     std::function<OpenScene(const scene::Job&)> open_scene;
     /// The task of a request.
     std::function<SweepTask(std::size_t curve)> task;
-    std::function<void(const FinishedCurve&)> record;
+    std::function<void(FinishedCurve&&)> record;
     /// Configurations that cannot be computed, and why.
     std::function<void(std::span<const std::uint64_t> ordinals, const std::string& message,
                        Retry retry)>

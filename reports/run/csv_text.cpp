@@ -63,6 +63,11 @@ void append_quoted(std::string& out, std::string_view text)
     out += '"';
 }
 
+bool is_alphanumeric(char c)
+{
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
 } // namespace
 
 std::string readable_text(std::string_view text)
@@ -87,9 +92,13 @@ void append_csv_number(std::string& out, double number)
 
 void append_csv_text(std::string& out, std::string_view text)
 {
+    // Most texts are ids and plain names, and there are many.
+    if (std::all_of(text.begin(), text.end(), is_alphanumeric)) {
+        out += text;
+        return;
+    }
     constexpr std::string_view formula_starts = "=+-@\t\r";
-    const bool is_plain = std::all_of(text.begin(), text.end(), is_printable_ascii);
-    std::string shown = is_plain ? std::string{text} : readable_text(text);
+    std::string shown = readable_text(text);
     if (!shown.empty() && formula_starts.find(shown.front()) != std::string_view::npos) {
         shown.insert(shown.begin(), '\'');
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 
@@ -25,6 +26,21 @@ TEST(BiasIndex, FindsTheFirstThatIsNotBelow)
     EXPECT_EQ(index.first_from(-infinity), 0U);
     EXPECT_EQ(index.first_from(infinity), 4U);
     EXPECT_EQ(BiasIndex{{}}.first_from(0), 0U);
+}
+
+TEST(BiasIndex, FindsPlacesInListsOfOneAndOfExtremes)
+{
+    const std::vector<float> one{-0.0F};
+    EXPECT_EQ(BiasIndex{one}.first_from(-1e-38F), 0U);
+    EXPECT_EQ(BiasIndex{one}.first_from(0), 0U);
+    EXPECT_EQ(BiasIndex{one}.first_from(1e-38F), 1U);
+    const std::vector<float> extremes{-infinity, 0, infinity};
+    const BiasIndex index{extremes};
+    EXPECT_EQ(index.first_from(-infinity), 0U);
+    EXPECT_EQ(index.first_from(std::numeric_limits<float>::lowest()), 1U);
+    EXPECT_EQ(index.first_from(0), 1U);
+    EXPECT_EQ(index.first_from(1), 2U);
+    EXPECT_EQ(index.first_from(infinity), 2U);
 }
 
 TEST(BiasIndex, AgreesWithABinarySearch)

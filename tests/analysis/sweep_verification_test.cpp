@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -76,11 +77,11 @@ TEST(SweepVerification, CountsWhatGlDoesOtherwise)
         std::uint64_t differences = 0;
         std::size_t verified = 0;
         const auto record = sweep.hooks.record;
-        sweep.hooks.record = [&](const FinishedCurve& finished) {
+        sweep.hooks.record = [&](FinishedCurve&& finished) {
             const auto& verification = finished.curve.verification;
             verified += verification ? 1U : 0U;
             differences += verification ? verification->differences() : 0;
-            record(finished);
+            record(std::move(finished));
         };
         sweep.run();
         EXPECT_EQ(sweep.done.size(), 4U) << "results are recorded all the same";
