@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -288,7 +289,8 @@ private:
         for (const Refusal& refusal : refusals_) {
             total += refusal.ordinals.size();
         }
-        progress_.emplace(total, outcome_.configurations - total, options_.is_quiet);
+        progress_ =
+            std::make_unique<Progress>(total, outcome_.configurations - total, options_.is_quiet);
         for (const Refusal& refusal : refusals_) {
             store_.record_failure(refusal.ordinals, refusal.message, refusal.retry);
             progress_->add(0, refusal.ordinals.size());
@@ -371,9 +373,9 @@ private:
     SweepOutcome outcome_;
     bool has_earlier_results_ = false;
     reports::PlanOutcome planned_;
-    std::optional<Progress> progress_; ///< while configurations are computed
-    /// Has the store to itself between `start_planning` and `finish_recording`; reads what is
-    /// above.
+    std::unique_ptr<Progress> progress_; ///< while configurations are computed
+    /// Has the store to itself from the first piece of work until all of them are finished; reads
+    /// what is above.
     analysis::Background recording_{waiting_curves(catalogue_.requests())};
 };
 

@@ -32,7 +32,7 @@ Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, 
 /// As close as a place's ζ is to be.
 bool is_near_zeta(const Bounded& zeta_m)
 {
-    return zeta_m.error <= 0x1p-45 * std::abs(zeta_m.value);
+    return std::isfinite(zeta_m.value) && zeta_m.error <= 0x1p-45 * std::abs(zeta_m.value);
 }
 
 } // namespace

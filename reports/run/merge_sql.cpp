@@ -175,7 +175,7 @@ std::string worst_verifications()
 std::string new_configurations()
 {
     Names names{"id", "status", "message", "may_pass"};
-    append_names(names, bias_key_columns());
+    append_names(names, configuration_key_columns());
     append_names(names, result_columns());
     append_names(names, part_columns());
     return fmt::format("INSERT INTO main.configurations (curve, environment, {})"

@@ -208,11 +208,11 @@ void add_quantile_columns(std::vector<RunColumn<ErrorBin>>& columns, std::string
     }
 }
 
-std::vector<JobColumn> job_columns_where(bool is_constant_bias)
+std::vector<JobColumn> job_columns_where(bool is_of_configuration)
 {
     std::vector<JobColumn> columns;
     std::ranges::copy_if(job_columns(), std::back_inserter(columns), [&](const JobColumn& column) {
-        return scene::is_constant_bias(column.name) == is_constant_bias;
+        return is_configuration_key(column.name) == is_of_configuration;
     });
     return columns;
 }
@@ -252,7 +252,12 @@ const std::vector<JobColumn>& job_columns()
     return columns;
 }
 
-const std::vector<JobColumn>& bias_key_columns()
+bool is_configuration_key(std::string_view key)
+{
+    return key == "scene.file" || scene::is_constant_bias(key);
+}
+
+const std::vector<JobColumn>& configuration_key_columns()
 {
     static const std::vector<JobColumn> columns = job_columns_where(true);
     return columns;

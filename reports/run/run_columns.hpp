@@ -28,8 +28,11 @@ struct JobColumn {
 /// The columns of a run's tables, in the order of the CSV files (docs/csv_schema.md). Names are the
 /// paths of `gnomon compare --json`, joined with dots; a value that is null there is NULL.
 [[nodiscard]] const std::vector<JobColumn>& job_columns();
-/// Of these the constant biases, in which the configurations of a curve differ.
-[[nodiscard]] const std::vector<JobColumn>& bias_key_columns();
+/// Whether configurations of a curve may differ in the key: constant biases do, and files of equal
+/// content may stand in several places.
+[[nodiscard]] bool is_configuration_key(std::string_view key);
+/// The columns of such keys.
+[[nodiscard]] const std::vector<JobColumn>& configuration_key_columns();
 /// The others, which a curve has.
 [[nodiscard]] const std::vector<JobColumn>& curve_key_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& map_columns();

@@ -268,11 +268,14 @@ void write_results(const std::filesystem::path& results, const std::filesystem::
     };
     const auto write = [&](const std::string& rows) { file.write_text(rows); };
     using tbb::filter_mode;
+    // What fails beside it must not end it early: half of the rows would pass for the whole.
+    tbb::task_group_context own{tbb::task_group_context::isolated};
     tbb::parallel_pipeline(
         texts_at_once,
         tbb::make_filter<void, std::int64_t>(filter_mode::serial_in_order, take) &
             tbb::make_filter<std::int64_t, std::string>(filter_mode::parallel, read) &
-            tbb::make_filter<std::string, void>(filter_mode::serial_in_order, write));
+            tbb::make_filter<std::string, void>(filter_mode::serial_in_order, write),
+        own);
     file.commit();
 }
 

@@ -80,8 +80,8 @@ class Planner {
 public:
     explicit Planner(const Database& database)
         : database_{&database},
-          insert_{database, insertion("configurations", "id, curve, status", 3, bias_key_columns(),
-                                      " ON CONFLICT (id) DO NOTHING")},
+          insert_{database, insertion("configurations", "id, curve, status", 3,
+                                      configuration_key_columns(), " ON CONFLICT (id) DO NOTHING")},
           find_{database, "SELECT number FROM configurations WHERE id = ?"},
           insert_curve_{database, insertion("curves", "id, scene_hash", 2, curve_key_columns(),
                                             " ON CONFLICT (id) DO NOTHING")},
@@ -131,7 +131,7 @@ private:
         insert_.bind(1, std::string_view{configuration.id})
             .bind(2, curve_number(configuration))
             .bind(3, std::string_view{"planned"});
-        biases_.bind(insert_, configuration);
+        own_keys_.bind(insert_, configuration);
         return insert(insert_, find_, configuration.id);
     }
 
@@ -163,10 +163,10 @@ private:
     Statement insert_curve_;
     Statement find_curve_;
     Statement plan_;
-    KeyParameters biases_{4, bias_key_columns()};          ///< of `insert_`
-    KeyParameters curve_keys_{3, curve_key_columns()};     ///< of `insert_curve_`
-    std::unordered_map<std::string, std::int64_t> curves_; ///< numbers by id
-    std::vector<bool> is_planned_;                         ///< by number of the configuration
+    KeyParameters own_keys_{4, configuration_key_columns()}; ///< of `insert_`
+    KeyParameters curve_keys_{3, curve_key_columns()};       ///< of `insert_curve_`
+    std::unordered_map<std::string, std::int64_t> curves_;   ///< numbers by id
+    std::vector<bool> is_planned_;                           ///< by number of the configuration
     bool has_equal_ids_ = false;
 };
 

@@ -68,7 +68,7 @@ std::string configurations_table()
                        " id TEXT NOT NULL UNIQUE, curve INTEGER NOT NULL REFERENCES curves,"
                        " environment INTEGER REFERENCES environments, status TEXT NOT NULL,"
                        " message TEXT, may_pass INTEGER{}{}{})",
-                       definitions(bias_key_columns()), definitions(result_columns()),
+                       definitions(configuration_key_columns()), definitions(result_columns()),
                        definitions(part_columns()));
 }
 
@@ -127,8 +127,8 @@ std::vector<ResultsColumn> results_columns()
         }
     };
     for (const JobColumn& column : job_columns()) {
-        const bool is_bias = scene::is_constant_bias(column.name);
-        add(std::array{column}, is_bias ? "c" : "k", is_bias ? Of::configuration : Of::curve);
+        const bool is_own = is_configuration_key(column.name);
+        add(std::array{column}, is_own ? "c" : "k", is_own ? Of::configuration : Of::curve);
     }
     add(map_columns(), "v", Of::curve);
     add(result_columns(), "c", Of::configuration);

@@ -45,6 +45,26 @@ TEST(Sweep, HasARowOfItsOwnForEachSceneThatCannotBeRead)
     EXPECT_THAT(gnomon(arguments).out, StartsWith("2 of 3 configurations done, 1 failed: "));
 }
 
+TEST(Sweep, NamesEachRowsOwnFileOfEqualContent)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", "image.width = 32\nimage.height = 18\n"
+                                              "[[case]]\nname = \"first\"\n"
+                                              "scene.file = \"a.obj\"\nbias.constant = 0.001\n"
+                                              "[[case]]\nname = \"second\"\n"
+                                              "scene.file = \"b.obj\"\nbias.constant = 0.002\n");
+    const std::string text = "v -9 0 -9\nv 9 0 -9\nv 0 0 9\nf 1 3 2\n";
+    folder.write("a.obj", text);
+    folder.write("b.obj", text);
+    const path run = folder.path() / "run";
+    swept(sweep(job, run));
+    const auto rows = csv_rows(run / "results.csv");
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].at("curve"), rows[1].at("curve"));
+    EXPECT_THAT(rows[0].at("scene.file"), HasSubstr("a.obj"));
+    EXPECT_THAT(rows[1].at("scene.file"), HasSubstr("b.obj"));
+}
+
 TEST(Sweep, ComputesScenesOfEqualContentOnce)
 {
     const TemporaryFolder folder;

@@ -228,6 +228,19 @@ TEST(ResultsCsv, KeepsHostileTextsInTheirCells)
     EXPECT_EQ(row.at("map_near_m"), "");
 }
 
+TEST(ResultsCsv, IsWholeThoughTheFileBesideItCannotBeWritten)
+{
+    const TemporaryFolder folder;
+    const ExampleRun example{10, 1000};
+    example.compute(folder.path());
+    const std::string whole = read_text(folder / "results.csv");
+    std::filesystem::remove(folder / "error_vs_z.csv");
+    std::filesystem::create_directory(folder / "error_vs_z.csv");
+    const RunStore store{folder.path(), RunStore::Access::write};
+    EXPECT_THROW(store.write_csv(), scene::EnvironmentError);
+    EXPECT_TRUE(read_text(folder / "results.csv") == whole);
+}
+
 TEST(ErrorVsZCsv, HasABlockACurveWithTheJobsBiasFirst)
 {
     const TemporaryFolder folder;
