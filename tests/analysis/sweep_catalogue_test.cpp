@@ -115,30 +115,6 @@ TEST(SweepCatalogue, NamesAConfigurationAlikeWhereverTheSweepEnds)
     EXPECT_EQ(few[0].curve, kept[0].curve);
 }
 
-bool may_repeat(const scene::SweepSpace& space)
-{
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    return catalogue.may_repeat(
-        std::vector<SceneIdentity>(catalogue.requests().size(), {std::string{hash}, ""}));
-}
-
-TEST(SweepCatalogue, KnowsWhetherConfigurationsMayBeTheSame)
-{
-    EXPECT_FALSE(may_repeat(space_of({"bias.constant=0,0.5", "bias.slope=0,1"})));
-    EXPECT_FALSE(may_repeat(space_of({"bias.constant=0,0.5", "lookup.filter=pcf3,hardware"})));
-    // Two scenes of the same content.
-    EXPECT_TRUE(may_repeat({scene::JobSource{}, {"scene.file=a.obj,b.obj"}}));
-
-    scene::JobSource cases = scene::builtin_job_source("wall", {});
-    cases.cases = {{"one", {}}, {"same", {}}};
-    EXPECT_TRUE(may_repeat({cases, {}}));
-    EXPECT_TRUE(may_repeat({cases, {"bias.constant=0,0.5"}}));
-
-    scene::JobSource zipped = scene::builtin_job_source("wall", {});
-    zipped.sweep.mode = "zip";
-    EXPECT_FALSE(may_repeat({zipped, {"bias.constant=0.5,0,0.5", "bias.slope=1,1,2"}}));
-}
-
 TEST(SweepCatalogue, NamesJobsThatDifferInAnyKeyDifferently)
 {
     const std::vector<scene::Override> changes{{"scene.ground", "true"},
