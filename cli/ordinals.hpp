@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
@@ -18,22 +17,14 @@ namespace gnomon::cli {
     return rest;
 }
 
-/// Numbers as a sorted list, to be asked for.
-class Ordinals {
-public:
-    explicit Ordinals(std::vector<std::uint64_t> ascending) : ascending_{std::move(ascending)} {}
-
-    [[nodiscard]] std::vector<std::uint64_t>
-    common(const std::vector<std::uint64_t>& ordinals) const
-    {
-        std::vector<std::uint64_t> common;
-        std::set_intersection(ascending_.begin(), ascending_.end(), ordinals.begin(),
-                              ordinals.end(), std::back_inserter(common));
-        return common;
-    }
-
-private:
-    std::vector<std::uint64_t> ascending_;
-};
+/// Ascending numbers that are in both lists, ascending too.
+[[nodiscard]] inline std::vector<std::uint64_t> common(const std::vector<std::uint64_t>& some,
+                                                       const std::vector<std::uint64_t>& others)
+{
+    std::vector<std::uint64_t> both;
+    std::set_intersection(some.begin(), some.end(), others.begin(), others.end(),
+                          std::back_inserter(both));
+    return both;
+}
 
 } // namespace gnomon::cli

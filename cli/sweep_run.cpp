@@ -265,14 +265,14 @@ private:
         if (options_.retries_failed) {
             store_.reset_failed();
         }
-        const Ordinals missing{missing_ordinals()};
+        const std::vector<std::uint64_t> missing = missing_ordinals();
         for (Refusal& refusal : refusals_) {
-            refusal.ordinals = missing.common(refusal.ordinals);
+            refusal.ordinals = common(missing, refusal.ordinals);
         }
         std::erase_if(refusals_, [](const Refusal& refusal) { return refusal.ordinals.empty(); });
         for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
             CurveRequest request = catalogue_.requests()[i];
-            request.ordinals = missing.common(request.ordinals);
+            request.ordinals = common(missing, request.ordinals);
             if (!request.ordinals.empty() && !is_refused_[i]) {
                 requests_.push_back(std::move(request));
                 request_numbers_.push_back(i);
