@@ -13,7 +13,6 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -58,8 +57,7 @@ public:
         compared = gnomon(arguments);
         EXPECT_EQ(compared.exit_code, 0) << compared.command << compared.err;
         channels = read_channels(at("aov.exr"));
-        std::ifstream stream{at("case.toml")};
-        toml = {std::istreambuf_iterator<char>{stream}, {}};
+        toml = text_of(at("case.toml"));
         own_channels_ = channels;
         own_toml_ = toml;
     }

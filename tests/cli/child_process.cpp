@@ -15,6 +15,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -215,6 +217,12 @@ std::vector<std::filesystem::path> test_models()
     }
     std::sort(found.begin(), found.end());
     return found;
+}
+
+std::string text_of(const std::filesystem::path& file)
+{
+    std::ifstream stream{file, std::ios::binary};
+    return {std::istreambuf_iterator<char>{stream}, {}};
 }
 
 } // namespace gnomon::testing

@@ -56,6 +56,9 @@ void expect_refused(const Ending& ending, int exit_code, const std::string& text
 /// Fails unless it exited with 0 and kept silent on stderr.
 void expect_done(const Ending& ending);
 
+/// A file's bytes; none if it cannot be read.
+[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+
 /// Whether a shell or tool of this name is in PATH.
 [[nodiscard]] bool is_installed(const std::string& name);
 
@@ -67,7 +70,8 @@ void expect_done(const Ending& ending);
 
 inline constexpr const char* test_models_folder = "/usr/share/assimp/models";
 
-#ifdef __SANITIZE_ADDRESS__
+/// Whether the program is.
+#ifdef GNOMON_SANITIZED_PROGRAM
 inline constexpr bool is_sanitized = true; ///< its shadow memory takes terabytes of addresses
 #else
 inline constexpr bool is_sanitized = false;

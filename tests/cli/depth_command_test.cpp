@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -23,12 +21,6 @@ Json depth_json(std::vector<std::string> arguments)
     const Ending ending = gnomon(arguments);
     expect_done(ending);
     return Json::parse(ending.out);
-}
-
-std::string content(const std::filesystem::path& path)
-{
-    std::ifstream file{path, std::ios::binary};
-    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
 }
 
 const std::vector<std::string> no_gl{"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
@@ -99,7 +91,7 @@ TEST(DepthCommand, WritesCsvToAFileOrToStandardOutput)
     EXPECT_THAT(printed.out, StartsWith("zeta_m,depth,envelope_m,"));
     EXPECT_EQ(std::count(printed.out.begin(), printed.out.end(), '\n'), 9);
     expect_done(gnomon({"depth", "--samples", "8", "--csv", path}));
-    EXPECT_EQ(content(path), printed.out);
+    EXPECT_EQ(text_of(path), printed.out);
 }
 
 TEST(DepthCommand, DrawsSvgAndPng)
@@ -110,7 +102,7 @@ TEST(DepthCommand, DrawsSvgAndPng)
         expect_done(gnomon({"depth", "--bits", "8", "--samples", "64", "--plot", path}));
         EXPECT_GT(std::filesystem::file_size(path), 10000U) << name;
     }
-    const std::string svg = content(folder.path() / "plot.svg");
+    const std::string svg = text_of(folder.path() / "plot.svg");
     EXPECT_THAT(svg, HasSubstr("|error of z| [m]"));
     EXPECT_THAT(svg, HasSubstr("Depth error of u8"));
 }

@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -21,12 +19,6 @@ namespace {
 
 using std::filesystem::path;
 using ::testing::StartsWith;
-
-std::string text_of(const path& file)
-{
-    std::ifstream stream{file, std::ios::binary};
-    return {std::istreambuf_iterator<char>{stream}, {}};
-}
 
 std::vector<std::string> entries(const path& folder)
 {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -15,11 +14,8 @@
 
 namespace gnomon::testing {
 
-inline std::string text_of(const std::filesystem::path& file)
-{
-    std::ifstream stream{file, std::ios::binary};
-    return {std::istreambuf_iterator<char>{stream}, {}};
-}
+/// Exit status of a sweep that has configurations without results.
+inline constexpr int incomplete = 5;
 
 /// The bytes of a run's three CSV files.
 struct RunCsv {

@@ -22,8 +22,6 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
-constexpr int incomplete = 5;
-
 TEST(Sweep, IsNotDoneAgain)
 {
     const TemporaryFolder folder;

@@ -24,8 +24,6 @@ namespace {
 using std::filesystem::path;
 using ::testing::HasSubstr;
 
-constexpr int incomplete = 5;
-
 TEST(Sweep, ResumesWheneverItIsKilled)
 {
     const TemporaryFolder folder;

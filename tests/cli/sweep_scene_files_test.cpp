@@ -20,8 +20,6 @@ using std::filesystem::path;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr int incomplete = 5;
-
 TEST(Sweep, HasARowOfItsOwnForEachSceneThatCannotBeRead)
 {
     const TemporaryFolder folder;
