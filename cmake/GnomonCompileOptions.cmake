@@ -29,4 +29,6 @@ if(GNOMON_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  # An empty optional or an index past a span's end stops the program too.
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
 endif()
