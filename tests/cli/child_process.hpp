@@ -70,7 +70,7 @@ void expect_done(const Ending& ending);
 
 inline constexpr const char* test_models_folder = "/usr/share/assimp/models";
 
-/// Whether the program is.
+/// Whether the program is built with the sanitizers; tests that only start it are not.
 #ifdef GNOMON_SANITIZED_PROGRAM
 inline constexpr bool is_sanitized = true; ///< its shadow memory takes terabytes of addresses
 #else

@@ -5,6 +5,7 @@
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
 #include "example_run.hpp"
+#include "scene/error.hpp"
 #include "scene/job_file.hpp"
 
 #include <gtest/gtest.h>
