@@ -26,11 +26,8 @@ constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
 // class, reason and witness 6, P 12 and one layer in flight 16 in memory.
 constexpr std::uint64_t bytes_per_pixel = 64 + 54;
 
-/// GL's own formats take up to 4 bytes a texel; u-formats keep code and z beside the depth.
-std::uint64_t bytes_per_texel(scene::DepthFormat format)
-{
-    return format.kind == scene::DepthFormat::Kind::unorm ? 12 : 4;
-}
+/// Depth formats take up to 4 bytes a texel; of u-formats, too, lookups need the depth alone.
+constexpr std::uint64_t bytes_per_texel = 4;
 
 /// MemAvailable of the machine [bytes].
 std::optional<std::uint64_t> free_memory_bytes()
@@ -124,8 +121,7 @@ std::uint64_t available_memory_bytes()
 std::uint64_t needed_memory_bytes(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
-    return job.image.pixel_count() * bytes_per_pixel +
-           side * side * bytes_per_texel(job.shadow_map.depth_format);
+    return job.image.pixel_count() * bytes_per_pixel + side * side * bytes_per_texel;
 }
 
 void require_memory(const scene::Job& job)

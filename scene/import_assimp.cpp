@@ -10,6 +10,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -32,8 +33,7 @@ struct PlacedNode {
 void keep_known_formats(Assimp::Importer& importer)
 {
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
-        const std::string_view extensions = importer.GetImporterInfo(i)->mFileExtensions;
-        if (extensions != "gltf glb" && extensions != "obj" && extensions != "ply") {
+        if (!reads_known_format(importer.GetImporterInfo(i)->mFileExtensions)) {
             importer.UnregisterLoader(importer.GetImporter(i));
         }
     }
@@ -241,6 +241,18 @@ void write_refusal(const std::string& reason, int output)
 }
 
 } // namespace
+
+bool reads_known_format(std::string_view extensions)
+{
+    while (!extensions.empty()) {
+        const std::string_view extension = extensions.substr(0, extensions.find(' '));
+        if (extension == "gltf" || extension == "glb" || extension == "obj" || extension == "ply") {
+            return true;
+        }
+        extensions.remove_prefix(std::min(extension.size() + 1, extensions.size()));
+    }
+    return false;
+}
 
 void write_imported_scene(const std::filesystem::path& scene_file, const ImportLimits& limits,
                           ImportAllowance& allowance, int output)

@@ -91,12 +91,9 @@ TEST(AcneFreeBias, EqualsHalfATexelsSlopePlusTheFormatsRounding)
     }
 }
 
-TEST(AcneFreeBias, EqualsTheClosedFormForAnglesResolutionsAndFormats)
+TEST(LongAcneFreeBias, EqualsTheClosedFormForAnglesResolutionsAndFormats)
 {
     GNOMON_REQUIRE_GL();
-    if (std::getenv("GNOMON_FULL_TESTS") == nullptr) {
-        GTEST_SKIP() << "long: GNOMON_FULL_TESTS is not set";
-    }
     for (const int angle_deg : {15, 30, 45, 60, 75}) {
         const Compared compared{tilted_plane_job({angle_deg, 512, "d32f", 0}, 0)};
         for (const int resolution : {512, 1024, 2048, 4096}) {

@@ -231,12 +231,10 @@ TEST(Repair, OfResolutionIsAFinerMap)
     expect_repaired_by_resolution(8192);
 }
 
-TEST(Repair, OfResolutionIsTheFinestMap)
+/// Long for its memory: a map of 1 GiB.
+TEST(LongRepair, OfResolutionIsTheFinestMap)
 {
     GNOMON_REQUIRE_GL();
-    if (std::getenv("GNOMON_FULL_TESTS") == nullptr) {
-        GTEST_SKIP() << "a map of 1 GiB: GNOMON_FULL_TESTS is not set";
-    }
     expect_repaired_by_resolution(16384);
 }
 
@@ -287,12 +285,9 @@ TEST(Causes, EveryWrongPixelHasOneWhateverFilterPolicyAndCulling)
     }
 }
 
-TEST(Causes, EveryWrongPixelOfEveryBuiltinHasOne)
+TEST(LongCauses, EveryWrongPixelOfEveryBuiltinHasOne)
 {
     GNOMON_REQUIRE_GL();
-    if (std::getenv("GNOMON_FULL_TESTS") == nullptr) {
-        GTEST_SKIP() << "long: GNOMON_FULL_TESTS is not set";
-    }
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
         expect_every_combination_explained(builtin.name, small);
     }

@@ -90,23 +90,20 @@ TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
     }
 }
 
-TEST(Tune, PromisesAreKeptOnEveryBuiltin)
+TEST(LongTune, PromisesAreKeptOnEveryBuiltin)
 {
     GNOMON_REQUIRE_GL();
-    if (std::getenv("GNOMON_FULL_TESTS") == nullptr) {
-        GTEST_SKIP() << "long: GNOMON_FULL_TESTS is not set";
-    }
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
         expect_promise_kept(small_job(builtin.name), {0.01, 0.02, 2048}, 1);
     }
 }
 
-TEST(Tune, PromisesAreKeptOnSharedScenes)
+TEST(LongTune, PromisesAreKeptOnSharedScenes)
 {
     GNOMON_REQUIRE_GL();
     const char* const folder = std::getenv("GNOMON_SHARED_SCENES");
-    if (std::getenv("GNOMON_FULL_TESTS") == nullptr || folder == nullptr) {
-        GTEST_SKIP() << "long: GNOMON_FULL_TESTS or GNOMON_SHARED_SCENES is not set";
+    if (folder == nullptr) {
+        GTEST_SKIP() << "GNOMON_SHARED_SCENES is not set";
     }
     for (const char* const mesh : {"bunny.obj", "nefertiti.obj", "suzanne.obj"}) {
         scene::Job job = small_job("sphere-plane");

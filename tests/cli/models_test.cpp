@@ -62,11 +62,8 @@ TEST(TestModels, AreComparedOrRefusedInOneLine)
     EXPECT_GE(endings[0], static_cast<int>(models.size()) / 2);
 }
 
-TEST(TestModels, AreComparedWhereverAssimpFindsATriangle)
+TEST(LongTestModels, AreComparedWhereverAssimpFindsATriangle)
 {
-    if (!runs_full_tests()) {
-        GTEST_SKIP() << "GNOMON_FULL_TESTS is not set";
-    }
     if (!is_installed("assimp")) {
         GTEST_SKIP() << "assimp (assimp-utils) is not installed";
     }

@@ -196,7 +196,11 @@ TEST(Memory, NeedGrowsWithImageAndMap)
     // Its verdicts, depths and triangles alone are 4 bytes each.
     EXPECT_GT(large, 16000ULL * 8000 * 12);
     job.shadow_map.resolution_texels = 16384;
-    EXPECT_GE(cli::needed_memory_bytes(job), large + (16384ULL * 16384 - 1024ULL * 1024) * 4);
+    const std::uint64_t with_map = cli::needed_memory_bytes(job);
+    EXPECT_EQ(with_map, large + (16384ULL * 16384 - 1024ULL * 1024) * 4);
+    // A lookup needs no codes, so a u-format keeps none.
+    job.shadow_map.depth_format = {scene::DepthFormat::Kind::unorm, 24};
+    EXPECT_EQ(cli::needed_memory_bytes(job), with_map);
     EXPECT_GT(cli::available_memory_bytes(), 0U);
 }
 

@@ -18,11 +18,6 @@ namespace {
 using std::filesystem::path;
 using ::testing::HasSubstr;
 
-#define GNOMON_REQUIRE_FULL_TESTS()                                                                \
-    if (!runs_full_tests()) {                                                                      \
-        GTEST_SKIP() << "long: GNOMON_FULL_TESTS is not set";                                      \
-    }
-
 const std::string colonnade = R"(
 scene.builtin = "columns"
 image.width = 1280
@@ -60,9 +55,8 @@ path every_row(const path& csv, int n)
     return some;
 }
 
-TEST(WholeSweep, SharesItsWorkAndGivesWhatCompareGives)
+TEST(LongSweep, SharesItsWorkAndGivesWhatCompareGives)
 {
-    GNOMON_REQUIRE_FULL_TESTS();
     const TemporaryFolder folder;
     const path job = folder.write("job.toml", colonnade);
     const path run = folder.path() / "run";
@@ -87,12 +81,8 @@ TEST(WholeSweep, SharesItsWorkAndGivesWhatCompareGives)
     }
 }
 
-TEST(WholeSweep, StaysBelowOneAndAHalfGibibytes)
+TEST(LongSweep, StaysBelowOneAndAHalfGibibytes)
 {
-    GNOMON_REQUIRE_FULL_TESTS();
-    if (is_sanitized) {
-        GTEST_SKIP() << "the sanitizer's own memory would be counted";
-    }
     const TemporaryFolder folder;
     const path run = folder.path() / "run";
     // A million triangles; where GL draws by software its textures are the process's memory too.

@@ -326,12 +326,9 @@ TEST(DepthMeasurement, AnswersOfThePlanHold)
     }
 }
 
-TEST(DepthMeasurement, HoldsAMillionPlanesInOneDraw)
+TEST(LongDepthMeasurement, HoldsAMillionPlanesInOneDraw)
 {
     GNOMON_REQUIRE_GL();
-    if (!runs_full_tests()) {
-        GTEST_SKIP() << "long: GNOMON_FULL_TESTS is not set";
-    }
     const MeasuredDepthError error = measured(seed_planes(1 << 20), "d24");
     EXPECT_EQ(error.rows.size() + error.missing, std::size_t{1 << 20});
     EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U);

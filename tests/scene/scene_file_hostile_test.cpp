@@ -47,6 +47,20 @@ TEST(SceneFileRefusal, SaysThatAFileCannotBeRead)
     EXPECT_THAT(refusal(path), HasSubstr("secret.obj: cannot be read (Permission denied)"));
 }
 
+TEST(SceneFileRefusal, KeepsARenamedFileFromTheParserOfAnotherFormat)
+{
+    const TemporaryFolder folder;
+    constexpr std::string_view stl =
+        "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\nendsolid s\n";
+    constexpr std::string_view off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for (const char* const name : {"mesh.obj", "mesh.ply", "mesh.gltf", "mesh.glb"}) {
+        for (const std::string_view text : {stl, off}) {
+            EXPECT_THAT(refusal(folder.write(name, text)), HasSubstr(name)) << text;
+        }
+    }
+}
+
 TEST(SceneFileRefusal, NamesTheMeshlessFile)
 {
     const TemporaryFolder folder;

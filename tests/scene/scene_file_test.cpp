@@ -1,3 +1,4 @@
+#include "scene/import_assimp.hpp"
 #include "scene_file_fixture.hpp"
 
 #include <glm/geometric.hpp>
@@ -70,6 +71,16 @@ TEST(SceneFile, ReadsAQuadFromGltfAndGlb)
         const SceneFile file = load_scene_file(path);
         EXPECT_EQ(expect_quad(file).upper, Vec3d(1, 1, 0)) << path;
         EXPECT_EQ(file.scene.objects.front().name, "quad") << path;
+    }
+}
+
+TEST(KnownFormats, AreToldByTheExtensionsOfAnImporterWhateverStandsBesideThem)
+{
+    for (const char* const known : {"gltf glb", "gltf glb vrm", "vrm glb", "glb", "obj", "ply"}) {
+        EXPECT_TRUE(reads_known_format(known)) << known;
+    }
+    for (const char* const other : {"", " ", "stl", "objx", "xgltf", "off", "3ds prj", "mesh.xml"}) {
+        EXPECT_FALSE(reads_known_format(other)) << other;
     }
 }
 

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# test_files.sh ROOT: every test file is named by what builds or runs it. A file that nobody names would
+# never run, and nobody would notice; one that is named and gone fails where it is named.
+set -euo pipefail
+cd "$1/tests"
+
+readarray -t runners < <(find . ../cmake -name CMakeLists.txt -o -name '*_test.sh' -o -name 'Gnomon*.cmake' 2>/dev/null)
+forgotten=0
+while read -r file; do
+    name=${file##*/}
+    name=${name//./\\.}
+    name=${name/%\\.py/(\\.py)?} # unittest takes a module's name
+    # Not by itself: a script may say its own name.
+    others=()
+    for runner in "${runners[@]}"; do
+        [ "$runner" = "$file" ] || others+=("$runner")
+    done
+    grep -qE "(^|[^A-Za-z0-9_])${name}([^A-Za-z0-9_.]|\$)" "${others[@]}" || {
+        echo "tests/${file#./}: no CMakeLists.txt and no script names it, so it never runs" >&2
+        forgotten=1
+    }
+done < <(find . -name '*.cpp' -o -name '*_test.py' -o -name '*_test.mjs' -o -name '*_test.sh' \
+    -o -name '*_test.cmake' | sort)
+exit "$forgotten"
