@@ -24,7 +24,8 @@ public:
             smallest_ = sort_key(biases_.front());
             beyond_ = sort_key(biases_.back()) + 1;
         }
-        const std::uint32_t width = std::bit_width(beyond_ - smallest_);
+        // int as the standard's later text has it, or the argument's type.
+        const auto width = static_cast<std::uint32_t>(std::bit_width(beyond_ - smallest_));
         shift_ = width > cell_bits ? width - cell_bits : 0;
         starts_.resize(cell_of(scene::infinity) + 2);
         for (const float bias : biases_) {

@@ -5,7 +5,8 @@ set(gnomon_layers scene raster_gl reference_rt analysis reports)
 set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 
 list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
-install(TARGETS gnomon_options ${gnomon_layer_targets} EXPORT gnomon-targets)
+install(TARGETS gnomon_options ${gnomon_layer_targets} gnomon_images gnomon_openimageio
+        EXPORT gnomon-targets)
 # The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
 install(FILES reference_rt/certificate.hpp reference_rt/exact_light.hpp
               reference_rt/rounded_truth.hpp reference_rt/truth.hpp
@@ -16,6 +17,7 @@ foreach(layer scene raster_gl analysis reports)
 endforeach()
 
 install(TARGETS gnomon RUNTIME)
+install(TARGETS gnomon_images_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gnomon)
 install(DIRECTORY reports/figures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/figures
         FILES_MATCHING PATTERN "*.py")
 install(FILES LICENSE CHANGELOG.md CITATION.cff TYPE DOC)

@@ -2,7 +2,7 @@
 
 #include "reports/exr_header.hpp"
 #include "reports/facing_normal.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 #include "reports/output_file.hpp"
 
 #include <fmt/format.h>

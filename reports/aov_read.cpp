@@ -1,6 +1,6 @@
 #include "reports/aov_read.hpp"
 
-#include "reports/layer_file.hpp"
+#include "reports/images/layer_file.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>

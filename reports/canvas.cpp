@@ -2,8 +2,6 @@
 
 #include "scene/error.hpp"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -77,28 +75,16 @@ void Canvas::fill(int left, int top, scene::ImageSize size, Rgb colour)
 
 void Canvas::write(int left, int baseline, std::string_view text, const TextStyle& style)
 {
-    const auto [width_px, height_px] = image_.size();
-    OIIO::ImageBuf buffer{OIIO::ImageSpec{width_px, height_px, 3, OIIO::TypeDesc::UINT8},
-                          image_.data()};
     const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
     const std::array<float, 3> colour{channel(style.colour.r), channel(style.colour.g),
                                       channel(style.colour.b)};
-    const std::string line = drawable(text);
-    if (!OIIO::ImageBufAlgo::render_text(buffer, left, baseline, line, style.size_px, font(style),
-                                         colour)) {
-        throw scene::EnvironmentError(
-            fmt::format("OpenImageIO failed to write text with {}: {}; it must be built with "
-                        "FreeType",
-                        font(style), buffer.geterror()));
-    }
+    image_codec().draw({drawable(text), style.size_px, font(style)}, left, baseline, colour,
+                       image_.size(), samples_of(image_));
 }
 
 int Canvas::text_width_px(std::string_view text, const TextStyle& style) const
 {
-    const OIIO::ROI extent =
-        OIIO::ImageBufAlgo::text_size(drawable(text), style.size_px, font(style));
-    // Of a text without glyphs OpenImageIO gives a box that is inside out.
-    return std::max(extent.xend, 0);
+    return image_codec().width_px({drawable(text), style.size_px, font(style)});
 }
 
 std::string Canvas::fitted(std::string_view text, const TextStyle& style, int width_px) const

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 
 #include <vector>
 

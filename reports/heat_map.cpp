@@ -2,7 +2,7 @@
 
 #include "analysis/cause.hpp"
 #include "reports/description.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 #include "reports/output_file.hpp"
 #include "reports/picture.hpp"
 #include "reports/text.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/layer_file.hpp"
+#include "reports/images/layer_file.hpp"
 #include "scene/image.hpp"
 #include "scene/vec.hpp"
 

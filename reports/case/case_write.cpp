@@ -3,7 +3,7 @@
 #include "reports/case/mesh_glb.hpp"
 #include "reports/exr_header.hpp"
 #include "reports/facing_normal.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
 #include "scene/job_file.hpp"

@@ -2,7 +2,7 @@
 
 #include "reports/gate/pixel_mask.hpp"
 #include "reports/json_values.hpp"
-#include "reports/layer_file.hpp"
+#include "reports/images/layer_file.hpp"
 #include "reports/page/page_images.hpp"
 #include "reports/panels.hpp"
 #include "reports/run/pixels.hpp"

@@ -2,15 +2,13 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/baseline_read.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/job_toml.hpp"
 #include "scene/text_file.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -102,20 +100,11 @@ bool is_whole_png(std::string_view bytes)
 /// @param size  By the file's header.
 PixelMask decoded_mask(const fs::path& path, std::string_view bytes, scene::ImageSize size)
 {
-    OIIO::Filesystem::IOMemReader memory{bytes.data(), bytes.size()};
-    const auto input = OIIO::ImageInput::create("png");
-    OIIO::ImageSpec spec;
-    if (input == nullptr || !input->set_ioproxy(&memory) || !input->open(path.string(), spec)) {
-        refuse_mask(path, "no PNG image, or damaged");
-    }
-    if (spec.width != size.width_px || spec.height != size.height_px || spec.nchannels != 1 ||
-        spec.format != OIIO::TypeDesc::UINT8) {
-        refuse_mask(path, "no image of one grey channel with 8 bits");
-    }
-    PixelMask mask{size};
-    if (!input->read_scanlines(0, 0, 0, size.height_px, 0, 0, 1, OIIO::TypeDesc::UINT8,
-                               mask.data())) {
-        refuse_mask(path, "damaged or truncated");
+    PixelMask mask;
+    try {
+        mask = image_codec().decode_grey_png(bytes, size);
+    } catch (const scene::InputError& error) {
+        refuse_mask(path, error.what());
     }
     for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
         if (mask[i] != 0 && mask[i] != wrong_grey) {

@@ -1,6 +1,6 @@
 #include "reports/gate/place_picture.hpp"
 
-#include "reports/layer_file.hpp"
+#include "reports/images/layer_file.hpp"
 #include "reports/picture.hpp"
 #include "reports/run/pixels.hpp"
 #include "reports/text.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/canvas.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 #include "scene/image.hpp"
 
 #include <cstdint>

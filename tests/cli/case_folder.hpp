@@ -2,8 +2,8 @@
 
 #include "child_process.hpp"
 
-#include "reports/image_encoding.hpp"
-#include "reports/layer_file.hpp"
+#include "reports/images/image_encoding.hpp"
+#include "reports/images/layer_file.hpp"
 #include "reports/output_file.hpp"
 #include "scene/image.hpp"
 

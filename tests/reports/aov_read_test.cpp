@@ -3,7 +3,7 @@
 #include "example_comparison.hpp"
 #include "reports/aov_exr.hpp"
 #include "reports/exact_inputs.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 #include "scene/error.hpp"
 
 #include <gmock/gmock.h>

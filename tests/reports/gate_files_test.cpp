@@ -5,7 +5,7 @@
 #include "reports/gate/gate_rule_file.hpp"
 #include "reports/gate/gate_run.hpp"
 #include "reports/gate/pixel_mask.hpp"
-#include "reports/image_encoding.hpp"
+#include "reports/images/image_encoding.hpp"
 #include "reports/run/error_parts_json.hpp"
 #include "scene/error.hpp"
 

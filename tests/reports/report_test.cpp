@@ -2,7 +2,7 @@
 
 #include "reports/aov_exr.hpp"
 #include "reports/comparison_json.hpp"
-#include "reports/layer_file.hpp"
+#include "reports/images/layer_file.hpp"
 #include "reports/output_file.hpp"
 #include "reports/page/page_html.hpp"
 #include "reports/page/summary.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/image.hpp"
+#include "reports/images/image_codec.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <cstdint>
@@ -13,9 +13,6 @@
 
 namespace gnomon::reports {
 
-/// How a channel's numbers are kept.
-enum class LayerType : std::uint8_t { missing, float16, float32, uint32, other };
-
 /// An EXR file whose channels are read by their names: of `write_aov` (docs/aov.md), or of another
 /// renderer's case (docs/evaluate.md).
 ///
@@ -27,9 +24,6 @@ public:
     /// Reads no more than the header.
     /// @param advice  ends every message: how to get a sound file.
     LayerFile(const std::filesystem::path& path, std::string advice);
-    LayerFile(LayerFile&&) noexcept;
-    LayerFile& operator=(LayerFile&&) noexcept;
-    ~LayerFile();
 
     [[nodiscard]] scene::ImageSize size() const { return size_; }
     [[nodiscard]] bool has(const std::string& name);
@@ -51,8 +45,9 @@ public:
     [[nodiscard]] std::map<std::string, std::string> texts();
 
 private:
-    struct Reader;
-    [[nodiscard]] Reader& reader();
+    [[nodiscard]] const ExrHeader& header();
+    /// Null if the file has no such channel.
+    [[nodiscard]] const ExrHeader::Channel* find(const std::string& name);
     template <typename Value>
     [[nodiscard]] scene::Image<Value> channel(const std::string& name, LayerType type);
 
@@ -61,7 +56,10 @@ private:
     std::filesystem::path path_;
     std::string advice_;
     scene::ImageSize size_;
-    std::unique_ptr<Reader> reader_;
+    std::unique_ptr<ExrInput> input_; ///< once the file's size is known to be right
+    /// All channels as the file has them: they are compressed together, so that reading one by one
+    /// would decompress each of them every time.
+    std::vector<std::byte> pixels_;
 };
 
 } // namespace gnomon::reports

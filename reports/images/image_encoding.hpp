@@ -1,13 +1,6 @@
 #pragma once
 
-#include "scene/image.hpp"
-
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <vector>
+#include "reports/images/image_codec.hpp"
 
 namespace gnomon::reports {
 
@@ -21,21 +14,8 @@ struct Rgb {
 };
 using RgbImage = scene::Image<Rgb>;
 
-enum class ChannelType : std::uint8_t { float32, uint32 };
-
-/// A channel of an EXR file.
-struct ExrChannel {
-    std::string name;
-    ChannelType type = ChannelType::float32;
-    /// The 32 bits of the channel at a pixel, given by its row-major index.
-    std::function<std::uint32_t(std::size_t)> bits;
-};
-
-/// A text in an EXR file's header.
-struct ExrAttribute {
-    std::string name;
-    std::string value;
-};
+/// The image's samples, red, green, blue, pixel by pixel.
+[[nodiscard]] std::uint8_t* samples_of(RgbImage& image);
 
 /// Encodes in memory, so that writing the file is left to `OutputFile`, which loses no error.
 /// @throws scene::EnvironmentError  if the encoder fails.

@@ -1,8 +1,7 @@
-#include "reports/layer_file.hpp"
+#include "reports/images/layer_file.hpp"
 
 #include "scene/error.hpp"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +24,7 @@ using scene::ImageSize;
 constexpr std::size_t longest_name = 255;
 constexpr std::size_t largest_attribute_bytes = 1U << 20;
 constexpr int most_attributes = 256;
-constexpr int most_channels = 64;
+constexpr std::size_t most_channels = 64;
 
 [[noreturn]] void refuse_layers(const std::filesystem::path& path, std::string_view what,
                                 const std::string& advice)
@@ -168,15 +167,6 @@ ImageSize scanned_size(const std::filesystem::path& path, const std::string& adv
 
 } // namespace
 
-/// OpenImageIO's reader, once the file's size is known to be right.
-struct LayerFile::Reader {
-    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("openexr");
-    OIIO::ImageSpec spec;
-    /// All channels as the file has them: they are compressed together, so that reading one by one
-    /// would decompress each of them every time.
-    std::vector<std::byte> pixels;
-};
-
 LayerFile::LayerFile(const std::filesystem::path& path, std::string advice)
     : path_{path},
       advice_{std::move(advice)},
@@ -189,82 +179,71 @@ void LayerFile::refuse(std::string_view what) const
     refuse_layers(path_, what, advice_);
 }
 
-LayerFile::LayerFile(LayerFile&&) noexcept = default;
-LayerFile& LayerFile::operator=(LayerFile&&) noexcept = default;
-LayerFile::~LayerFile() = default;
-
-LayerFile::Reader& LayerFile::reader()
+const ExrHeader& LayerFile::header()
 {
-    if (reader_) {
-        return *reader_;
+    if (input_) {
+        return input_->header();
     }
-    auto reader = std::make_unique<Reader>();
-    if (reader->input == nullptr) {
-        throw scene::EnvironmentError(
-            fmt::format("OpenImageIO cannot read EXR: {}; install OpenImageIO with its plugins",
-                        OIIO::geterror()));
-    }
-    if (!reader->input->open(path_.string(), reader->spec)) {
+    auto input = image_codec().open_exr(path_);
+    if (input == nullptr) {
         refuse("the header is damaged");
     }
-    const OIIO::ImageSpec& spec = reader->spec;
-    if (spec.width != size_.width_px || spec.height != size_.height_px || spec.depth != 1 ||
-        spec.x != 0 || spec.y != 0 || spec.deep || spec.tile_width != 0 ||
-        spec.nchannels > most_channels) {
+    const ExrHeader& header = input->header();
+    if (header.size != size_ || !header.is_flat || header.channels.size() > most_channels) {
         refuse("the image is not laid out as an AOV");
     }
-    reader_ = std::move(reader);
-    return *reader_;
+    input_ = std::move(input);
+    return header;
+}
+
+const ExrHeader::Channel* LayerFile::find(const std::string& name)
+{
+    const auto& channels = header().channels;
+    const auto found = std::ranges::find(channels, name, &ExrHeader::Channel::name);
+    return found == channels.end() ? nullptr : &*found;
 }
 
 bool LayerFile::has(const std::string& name)
 {
-    return reader().spec.channelindex(name) >= 0;
+    return find(name) != nullptr;
 }
 
 LayerType LayerFile::type(const std::string& name)
 {
-    const OIIO::ImageSpec& spec = reader().spec;
-    const int index = spec.channelindex(name);
-    if (index < 0) {
-        return LayerType::missing;
-    }
-    const OIIO::TypeDesc type = spec.channelformat(index);
-    return type == OIIO::TypeDesc::FLOAT    ? LayerType::float32
-           : type == OIIO::TypeDesc::HALF   ? LayerType::float16
-           : type == OIIO::TypeDesc::UINT32 ? LayerType::uint32
-                                            : LayerType::other;
+    const ExrHeader::Channel* const channel = find(name);
+    return channel == nullptr ? LayerType::missing : channel->type;
 }
 
 std::vector<std::string> LayerFile::names()
 {
-    const auto& names = reader().spec.channelnames;
-    return {names.begin(), names.end()};
+    std::vector<std::string> names;
+    for (const ExrHeader::Channel& channel : header().channels) {
+        names.push_back(channel.name);
+    }
+    return names;
 }
 
 std::uint64_t LayerFile::decoded_bytes()
 {
-    return reader().spec.image_bytes(true);
+    return header().decoded_bytes;
 }
 
 template <typename Value>
 scene::Image<Value> LayerFile::channel(const std::string& name, LayerType type)
 {
-    if (this->type(name) != type) {
+    const ExrHeader::Channel* const channel = find(name);
+    if (channel == nullptr || channel->type != type) {
         refuse(fmt::format("channel {} is missing or of another type", name));
     }
-    Reader& from = reader();
-    if (from.pixels.empty()) {
-        from.pixels.resize(from.spec.image_bytes(true));
-        if (!from.input->read_scanlines(0, 0, 0, size_.height_px, 0, 0, from.spec.nchannels,
-                                        OIIO::TypeDesc::UNKNOWN, from.pixels.data())) {
-            from.pixels.clear();
+    if (pixels_.empty()) {
+        auto decoded = input_->decoded();
+        if (!decoded) {
             refuse("the pixels are damaged or truncated");
         }
+        pixels_ = std::move(*decoded);
     }
-    const std::size_t stride = from.spec.pixel_bytes(true);
-    const std::byte* next =
-        from.pixels.data() + from.spec.pixel_bytes(0, from.spec.channelindex(name), true);
+    const std::size_t stride = header().pixel_bytes;
+    const std::byte* next = pixels_.data() + channel->offset_bytes;
     scene::Image<Value> image{size_};
     for (std::size_t i = 0; i < image.pixel_count(); ++i, next += stride) {
         std::memcpy(&image[i], next, sizeof(Value));
@@ -288,40 +267,34 @@ scene::Image<float> LayerFile::numbers(const std::string& name)
     if (kept == LayerType::float32) {
         return floats(name);
     }
-    scene::Image<float> image{size_};
     if (kept == LayerType::uint32) {
+        scene::Image<float> image{size_};
         const scene::Image<std::uint32_t> from = integers(name);
         std::ranges::transform(from, image.data(),
                                [](std::uint32_t value) { return static_cast<float>(value); });
         return image;
     }
-    const auto from = channel<std::uint16_t>(name, LayerType::float16);
-    OIIO::convert_pixel_values(OIIO::TypeDesc::HALF, from.data(), OIIO::TypeDesc::FLOAT,
-                               image.data(), static_cast<int>(image.pixel_count()));
-    return image;
+    return image_codec().floats_of(channel<std::uint16_t>(name, LayerType::float16));
 }
 
 std::string LayerFile::compression()
 {
-    const std::string name{reader().spec.get_string_attribute("compression")};
+    const std::string& name = header().compression;
     return name.substr(0, name.find(':')); // "dwaa:45": with its level
 }
 
 bool LayerFile::is_whole_display()
 {
-    const OIIO::ImageSpec& spec = reader().spec;
-    return spec.full_x == 0 && spec.full_y == 0 && spec.full_width == size_.width_px &&
-           spec.full_height == size_.height_px;
+    return header().is_whole_display;
 }
 
 std::map<std::string, std::string> LayerFile::texts()
 {
     constexpr std::string_view prefix = "gnomon:";
     std::map<std::string, std::string> result;
-    for (const OIIO::ParamValue& attribute : reader().spec.extra_attribs) {
-        const std::string_view name{attribute.name().data(), attribute.name().size()};
-        if (name.starts_with(prefix) && attribute.type() == OIIO::TypeDesc::STRING) {
-            result.emplace(name.substr(prefix.size()), attribute.get_string());
+    for (const auto& [name, text] : header().texts) {
+        if (name.starts_with(prefix)) {
+            result.emplace(name.substr(prefix.size()), text);
         }
     }
     return result;
