@@ -4,11 +4,12 @@
 # the README's two commands, which install what they need. Needs root, for chroot.
 #
 #   GNOMON_BARE_FOLDER   use this folder: kept afterwards, and gone on with where it holds a system
+#   GNOMON_DEBIAN_MIRROR take packages from there
 #
 # Otherwise the system is new each time, and removed when COMMAND has succeeded.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-mirror=${GNOMON_DEBIAN_MIRROR:-http://deb.debian.org/debian}
+mirror=${GNOMON_DEBIAN_MIRROR:-} # empty: debootstrap knows its own
 
 fail()
 {
@@ -31,7 +32,7 @@ make_system()
     [ -e "$folder/etc/debian_version" ] && return 0
     printf '== debootstrap %s %s\n' "$suite" "$folder"
     mkdir -p "$folder"
-    debootstrap --variant=minbase "$suite" "$folder" "$mirror" >"$folder.log" 2>&1 ||
+    debootstrap --variant=minbase "$suite" "$folder" ${mirror:+"$mirror"} >"$folder.log" 2>&1 ||
         fail "debootstrap of $suite failed; its last words: $(tail -n 1 "$folder.log")"
     rm -f "$folder.log"
     copy_certificates "$folder"
