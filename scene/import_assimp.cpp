@@ -1,5 +1,6 @@
 #include "scene/import_assimp.hpp"
 
+#include "scene/import_field_of_view.hpp"
 #include "scene/import_folder.hpp"
 #include "scene/import_mesh.hpp"
 
@@ -84,12 +85,12 @@ bool stands_at(const Item& item, const PlacedNode& node)
     return item.mName.length > 0 && item.mName == node.node->mName;
 }
 
-/// glTF gives yfov, which Assimp multiplies by the aspect ratio where there is one.
-std::optional<ImportedCamera> camera_at(const aiCamera& camera, const PlacedNode& node)
+std::optional<ImportedCamera> camera_at(const aiCamera& camera, const aiScene& scene,
+                                        const PlacedNode& node)
 {
     const double aspect = camera.mAspect == 0.0F ? 1.0 : static_cast<double>(camera.mAspect);
     ImportedCamera result{axis(node, 3), -axis(node, 2), axis(node, 1)};
-    result.vertical_fov_rad = static_cast<double>(camera.mHorizontalFOV) / aspect;
+    result.vertical_fov_rad = vertical_fov_rad(camera, scene);
     result.orthographic_height_m = 2.0 * static_cast<double>(camera.mOrthographicWidth) / aspect;
     const bool is_usable = result.vertical_fov_rad > 0
                                ? result.vertical_fov_rad < std::numbers::pi
@@ -117,7 +118,7 @@ void find_camera_and_light(const aiScene& scene, const std::vector<PlacedNode>& 
     for (const PlacedNode& node : nodes) {
         for (unsigned c = 0; c < scene.mNumCameras && header.has_camera == 0; ++c) {
             if (stands_at(*scene.mCameras[c], node)) {
-                const auto camera = camera_at(*scene.mCameras[c], node);
+                const auto camera = camera_at(*scene.mCameras[c], scene, node);
                 header.has_camera = camera ? 1 : 0;
                 header.camera = camera.value_or(ImportedCamera{});
             }

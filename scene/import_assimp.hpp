@@ -9,7 +9,8 @@
 namespace gnomon::scene {
 
 /// Whether an importer of Assimp's with this list of extensions, as aiImporterDesc has it, reads a
-/// format that Gnomon reads. Versions list more beside ours: "gltf glb" in 5.2, "gltf glb vrm" in 5.4.
+/// format that Gnomon reads. Versions list more beside ours: "gltf glb" in 5.2, "gltf glb vrm"
+/// in 5.4.
 [[nodiscard]] bool reads_known_format(std::string_view extensions);
 
 /// Reads the file with Assimp and writes it, flattened to world space, as an import stream.
