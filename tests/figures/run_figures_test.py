@@ -92,7 +92,8 @@ class BiasCurve(unittest.TestCase):
                             ("no acne from here", self.row["bias_curve.acne_free"]),
                             ("no peter-panning below", self.row["bias_curve.panning_free"])):
             assert_array_equal(drawn[label].get_xdata(), [float(bias)] * 2, label)
-        span = drawn["fewest errors"].get_xy()[:, 0]
+        patch = drawn["fewest errors"]  # a Polygon, or since Matplotlib 3.9 a Rectangle
+        span = patch.get_patch_transform().transform(patch.get_path().vertices)[:, 0]
         self.assertEqual(span.min(), float(self.row["bias_curve.best_interval.lo"]))
         self.assertEqual(span.max(), float(self.row["bias_curve.best_interval.hi"]))
 
