@@ -26,7 +26,7 @@ struct CommandOptions {
     bool has_no_figures = false;
 };
 
-void make_folder(const fs::path& folder)
+void make_report_folder(const fs::path& folder)
 {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -72,7 +72,7 @@ void report(const CommandOptions& options)
     report.folder = options.run;
     report.out = options.out.empty() ? options.run : options.out;
     report.only = options.only;
-    make_folder(report.out);
+    make_report_folder(report.out);
     reports::write_report_csv(report.folder, report.out);
     add_figures(report, options);
     const reports::ReportOutcome outcome = reports::write_report(report);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* case_advice = "write it as docs/evaluate.md says";
 /// As of a job's image.
-constexpr std::uint64_t most_pixels = 134'217'728;
+constexpr std::uint64_t most_image_pixels = 134'217'728;
 
 } // namespace
 
@@ -29,9 +29,9 @@ CaseImageFile::CaseImageFile(const std::filesystem::path& path, std::uint64_t me
 {
     const ImageSize size = file_.size();
     refuse_encoding();
-    if (size.pixel_count() > most_pixels) {
+    if (size.pixel_count() > most_image_pixels) {
         refuse(fmt::format("{}x{} pixels; must be at most {}", size.width_px, size.height_px,
-                           most_pixels));
+                           most_image_pixels));
     }
     // What is decoded, and about as much again for the layers and the truth.
     const std::uint64_t needed = file_.decoded_bytes() + 128 * size.pixel_count();

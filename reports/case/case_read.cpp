@@ -83,8 +83,8 @@ void drop_positions(CaseImageFile& file, const scene::CaseFile& description,
     }
 }
 
-scene::Image<float> read_mask(CaseImageFile& file, const scene::CaseFile& description,
-                              const scene::Image<Vec3f>& position)
+scene::Image<float> read_case_mask(CaseImageFile& file, const scene::CaseFile& description,
+                                   const scene::Image<Vec3f>& position)
 {
     const auto& names = description.conventions.channels.shadow;
     const std::string name = file.find(names);
@@ -215,7 +215,7 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
     CaseLayers layers;
     layers.position = read_position(file, description);
     drop_positions(file, description, layers.position);
-    layers.mask = read_mask(file, description, layers.position);
+    layers.mask = read_case_mask(file, description, layers.position);
     if (const auto normal = file.find_vector(names.normal)) {
         const auto x = file.numbers((*normal)[0]);
         const auto y = file.numbers((*normal)[1]);

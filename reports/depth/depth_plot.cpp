@@ -27,7 +27,7 @@ constexpr double left_px = 110;
 constexpr double right_px = 1250;
 constexpr double top_px = 112;
 constexpr double bottom_px = 722;
-constexpr std::size_t most_dots = 3000;
+constexpr std::size_t most_drawn_rows = 3000;
 constexpr int points_per_px = 6; // enough to follow a tooth that is a pixel wide
 
 /// An axis, linear or logarithmic.
@@ -167,7 +167,7 @@ void add_formulas(Drawing& drawing, const DepthStudy& study, const Axes& axes)
 void add_measured(Drawing& drawing, std::span<const DepthErrorRow> rows, const Axes& axes)
 {
     Dots dots{{}, measured_colour, 1.6};
-    const std::size_t stride = std::max<std::size_t>(1, rows.size() / most_dots);
+    const std::size_t stride = std::max<std::size_t>(1, rows.size() / most_drawn_rows);
     for (std::size_t i = 0; i < rows.size(); i += stride) {
         dots.centres.push_back(
             {axes.x.px(rows[i].zeta_m), axes.y.clamped_px(std::abs(rows[i].error_m))});

@@ -1,8 +1,8 @@
 #include "reports/gate/kept_wrong_pixels.hpp"
 
 #include "reports/gate/pixel_mask.hpp"
-#include "reports/json_values.hpp"
 #include "reports/images/layer_file.hpp"
+#include "reports/json_values.hpp"
 #include "reports/page/page_images.hpp"
 #include "reports/panels.hpp"
 #include "reports/run/pixels.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reports/json_values.hpp"
 #include "reports/images/layer_file.hpp"
+#include "reports/json_values.hpp"
 #include "scene/image.hpp"
 #include "scene/job.hpp"
 #include "scene/light_frustum.hpp"
