@@ -73,8 +73,9 @@ struct TextLine {
     std::string font_file;
 };
 
-/// What is asked of OpenImageIO: its library brings some 250 others along, whose loading takes longer
-/// than a small comparison, so that programs may open it when an image is first read or written.
+/// What is asked of OpenImageIO: its library brings some 250 others along, whose loading takes
+/// longer than a small comparison, so that programs may open it when an image is first read or
+/// written.
 class ImageCodec {
 public:
     ImageCodec() = default;
@@ -94,8 +95,8 @@ public:
 
     /// The grey values of a PNG file of one 8-bit channel and the given size.
     /// @throws scene::InputError  saying what is wrong, without the file's name.
-    [[nodiscard]] virtual scene::Image<std::uint8_t> decode_grey_png(std::string_view bytes,
-                                                                     scene::ImageSize size) const = 0;
+    [[nodiscard]] virtual scene::Image<std::uint8_t>
+    decode_grey_png(std::string_view bytes, scene::ImageSize size) const = 0;
     /// @return  null if the header is damaged.
     /// @throws scene::EnvironmentError  if there is no reader of EXR files.
     [[nodiscard]] virtual std::unique_ptr<ExrInput>
@@ -113,7 +114,8 @@ public:
     [[nodiscard]] virtual int width_px(const TextLine& line) const = 0;
 };
 
-/// The process's codec: OpenImageIO as it is linked, or loaded on demand (see reports/CMakeLists.txt).
+/// The process's codec: OpenImageIO as it is linked, or loaded on demand (see
+/// reports/CMakeLists.txt).
 /// @throws scene::EnvironmentError  if it cannot be loaded.
 [[nodiscard]] const ImageCodec& image_codec();
 

@@ -100,8 +100,8 @@ ExrHeader exr_header(const OIIO::ImageSpec& spec)
 {
     ExrHeader header;
     header.size = {spec.width, spec.height};
-    header.is_flat = spec.depth == 1 && spec.x == 0 && spec.y == 0 && !spec.deep &&
-                     spec.tile_width == 0;
+    header.is_flat =
+        spec.depth == 1 && spec.x == 0 && spec.y == 0 && !spec.deep && spec.tile_width == 0;
     header.is_whole_display = spec.full_x == 0 && spec.full_y == 0 &&
                               spec.full_width == spec.width && spec.full_height == spec.height;
     for (int i = 0; i < spec.nchannels; ++i) {
@@ -127,9 +127,9 @@ public:
     [[nodiscard]] std::optional<std::vector<std::byte>> decoded() override
     {
         std::vector<std::byte> pixels(header_.decoded_bytes);
-        const bool is_read = input_->read_scanlines(
-            0, 0, 0, header_.size.height_px, 0, 0, static_cast<int>(header_.channels.size()),
-            OIIO::TypeDesc::UNKNOWN, pixels.data());
+        const bool is_read = input_->read_scanlines(0, 0, 0, header_.size.height_px, 0, 0,
+                                                    static_cast<int>(header_.channels.size()),
+                                                    OIIO::TypeDesc::UNKNOWN, pixels.data());
         return is_read ? std::optional{std::move(pixels)} : std::nullopt;
     }
 
@@ -143,9 +143,8 @@ public:
     [[nodiscard]] std::vector<std::byte> encode_png(scene::ImageSize size, int channel_count,
                                                     const std::uint8_t* samples) const override
     {
-        MemoryOutput output{"picture.png",
-                            OIIO::ImageSpec{size.width_px, size.height_px, channel_count,
-                                            OIIO::TypeDesc::UINT8}};
+        MemoryOutput output{"picture.png", OIIO::ImageSpec{size.width_px, size.height_px,
+                                                           channel_count, OIIO::TypeDesc::UINT8}};
         output.write_rows(0, size.height_px, OIIO::TypeDesc::UINT8, samples);
         return output.take();
     }

@@ -132,16 +132,11 @@ TEST(JobSettings, RefusesHugeImagesBeforeMemoryIsTaken)
                                   "--set", "image.height=20000"});
     expect_refused(ending, 2, "image.width");
     // 20000² verdicts alone would be 1.6 GB; the program with its libraries takes 140 MB.
-    if (!is_sanitized) {
-        EXPECT_LT(ending.peak_memory_bytes, 200U << 20U);
-    }
+    EXPECT_LT(ending.peak_memory_bytes, 200U << 20U);
 }
 
 TEST(JobSettings, RefusesWhatTheMachineHasNoMemoryFor)
 {
-    if (is_sanitized) {
-        GTEST_SKIP() << "AddressSanitizer's shadow memory does not fit the limit";
-    }
     Start start;
     start.address_space_bytes = 4ULL << 30U;
     const Ending ending = gnomon({"compare", "--builtin", "wall", "--set", "image.width=16000",

@@ -70,11 +70,4 @@ void expect_done(const Ending& ending);
 
 inline constexpr const char* test_models_folder = "/usr/share/assimp/models";
 
-/// Whether the program is built with the sanitizers; tests that only start it are not.
-#ifdef GNOMON_SANITIZED_PROGRAM
-inline constexpr bool is_sanitized = true; ///< its shadow memory takes terabytes of addresses
-#else
-inline constexpr bool is_sanitized = false;
-#endif
-
 } // namespace gnomon::testing

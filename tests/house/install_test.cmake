@@ -29,6 +29,11 @@ run(${WORK}/build/shadow_share sphere-plane)
 if(NOT output MATCHES "^sphere-plane: [1-9][0-9]* of [1-9][0-9]* pixels")
   message(FATAL_ERROR "shadow_share sphere-plane printed:\n${output}")
 endif()
+run(${WORK}/prefix/bin/gnomon compare --builtin wall --set image.width=64 --set image.height=36
+    --picture ${WORK}/picture.png)
+if(NOT EXISTS ${WORK}/picture.png)
+  message(FATAL_ERROR "the installed gnomon compare --picture wrote none")
+endif()
 # Without a source tree's scripts: these are the installed ones, wherever Python has its packages.
 if(NOT EXISTS ${WORK}/prefix/share/gnomon/figures/make.py
    OR NOT EXISTS ${WORK}/prefix/share/gnomon/figures/gnomon/run.py)

@@ -1,5 +1,8 @@
-# Reads CTest's JUnit file and closes a test run: every skipped test with its reason, then one line
-# of totals. Test cases of a GoogleTest program count one by one, any other CTest entry as one.
+# Reads tests/allowed_skips and CTest's JUnit file, in this order, and closes a test run: every skipped
+# test with its reason, then one line of totals. Test cases of a GoogleTest program count one by one, any
+# other CTest entry as one. Exits with 3 if a test skipped that may not: `conditions` has what holds here.
+#
+#   awk -v conditions="root no-mount" -f summary.awk tests/allowed_skips build/release/test_results.xml
 
 function attribute(name, value)
 {
@@ -21,9 +24,35 @@ function unescape(text)
     return text
 }
 
+# Whether the list has the test, with a condition that holds here.
+function is_allowed(name,    i, pattern)
+{
+    for (i = 1; i <= allowed_count; i++) {
+        pattern = allowed[i]
+        if (pattern == name || (sub(/\*$/, "", pattern) && index(name, pattern) == 1)) {
+            if (index(" " conditions " ", " " condition_of[i] " ") > 0) {
+                return 1
+            }
+        }
+    }
+    return 0
+}
+
 function skip(name, reason)
 {
-    skips[++skip_count] = unescape(name ": " reason)
+    if (is_allowed(unescape(name))) {
+        skips[++skip_count] = unescape(name ": " reason)
+    } else {
+        refused[++refused_count] = unescape(name ": " reason)
+    }
+}
+
+FILENAME == ARGV[1] {
+    if ($0 !~ /^#/ && NF > 0) {
+        allowed[++allowed_count] = $1
+        condition_of[allowed_count] = $2
+    }
+    next
 }
 
 /^\t<testcase / {
@@ -63,6 +92,10 @@ in_reason && NF > 0 { reason = reason (reason == "" ? "" : " ") $0 }
         entry_failed = 1 # it crashed or timed out, or it is no GoogleTest program
     } else if (status == "run" && !is_google_test) {
         entry_passed = 1
+    } else if (entry_passed + entry_failed + entry_skipped == 0) {
+        entry_failed = 1 # a filter left nothing to run
+        print "\n" entry ": it ran no test"
+        ran_nothing = 1
     }
     passed += entry_passed
     failed += entry_failed
@@ -76,5 +109,12 @@ END {
             print "  " skips[i]
         }
     }
+    if (refused_count > 0) {
+        print "\nSkipped, and tests/allowed_skips does not allow it here:"
+        for (i = 1; i <= refused_count; i++) {
+            print "  " refused[i]
+        }
+    }
     printf "\n%d passed, %d failed, %d skipped\n", passed, failed, skipped
+    exit refused_count > 0 || ran_nothing ? 3 : 0
 }

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# conditions.sh PROGRAM: prints the conditions of tests/allowed_skips that hold on this machine.
+set -uo pipefail
+program=$1
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
+# GNOMON_SHARED_SCENES names no folder with the meshes.
+for mesh in bunny nefertiti suzanne; do
+    [ -f "${GNOMON_SHARED_SCENES:-/nonexistent}/$mesh.obj" ] || { echo no-shared-scenes && break; }
+done
+
+if [ "$(id -u)" -eq 0 ]; then
+    echo root
+else
+    echo not-root
+fi
+
+# A folder above the checkout is closed to others.
+folder=$root
+while [ "$folder" != / ]; do
+    mode=$(stat -c %a "$folder")
+    if (((8#$mode & 1) == 0)); then
+        echo private-checkout
+        break
+    fi
+    folder=$(dirname "$folder")
+done
+
+# A tmpfs cannot be mounted.
+place=$(mktemp -d)
+if mount -t tmpfs none "$place" 2>/dev/null; then
+    umount "$place"
+else
+    echo no-mount
+fi
+rmdir "$place"
+
+# No pseudo-terminal can be had.
+script -qec true /dev/null >/dev/null 2>&1 </dev/null || echo no-terminal
+
+# GL works, and is not llvmpipe's. No GL at all is no reason to skip.
+renderer=$("$program" doctor --json 2>/dev/null | sed -n 's/.*"renderer": *"\([^"]*\)".*/\1/p')
+case $renderer in
+    "" | llvmpipe*) ;;
+    *) echo another-driver ;;
+esac
