@@ -8,6 +8,7 @@
 #include "reference_rt/truth.hpp"
 #include "reports/canvas.hpp"
 #include "reports/depth/depth_certificate_report.hpp"
+#include "reports/images/image_codec.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -52,6 +53,15 @@ void look_at_gl(Findings& findings, std::optional<int> device, bool certifies_de
     }
 }
 
+void look_at_images(Findings& findings)
+{
+    try {
+        (void)reports::image_codec();
+    } catch (const scene::EnvironmentError& error) {
+        findings.problems.emplace_back(error.what());
+    }
+}
+
 Findings look(std::optional<int> device, bool certifies_depth)
 {
     Findings findings;
@@ -64,6 +74,7 @@ Findings look(std::optional<int> device, bool certifies_depth)
             "no DejaVu fonts: --picture cannot label its panels; install them (Debian: apt-get "
             "install fonts-dejavu-core)");
     }
+    look_at_images(findings);
     return findings;
 }
 

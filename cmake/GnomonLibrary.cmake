@@ -1,5 +1,6 @@
-# gnomon_compile_quickly(TARGET): the target's code loops over no pixels, so that optimising it costs the
-# compiler more than it saves anybody: half of its time in a sanitized build, where it optimises the checks.
+# gnomon_compile_quickly(TARGET): the target's code takes little of any run, or of any sanitized test, so that
+# optimising it costs more of the compiler's time than it saves: half of that in a sanitized build, where
+# the checks are optimised, too.
 function(gnomon_compile_quickly target)
   if(GNOMON_SANITIZE)
     target_compile_options(${target} PRIVATE -O0)

@@ -29,13 +29,15 @@ copy_certificates()
 make_system()
 {
     local suite=$1 folder=$2
-    [ -e "$folder/etc/debian_version" ] && return 0
+    [ -e "$folder/.complete-$suite" ] && return 0
+    [ -z "$(ls -A "$folder" 2>/dev/null)" ] || fail "$folder holds something else than a whole $suite; empty it"
     printf '== debootstrap %s %s\n' "$suite" "$folder"
     mkdir -p "$folder"
     debootstrap --variant=minbase "$suite" "$folder" ${mirror:+"$mirror"} >"$folder.log" 2>&1 ||
         fail "debootstrap of $suite failed; its last words: $(tail -n 1 "$folder.log")"
     rm -f "$folder.log"
     copy_certificates "$folder"
+    touch "$folder/.complete-$suite"
 }
 
 clone_checkout()
@@ -64,6 +66,8 @@ run_inside()
         mount -t devpts -o newinstance,ptmxmode=0666,mode=0620 devpts "$FOLDER/dev/pts"
         [ -L "$FOLDER/dev/ptmx" ] || mount --bind "$FOLDER/dev/pts/ptmx" "$FOLDER/dev/ptmx"
         exec chroot "$FOLDER" /usr/bin/env -i HOME=/root LANG=C.UTF-8 CI="${CI:-}" \
+            ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
+            ${no_proxy:+no_proxy="$no_proxy"} \
             PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
             sh -c "cd /src/gnomon && $COMMAND"'
 }

@@ -4,6 +4,7 @@
 #include <assimp/commonMetaData.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 namespace gnomon::scene {
@@ -33,9 +34,12 @@ bool multiplies_tangents(std::string_view known_camera)
     Assimp::Importer importer;
     const aiScene* const scene =
         importer.ReadFileFromMemory(known_camera.data(), known_camera.size(), 0, "gltf");
+    if (scene == nullptr || scene->mNumCameras != 1) {
+        throw std::runtime_error{
+            "its camera's angle is unknown: Assimp does not read a known camera"};
+    }
     constexpr float between = 1.8F; // 2 rad by angles, 1.66 rad by tangents
-    return scene != nullptr && scene->mNumCameras == 1 &&
-           scene->mCameras[0]->mHorizontalFOV < between;
+    return scene->mCameras[0]->mHorizontalFOV < between;
 }
 
 } // namespace
@@ -47,7 +51,15 @@ double vertical_fov_rad(const aiCamera& camera, const aiScene& scene)
     if (aspect == 0 || horizontal_rad == 0) {
         return horizontal_rad;
     }
-    if (multiplies_tangents(is_gltf_1(scene) ? known_camera_of_gltf_1 : known_camera_of_gltf_2)) {
+    bool by_tangents = false;
+    if (is_gltf_1(scene)) {
+        static const bool is_so = multiplies_tangents(known_camera_of_gltf_1);
+        by_tangents = is_so;
+    } else {
+        static const bool is_so = multiplies_tangents(known_camera_of_gltf_2);
+        by_tangents = is_so;
+    }
+    if (by_tangents) {
         return 2 * std::atan(std::tan(0.5 * horizontal_rad) / aspect);
     }
     return horizontal_rad / aspect;

@@ -14,8 +14,13 @@ namespace {
 
 const ImageCodec* loaded_codec()
 {
-    std::error_code none;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error) { // no relative path: what lies in the working directory must not be loaded
+        throw scene::EnvironmentError(
+            fmt::format("images can be neither read nor written: /proc/self/exe: {}; mount /proc",
+                        error.message()));
+    }
     const auto module = (program.parent_path() / GNOMON_IMAGES_FROM_PROGRAM).lexically_normal();
     // Never closed: OpenImageIO's own threads may outlive whatever asked for it.
     void* const library = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -18,7 +18,8 @@ namespace gnomon::reports {
 ///
 /// The file may be hostile: its header is checked before anything is decoded or memory taken.
 /// Every function throws scene::InputError, one line, if the file is missing, no EXR file of
-/// scanlines, damaged or truncated, or if the channel is missing or of another type.
+/// scanlines, damaged or truncated, or if the channel is missing or of another type; and
+/// scene::EnvironmentError if there is no reader of EXR files.
 class LayerFile {
 public:
     /// Reads no more than the header.

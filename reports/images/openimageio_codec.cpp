@@ -104,9 +104,11 @@ ExrHeader exr_header(const OIIO::ImageSpec& spec)
         spec.depth == 1 && spec.x == 0 && spec.y == 0 && !spec.deep && spec.tile_width == 0;
     header.is_whole_display = spec.full_x == 0 && spec.full_y == 0 &&
                               spec.full_width == spec.width && spec.full_height == spec.height;
+    std::size_t offset_bytes = 0;
     for (int i = 0; i < spec.nchannels; ++i) {
-        header.channels.push_back({spec.channel_name(i), layer_type(spec.channelformat(i)),
-                                   spec.pixel_bytes(0, i, true)});
+        const OIIO::TypeDesc type = spec.channelformat(i);
+        header.channels.push_back({spec.channel_name(i), layer_type(type), offset_bytes});
+        offset_bytes += type.size();
     }
     header.pixel_bytes = spec.pixel_bytes(true);
     header.decoded_bytes = spec.image_bytes(true);

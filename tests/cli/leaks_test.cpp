@@ -47,6 +47,25 @@ TEST(Leaks, AreNotInTheCommandsThatRender)
     expect_no_leak({"depth", "--near", "4", "--far", "50", "--bits", "16", "--json"});
     expect_no_leak({"doctor"});
     expect_no_leak({"evaluate", place + "/case", "--out", place + "/evaluated"});
+    expect_no_leak(small({"certify", place + "/a.exr", "--builtin", "columns", "--sample", "20"}));
+}
+
+TEST(Leaks, AreNotInTheFiltersAndAdvice)
+{
+    for (const char* const filter : {"linear", "hardware", "pcf5"}) {
+        expect_no_leak(small({"compare", "--builtin", "yard", "--advise", "--set",
+                              std::string{"lookup.filter="} + filter, "--set",
+                              "shadow_map.depth_format=u12", "--set", "bias.normal_texels=1"}));
+    }
+}
+
+TEST(Leaks, AreNotInTheCommandsThatOnlyPrint)
+{
+    const TemporaryFolder folder;
+    expect_no_leak({"scenes", "--json"});
+    expect_no_leak({"init"});
+    expect_no_leak({"completion", "bash"});
+    expect_no_leak({"capture-kit", (folder.path() / "kit").string()});
 }
 
 TEST(Leaks, AreNotInTheCommandsOfARun)
@@ -59,6 +78,8 @@ TEST(Leaks, AreNotInTheCommandsOfARun)
     expect_no_leak({"status", run});
     expect_no_leak({"baseline", "save", run, "--baseline", baseline});
     expect_no_leak({"gate", run, "--baseline", baseline});
+    expect_no_leak({"baseline", "list", baseline});
+    expect_no_leak({"baseline", "diff", baseline, run});
     expect_no_leak({"merge", (folder.path() / "merged").string(), run});
     expect_no_leak({"report", run, "--no-figures"});
 }

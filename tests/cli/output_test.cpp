@@ -192,8 +192,9 @@ TEST(Output, OfImagesNeedsTheModuleOfImages)
 {
     const TemporaryFolder folder;
     const std::string command = gnomon({"--version"}).command;
-    const path lonely = folder.path() / "gnomon";
-    std::filesystem::copy_file(command.substr(0, command.find(' ')), lonely);
+    const path lonely = folder.path() / "bin" / "gnomon";
+    std::filesystem::create_directory(lonely.parent_path());
+    std::filesystem::copy_file(command.substr(0, command.rfind(' ')), lonely);
     const auto compare = [&](const std::vector<std::string>& more) {
         std::vector<std::string> words = small({lonely, "compare", "--builtin", "wall"});
         words.insert(words.end(), more.begin(), more.end());
@@ -202,6 +203,9 @@ TEST(Output, OfImagesNeedsTheModuleOfImages)
     expect_done(compare({"--json"}));
     expect_refused(compare({"--picture", folder.path() / "p.png"}), 4,
                    "images can be neither read nor written");
+    const Ending doctor = run({lonely, "doctor"});
+    EXPECT_EQ(doctor.exit_code, 4);
+    EXPECT_THAT(doctor.out, HasSubstr("images can be neither read nor written"));
 }
 
 TEST(Memory, NeedGrowsWithImageAndMap)

@@ -25,7 +25,8 @@ def read_files(entry):
     del command[command.index("-o"):command.index("-o") + 2]
     rule = subprocess.run([*command, "-MM", "-MT", "unit"], cwd=entry["directory"], check=True,
                           capture_output=True, text=True).stdout
-    names = rule.removeprefix("unit:").replace("\\\n", " ").split()
+    names = re.split(r"(?<!\\)\s+", rule.removeprefix("unit:").replace("\\\n", " ").strip())
+    names = [name.replace("\\ ", " ") for name in names]
     return {pathlib.Path(entry["directory"], name).resolve() for name in names}
 
 
@@ -34,7 +35,8 @@ def main():
     since = sys.argv[3]
     changed = changed_files(root, since)
     entries = json.loads((build / "compile_commands.json").read_text())
-    checks_changed = any(path.name in {".clang-tidy", "CMakePresets.json"} for path in changed)
+    checks = {".clang-tidy", "CMakePresets.json", "GnomonCompileOptions.cmake"}
+    checks_changed = any(path.name in checks for path in changed)
     for entry in entries:
         if checks_changed or changed & read_files(entry):
             print("^" + re.escape(entry["file"]) + "$")

@@ -36,7 +36,9 @@ fi
 rmdir "$place"
 
 # No pseudo-terminal can be had.
-script -qec true /dev/null >/dev/null 2>&1 </dev/null || echo no-terminal
+if command -v script >/dev/null && ! script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
+    echo no-terminal
+fi
 
 # GL works, and is not llvmpipe's. No GL at all is no reason to skip.
 renderer=$("$program" doctor --json 2>/dev/null | sed -n 's/.*"renderer": *"\([^"]*\)".*/\1/p')

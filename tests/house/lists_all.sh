@@ -4,8 +4,11 @@ set -euo pipefail
 program=$1
 shift
 filter=$(IFS=: && echo "$*")
-diff <(GTEST_FILTER='*' "$program" --gtest_list_tests) <(GTEST_FILTER=$filter "$program" --gtest_list_tests) || {
-    echo "$program: no CTest entry runs the test cases above; CMake finds them by TEST(, TEST_F(, TEST_P( and" \
-        "RC_GTEST_PROP( at a line's begin" >&2
+all=$(GTEST_FILTER='*' "$program" --gtest_list_tests)
+chosen=$(GTEST_FILTER=$filter "$program" --gtest_list_tests)
+[ -n "$all" ]
+diff <(echo "$all") <(echo "$chosen") || {
+    echo "$program: no CTest entry runs the test cases above: CMake must run again, or does not know their macro" \
+        "(gnomon_list_tests)" >&2
     exit 1
 }

@@ -1,6 +1,7 @@
 # Reads tests/allowed_skips and CTest's JUnit file, in this order, and closes a test run: every skipped
 # test with its reason, then one line of totals. Test cases of a GoogleTest program count one by one, any
-# other CTest entry as one. Exits with 3 if a test skipped that may not: `conditions` has what holds here.
+# other CTest entry as one. Exits with 3 if a test skipped that may not, `conditions` being what holds here,
+# and with 4 if an entry ran no test.
 #
 #   awk -v conditions="root no-mount" -f summary.awk tests/allowed_skips build/release/test_results.xml
 
@@ -82,6 +83,9 @@ in_reason && NF > 0 { reason = reason (reason == "" ? "" : " ") $0 }
     in_reason = 1
 }
 
+# A part of a Python or node suite, or of a GoogleTest program, that says only how many it left out.
+/^OK \(.*skipped=[1-9]/ || /^(ℹ|#) skipped [1-9]/ || /YOU HAVE [0-9]+ DISABLED TEST/ { skip(entry, $0) }
+
 /^\t<\/testcase>/ {
     if (status == "notrun" && message !~ /^SKIP_/) {
         entry_failed = 1 # the program is missing
@@ -116,5 +120,5 @@ END {
         }
     }
     printf "\n%d passed, %d failed, %d skipped\n", passed, failed, skipped
-    exit refused_count > 0 || ran_nothing ? 3 : 0
+    exit ran_nothing ? 4 : refused_count > 0 ? 3 : 0
 }

@@ -92,28 +92,28 @@ empty_shard: it ran no test
 end='
 4 passed, 5 failed, 2 skipped'
 
-summary 3 "no-meshes no-program" "$list" "$nothing
+summary 4 "no-meshes no-program" "$list" "$nothing
 Skipped:
   Metrics.ReadsMeshes: no meshes <here>
   readme: no program
 $end"
 
 # A condition that does not hold; a list that lacks the test; no list.
-summary 3 "no-program" "$list" "$nothing
+summary 4 "no-program" "$list" "$nothing
 Skipped:
   readme: no program
 
 Skipped, and tests/allowed_skips does not allow it here:
   Metrics.ReadsMeshes: no meshes <here>
 $end"
-summary 3 "no-meshes no-program" "${list/readme/read}" "$nothing
+summary 4 "no-meshes no-program" "${list/readme/read}" "$nothing
 Skipped:
   Metrics.ReadsMeshes: no meshes <here>
 
 Skipped, and tests/allowed_skips does not allow it here:
   readme: no program
 $end"
-summary 3 "no-meshes no-program" "# none" "$nothing
+summary 4 "no-meshes no-program" "# none" "$nothing
 Skipped, and tests/allowed_skips does not allow it here:
   Metrics.ReadsMeshes: no meshes <here>
   readme: no program
@@ -135,3 +135,21 @@ Skipped:
   readme: no program
 
 0 passed, 0 failed, 1 skipped"
+
+# Suites that hide what they skip.
+results()
+{
+    for line in "OK (skipped=2)" "ℹ skipped 1" "# skipped 3" "  YOU HAVE 1 DISABLED TEST" "OK" "ℹ skipped 0"; do
+        printf '\t<testcase name="%s" classname="x" time="1" status="run">\n\t\t<system-out>...\n%s\n' \
+            "suite" "$line"
+        printf '</system-out>\n\t</testcase>\n'
+    done
+}
+summary 3 "" "$list" "
+Skipped, and tests/allowed_skips does not allow it here:
+  suite: OK (skipped=2)
+  suite: ℹ skipped 1
+  suite: # skipped 3
+  suite:   YOU HAVE 1 DISABLED TEST
+
+6 passed, 0 failed, 0 skipped"

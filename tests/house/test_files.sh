@@ -6,6 +6,12 @@ cd "$1/tests"
 
 readarray -t runners < <(find . ../cmake -name CMakeLists.txt -o -name '*_test.sh' -o -name 'Gnomon*.cmake' 2>/dev/null)
 forgotten=0
+for list in */CMakeLists.txt; do
+    grep -q "add_subdirectory(${list%/*})" CMakeLists.txt || {
+        echo "tests/$list: tests/CMakeLists.txt does not add its folder, so nothing there runs" >&2
+        forgotten=1
+    }
+done
 while read -r file; do
     name=${file##*/}
     name=${name//./\\.}

@@ -7,6 +7,7 @@ rm -rf "$1"
 mkdir -p "$1/tests/layer"
 cd "$1/tests/layer"
 printf 'gnomon_test(layer SOURCES a_test.cpp helper.cpp)\n# b_test.sh runs the rest\n' >CMakeLists.txt
+echo 'add_subdirectory(layer)' >../CMakeLists.txt
 touch a_test.cpp helper.cpp
 printf 'python3 -m unittest c_test\nnode --test d_test.mjs\n' >b_test.sh
 touch c_test.py d_test.mjs
@@ -24,3 +25,9 @@ for forgotten in extra_test.cpp other_helper.cpp lost_test.py lost_test.mjs lost
     }
     rm "$forgotten"
 done
+
+echo '# nothing' >../CMakeLists.txt
+if message=$(bash "$check" "$1" 2>&1) || [[ "$message" != "tests/layer/CMakeLists.txt: "* ]]; then
+    echo "test_files.sh does not see that nobody adds the folder: $message" >&2
+    exit 1
+fi

@@ -258,6 +258,25 @@ TEST(SceneFile, DividesTheAspectRatioOutOfTheFieldOfView)
     expect_angle_deg(camera->vertical_fov_deg, 0.9, 9);
 }
 
+TEST(SceneFile, TakesTheFieldOfViewOfAnOlderGltf)
+{
+    const std::string text = fmt::format(
+        R"({{"asset":{{"version":"1.0"}},"scene":"s","scenes":{{"s":{{"nodes":["m","c"]}}}},)"
+        R"("nodes":{{"m":{{"meshes":["q"]}},"c":{{"camera":"eye"}}}},"cameras":{{"eye":{{)"
+        R"("type":"perspective","perspective":{{"yfov":0.9,"aspectRatio":1.7,"znear":0.1,"zfar":9}}}}}},)"
+        R"("meshes":{{"q":{{"primitives":[{{"attributes":{{"POSITION":"p"}},"indices":"i","mode":4}}]}}}},)"
+        R"("accessors":{{"i":{{"bufferView":"iv","byteOffset":0,"componentType":5123,"count":6,)"
+        R"("type":"SCALAR"}},"p":{{"bufferView":"pv","byteOffset":0,"componentType":5126,"count":4,)"
+        R"("type":"VEC3"}}}},"bufferViews":{{"iv":{{"buffer":"b","byteOffset":0,"byteLength":12}},)"
+        R"("pv":{{"buffer":"b","byteOffset":12,"byteLength":48}}}},"buffers":{{"b":{{"byteLength":60,)"
+        R"("type":"arraybuffer","uri":"data:application/octet-stream;base64,{}"}}}}}})",
+        testing::base64(testing::quad_buffer()));
+    const TemporaryFolder folder;
+    const auto camera = load_scene_file(folder.write("old.gltf", text)).defaults.camera;
+    ASSERT_TRUE(camera);
+    expect_angle_deg(camera->vertical_fov_deg, 0.9, 9);
+}
+
 TEST(SceneFile, TakesAnOrthographicCamera)
 {
     QuadGltf gltf;

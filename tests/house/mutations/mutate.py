@@ -3,8 +3,8 @@
     python3 tests/house/mutations/mutate.py [NAME…]
     python3 tests/house/mutations/mutate.py --check    only see that each text is there, once
 
-Works in this checkout, which must have no uncommitted changes, with its release build. For each mutation of
-mutations.toml: replace the text, build and run the tests of its layer, and where these all pass the whole of
+Works in this checkout, which must have no uncommitted changes, with its release build, and first sees that all
+tests pass. For each mutation of mutations.toml: replace the text, build and run the tests of its layer, and where these all pass the whole of
 `./dev test`; then put the text back. The first failure ends it. What is known stands in
 build/mutations.json, so that the same command goes on where it was stopped; remove the file to begin anew.
 Exits with 1 if a mutation survived.
@@ -38,6 +38,8 @@ def tests_pass(arguments):
             return False, line.strip()[:160]
     if "no entry matches" in done.stdout:
         fail(f"no test is called {arguments[-1]}")
+    if "ninja: build stopped" in done.stdout:
+        fail("it does not build; build/mutation.log says why")
     return False, f"./dev test ended with {done.returncode}"
 
 
@@ -73,6 +75,13 @@ def main():
     if subprocess.run(["git", "diff", "--quiet", "HEAD"], cwd=root).returncode != 0:
         fail("the checkout has uncommitted changes; commit them, or git restore a file that a killed run left")
     record = json.loads(record_file.read_text()) if record_file.exists() else {}
+    if "unchanged" not in record:
+        print("unchanged …", file=sys.stderr, flush=True)
+        passed, failure = tests_pass([])
+        if not passed:
+            fail(f"the tests fail as it is: {failure}")
+        record["unchanged"] = {"noticed_by": None, "failure": ""}
+        record_file.write_text(json.dumps(record, indent=1) + "\n")
     for mutation in mutations:
         name = mutation["name"]
         if name in record or sys.argv[1:] and name not in sys.argv[1:]:
@@ -87,7 +96,7 @@ def main():
             survivors += result["noticed_by"] is None
             print(f"{result['noticed_by'] or 'SURVIVED':8}  {result['seconds']:4} s  {mutation['name']:40}  "
                   f"{result['failure']}")
-    print(f"{len(record)} of {len(mutations)} mutations tried, {survivors} survived")
+    print(f"{len(record) - 1} of {len(mutations)} mutations tried, {survivors} survived")
     sys.exit(1 if survivors else 0)
 
 
