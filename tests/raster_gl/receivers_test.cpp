@@ -44,6 +44,18 @@ TEST(Receivers, LeaveOutObjectsThatDoNotReceive)
     const auto names = visible_objects(c);
     EXPECT_FALSE(names.contains(first));
     EXPECT_EQ(names.size(), c.file.scene.objects.size() - 1);
+    // What is drawn after the gap keeps its triangles' numbers.
+    whole.draw_receivers();
+    const auto before = read_triangles(*tests::shared_context(), *whole.receivers);
+    const auto after = read_triangles(*tests::shared_context(), *c.receivers);
+    std::size_t renamed = 0;
+    for (std::size_t i = 0; i < before.pixel_count(); ++i) {
+        const bool is_of_another =
+            before[i] != scene::no_triangle &&
+            whole.file.scene.objects.at(whole.file.scene.object_of(before[i])).name != first;
+        renamed += is_of_another && after[i] != before[i] ? 1 : 0;
+    }
+    EXPECT_EQ(renamed, 0U);
 }
 
 TEST(Receivers, InterpolateTheWorldPositionOfTheirTriangle)
