@@ -53,7 +53,7 @@ TEST(Receivers, LeaveOutObjectsThatDoNotReceive)
         const bool is_of_another =
             before[i] != scene::no_triangle &&
             whole.file.scene.objects.at(whole.file.scene.object_of(before[i])).name != first;
-        renamed += is_of_another && after[i] != before[i] ? 1 : 0;
+        renamed += is_of_another && after[i] != before[i] ? 1U : 0U;
     }
     EXPECT_EQ(renamed, 0U);
 }
