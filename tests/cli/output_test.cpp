@@ -204,7 +204,7 @@ TEST(Output, OfImagesNeedsTheModuleOfImages)
     expect_refused(compare({"--picture", folder.path() / "p.png"}), 4,
                    "images can be neither read nor written");
     const Ending doctor = run({lonely, "doctor"});
-    EXPECT_EQ(doctor.exit_code, 4);
+    EXPECT_EQ(doctor.exit_code, 0) << "GL and Embree work";
     EXPECT_THAT(doctor.out, HasSubstr("images can be neither read nor written"));
 }
 
