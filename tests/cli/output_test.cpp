@@ -205,7 +205,7 @@ TEST(Output, OfImagesNeedsTheModuleOfImages)
                    "images can be neither read nor written");
     const Ending doctor = run({lonely, "doctor"});
     EXPECT_EQ(doctor.exit_code, 0) << "GL and Embree work";
-    EXPECT_THAT(doctor.out, HasSubstr("images can be neither read nor written"));
+    EXPECT_THAT(doctor.out, ::testing::HasSubstr("images can be neither read nor written"));
 }
 
 TEST(Memory, NeedGrowsWithImageAndMap)
