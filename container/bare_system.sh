@@ -75,7 +75,6 @@ run_inside()
 [ $# -ge 1 ] && [ $# -le 2 ] || fail "usage: ./dev bare SUITE [COMMAND], e.g. ./dev bare trixie"
 [ "$(id -u)" -eq 0 ] || fail "only root may chroot; sudo ./dev bare $1"
 suite=$1
-
 command=${2:-./dev demo && ./dev test}
 folder=${GNOMON_BARE_FOLDER:-$(mktemp -d "/var/tmp/gnomon-bare-$suite.XXXXXX")/system}
 

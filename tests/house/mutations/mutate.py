@@ -4,9 +4,10 @@
     python3 tests/house/mutations/mutate.py --check    only see that each text is there, once
 
 Works in this checkout, which must have no uncommitted changes, with its release build, and first sees that all
-tests pass. For each mutation of mutations.toml: replace the text, build and run the tests of its layer, and where these all pass the whole of
-`./dev test`; then put the text back. The first failure ends it. What is known stands in
-build/mutations.json, so that the same command goes on where it was stopped; remove the file to begin anew.
+tests pass. For each mutation of mutations.toml: replace the text, build and run the tests of its layer, and
+where these all pass the whole of `./dev test`; then put the text back. The first failure ends it. What is known
+stands in build/mutations.json, so that the same command goes on where it was stopped; remove the file to begin
+anew.
 Exits with 1 if a mutation survived.
 """
 
@@ -33,13 +34,14 @@ def tests_pass(arguments):
     (root / "build" / "mutation.log").write_text(done.stdout)
     if done.returncode == 0:
         return True, ""
-    for line in done.stdout.splitlines():
-        if "FAILED:" in line or line.startswith("[  FAILED  ]") or "***Failed" in line or "error:" in line:
-            return False, line.strip()[:160]
+    # Neither says anything of the tests.
     if "no entry matches" in done.stdout:
         fail(f"no test is called {arguments[-1]}")
     if "ninja: build stopped" in done.stdout:
         fail("it does not build; build/mutation.log says why")
+    for line in done.stdout.splitlines():
+        if line.startswith("[  FAILED  ]") or "***Failed" in line or "***Timeout" in line:
+            return False, line.strip()[:160]
     return False, f"./dev test ended with {done.returncode}"
 
 
