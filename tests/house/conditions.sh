@@ -40,6 +40,10 @@ if command -v script >/dev/null && ! script -qec true /dev/null >/dev/null 2>&1 
     echo no-terminal
 fi
 
+# The hashes of tests/house/recorded_results are of other drivers and libraries than these.
+/usr/bin/python3 -B "$root/tests/house/recorded_results/recorded_results.py" is-recorded "$program" 2>/dev/null ||
+    echo not-recorded
+
 # GL works, and is not llvmpipe's. No GL at all is no reason to skip.
 renderer=$("$program" doctor --json 2>/dev/null | sed -n 's/.*"renderer": *"\([^"]*\)".*/\1/p')
 case $renderer in
