@@ -51,9 +51,12 @@ bool crosses_in_range(const Receiver& receiver, const Corners& s, const Light& l
     const RowDifference nearer{rows.z, depth.is_reversed() ? none : -rows.w};
     const RowDifference farther{rows.w, rows.z};
     const Sign lower = crossing_side(receiver, s, light, nearer, counts);
-    const Sign upper = lower < 0 ? -1 : crossing_side(receiver, s, light, farther, counts);
+    if (lower < 0) {
+        return false;
+    }
+    const Sign upper = crossing_side(receiver, s, light, farther, counts);
     // Their sum is W or 2W: not all 0, the crossing is in front of the light.
-    return lower >= 0 && upper >= 0 && lower + upper > 0;
+    return upper >= 0 && lower + upper > 0;
 }
 
 double way_to_crossing(const Receiver& receiver, const Corners& s, const Light& light)
