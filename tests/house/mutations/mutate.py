@@ -29,8 +29,9 @@ def fail(text):
 
 def tests_pass(arguments):
     """Whether everything builds and passes; and the first line that says what does not."""
-    done = subprocess.run(["./dev", "test", "--", "--stop-on-failure", *arguments], cwd=root, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    # A mutation's text is not there while it is in: the check of these texts would always notice.
+    done = subprocess.run(["./dev", "test", "--", "--stop-on-failure", "-E", "^mutations_fit_the_code$", *arguments],
+                          cwd=root, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     (root / "build" / "mutation.log").write_text(done.stdout)
     if done.returncode == 0:
         return True, ""
