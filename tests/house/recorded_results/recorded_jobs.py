@@ -42,7 +42,7 @@ class RecordedJob:
         return self.scene in SHARED
 
     def scene_arguments(self):
-        """What names the scene on the command line, in the folder of the shared ones."""
+        """What names the scene on the command line, in a folder that has the shared one."""
         if self.is_shared:
             return [self.scene, "--set", "scene.ground=true"]
         return ["--builtin", self.scene]

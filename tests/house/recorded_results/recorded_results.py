@@ -109,12 +109,14 @@ class Runner:
         with tempfile.TemporaryDirectory() as temporary:
             folder = Path(temporary) if self.keep is None else self.keep / job.name
             folder.mkdir(parents=True, exist_ok=True)
+            if job.is_shared and not (folder / job.scene).exists():
+                (folder / job.scene).symlink_to(Path(os.environ["GNOMON_SHARED_SCENES"]) / job.scene)
             return {part: short_hash(data) for part, data in getattr(self, job.kind)(job, folder)}
 
     def run(self, folder, *arguments):
         """Standard output; what the program refuses is a result, too."""
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True,
-                              cwd=os.environ.get("GNOMON_SHARED_SCENES"))
+                              cwd=folder)
         if done.returncode not in (0, 1, 2) or (done.returncode == 2 and not done.stderr):
             fail(f"{' '.join(map(str, arguments))}: ended with {done.returncode}: {done.stderr}")
         if done.returncode == 2:
@@ -131,7 +133,7 @@ class Runner:
             yield from image_parts(image)
 
     def evaluate(self, job, folder):
-        case, image = folder / "case", folder / "layers.exr"
+        case, image = "case", folder / "layers.exr"  # its place is a part of the result
         self.run(folder, "compare", *job.scene_arguments(), *job.arguments, "--json", "--export-case", case)
         text = self.run(folder, "evaluate", case, "--json", "--aov", image)
         (folder / "result.json").write_text(text)
