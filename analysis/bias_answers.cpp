@@ -1,11 +1,9 @@
 #include "analysis/bias_answers.hpp"
 
-#include "analysis/critical_bias.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "analysis/slope_curves.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -21,11 +19,10 @@ std::vector<float> slopes(const BiasQuestion& question)
                                               question.job.lookup.filter, zeta_m));
 }
 
-void answer_slopes(const SlopeInputs& inputs, const BiasQuestion& question, BiasAnswers& answers)
+void answer_slopes(const BiasQuestion& question, BiasAnswers& answers)
 {
     for (const float slope : slopes(question)) {
-        const float one[]{slope};
-        const SlopeCurve curve = std::move(slope_curves(inputs, one).front());
+        const SlopeCurve curve = slope_curve(question.curves, slope);
         if (answers.slopes.empty() ||
             is_better(curve.best, answers.slopes[answers.best_slope].best)) {
             answers.best_slope = answers.slopes.size();
@@ -50,19 +47,19 @@ scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& cla
 
 BiasAnswers answer_biases(const BiasQuestion& question)
 {
-    const LookupRule rule = lookup_rule(question.job, question.view);
-    const auto& classes = question.truth.pixel_class;
-    const scene::LookupLayers& samples = question.deciding;
-    const auto acne = acne_flags(classes, question.pixels);
-    auto critical = critical_biases(samples, rule);
-    BiasCurve curve{critical, classes};
-    const BestBiases best = find_best_biases(curve);
-    const BiasBounds bounds = find_bias_bounds(curve, critical, classes, acne, question.forgive);
-    BiasMap map = map_biases({critical, classes, samples, question.zeta_m, question.view.frustum,
+    SlopeCurve own = slope_curve(question.curves, question.view.bias.slope);
+    BiasMap map = map_biases({own.critical_bias, question.curves.classes, question.curves.samples,
+                              question.zeta_m, question.view.frustum,
                               question.job.shadow_map.resolution_texels,
                               question.job.shadow_map.depth_format});
-    BiasAnswers answers{std::move(critical), std::move(curve), best, bounds, std::move(map), {}, 0};
-    answer_slopes({samples, rule, classes, acne, question.forgive}, question, answers);
+    BiasAnswers answers{std::move(own.critical_bias),
+                        std::move(own.curve),
+                        own.best,
+                        own.bounds,
+                        std::move(map),
+                        {},
+                        0};
+    answer_slopes(question, answers);
     return answers;
 }
 

@@ -4,6 +4,7 @@
 #include "analysis/bias_limits.hpp"
 #include "analysis/bias_units.hpp"
 #include "analysis/causes.hpp"
+#include "analysis/slope_curves.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
@@ -34,11 +35,8 @@ struct BiasAnswers {
 struct BiasQuestion {
     const scene::Job& job;
     const scene::View& view;
-    const scene::TruthLayers& truth;
-    const scene::LookupLayers& deciding;    ///< from `deciding_samples`
-    const scene::Image<PixelCause>& pixels; ///< from `find_causes`
-    const scene::Image<float>& zeta_m;      ///< light distance of the receivers [m]
-    const ForgiveGaps& forgive;
+    SlopeInputs curves;
+    const scene::Image<float>& zeta_m; ///< light distance of the receivers [m]
 };
 
 /// 1 where a lit pixel is acne if it is shadowed.

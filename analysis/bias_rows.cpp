@@ -35,6 +35,15 @@ void require_ascending(std::span<const float> biases, std::string_view function)
     }
 }
 
+void require_equal_sizes(const BiasRowInputs& inputs, std::string_view function)
+{
+    const scene::ImageSize size = inputs.classes.size();
+    if (inputs.deciding.samples.size() != size || inputs.critical_bias.size() != size ||
+        inputs.causes.size() != size) {
+        throw std::invalid_argument(fmt::format("{}: inputs: the images differ in size", function));
+    }
+}
+
 /// How the counts of wrong pixels, by cause and label, change from one bias to the next. Sums of
 /// integers: the same in whatever order.
 class Changes {
@@ -274,11 +283,7 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& cu
                                 std::span<const float> biases)
 {
     require_ascending(biases, "count_rows");
-    const scene::ImageSize size = inputs.classes.size();
-    if (inputs.deciding.samples.size() != size || inputs.critical_bias.size() != size ||
-        inputs.causes.size() != size) {
-        throw std::invalid_argument("count_rows: inputs: the images differ in size");
-    }
+    require_equal_sizes(inputs, "count_rows");
     std::vector<BiasRow> rows;
     for (std::size_t first = 0; first < biases.size(); first += biases_at_once) {
         const auto part = biases.subspan(first, std::min(biases_at_once, biases.size() - first));
@@ -298,6 +303,28 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& cu
         add_wrong_by_bias(rows[i], curve.at(biases[i]));
     }
     return rows;
+}
+
+CauseLayers classify_errors(const BiasRowInputs& inputs, float bias)
+{
+    require_equal_sizes(inputs, "classify_errors");
+    const std::array<float, 1> biases{bias};
+    const WrongBiases wrong{inputs, biases};
+    CauseLayers layers{
+        scene::Image<Cause>{inputs.classes.size()}, scene::Image<Label>{inputs.classes.size()}, {}};
+    for (std::size_t i = 0; i < inputs.classes.pixel_count(); ++i) {
+        const auto set = [&](std::size_t first, std::size_t last, Cause cause, Label label) {
+            if (first < last) {
+                layers.cause[i] = cause;
+                layers.label[i] = label;
+                ++layers.counts.by_cause[static_cast<std::size_t>(cause)];
+                ++layers.counts.by_label[static_cast<std::size_t>(label)];
+            }
+        };
+        wrong.visit_unbiased(i, set);
+        wrong.visit_biased(i, set);
+    }
+    return layers;
 }
 
 std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& classes,

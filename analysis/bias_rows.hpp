@@ -14,6 +14,13 @@
 
 namespace gnomon::analysis {
 
+/// Each wrong pixel's cause and label with one constant bias, and how many there are of each.
+struct CauseLayers {
+    scene::Image<Cause> cause;
+    scene::Image<Label> label;
+    CauseCounts counts;
+};
+
 /// Wrong pixels by cause and label with one constant bias.
 struct BiasRow {
     ErrorCounts errors;
@@ -24,7 +31,7 @@ struct BiasRow {
 struct BiasRowInputs {
     const scene::Image<scene::PixelClass>& classes;
     const scene::LookupLayers& deciding;      ///< from `deciding_samples`
-    const scene::Image<float>& critical_bias; ///< with the rule's slope
+    const scene::Image<float>& critical_bias; ///< with the rule's slope; or `criticals_of_verdicts`
     const scene::Image<PixelCause>& causes;
     LookupRule rule;
 };
@@ -37,6 +44,10 @@ struct BiasRowInputs {
 ///                                neither 0 nor normal.
 [[nodiscard]] std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& curve,
                                               std::span<const float> biases);
+
+/// The wrong pixels of one bias, one by one.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] CauseLayers classify_errors(const BiasRowInputs& inputs, float bias);
 
 /// Σ |verdict − truth| over the scored pixels at each bias, in units of one of a pcfK lookup's K²
 /// taps.

@@ -48,9 +48,13 @@ void require_image_size(std::string_view argument, scene::ImageSize size, scene:
     }
 }
 
-Rerun hold(const scene::LookupLayers& lookup, const scene::Image<std::uint32_t>& triangles,
-           const scene::Image<float>& criticals, float bias)
+} // namespace
+
+Rerun hold_to_curve(const scene::LookupLayers& lookup, const scene::Image<std::uint32_t>& triangles,
+                    const scene::Image<float>& criticals, float bias)
 {
+    require_image_size("criticals", criticals.size(), triangles.size());
+    require_image_size("lookup", lookup.samples.size(), triangles.size());
     Rerun rerun{.bias = bias};
     for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
         if (triangles[i] == scene::no_triangle) {
@@ -62,8 +66,6 @@ Rerun hold(const scene::LookupLayers& lookup, const scene::Image<std::uint32_t>&
     }
     return rerun;
 }
-
-} // namespace
 
 std::uint64_t BiasVerification::verdicts() const
 {
@@ -104,14 +106,12 @@ BiasVerification verify_biases(const scene::Job& job, const scene::View& view,
                                const scene::Image<float>& criticals, std::span<const float> biases,
                                const Renderers& renderers)
 {
-    require_image_size("criticals", criticals.size(), triangles.size());
     scene::View biased = view;
     BiasVerification verification;
     for (const float bias : biases) {
         biased.bias.constant = bias;
-        const scene::LookupLayers lookup = renderers.look_up(job, biased);
-        require_image_size("lookup", lookup.samples.size(), triangles.size());
-        verification.reruns.push_back(hold(lookup, triangles, criticals, bias));
+        verification.reruns.push_back(
+            hold_to_curve(renderers.look_up(job, biased), triangles, criticals, bias));
     }
     return verification;
 }

@@ -3,6 +3,7 @@
 #include "analysis/renderers.hpp"
 #include "scene/image.hpp"
 #include "scene/job.hpp"
+#include "scene/layers.hpp"
 
 #include <cstdint>
 #include <span>
@@ -36,8 +37,16 @@ struct BiasVerification {
                                                   const scene::Image<std::uint32_t>& triangles,
                                                   std::span<const float> wanted);
 
-/// Looks the receivers up again with each of the biases and holds every verdict to the pixel's
-/// critical bias: lit iff that is at most the bias.
+/// Holds every verdict of a lookup with this constant bias to the pixel's critical bias: lit iff
+/// that is at most the bias.
+/// @param criticals, triangles  as for `biases_to_verify`.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] BiasVerification::Rerun hold_to_curve(const scene::LookupLayers& lookup,
+                                                    const scene::Image<std::uint32_t>& triangles,
+                                                    const scene::Image<float>& criticals,
+                                                    float bias);
+
+/// Looks the receivers up again with each of the biases and holds every verdict to the curve.
 ///
 /// Receivers and map must be those drawn last. Afterwards GL's last lookup is that of the last
 /// bias.

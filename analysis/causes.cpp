@@ -268,16 +268,6 @@ scene::Image<PixelCause> find_causes(const CauseInputs& inputs, CauseMemory* mem
     return CauseFinder{inputs, memory}.find();
 }
 
-Cause cause_of(const PixelCause& pixel, PixelClass truth, float bias)
-{
-    if (pixel.unbiased == Cause::none) {
-        return Cause::bias;
-    }
-    const bool is_repaired_by_exact_depths =
-        truth == PixelClass::lit && bias >= pixel.exact_critical_bias;
-    return is_repaired_by_exact_depths ? Cause::precision : pixel.unbiased;
-}
-
 Label label_of(const PixelCause& pixel, PixelClass truth, Cause cause)
 {
     if (truth == PixelClass::lit) {
@@ -288,28 +278,6 @@ Label label_of(const PixelCause& pixel, PixelClass truth, Cause cause)
         return Label::peter_panning;
     }
     return cause == Cause::resolution && pixel.sees ? Label::edge : Label::leak;
-}
-
-CauseLayers classify_errors(const scene::TruthLayers& truth, const scene::LookupLayers& lookup,
-                            const scene::Image<PixelCause>& pixels, const scene::Bias& bias)
-{
-    CauseLayers layers{scene::Image<Cause>{truth.pixel_class.size()},
-                       scene::Image<Label>{truth.pixel_class.size()},
-                       {}};
-    for (std::size_t i = 0; i < pixels.pixel_count(); ++i) {
-        const PixelClass pixel_class = truth.pixel_class[i];
-        const scene::LookupSample& sample = lookup.samples[i];
-        if (!scene::is_scored(pixel_class) ||
-            scene::is_lit(sample.verdict) == (pixel_class == PixelClass::lit)) {
-            continue;
-        }
-        const float slope_term = bias.slope * sample.tan_theta;
-        layers.cause[i] = cause_of(pixels[i], pixel_class, bias.constant + slope_term);
-        layers.label[i] = label_of(pixels[i], pixel_class, layers.cause[i]);
-        ++layers.counts.by_cause[static_cast<std::size_t>(layers.cause[i])];
-        ++layers.counts.by_label[static_cast<std::size_t>(layers.label[i])];
-    }
-    return layers;
 }
 
 } // namespace gnomon::analysis

@@ -26,10 +26,7 @@ struct PixelCause {
     float exact_critical_bias = -std::numeric_limits<float>::infinity();
 };
 
-/// Cause and label of a scored pixel whose verdict is wrong.
-/// @param bias  constant and slope bias together, as the lookup added them: fl(b + fl(slope·tan
-/// θ)).
-[[nodiscard]] Cause cause_of(const PixelCause& pixel, scene::PixelClass truth, float bias);
+/// The label of a scored pixel whose verdict is wrong by this cause.
 [[nodiscard]] Label label_of(const PixelCause& pixel, scene::PixelClass truth, Cause cause);
 
 /// True when a lit pixel is acne wherever it is false shadow: this does not depend on the bias.
@@ -93,18 +90,5 @@ private:
 ///                                given to a filter that has none.
 [[nodiscard]] scene::Image<PixelCause> find_causes(const CauseInputs& inputs,
                                                    CauseMemory* memory = nullptr);
-
-/// Each wrong pixel's cause and label.
-struct CauseLayers {
-    scene::Image<Cause> cause;
-    scene::Image<Label> label;
-    CauseCounts counts;
-};
-
-/// The causes at the job's bias.
-[[nodiscard]] CauseLayers classify_errors(const scene::TruthLayers& truth,
-                                          const scene::LookupLayers& lookup,
-                                          const scene::Image<PixelCause>& pixels,
-                                          const scene::Bias& bias);
 
 } // namespace gnomon::analysis

@@ -79,6 +79,10 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers)
             comparison.job, view,
             {*comparison.triangles, comparison.receivers, comparison.truth, comparison.lookup},
             renderers);
+        if (const auto& biases = comparison.diagnosis->biases) {
+            comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
+                                            biases->critical_bias, view.bias.constant);
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "analysis/answers/diagnosis.hpp"
 #include "analysis/bias_reruns.hpp"
 #include "analysis/bias_verification.hpp"
-#include "analysis/diagnosis.hpp"
 #include "analysis/evaluate/evaluation.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/renderers.hpp"
@@ -63,6 +63,8 @@ struct Comparison {
     std::optional<Diagnosis> diagnosis;   ///< empty: not asked for
     std::optional<Evaluation> evaluation; ///< empty: GL's own; else of another renderer's case
     std::vector<BiasRerun> reruns;        ///< for `hardware`, which has no bias curve; else empty
+    /// GL's own lookup held to the bias curve; empty without one.
+    std::optional<BiasVerification::Rerun> held;
     /// Empty: not asked for, or nothing to verify (`hardware`).
     std::optional<BiasVerification> verification;
     std::vector<Advice> advice;                        ///< empty: not asked for
@@ -75,7 +77,7 @@ struct Comparison {
 };
 
 /// Fills in metrics and, where the renderers can answer for it, the diagnosis of a comparison whose
-/// other members are known.
+/// other members are known, and holds its verdicts to the bias curve.
 /// @throws std::invalid_argument  if its layers are not of the image's size.
 void measure_comparison(Comparison& comparison, const Renderers& renderers);
 

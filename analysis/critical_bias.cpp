@@ -232,18 +232,24 @@ bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
     return job.lookup.filter != scene::Filter::hardware && view.bias.normal_texels == 0;
 }
 
-scene::LookupLayers without_bias(scene::LookupLayers lookup, const scene::LookupLayers& deciding,
-                                 const LookupRule& rule)
+void set_verdicts(scene::LookupLayers& lookup, const scene::Image<float>& criticals, float bias)
 {
-    LookupRule unbiased = rule;
-    unbiased.slope = 0;
-    const scene::Image<float> criticals = critical_biases(deciding, unbiased);
     for_each_run(criticals.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
-            lookup.samples[i].verdict = criticals[i] <= 0.0F ? 1.0F : 0.0F;
+            lookup.samples[i].verdict = criticals[i] <= bias ? 1.0F : 0.0F;
         }
     });
-    return lookup;
+}
+
+scene::Image<float> criticals_of_verdicts(const scene::LookupLayers& lookup)
+{
+    scene::Image<float> criticals{lookup.samples.size()};
+    for_each_run(criticals.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            criticals[i] = scene::is_lit(lookup.samples[i].verdict) ? -infinity : infinity;
+        }
+    });
+    return criticals;
 }
 
 scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const LookupRule& rule)

@@ -49,16 +49,16 @@ struct LookupRule {
                                                    const scene::Image<float>& map_depths,
                                                    const LookupRule& rule);
 
-/// True if the lookup without any bias follows from the job's own: it is at the receiver itself,
-/// and each verdict has a deciding tap.
+/// True if the lookup without any bias follows from the one with the job's bias: it is at the
+/// receiver itself, and each verdict has a deciding tap.
 [[nodiscard]] bool can_derive_unbiased(const scene::Job& job, const scene::View& view);
 
-/// The lookup as it would be with neither constant nor slope bias; each verdict is 1 or 0, that of
-/// the majority of its taps.
-/// @param deciding  The same lookup's `deciding_samples`.
-[[nodiscard]] scene::LookupLayers without_bias(scene::LookupLayers lookup,
-                                               const scene::LookupLayers& deciding,
-                                               const LookupRule& rule);
+/// Makes each verdict the one with this constant bias: 1 or 0, that of the majority of its taps.
+/// @param criticals  The lookup's `critical_biases`.
+void set_verdicts(scene::LookupLayers& lookup, const scene::Image<float>& criticals, float bias);
+
+/// Critical biases that say nothing but the lookup's own verdicts: −∞ where it is lit, else +∞.
+[[nodiscard]] scene::Image<float> criticals_of_verdicts(const scene::LookupLayers& lookup);
 
 /// The critical bias of each pixel.
 /// @param lookup  Of a nearest or linear lookup, or from `deciding_samples`. Where `map_depth` is

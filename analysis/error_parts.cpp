@@ -226,25 +226,6 @@ PartMap find_parts(const scene::Image<PixelClass>& classes,
     return map;
 }
 
-std::vector<ErrorPart> count_parts(const PartMap& map, const scene::Image<PixelClass>& classes,
-                                   const scene::Image<Cause>& cause,
-                                   const scene::Image<Label>& label)
-{
-    require_equal_sizes("count_parts", classes.size(), map.part.size());
-    require_equal_sizes("count_parts", cause.size(), map.part.size());
-    require_equal_sizes("count_parts", label.size(), map.part.size());
-    std::vector<std::vector<ErrorPart>> rows{map.parts};
-    PartChanges changes{map.parts.size(), 1};
-    for (std::size_t i = 0; i < classes.pixel_count() && !map.parts.empty(); ++i) {
-        if (map.part[i] != PartMap::none && cause[i] != Cause::none) {
-            const bool is_false_lit = classes[i] == PixelClass::blocked;
-            changes.add(map.part[i], wrong_kind(is_false_lit, cause[i], label[i]), 0, 1);
-        }
-    }
-    changes.add_to(rows);
-    return rows.front();
-}
-
 std::vector<std::vector<ErrorPart>> count_parts(const PartMap& map, const BiasRowInputs& inputs,
                                                 std::span<const float> biases)
 {

@@ -77,14 +77,7 @@ struct PartMap {
                                  const scene::Image<float>& zeta_m,
                                  const scene::TriangleScene& scene);
 
-/// The parts with the wrong pixels of one verdict image.
-/// @throws std::invalid_argument  if the images differ in size.
-[[nodiscard]] std::vector<ErrorPart> count_parts(const PartMap& map,
-                                                 const scene::Image<scene::PixelClass>& classes,
-                                                 const scene::Image<Cause>& cause,
-                                                 const scene::Image<Label>& label);
-
-/// The same at each of several biases.
+/// The parts with their wrong pixels at each of several biases.
 /// @param biases  Ascending, 0 or normal.
 /// @throws std::invalid_argument  as `count_rows`.
 [[nodiscard]] std::vector<std::vector<ErrorPart>>

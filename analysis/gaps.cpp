@@ -16,15 +16,4 @@ std::vector<PixelGap> gaps_of_pixels(const BlockerGaps& gaps, std::span<const st
     return result;
 }
 
-Gaps measure_gaps(std::span<const PixelGap> gaps)
-{
-    std::vector<float> metres;
-    std::vector<float> texels;
-    for (const PixelGap& gap : gaps) {
-        metres.push_back(gap.metres);
-        texels.push_back(gap.texels);
-    }
-    return {find_quantiles(std::move(metres)), find_quantiles(std::move(texels))};
-}
-
 } // namespace gnomon::analysis

@@ -31,7 +31,4 @@ struct Gaps {
                                                    const scene::LightFrustum& frustum,
                                                    int resolution_texels);
 
-/// @param gaps  of the pixels that are false lit by the bias.
-[[nodiscard]] Gaps measure_gaps(std::span<const PixelGap> gaps);
-
 } // namespace gnomon::analysis

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -34,30 +34,16 @@ std::vector<float> default_slopes(double per_footprint)
     return slopes;
 }
 
-std::vector<SlopeCurve> slope_curves(const SlopeInputs& inputs, std::span<const float> slopes)
+SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
 {
-    std::vector<SlopeCurve> curves;
-    curves.reserve(slopes.size());
-    for (const float slope : slopes) {
-        LookupRule rule = inputs.rule;
-        rule.slope = slope;
-        const scene::Image<float> criticals = critical_biases(inputs.samples, rule);
-        BiasCurve curve{criticals, inputs.classes};
-        const BestBiases best = find_best_biases(curve);
-        const BiasBounds bounds = find_bias_bounds(curve, criticals, inputs.classes,
-                                                   inputs.acne_if_shadowed, inputs.forgive);
-        curves.push_back({slope, std::move(curve), best, bounds});
-    }
-    return curves;
-}
-
-const SlopeCurve& best_slope(std::span<const SlopeCurve> curves)
-{
-    if (curves.empty()) {
-        throw std::invalid_argument("best_slope: curves: there is none");
-    }
-    return *std::ranges::min_element(
-        curves, [](const SlopeCurve& a, const SlopeCurve& b) { return is_better(a.best, b.best); });
+    LookupRule rule = inputs.rule;
+    rule.slope = slope;
+    scene::Image<float> criticals = critical_biases(inputs.samples, rule);
+    BiasCurve curve{criticals, inputs.classes};
+    const BestBiases best = find_best_biases(curve);
+    const BiasBounds bounds =
+        find_bias_bounds(curve, criticals, inputs.classes, inputs.acne_if_shadowed, inputs.forgive);
+    return {slope, std::move(criticals), std::move(curve), best, bounds};
 }
 
 } // namespace gnomon::analysis

@@ -3,7 +3,6 @@
 #include "analysis/bias_limits.hpp"
 #include "analysis/critical_bias.hpp"
 
-#include <span>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -28,9 +27,10 @@ namespace gnomon::analysis {
 /// @throws std::invalid_argument  if it is not positive, or a factor is not a normal float32.
 [[nodiscard]] std::vector<float> default_slopes(double per_footprint);
 
-/// Everything about one slope.
+/// Every constant bias at once, with one slope.
 struct SlopeCurve {
     float slope = 0;
+    scene::Image<float> critical_bias; ///< of each pixel; 0 where there is no receiver
     BiasCurve curve;
     BestBiases best;
     BiasBounds bounds;
@@ -45,15 +45,9 @@ struct SlopeInputs {
     ForgiveGaps forgive;                                ///< may be empty
 };
 
-/// A curve for each slope factor, in the order given.
-/// @param slopes  Depth units per unit of tan θ; finite.
+/// The curve of one slope factor.
+/// @param slope  Depth units per unit of tan θ; finite.
 /// @throws std::invalid_argument  as `BiasCurve` and `find_bias_bounds` do.
-[[nodiscard]] std::vector<SlopeCurve> slope_curves(const SlopeInputs& inputs,
-                                                   std::span<const float> slopes);
-
-/// The slope factor whose best constant biases have the fewest errors; of several the one with the
-/// widest interval, of those the first. The best pair is its slope and `best.interval.middle()`.
-/// @throws std::invalid_argument  if there is no curve.
-[[nodiscard]] const SlopeCurve& best_slope(std::span<const SlopeCurve> curves);
+[[nodiscard]] SlopeCurve slope_curve(const SlopeInputs& inputs, float slope);
 
 } // namespace gnomon::analysis

@@ -21,11 +21,13 @@
 #include <fmt/ranges.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -148,15 +150,25 @@ void require_no_mismatch(const analysis::Comparison& comparison)
     }
 }
 
-/// @throws scene::EnvironmentError  if GL's reruns are not what the critical biases say.
+/// @throws scene::EnvironmentError  if verdicts are not what the critical biases say.
+void require_no_difference(std::string_view lookups, std::uint64_t differences,
+                           std::uint64_t verdicts)
+{
+    if (differences > 0) {
+        throw scene::EnvironmentError{fmt::format(
+            "{} of {} verdicts of GL's {} are not those of the bias curve: its numbers do not "
+            "hold for this driver; report it with the job and the output of `gnomon doctor`",
+            differences, verdicts, lookups)};
+    }
+}
+
 void require_no_difference(const analysis::Comparison& comparison)
 {
-    const auto& verification = comparison.verification;
-    if (verification && verification->differences() > 0) {
-        throw scene::EnvironmentError{fmt::format(
-            "{} of {} verdicts of GL's reruns are not those of the bias curve: its numbers do not "
-            "hold for this driver; report it with the job and the output of `gnomon doctor`",
-            verification->differences(), verification->verdicts())};
+    if (const auto& own = comparison.held) {
+        require_no_difference("lookup", own->differences, own->lit + own->shadowed);
+    }
+    if (const auto& reruns = comparison.verification) {
+        require_no_difference("reruns", reruns->differences(), reruns->verdicts());
     }
 }
 

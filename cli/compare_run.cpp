@@ -1,7 +1,7 @@
 #include "cli/compare_run.hpp"
 
+#include "analysis/answers/finished_curve.hpp"
 #include "analysis/sweep/catalogue.hpp"
-#include "analysis/sweep/lookup_answers.hpp"
 #include "cli/kept_pixels.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"

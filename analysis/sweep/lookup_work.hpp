@@ -1,8 +1,9 @@
 #pragma once
 
+#include "analysis/answers/exact_light_cache.hpp"
+#include "analysis/answers/judged_receivers.hpp"
+#include "analysis/answers/lookup_answers.hpp"
 #include "analysis/comparison.hpp"
-#include "analysis/sweep/exact_side.hpp"
-#include "analysis/sweep/lookup_answers.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 
@@ -20,37 +21,53 @@ struct ReadScene {
     SceneSummary summary;
 };
 
-/// The exact sides of the cameras that are kept side by side, the last of each: maps that differ in
-/// depth format only come one after the other. Several threads may find sides, each of other slots.
-class ExactSides {
+/// A camera's receivers before a light, what is true of them, and what follows from both.
+struct SweepSubject {
+    scene::ReceiverLayers receivers;
+    scene::TruthLayers truth;
+    JudgedReceivers judged;
+
+    SweepSubject(scene::ReceiverLayers seen, scene::TruthLayers found, const ReceiverUse& use)
+        : receivers{std::move(seen)},
+          truth{std::move(found)},
+          judged{receivers, truth, use}
+    {
+    }
+};
+
+/// What exact rays say of the cameras that are kept side by side, the last cache of each: maps that
+/// differ in depth format only come one after the other. Several threads may find caches, each of
+/// other slots.
+class ExactLightCaches {
 public:
-    explicit ExactSides(std::size_t slots) : sides_(slots) {}
+    explicit ExactLightCaches(std::size_t slots) : caches_(slots) {}
 
     template <typename Make>
-    std::shared_ptr<ExactSide> find(std::size_t slot, const std::string& key, const Make& make)
+    std::shared_ptr<ExactLightCache> find(std::size_t slot, const std::string& key,
+                                          const Make& make)
     {
-        auto& [known, side] = sides_[slot];
-        if (side == nullptr || known != key) {
-            side.reset(); // before the next one takes memory
-            side = make();
+        auto& [known, cache] = caches_[slot];
+        if (cache == nullptr || known != key) {
+            cache.reset(); // before the next one takes memory
+            cache = make();
             known = key;
         }
-        return side;
+        return cache;
     }
 
 private:
-    std::vector<std::pair<std::string, std::shared_ptr<ExactSide>>> sides_;
+    std::vector<std::pair<std::string, std::shared_ptr<ExactLightCache>>> caches_;
 };
 
 /// The answers of one lookup, made by the background when they are first needed.
 class LookupWork {
 public:
-    LookupWork(const ReadScene& scene, std::shared_ptr<SweepSubject> subject, std::size_t slot,
-               ExactSides& sides, SweepLookup lookup)
+    LookupWork(const ReadScene& scene, std::shared_ptr<JudgedReceivers> receivers, std::size_t slot,
+               ExactLightCaches& caches, ObservedLookup lookup)
         : scene_{scene},
-          subject_{std::move(subject)},
+          receivers_{std::move(receivers)},
           slot_{slot},
-          sides_{sides},
+          caches_{caches},
           lookup_{std::move(lookup)}
     {
     }
@@ -70,20 +87,21 @@ private:
     LookupAnswers& answers()
     {
         if (!answers_) {
-            auto side = sides_.find(slot_, stage_keys(lookup_.job).exact, [&] {
-                return std::make_shared<ExactSide>(scene_.open.file->scene, subject_, lookup_.job,
-                                                   lookup_.view, *scene_.open.renderers);
+            auto exact = caches_.find(slot_, stage_keys(lookup_.job).exact, [&] {
+                return std::make_shared<ExactLightCache>(scene_.open.file->scene, receivers_,
+                                                         lookup_.job, lookup_.view,
+                                                         *scene_.open.renderers);
             });
-            answers_ = std::make_unique<LookupAnswers>(std::move(side), std::move(lookup_));
+            answers_ = std::make_unique<LookupAnswers>(std::move(exact), std::move(lookup_));
         }
         return *answers_;
     }
 
     const ReadScene& scene_;
-    std::shared_ptr<SweepSubject> subject_;
+    std::shared_ptr<JudgedReceivers> receivers_;
     std::size_t slot_;
-    ExactSides& sides_;
-    SweepLookup lookup_;
+    ExactLightCaches& caches_;
+    ObservedLookup lookup_;
     scene::LightFrustum frustum_ = lookup_.view.frustum;
     std::unique_ptr<LookupAnswers> answers_;
 };

@@ -1,7 +1,7 @@
 #include "analysis/sweep/runner.hpp"
 
-#include "analysis/critical_bias.hpp"
-#include "analysis/metrics.hpp"
+#include "analysis/answers/finished_curve.hpp"
+#include "analysis/answers/lookup_answers.hpp"
 #include "analysis/sweep/background.hpp"
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/lookup_work.hpp"
@@ -21,10 +21,10 @@ namespace {
 
 using Kind = SweepStep::Kind;
 
-/// Tells of finished and failed configurations, one at a time.
-class Teller {
+/// Hands finished and failed configurations on, one at a time.
+class ResultSink {
 public:
-    explicit Teller(const SweepHooks& hooks) : hooks_{hooks} {}
+    explicit ResultSink(const SweepHooks& hooks) : hooks_{hooks} {}
 
     void finished(FinishedCurve&& curve)
     {
@@ -49,7 +49,7 @@ public:
           hooks_{hooks},
           receivers_(plan.slots),
           subjects_(plan.slots),
-          sides_(plan.slots)
+          caches_(plan.slots)
     {
         // What one camera's lookups say is kept for the next: their curves are answered in turn.
         const std::size_t lanes = std::min<std::size_t>(cameras(plan), most_lookups);
@@ -137,7 +137,7 @@ private:
     {
         finish_lanes(); // what they work on refers to the scene before
         lookup_ = {};
-        sides_ = ExactSides{plan_.slots};
+        caches_ = ExactLightCaches{plan_.slots};
         map_ = {};
         receivers_.assign(plan_.slots, {});
         subjects_.assign(plan_.slots, {});
@@ -165,12 +165,9 @@ private:
         ++counts_.truths;
         subjects_[slot] = make<SweepSubject>([&] {
             const auto receivers = need(receivers_[slot]);
-            const scene::View view = stage_view();
-            auto subject = std::make_shared<SweepSubject>(view.image, hooks_.counts_parts);
-            subject->receivers = *receivers;
-            subject->truth = renderers().find_truth(view, subject->receivers);
-            subject->classes = count_classes(subject->truth);
-            return subject;
+            return std::make_shared<SweepSubject>(
+                *receivers, renderers().find_truth(stage_view(), *receivers),
+                ReceiverUse{.by_many_maps = true, .counts_parts = hooks_.counts_parts});
         });
     }
 
@@ -206,27 +203,18 @@ private:
             static_cast<void>(need(receivers_[slot]));
             auto subject = need(subjects_[slot]);
             select(slot);
-            return std::make_shared<LookupWork>(*need(scene_), std::move(subject), slot, sides_,
-                                                look_up_unbiased());
+            // The subject lives as long as its part is used.
+            std::shared_ptr<JudgedReceivers> judged{subject, &subject->judged};
+            return std::make_shared<LookupWork>(*need(scene_), std::move(judged), slot, caches_,
+                                                look_up_for_every_bias());
         });
     }
 
-    SweepLookup look_up_unbiased()
+    /// The lookup at the job's normal offset; no other bias matters to its answers.
+    ObservedLookup look_up_for_every_bias()
     {
-        SweepLookup lookup;
-        lookup.job = task_.job;
-        lookup.view = stage_view();
-        scene::View view = lookup.view;
-        view.bias = {.constant = 0, .slope = 0, .normal_texels = view.bias.normal_texels};
-        lookup.layers = renderers().look_up(lookup.job, view);
-        if (!can_derive_unbiased(lookup.job, view)) {
-            view.bias = {};
-            lookup.unmoved = renderers().look_up(lookup.job, view);
-        }
-        if (lookup.job.lookup.filter != scene::Filter::nearest) {
-            lookup.map_depths = renderers().read_map_depths();
-        }
-        return lookup;
+        const scene::View view = stage_view();
+        return observe_lookup(task_.job, view, renderers().look_up(task_.job, view), renderers());
     }
 
     /// Whether every bias is looked up and compared by itself.
@@ -272,12 +260,12 @@ private:
             return finished;
         });
         for (const RefusedRow& row : refused) {
-            teller_.failed({row.ordinal}, row.message, Retry::is_useless);
+            sink_.failed({row.ordinal}, row.message, Retry::is_useless);
         }
         if (!made.value) {
-            teller_.failed(ordinals_of(task), made.error, made.retry);
+            sink_.failed(ordinals_of(task), made.error, made.retry);
         } else if (auto& finished = *made.value) {
-            teller_.finished(std::move(*finished));
+            sink_.finished(std::move(*finished));
         }
     }
 
@@ -298,7 +286,7 @@ private:
         const auto made =
             make<Comparison>([&] { return std::make_shared<Comparison>(compare_row(slot, row)); });
         if (!made.value) {
-            return teller_.failed({row.ordinal}, made.error, made.retry);
+            return sink_.failed({row.ordinal}, made.error, made.retry);
         }
         const Comparison& comparison = *made.value;
         if (hooks_.keep_pixels) {
@@ -307,11 +295,14 @@ private:
         FinishedCurve finished =
             finish_compared(comparison, task_.id, row.ordinal,
                             own_constant_bias(task_.job, comparison.view.frustum));
+        if (comparison.held && comparison.held->differences > 0) {
+            finished.curve.verification = BiasVerification{{*comparison.held}};
+        }
         if (hooks_.verifies_biases && verified_ != task_.id) {
             finished.curve.verification = verify_comparison(comparison, renderers());
             verified_ = task_.id;
         }
-        teller_.finished(std::move(finished));
+        sink_.finished(std::move(finished));
     }
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
@@ -339,7 +330,7 @@ private:
 
     const SweepPlan& plan_;
     const SweepHooks& hooks_;
-    Teller teller_{hooks_};
+    ResultSink sink_{hooks_};
     PlanCounts counts_;
     SweepTask task_;                        ///< of the step
     std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
@@ -347,7 +338,7 @@ private:
     std::vector<Made<scene::ReceiverLayers>> receivers_; ///< by slot
     std::vector<Made<SweepSubject>> subjects_;           ///< by slot
     Made<bool> map_;
-    ExactSides sides_; ///< the lanes'
+    ExactLightCaches caches_; ///< the lanes'
     Made<LookupWork> lookup_;
     std::string verified_; ///< the curve that was verified last, of those compared bias by bias
     std::vector<std::unique_ptr<Background>> lanes_; ///< last: they work on the others

@@ -53,6 +53,17 @@ struct Subject {
     }
 };
 
+/// The cause of a wrong pixel by the definition.
+/// @param bias  constant and slope bias together, as the lookup adds them.
+Cause cause_of(const PixelCause& pixel, PixelClass truth, float bias)
+{
+    if (pixel.unbiased == Cause::none) {
+        return Cause::bias;
+    }
+    return truth == PixelClass::lit && bias >= pixel.exact_critical_bias ? Cause::precision
+                                                                         : pixel.unbiased;
+}
+
 /// Counts one bias by the definition: verdict, cause and label of every pixel.
 BiasRow count_row(const Subject& subject, float bias)
 {

@@ -1,3 +1,4 @@
+#include "analysis/bias_rows.hpp"
 #include "analysis/causes.hpp"
 
 #include "fake_light.hpp"
@@ -61,7 +62,9 @@ struct OnePixel {
     [[nodiscard]] CauseLayers classified(const scene::Bias& bias = {}) const
     {
         const scene::Image<PixelCause> pixels{{1, 1}, found()};
-        return classify_errors(truth, lookup, pixels, bias);
+        const scene::Image<float> verdicts = criticals_of_verdicts(lookup);
+        return classify_errors({truth.pixel_class, lookup, verdicts, pixels, {.slope = bias.slope}},
+                               bias.constant);
     }
 };
 

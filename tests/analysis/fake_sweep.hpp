@@ -1,7 +1,7 @@
 #pragma once
 
+#include "analysis/answers/finished_curve.hpp"
 #include "analysis/sweep/catalogue.hpp"
-#include "analysis/sweep/lookup_answers.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "scene/job_source.hpp"
 #include "sweep_world.hpp"

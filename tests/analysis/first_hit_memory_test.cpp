@@ -1,4 +1,4 @@
-#include "analysis/first_hit_memory.hpp"
+#include "analysis/answers/first_hit_memory.hpp"
 
 #include "fake_light.hpp"
 

@@ -1,4 +1,3 @@
-#include "analysis/gaps.hpp"
 #include "analysis/map_errors.hpp"
 
 #include "fake_light.hpp"
@@ -66,18 +65,6 @@ TEST(MapDepthErrors, AreStoredLessExactWhereBothSeeSomething)
     // 0.999 rounds to 1 in eight bits: 10 stored, 9.992 seen.
     EXPECT_NEAR(double{errors_m[2]}, 0.008, 1e-6); // of float32 near 10
     EXPECT_TRUE(std::isnan(errors_m[3])) << "not scored";
-}
-
-TEST(Gaps, AreMeasuredInMetresAndInTexels)
-{
-    const std::vector<PixelGap> pixels{{0.5F, 1.0F}, {1.5F, 3.0F}};
-    const Gaps gaps = measure_gaps(pixels);
-    EXPECT_EQ(gaps.metres->count, 2U);
-    EXPECT_EQ(gaps.metres->median, 0.5F);
-    EXPECT_EQ(gaps.metres->max, 1.5F);
-    EXPECT_EQ(gaps.texels->median, 1.0F);
-    EXPECT_EQ(gaps.texels->max, 3.0F);
-    EXPECT_FALSE(measure_gaps({}).metres);
 }
 
 } // namespace

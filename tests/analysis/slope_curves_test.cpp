@@ -61,42 +61,33 @@ TEST(DefaultSlopes, ScaleWithTheFootprintsDepth)
                      1 / (8 * 0.8 * 2));
 }
 
-TEST(SlopeCurves, EqualTheCurvesOfTheirCriticalBiases)
+TEST(SlopeCurve, EqualsTheCurveOfItsCriticalBiases)
 {
     const Ground ground;
-    const std::vector<float> slopes{0.0F, 0.5F * Ground::per_texel, -Ground::per_texel};
-    const auto curves = slope_curves(ground.inputs(), slopes);
-    ASSERT_EQ(curves.size(), slopes.size());
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
+    for (const float slope : {0.0F, 0.5F * Ground::per_texel, -Ground::per_texel}) {
         LookupRule rule;
-        rule.slope = slopes[i];
+        rule.slope = slope;
         const auto criticals = critical_biases(ground.samples, rule);
         const BiasCurve curve{criticals, ground.classes};
-        EXPECT_EQ(curves[i].slope, slopes[i]);
-        EXPECT_EQ(curves[i].curve.lit(), curve.lit());
-        EXPECT_EQ(curves[i].curve.blocked(), curve.blocked());
-        EXPECT_EQ(curves[i].best.interval, find_best_biases(curve).interval);
-        EXPECT_EQ(curves[i].bounds.strict.acne_free, curve.lit().back());
+        const SlopeCurve found = slope_curve(ground.inputs(), slope);
+        EXPECT_EQ(found.slope, slope);
+        EXPECT_EQ(found.curve.lit(), curve.lit());
+        EXPECT_EQ(found.curve.blocked(), curve.blocked());
+        EXPECT_EQ(found.best.interval, find_best_biases(curve).interval);
+        EXPECT_EQ(found.bounds.strict.acne_free, curve.lit().back());
     }
 }
 
-TEST(BestSlope, ServesGroundThatNoConstantBiasServes)
+TEST(SlopeCurve, ServesGroundThatNoConstantBiasServes)
 {
     const Ground ground;
-    const auto curves = slope_curves(ground.inputs(), default_slopes(double{Ground::per_texel}));
     // The steep half needs up to 2 texels' depth, but the sheet is one in front.
-    EXPECT_TRUE(curves.front().bounds.no_constant_bias_serves);
-    const SlopeCurve& best = best_slope(curves);
-    EXPECT_EQ(best.best.errors.total(), 0U);
-    EXPECT_FALSE(best.bounds.no_constant_bias_serves);
-    // ½ is what every tilt needs; twice and more leave the sheet (tan 0.25) as far, but less room.
-    EXPECT_GE(best.slope, 0.5F * Ground::per_texel);
-    EXPECT_EQ(best.curve.at(best.best.interval.middle()).total(), 0U);
-}
-
-TEST(BestSlope, RejectsNoCurves)
-{
-    EXPECT_THROW((void)best_slope({}), std::invalid_argument);
+    EXPECT_TRUE(slope_curve(ground.inputs(), 0).bounds.no_constant_bias_serves);
+    // ½ is what every tilt needs.
+    const SlopeCurve sloped = slope_curve(ground.inputs(), 0.5F * Ground::per_texel);
+    EXPECT_EQ(sloped.best.errors.total(), 0U);
+    EXPECT_FALSE(sloped.bounds.no_constant_bias_serves);
+    EXPECT_EQ(sloped.curve.at(sloped.best.interval.middle()).total(), 0U);
 }
 
 } // namespace

@@ -90,6 +90,55 @@ TEST(SweepVerification, CountsWhatGlDoesOtherwise)
     }
 }
 
+/// The world's renderers, but for a driver that forgets every bias above the limit.
+Renderers forgetful_renderers(const SweepWorld& world, float limit)
+{
+    Renderers renderers = world.renderers();
+    renderers.look_up = [look_up = renderers.look_up, limit](const scene::Job& job,
+                                                             scene::View view) {
+        view.bias.constant = view.bias.constant > limit ? 0 : view.bias.constant;
+        return look_up(job, view);
+    };
+    return renderers;
+}
+
+TEST(SweepVerification, IsMadeUnaskedWhereALookupIsNotTheCurves)
+{
+    FakeSweep sweep{{"bias.constant=0,0.125"}, small_map};
+    sweep.keep_pixels();
+    const Renderers renderers = forgetful_renderers(sweep.world, 0.1F);
+    sweep.hooks.open_scene = [&](const scene::Job&) {
+        return OpenScene{&sweep.world.file(), &renderers};
+    };
+    std::vector<float> contradicted;
+    sweep.hooks.record = [&](FinishedCurve&& finished) {
+        if (const auto& verification = finished.curve.verification) {
+            EXPECT_GT(verification->differences(), 0U);
+            contradicted.push_back(verification->reruns.front().bias);
+        }
+    };
+    sweep.run();
+    EXPECT_EQ(contradicted, std::vector<float>{0.125F});
+}
+
+TEST(Compare, HoldsItsLookupToTheCurve)
+{
+    const FakeSweep sweep{{"lookup.filter=nearest,pcf3,hardware", "bias.constant=0,0.125"},
+                          small_map};
+    for (std::uint64_t ordinal = 0; ordinal < sweep.space.size(); ++ordinal) {
+        const scene::Job job = sweep.space.job(sweep.space.at(ordinal));
+        const Comparison held = compare(job, sweep.world.file(), sweep.world.renderers());
+        const Comparison other =
+            compare(job, sweep.world.file(), forgetful_renderers(sweep.world, 0.1F));
+        const bool has_curve = job.lookup.filter != scene::Filter::hardware;
+        ASSERT_EQ(held.held.has_value(), has_curve) << "ordinal " << ordinal;
+        if (has_curve) {
+            EXPECT_EQ(held.held->differences, 0U) << "ordinal " << ordinal;
+            EXPECT_EQ(other.held->differences > 0, job.bias.constant > 0) << "ordinal " << ordinal;
+        }
+    }
+}
+
 TEST(SweepVerification, HasNothingToSayOfHardware)
 {
     FakeSweep sweep{{"lookup.filter=hardware", "bias.constant=0,0.125"}, small_map};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/bias_answers.hpp"
+#include "analysis/bias_rows.hpp"
 #include "analysis/breakdown.hpp"
 #include "analysis/causes.hpp"
 #include "analysis/gaps.hpp"
@@ -8,7 +9,6 @@
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 

@@ -1,0 +1,22 @@
+#include "analysis/answers/diagnosis.hpp"
+
+#include "analysis/answers/exact_light_cache.hpp"
+#include "analysis/answers/judged_receivers.hpp"
+#include "analysis/answers/lookup_answers.hpp"
+
+#include <memory>
+
+namespace gnomon::analysis {
+
+Diagnosis diagnose(const scene::Job& job, const scene::View& view, const ComparedLayers& layers,
+                   const Renderers& renderers)
+{
+    auto receivers = std::make_shared<JudgedReceivers>(
+        layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_parts = false});
+    LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
+                                                            job, view, renderers),
+                          observe_lookup(job, view, layers.lookup, renderers)};
+    return std::move(answers).diagnose(layers.lookup);
+}
+
+} // namespace gnomon::analysis

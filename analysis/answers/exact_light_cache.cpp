@@ -1,0 +1,119 @@
+#include "analysis/answers/exact_light_cache.hpp"
+
+#include "analysis/own_sheets.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace gnomon::analysis {
+
+ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
+                                 std::shared_ptr<JudgedReceivers> receivers, const scene::Job& job,
+                                 const scene::View& view, const Renderers& renderers)
+    : receivers_{std::move(receivers)},
+      triangles_{triangles},
+      view_{view},
+      resolution_texels_{job.shadow_map.resolution_texels},
+      cull_{job.shadow_map.cull},
+      geometry_{triangles, view_, receivers_->receivers().triangle},
+      light_{renderers.make_exact_light(job, view_, receivers_->receivers())},
+      zeta_m_{receivers_->zeta_m(view_.frustum, geometry_)},
+      distances_{receivers_->distances(view_.frustum, geometry_)},
+      remembers_causes_{receivers_->use().by_many_maps &&
+                        job.lookup.filter == scene::Filter::nearest},
+      causes_{size_if(remembers_causes_)},
+      detaches_{size_if(remembers_causes_), not_asked},
+      pixel_gaps_{size_if(receivers_->use().by_many_maps), unknown_gap}
+{
+}
+
+scene::ImageSize ExactLightCache::size_if(bool is_kept) const
+{
+    return is_kept ? view_.image : scene::ImageSize{0, 0};
+}
+
+const PartMap& ExactLightCache::parts()
+{
+    if (parts_ == nullptr) {
+        parts_ = receivers_->parts(view_.frustum, geometry_, triangles_);
+    }
+    return *parts_;
+}
+
+CauseInputs ExactLightCache::with_known_hits(CauseInputs inputs)
+{
+    inputs.known_hits = &centre_hits(inputs).hits();
+    return inputs;
+}
+
+scene::Image<PixelCause> ExactLightCache::causes(const CauseInputs& inputs)
+{
+    return find_causes(with_known_hits(inputs), remembers_causes_ ? &causes_ : nullptr);
+}
+
+const CentreHits& ExactLightCache::centre_hits(const CauseInputs& inputs)
+{
+    if (!centre_hits_) {
+        centre_hits_.emplace(inputs, [&](std::span<const scene::Texel> texels) {
+            return receivers_->first_hits().first_hits(
+                {*light_, view_.frustum, resolution_texels_, cull_}, texels);
+        });
+    }
+    return *centre_hits_;
+}
+
+std::vector<std::size_t> ExactLightCache::detached(const CauseInputs& inputs,
+                                                   std::span<const std::size_t> pixels)
+{
+    if (!remembers_causes_) {
+        return detached_pixels(with_known_hits(inputs), pixels);
+    }
+    std::vector<std::size_t> asked;
+    for (const std::size_t pixel : pixels) {
+        if (detaches_[pixel] == not_asked) {
+            detaches_[pixel] = 0;
+            asked.push_back(pixel);
+        }
+    }
+    for (const std::size_t pixel : detached_pixels(with_known_hits(inputs), asked)) {
+        detaches_[pixel] = 1;
+    }
+    std::vector<std::size_t> detached;
+    for (const std::size_t pixel : pixels) {
+        if (detaches_[pixel] == 1) {
+            detached.push_back(pixel);
+        }
+    }
+    return detached;
+}
+
+std::vector<PixelGap> ExactLightCache::find_gaps(std::span<const std::size_t> pixels)
+{
+    gaps().find(*light_, pixels);
+    return gaps_of_pixels(gaps(), pixels, geometry_, view_.frustum, resolution_texels_);
+}
+
+std::vector<PixelGap> ExactLightCache::pixel_gaps(std::span<const std::size_t> pixels)
+{
+    if (pixel_gaps_.empty()) {
+        return find_gaps(pixels);
+    }
+    std::vector<std::size_t> asked;
+    for (const std::size_t pixel : pixels) {
+        if (std::isnan(pixel_gaps_[pixel].metres)) {
+            asked.push_back(pixel);
+        }
+    }
+    const auto found = find_gaps(asked);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        pixel_gaps_[asked[i]] = found[i];
+    }
+    std::vector<PixelGap> result;
+    result.reserve(pixels.size());
+    for (const std::size_t pixel : pixels) {
+        result.push_back(pixel_gaps_[pixel]);
+    }
+    return result;
+}
+
+} // namespace gnomon::analysis

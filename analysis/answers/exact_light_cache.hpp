@@ -1,0 +1,83 @@
+#pragma once
+
+#include "analysis/answers/judged_receivers.hpp"
+#include "analysis/causes.hpp"
+#include "analysis/gaps.hpp"
+#include "analysis/map_errors.hpp"
+#include "analysis/receiver_geometry.hpp"
+#include "analysis/renderers.hpp"
+#include "scene/exact_light.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What exact rays say of the receivers' lookups in maps that differ in nothing but the depth
+/// format: found once, when it is first asked for.
+class ExactLightCache {
+public:
+    /// @param view  of any of the jobs; no bias matters but a normal offset.
+    ExactLightCache(const scene::TriangleScene& triangles,
+                    std::shared_ptr<JudgedReceivers> receivers, const scene::Job& job,
+                    const scene::View& view, const Renderers& renderers);
+    ExactLightCache(const ExactLightCache&) = delete;
+    ExactLightCache& operator=(const ExactLightCache&) = delete;
+
+    [[nodiscard]] const JudgedReceivers& receivers() const { return *receivers_; }
+    [[nodiscard]] const scene::TriangleScene& triangles() const { return triangles_; }
+    [[nodiscard]] const scene::ExactLight& light() const { return *light_; }
+    [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
+    /// Light distance of the scored receivers [m], else NaN.
+    [[nodiscard]] const scene::Image<float>& zeta_m() const { return *zeta_m_; }
+    /// The scored receivers by light distance.
+    [[nodiscard]] const Binning& distances() const { return *distances_; }
+    /// The scored receivers by object and light distance.
+    [[nodiscard]] const PartMap& parts();
+    [[nodiscard]] BlockerGaps& gaps() { return receivers_->gaps(); }
+    /// The gaps of these blocked pixels, in the order of the pixels.
+    [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels);
+
+    [[nodiscard]] scene::Image<PixelCause> causes(const CauseInputs& inputs);
+    [[nodiscard]] const CentreHits& centre_hits(const CauseInputs& inputs);
+    /// Lets go of `centre_hits`; they are traced again if they are asked for.
+    void forget_texels() { centre_hits_.reset(); }
+    /// Of these blocked pixels those whose shadow a bias detaches (`detached_pixels`).
+    [[nodiscard]] std::vector<std::size_t> detached(const CauseInputs& inputs,
+                                                    std::span<const std::size_t> pixels);
+
+private:
+    static constexpr std::uint8_t not_asked = 2;
+    static constexpr PixelGap unknown_gap{std::numeric_limits<float>::quiet_NaN(), 0};
+
+    /// The image's size where `is_kept`, else that of an image without pixels.
+    [[nodiscard]] scene::ImageSize size_if(bool is_kept) const;
+    /// The same, with what is known of texels.
+    [[nodiscard]] CauseInputs with_known_hits(CauseInputs inputs);
+    [[nodiscard]] std::vector<PixelGap> find_gaps(std::span<const std::size_t> pixels);
+
+    std::shared_ptr<JudgedReceivers> receivers_;
+    const scene::TriangleScene& triangles_;
+    scene::View view_;
+    int resolution_texels_;
+    scene::Cull cull_;
+    ReceiverGeometry geometry_;
+    std::unique_ptr<scene::ExactLight> light_;
+    std::shared_ptr<const scene::Image<float>> zeta_m_;
+    std::shared_ptr<const Binning> distances_;
+    std::shared_ptr<const PartMap> parts_; ///< nullptr until asked for
+    std::optional<CentreHits> centre_hits_;
+    /// Only with a single tap what is found does not depend on the stored depths.
+    bool remembers_causes_;
+    CauseMemory causes_;
+    scene::Image<std::uint8_t> detaches_; ///< 1 yes, 0 no, or `not_asked`
+    scene::Image<PixelGap> pixel_gaps_;   ///< or `unknown_gap`; empty: not remembered
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,66 @@
+#include "analysis/answers/judged_receivers.hpp"
+
+#include "analysis/own_sheets.hpp"
+
+namespace gnomon::analysis {
+
+JudgedReceivers::JudgedReceivers(const scene::ReceiverLayers& receivers,
+                                 const scene::TruthLayers& truth, const ReceiverUse& use)
+    : receivers_{receivers},
+      truth_{truth},
+      use_{use},
+      classes_{count_classes(truth)},
+      gaps_{truth.pixel_class.size()},
+      first_hits_{use.by_many_maps ? texels_each_pixel * truth.pixel_class.pixel_count() : 0}
+{
+}
+
+void JudgedReceivers::count_from(const scene::LightFrustum& frustum)
+{
+    if (distances_from_ != frustum.origin || distances_along_ != frustum.forward) {
+        zeta_m_ = nullptr;
+        distances_ = nullptr;
+        parts_ = nullptr;
+        distances_from_ = frustum.origin;
+        distances_along_ = frustum.forward;
+    }
+}
+
+std::shared_ptr<const scene::Image<float>>
+JudgedReceivers::zeta_m(const scene::LightFrustum& frustum, const ReceiverGeometry& geometry)
+{
+    count_from(frustum);
+    if (zeta_m_ == nullptr) {
+        zeta_m_ = std::make_shared<const scene::Image<float>>(
+            light_distances_m(truth_.pixel_class, geometry));
+    }
+    return zeta_m_;
+}
+
+std::shared_ptr<const Binning> JudgedReceivers::distances(const scene::LightFrustum& frustum,
+                                                          const ReceiverGeometry& geometry)
+{
+    count_from(frustum);
+    if (distances_ == nullptr) {
+        distances_ = std::make_shared<const Binning>(
+            bin_by_distance(truth_.pixel_class, *zeta_m(frustum, geometry)));
+    }
+    return distances_;
+}
+
+std::shared_ptr<const PartMap> JudgedReceivers::parts(const scene::LightFrustum& frustum,
+                                                      const ReceiverGeometry& geometry,
+                                                      const scene::TriangleScene& triangles)
+{
+    count_from(frustum);
+    if (parts_ == nullptr) {
+        const auto& classes = truth_.pixel_class;
+        parts_ = std::make_shared<const PartMap>(
+            use_.counts_parts
+                ? find_parts(classes, receivers_.triangle, *zeta_m(frustum, geometry), triangles)
+                : PartMap{scene::Image<std::uint16_t>{classes.size(), PartMap::none}, {}});
+    }
+    return parts_;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "analysis/answers/first_hit_memory.hpp"
+#include "analysis/blocker_gaps.hpp"
+#include "analysis/breakdown.hpp"
+#include "analysis/error_parts.hpp"
+#include "analysis/metrics.hpp"
+#include "analysis/receiver_geometry.hpp"
+#include "scene/layers.hpp"
+#include "scene/light_frustum.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace gnomon::analysis {
+
+/// What a camera's receivers before a light will be asked.
+struct ReceiverUse {
+    bool by_many_maps = true; ///< what is found for one map is remembered for the next
+    bool counts_parts = true; ///< they are told apart by object and light distance
+};
+
+/// A camera before a light: what GL sees there and what is true, and what follows from both
+/// whatever the map.
+class JudgedReceivers {
+public:
+    /// @param receivers, truth  Must outlive this.
+    JudgedReceivers(const scene::ReceiverLayers& receivers, const scene::TruthLayers& truth,
+                    const ReceiverUse& use);
+    JudgedReceivers(const JudgedReceivers&) = delete;
+    JudgedReceivers& operator=(const JudgedReceivers&) = delete;
+
+    [[nodiscard]] const scene::ReceiverLayers& receivers() const { return receivers_; }
+    [[nodiscard]] const scene::TruthLayers& truth() const { return truth_; }
+    [[nodiscard]] const ClassCounts& classes() const { return classes_; }
+    [[nodiscard]] const ReceiverUse& use() const { return use_; }
+
+    [[nodiscard]] BlockerGaps& gaps() { return gaps_; }
+    [[nodiscard]] FirstHitMemory& first_hits() { return first_hits_; }
+
+    /// Light distance of the scored receivers [m], else NaN. This and what follows from it are
+    /// found anew only where it is counted otherwise than the last time.
+    [[nodiscard]] std::shared_ptr<const scene::Image<float>>
+    zeta_m(const scene::LightFrustum& frustum, const ReceiverGeometry& geometry);
+    /// The scored receivers by light distance.
+    [[nodiscard]] std::shared_ptr<const Binning> distances(const scene::LightFrustum& frustum,
+                                                           const ReceiverGeometry& geometry);
+    /// The same with their objects; no parts if they are not to be counted.
+    [[nodiscard]] std::shared_ptr<const PartMap> parts(const scene::LightFrustum& frustum,
+                                                       const ReceiverGeometry& geometry,
+                                                       const scene::TriangleScene& triangles);
+
+private:
+    /// Its pixels see at most one centre texel each of every map: room for maps of this many sizes.
+    static constexpr std::size_t texels_each_pixel = 4;
+
+    void count_from(const scene::LightFrustum& frustum);
+
+    const scene::ReceiverLayers& receivers_;
+    const scene::TruthLayers& truth_;
+    ReceiverUse use_;
+    ClassCounts classes_;
+    BlockerGaps gaps_;
+    FirstHitMemory first_hits_;
+    std::shared_ptr<const scene::Image<float>> zeta_m_;
+    std::shared_ptr<const Binning> distances_;
+    std::shared_ptr<const PartMap> parts_;
+    scene::Vec3d distances_from_{}; ///< ζ is 0 there
+    scene::Vec3d distances_along_{};
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,208 @@
+#include "analysis/answers/lookup_answers.hpp"
+
+#include "analysis/answers/finished_curve.hpp"
+#include "analysis/bias_answers.hpp"
+#include "analysis/depth/bin_envelopes.hpp"
+#include "analysis/map_errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::PixelClass;
+
+namespace {
+
+std::vector<float> ascending_biases(const CurveQuestion& question)
+{
+    std::vector<float> biases;
+    for (const CurveQuestion::Row& row : question.rows) {
+        biases.push_back(row.bias);
+    }
+    std::sort(biases.begin(), biases.end());
+    biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
+    return biases;
+}
+
+} // namespace
+
+ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
+                              scene::LookupLayers layers, const Renderers& renderers)
+{
+    ObservedLookup lookup{job, view, std::move(layers), {}, {}};
+    if (!can_derive_unbiased(job, view)) {
+        scene::View unbiased = view;
+        unbiased.bias = {};
+        lookup.unbiased = renderers.look_up(job, unbiased);
+    }
+    if (job.lookup.filter != scene::Filter::nearest) {
+        lookup.map_depths = renderers.read_map_depths();
+    }
+    return lookup;
+}
+
+LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup)
+    : exact_{std::move(exact)},
+      lookup_{std::move(lookup)},
+      rule_{lookup_rule(lookup_.job, lookup_.view)},
+      own_deciding_{make_deciding()},
+      causes_{find_causes()},
+      map_error_m_{map_depth_errors_m(cause_inputs(), exact_->centre_hits(cause_inputs()),
+                                      lookup_.view.frustum, lookup_.job.shadow_map.depth_format)}
+{
+}
+
+scene::LookupLayers LookupAnswers::make_deciding() const
+{
+    return equal_taps(rule_.filter) > 1
+               ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
+                                  lookup_.map_depths, rule_)
+               : scene::LookupLayers{};
+}
+
+scene::Image<PixelCause> LookupAnswers::find_causes()
+{
+    if (lookup_.unbiased.samples.empty()) {
+        set_verdicts(lookup_.layers, critical_biases(0), 0);
+    }
+    return exact_->causes(cause_inputs());
+}
+
+CauseInputs LookupAnswers::cause_inputs() const
+{
+    return {lookup_.job.lookup,
+            lookup_.job.shadow_map.resolution_texels,
+            lookup_.view.frustum.reversed,
+            exact_->receivers().truth(),
+            lookup_.unbiased.samples.empty() ? lookup_.layers : lookup_.unbiased,
+            lookup_.map_depths,
+            exact_->light()};
+}
+
+SlopeInputs LookupAnswers::curves(const scene::Image<std::uint8_t>& acne)
+{
+    return {deciding(), rule_, classes(), acne,
+            forgive_footprints(exact_->gaps(), exact_->light(), exact_->geometry())};
+}
+
+std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& critical,
+                                                    float largest_bias)
+{
+    std::vector<std::size_t> panning;
+    for (std::size_t i = 0; i < critical.pixel_count(); ++i) {
+        if (classes()[i] == PixelClass::blocked && causes_[i].unbiased == Cause::none &&
+            critical[i] <= largest_bias) {
+            panning.push_back(i);
+        }
+    }
+    panning = exact_->detached(cause_inputs(), panning);
+    const auto lengths = exact_->pixel_gaps(panning);
+    std::vector<PanningGap> gaps;
+    gaps.reserve(panning.size());
+    for (std::size_t i = 0; i < panning.size(); ++i) {
+        gaps.push_back({critical[panning[i]], lengths[i]});
+    }
+    return gaps;
+}
+
+void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& curve,
+                             FinishedCurve& finished)
+{
+    const std::vector<float> biases = ascending_biases(question);
+    if (biases.empty()) {
+        return;
+    }
+    LookupRule rule = rule_;
+    rule.slope = curve.slope;
+    const int taps = equal_taps(rule.filter);
+    const BiasRowInputs inputs{classes(), deciding(), curve.critical_bias, causes_, rule};
+    const auto counts = count_rows(inputs, curve.curve, biases);
+    const auto parts = count_parts(exact_->parts(), inputs, biases);
+    const auto wrong_taps =
+        taps > 1 ? count_wrong_taps(classes(), lookup_.layers, lookup_.map_depths, rule, biases)
+                 : std::vector<std::uint64_t>{};
+    const auto gaps = find_gaps_at(panning_gaps(curve.critical_bias, biases.back()), biases);
+    for (const CurveQuestion::Row& row : question.rows) {
+        const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
+        const auto i = static_cast<std::size_t>(found - biases.begin());
+        const ErrorCounts& errors = counts[i].errors;
+        const std::uint64_t wrong = taps > 1 ? wrong_taps[i] : errors.total();
+        finished.rows.push_back(
+            {row.ordinal,
+             {make_metrics(exact_->receivers().classes(), {errors.false_shadow, errors.false_lit,
+                                                           static_cast<double>(wrong) / taps}),
+              counts[i].causes, gaps[i], parts[i]}});
+    }
+}
+
+scene::Image<float> LookupAnswers::critical_biases(float slope) const
+{
+    LookupRule rule = rule_;
+    rule.slope = slope;
+    return analysis::critical_biases(deciding(), rule);
+}
+
+FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
+{
+    const SlopeCurve curve = slope_curve(curves(acne_flags(classes(), causes_)), question.slope);
+    FinishedCurve finished;
+    finished.curve =
+        describe_curve(question.id, {lookup_.job,
+                                     lookup_.view,
+                                     curve.curve,
+                                     curve.best,
+                                     curve.bounds,
+                                     exact_->distances(),
+                                     {classes(), deciding(), curve.critical_bias, map_error_m_},
+                                     question.job_bias});
+    add_rows(question, curve, finished);
+    return finished;
+}
+
+void LookupAnswers::break_down(const scene::LookupLayers& own, Diagnosis& diagnosis) const
+{
+    const scene::Image<float> no_criticals{diagnosis.biases ? scene::ImageSize{0, 0}
+                                                            : classes().size(),
+                                           std::numeric_limits<float>::quiet_NaN()};
+    const BreakdownInputs inputs{classes(), own,
+                                 diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
+                                 diagnosis.map_error_m};
+    diagnosis.by_distance = errors_by_bin(exact_->distances(), inputs);
+    add_envelopes(diagnosis.by_distance, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
+    diagnosis.by_angle = errors_by_bin(bin_by_angle(classes(), own), inputs);
+    diagnosis.by_object = errors_by_object(classes(), own, exact_->receivers().receivers().triangle,
+                                           exact_->triangles());
+}
+
+void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis)
+{
+    const std::array<float, 1> bias{lookup_.view.bias.constant};
+    const scene::Image<float> verdicts = criticals_of_verdicts(own);
+    diagnosis.causes = classify_errors({classes(), own, verdicts, causes_, rule_}, bias.front());
+    diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
+}
+
+Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own) &&
+{
+    Diagnosis diagnosis;
+    explain(own, diagnosis);
+    // What follows asks for neither, and takes the most memory.
+    lookup_.unbiased = {};
+    exact_->forget_texels();
+    if (rule_.filter != scene::Filter::hardware) {
+        const auto acne = acne_flags(classes(), causes_);
+        diagnosis.biases =
+            answer_biases({lookup_.job, lookup_.view, curves(acne), exact_->zeta_m()});
+    }
+    diagnosis.pixels = std::move(causes_);
+    diagnosis.zeta_m = exact_->zeta_m();
+    diagnosis.map_error_m = std::move(map_error_m_);
+    break_down(own, diagnosis);
+    return diagnosis;
+}
+
+} // namespace gnomon::analysis

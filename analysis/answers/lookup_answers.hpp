@@ -1,0 +1,80 @@
+#pragma once
+
+#include "analysis/answers/diagnosis.hpp"
+#include "analysis/answers/exact_light_cache.hpp"
+#include "analysis/bias_rows.hpp"
+#include "analysis/causes.hpp"
+#include "analysis/renderers.hpp"
+#include "analysis/slope_curves.hpp"
+#include "analysis/sweep/curve_question.hpp"
+#include "analysis/sweep/results.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// One GL lookup, and what it was made with.
+struct ObservedLookup {
+    scene::Job job;
+    scene::View view;
+    scene::LookupLayers layers;     ///< with any constant and slope bias
+    scene::LookupLayers unbiased;   ///< without any bias; empty where it follows from `layers`
+    scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
+};
+
+/// Observes what must be known of a lookup beside its layers. Asks `look_up` and `read_map_depths`,
+/// which must still answer for the job's receivers and map.
+[[nodiscard]] ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
+                                            scene::LookupLayers layers, const Renderers& renderers);
+
+/// Everything about one lookup that does not depend on constant and slope bias; answers for all of
+/// them without GL, whoever asks: a comparison for its own, a sweep for many.
+class LookupAnswers {
+public:
+    LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup);
+    LookupAnswers(const LookupAnswers&) = delete;
+    LookupAnswers& operator=(const LookupAnswers&) = delete;
+
+    /// Not for `hardware`, which has no curve.
+    [[nodiscard]] FinishedCurve answer(const CurveQuestion& question);
+    /// The critical bias of each pixel; for its argument see `CurveQuestion`. Not for `hardware`.
+    [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
+    /// Why the pixels of the same lookup with the job's bias are wrong, and what other biases would
+    /// do. Takes along what it tells: the last question.
+    /// @param own  verdicts of the job's bias.
+    [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own) &&;
+
+private:
+    [[nodiscard]] CauseInputs cause_inputs() const;
+    [[nodiscard]] scene::LookupLayers make_deciding() const;
+    [[nodiscard]] scene::Image<PixelCause> find_causes();
+    [[nodiscard]] const scene::LookupLayers& deciding() const
+    {
+        return own_deciding_.samples.empty() ? lookup_.layers : own_deciding_;
+    }
+    [[nodiscard]] const scene::Image<scene::PixelClass>& classes() const
+    {
+        return exact_->receivers().truth().pixel_class;
+    }
+    /// What curves are made of.
+    [[nodiscard]] SlopeInputs curves(const scene::Image<std::uint8_t>& acne);
+    [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
+                                                       float largest_bias);
+    void add_rows(const CurveQuestion& question, const SlopeCurve& curve, FinishedCurve& finished);
+    /// Causes and gaps at the job's bias.
+    void explain(const scene::LookupLayers& own, Diagnosis& diagnosis);
+    /// Errors by distance, angle and object, at the job's bias.
+    void break_down(const scene::LookupLayers& own, Diagnosis& diagnosis) const;
+
+    std::shared_ptr<ExactLightCache> exact_;
+    ObservedLookup lookup_;
+    LookupRule rule_;
+    scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return
+    scene::Image<PixelCause> causes_;
+    scene::Image<float> map_error_m_;
+};
+
+} // namespace gnomon::analysis
