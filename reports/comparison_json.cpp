@@ -1,9 +1,11 @@
 #include "reports/comparison_json.hpp"
 
+#include "analysis/answers/finished_curve.hpp"
 #include "reports/diagnosis_json.hpp"
 #include "reports/evaluation_json.hpp"
 #include "reports/exact_inputs.hpp"
 #include "reports/json_values.hpp"
+#include "reports/metric_json.hpp"
 #include "scene/job_file.hpp"
 
 #include <algorithm>
@@ -13,43 +15,9 @@ namespace gnomon::reports {
 
 namespace {
 
-using scene::ClassReason;
-using scene::PixelClass;
-
 std::string text(const Json& json, int indent)
 {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-Json pixels(const analysis::ClassCounts& counts)
-{
-    Json json{{"total", counts.total}};
-    for (const PixelClass pixel_class :
-         {PixelClass::background, PixelClass::unmatched, PixelClass::attached,
-          PixelClass::out_of_light, PixelClass::indeterminate, PixelClass::lit,
-          PixelClass::blocked}) {
-        const auto name = scene::pixel_class_names[static_cast<std::size_t>(pixel_class)];
-        json[std::string{name}] = counts.of(pixel_class);
-    }
-    return json;
-}
-
-void add_metrics(Json& json, const analysis::Metrics& metrics)
-{
-    const analysis::ClassCounts& counts = metrics.pixels;
-    json["pixels"] = pixels(counts);
-    json["unmatched_kinds"] = {{"snap", counts.of(ClassReason::snap)},
-                               {"tie", counts.of(ClassReason::tie)},
-                               {"mismatch", counts.of(ClassReason::mismatch)}};
-    json["indeterminate_kinds"] = {{"silhouette", counts.of(ClassReason::silhouette)},
-                                   {"vertex", counts.of(ClassReason::vertex)},
-                                   {"graze", counts.of(ClassReason::graze)}};
-    json["false_shadow"] = metrics.false_shadow;
-    json["false_lit"] = metrics.false_lit;
-    json["false_shadow_rate"] = number_or_null(metrics.false_shadow_rate);
-    json["false_lit_rate"] = number_or_null(metrics.false_lit_rate);
-    json["error_rate"] = number_or_null(metrics.error_rate);
-    json["mean_abs_error"] = number_or_null(metrics.mean_abs_error);
 }
 
 Json truth_signs(const scene::TruthSigns& signs)
@@ -139,7 +107,7 @@ std::string job_json(const analysis::Comparison& comparison)
 std::string comparison_json(const analysis::Comparison& comparison)
 {
     Json json{{"schema", 1}};
-    add_metrics(json, comparison.metrics);
+    add_metrics(json, analysis::configuration_metrics(), analysis::result_of(comparison));
     add_diagnosis(json, comparison);
     json["environment"] = environment(comparison.environment);
     json["seconds"] = seconds(comparison.seconds);

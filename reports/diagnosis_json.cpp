@@ -2,6 +2,7 @@
 
 #include "reports/findings.hpp"
 #include "reports/json_values.hpp"
+#include "reports/metric_json.hpp"
 
 #include <cmath>
 #include <optional>
@@ -11,17 +12,6 @@ namespace gnomon::reports {
 
 namespace {
 
-/// Counts by name; the first name, "none", is left out.
-template <typename Names, typename Counts>
-Json counts_by_name(const Names& names, const Counts& counts)
-{
-    Json json = Json::object();
-    for (std::size_t i = 1; i < names.size(); ++i) {
-        json[std::string{names[i]}] = counts[i];
-    }
-    return json;
-}
-
 Json quantiles(const std::optional<analysis::Quantiles>& values)
 {
     return values ? Json{{"count", values->count},
@@ -30,12 +20,6 @@ Json quantiles(const std::optional<analysis::Quantiles>& values)
                          {"p95", values->p95},
                          {"max", values->max}}
                   : Json(nullptr);
-}
-
-Json lengths(const std::optional<analysis::Quantiles>& lengths)
-{
-    return lengths ? Json{{"median", lengths->median}, {"p95", lengths->p95}, {"max", lengths->max}}
-                   : Json{{"median", nullptr}, {"p95", nullptr}, {"max", nullptr}};
 }
 
 /// JSON has no infinities: a limit that does not exist is null.
@@ -56,25 +40,28 @@ void add_limits(Json& json, const analysis::BiasLimits& limits)
     json["panning_free_beyond_zero"] = finite_or_null(limits.panning_free_beyond_zero);
 }
 
-Json bias_curve(const analysis::BiasAnswers& answers)
+void add_pareto_front(Json& bias_curve, const analysis::BiasCurve& curve)
 {
-    const analysis::BestBiases& best = answers.best;
-    Json json{{"best_interval", interval(best.interval)}, {"best_errors", best.errors.total()}};
-    add_limits(json, answers.bounds.strict);
-    json["allowances"] = Json::array();
-    for (const analysis::BiasLimits& limits : answers.bounds.allowances) {
-        Json entry{{"allowance", limits.allowance}};
-        add_limits(entry, limits);
-        json["allowances"].push_back(std::move(entry));
+    bias_curve["pareto_front"] = Json::array();
+    for (const analysis::CurvePoint& point : analysis::pareto_front(curve, 33)) {
+        bias_curve["pareto_front"].push_back({{"bias", finite_or_null(point.bias)},
+                                              {"false_shadow", point.errors.false_shadow},
+                                              {"false_lit", point.errors.false_lit}});
     }
-    json["no_constant_bias_serves"] = answers.bounds.no_constant_bias_serves;
-    json["pareto_front"] = Json::array();
-    for (const analysis::CurvePoint& point : analysis::pareto_front(answers.curve, 33)) {
-        json["pareto_front"].push_back({{"bias", finite_or_null(point.bias)},
-                                        {"false_shadow", point.errors.false_shadow},
-                                        {"false_lit", point.errors.false_lit}});
+}
+
+/// Metrics and points of the curve; null without one.
+void add_bias_curve(Json& json, const std::optional<analysis::BiasAnswers>& answers)
+{
+    if (!answers) {
+        json["bias_curve"] = nullptr;
+        return;
     }
-    return json;
+    analysis::CurveResult curve;
+    curve.best = answers->best;
+    curve.bounds = answers->bounds;
+    add_metrics(json, analysis::curve_metrics(), curve);
+    add_pareto_front(json["bias_curve"], answers->curve);
 }
 
 Json slope_answers(const analysis::BiasAnswers& answers)
@@ -178,14 +165,10 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
 {
     const auto& diagnosis = comparison.diagnosis;
     if (!diagnosis) {
-        json["causes"] = nullptr;
-        json["labels"] = nullptr;
-        json["peter_panning_gap_m"] = lengths(std::nullopt);
-        json["peter_panning_gap_texels"] = lengths(std::nullopt);
-        json["peter_panning_gap_pixels"] = nullptr;
         for (const char* const name :
-             {"bias_curve", "bias_source", "bias_reruns", "verification", "slope_curves",
-              "by_light_distance_m", "by_receiver_angle_rad", "by_object", "findings", "advice"}) {
+             {"causes", "labels", "bias_curve", "bias_source", "bias_reruns", "verification",
+              "slope_curves", "by_light_distance_m", "by_receiver_angle_rad", "by_object",
+              "findings", "advice"}) {
             json[name] = nullptr;
         }
         if (comparison.evaluation) {
@@ -193,14 +176,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
         }
         return;
     }
-    const analysis::CauseCounts& counts = diagnosis->causes.counts;
-    json["causes"] = counts_by_name(analysis::cause_names, counts.by_cause);
-    json["labels"] = counts_by_name(analysis::label_names, counts.by_label);
-    json["peter_panning_gap_m"] = lengths(diagnosis->peter_panning.metres);
-    json["peter_panning_gap_texels"] = lengths(diagnosis->peter_panning.texels);
-    const auto& gaps = diagnosis->peter_panning.metres;
-    json["peter_panning_gap_pixels"] = gaps ? gaps->count : 0;
-    json["bias_curve"] = diagnosis->biases ? bias_curve(*diagnosis->biases) : Json(nullptr);
+    add_bias_curve(json, diagnosis->biases);
     json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     json["bias_reruns"] = comparison.reruns.empty() ? Json(nullptr) : reruns(comparison.reruns);
     json["verification"] = verification(comparison.verification);

@@ -7,6 +7,7 @@
 #include "analysis/tune.hpp"
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -46,13 +47,23 @@ CurveResult describe_curve(std::string id, const DescribedCurve& described)
     return result;
 }
 
+ConfigurationResult result_of(const Comparison& comparison)
+{
+    ConfigurationResult result{comparison.metrics, std::nullopt, {}};
+    if (comparison.diagnosis) {
+        result.causes = comparison.diagnosis->causes.counts;
+        result.peter_panning = comparison.diagnosis->peter_panning;
+    }
+    return result;
+}
+
 FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
                               std::uint64_t ordinal, float job_bias)
 {
     if (comparison.evaluation && !comparison.diagnosis) {
         FinishedCurve finished;
         finished.curve.id = std::move(curve);
-        finished.rows.push_back({ordinal, {comparison.metrics, std::nullopt, {}}});
+        finished.rows.push_back({ordinal, result_of(comparison)});
         return finished;
     }
     if (!comparison.diagnosis) {
@@ -66,11 +77,10 @@ FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
     const LookupRule rule = lookup_rule(comparison.job, comparison.view);
     const scene::Image<float> verdicts = criticals_of_verdicts(comparison.lookup);
     const std::array<float, 1> bias{comparison.view.bias.constant};
-    finished.rows.push_back(
-        {ordinal,
-         {comparison.metrics, diagnosis.causes.counts, diagnosis.peter_panning,
-          count_parts(parts, {classes, comparison.lookup, verdicts, diagnosis.pixels, rule}, bias)
-              .front()}});
+    finished.rows.push_back({ordinal, result_of(comparison)});
+    finished.rows.back().result.parts =
+        count_parts(parts, {classes, comparison.lookup, verdicts, diagnosis.pixels, rule}, bias)
+            .front();
     if (!diagnosis.biases) {
         finished.curve = describe_map(std::move(curve), comparison.job, comparison.view);
         finished.curve.by_distance.push_back(

@@ -26,6 +26,9 @@ struct DescribedCurve {
 
 [[nodiscard]] CurveResult describe_curve(std::string id, const DescribedCurve& described);
 
+/// What a comparison measured, without its parts.
+[[nodiscard]] ConfigurationResult result_of(const Comparison& comparison);
+
 /// A configuration's row from its own comparison; the curve from its diagnosis, empty if it is
 /// another renderer's and has none.
 /// @param job_bias  as in `CurveQuestion`.

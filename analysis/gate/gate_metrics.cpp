@@ -22,62 +22,15 @@ constexpr std::array<GateMetric, 5> curve_columns{{{"false_shadow", true, Worse:
 
 const std::vector<GateMetric>& result_metrics()
 {
-    static const std::vector<GateMetric> metrics{
-        {"map_near_m", false, Worse::both},
-        {"map_far_m", false, Worse::both},
-        {"map_bytes", false, Worse::up},
-        {"pixels.total", true, Worse::both},
-        {"pixels.background", true, Worse::both},
-        {"pixels.unmatched", true, Worse::up},
-        {"pixels.attached", true, Worse::both},
-        {"pixels.out_of_light", true, Worse::both},
-        {"pixels.indeterminate", true, Worse::up},
-        {"pixels.lit", true, Worse::both},
-        {"pixels.blocked", true, Worse::both},
-        {"unmatched_kinds.snap", true, Worse::up},
-        {"unmatched_kinds.tie", true, Worse::up},
-        {"unmatched_kinds.mismatch", true, Worse::up},
-        {"indeterminate_kinds.silhouette", true, Worse::up},
-        {"indeterminate_kinds.vertex", true, Worse::up},
-        {"indeterminate_kinds.graze", true, Worse::up},
-        {"false_shadow", true, Worse::up},
-        {"false_lit", true, Worse::up},
-        {"false_shadow_rate", false, Worse::up},
-        {"false_lit_rate", false, Worse::up},
-        {"error_rate", false, Worse::up},
-        {"mean_abs_error", false, Worse::up},
-        {"causes.bias", true, Worse::up},
-        {"causes.precision", true, Worse::up},
-        {"causes.resolution", true, Worse::up},
-        {"causes.coverage", true, Worse::up},
-        {"labels.acne", true, Worse::up},
-        {"labels.peter_panning", true, Worse::up},
-        {"labels.leak", true, Worse::up},
-        {"labels.edge", true, Worse::up},
-        {"labels.overshadow", true, Worse::up},
-        {"peter_panning_gap_m.median", false, Worse::up},
-        {"peter_panning_gap_m.p95", false, Worse::up},
-        {"peter_panning_gap_m.max", false, Worse::up},
-        {"peter_panning_gap_texels.median", false, Worse::up},
-        {"peter_panning_gap_texels.p95", false, Worse::up},
-        {"peter_panning_gap_texels.max", false, Worse::up},
-        {gap_pixels_metric, true, Worse::up},
-        {"bias_curve.best_interval.lo", false, Worse::both},
-        {"bias_curve.best_interval.hi", false, Worse::both},
-        {"bias_curve.best_errors", true, Worse::up},
-        {"bias_curve.acne_free", false, Worse::up},
-        {"bias_curve.panning_free", false, Worse::down},
-        {"bias_curve.panning_free_beyond_zero", false, Worse::down},
-        {"bias_curve.allowances.0.acne_free", false, Worse::up},
-        {"bias_curve.allowances.0.panning_free", false, Worse::down},
-        {"bias_curve.allowances.0.panning_free_beyond_zero", false, Worse::down},
-        {"bias_curve.allowances.1.acne_free", false, Worse::up},
-        {"bias_curve.allowances.1.panning_free", false, Worse::down},
-        {"bias_curve.allowances.1.panning_free_beyond_zero", false, Worse::down},
-        {"bias_curve.allowances.2.acne_free", false, Worse::up},
-        {"bias_curve.allowances.2.panning_free", false, Worse::down},
-        {"bias_curve.allowances.2.panning_free_beyond_zero", false, Worse::down},
-    };
+    static const std::vector<GateMetric> metrics = [] {
+        std::vector<GateMetric> all;
+        for (const MetricDescription& metric : metric_descriptions()) {
+            if (metric.worse) {
+                all.push_back({metric.name, metric.unit == "px", *metric.worse});
+            }
+        }
+        return all;
+    }();
     return metrics;
 }
 

@@ -1,19 +1,13 @@
 #pragma once
 
-#include <cstdint>
+#include "analysis/metric_table.hpp"
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace gnomon::analysis {
-
-/// Which change of a metric is for the worse.
-enum class Worse : std::uint8_t {
-    up,
-    down,
-    both, ///< either
-};
 
 /// A number that a rule may be about (docs/gate.md).
 struct GateMetric {
@@ -22,7 +16,7 @@ struct GateMetric {
     Worse worse = Worse::up; ///< unless a rule says otherwise
 };
 
-/// Those that are columns of results.csv (docs/csv_schema.md), in their order.
+/// Those of the metric table that have a worse side, in their order: columns of results.csv.
 [[nodiscard]] const std::vector<GateMetric>& result_metrics();
 /// All that have a name of their own: those columns, and what follows from them and other tables.
 [[nodiscard]] const std::vector<GateMetric>& gate_metrics();

@@ -1,5 +1,6 @@
 #include "reports/page/report.hpp"
 
+#include "analysis/metric_table.hpp"
 #include "reports/output_file.hpp"
 #include "reports/page/base64.hpp"
 #include "reports/page/page_html.hpp"
@@ -125,6 +126,20 @@ Json run_object(const RunReader& run)
             {"planned", outcome.planned}};
 }
 
+/// What the page says of the columns that are metrics.
+Json metric_objects()
+{
+    Json objects = Json::array();
+    for (const analysis::MetricDescription& metric : analysis::metric_descriptions()) {
+        const bool is_rate = metric.type == analysis::MetricType::number && metric.unit.empty();
+        objects.push_back({{"name", metric.name},
+                           {"title", metric.title},
+                           {"is_rate", is_rate},
+                           {"is_outcome", metric.is_outcome}});
+    }
+    return objects;
+}
+
 Json page_data(const RunReader& run, const RunOverview& overview,
                const std::vector<KeptImage>& kept, const ReportOptions& options,
                PackedBlocks& blocks, ReportOutcome& outcome)
@@ -136,7 +151,8 @@ Json page_data(const RunReader& run, const RunOverview& overview,
               {"run", run_object(run)},
               {"headline", overview.headline ? Json(overview.headline->row) : Json(nullptr)},
               {"table", std::move(table.columns)},
-              {"constants", std::move(table.constants)}};
+              {"constants", std::move(table.constants)},
+              {"metrics", metric_objects()}};
     data["curves"] = read_curves(run, curves, blocks);
     data["error_vs_z"] = read_error_vs_z(run, curves, blocks);
     data["images"] = read_images(run, kept, options, blocks, outcome);

@@ -1,5 +1,6 @@
 #include "reports/run/run_columns.hpp"
 
+#include "analysis/metric_table.hpp"
 #include "reports/run/error_parts_json.hpp"
 #include "scene/job_keys.hpp"
 #include "scene/job_toml.hpp"
@@ -12,14 +13,14 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <utility>
+#include <variant>
 
 namespace gnomon::reports {
 
 namespace {
 
-using analysis::BiasBounds;
-using analysis::BiasLimits;
 using analysis::ConfigurationResult;
 using analysis::CurveResult;
 using analysis::ErrorBin;
@@ -41,14 +42,9 @@ Value number(const std::optional<double>& value)
 {
     return value ? Value{*value} : Value{};
 }
-/// As in JSON: a limit that does not exist is NULL.
 Value finite(float value)
 {
     return std::isfinite(value) ? Value{double{value}} : Value{};
-}
-Value flag(bool value)
-{
-    return std::string{value ? "true" : "false"};
 }
 
 std::string_view type_of(const scene::Domain& domain)
@@ -59,136 +55,40 @@ std::string_view type_of(const scene::Domain& domain)
     return std::holds_alternative<scene::RealDomain>(domain) ? real_type : text_type;
 }
 
-void add_class_columns(ResultColumns& columns)
+std::string_view type_of(analysis::MetricType type)
 {
-    columns.push_back({"pixels.total", integer_type, [](const ConfigurationResult& result) {
-                           return count(result.metrics.pixels.total);
-                       }});
-    for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
-        columns.push_back({fmt::format("pixels.{}", scene::pixel_class_names[i]), integer_type,
-                           [i](const ConfigurationResult& result) {
-                               return count(result.metrics.pixels.by_class[i]);
-                           }});
+    switch (type) {
+    case analysis::MetricType::count:
+        return integer_type;
+    case analysis::MetricType::number:
+        return real_type;
+    case analysis::MetricType::flag:
+        return text_type;
     }
+    throw std::invalid_argument("type_of: type: no metric has it");
 }
 
-void add_reason_columns(ResultColumns& columns)
+/// As in JSON: what does not exist is NULL.
+Value cell(const analysis::MetricValue& value)
 {
-    using scene::ClassReason;
-    const std::vector<std::pair<const char*, ClassReason>> reasons{
-        {"unmatched_kinds.snap", ClassReason::snap},
-        {"unmatched_kinds.tie", ClassReason::tie},
-        {"unmatched_kinds.mismatch", ClassReason::mismatch},
-        {"indeterminate_kinds.silhouette", ClassReason::silhouette},
-        {"indeterminate_kinds.vertex", ClassReason::vertex},
-        {"indeterminate_kinds.graze", ClassReason::graze}};
-    for (const auto& [name, reason] : reasons) {
-        columns.push_back(
-            {name, integer_type, [reason = reason](const ConfigurationResult& result) {
-                 return count(result.metrics.pixels.of(reason));
-             }});
-    }
+    struct ToValue {
+        Value operator()(std::monostate /*none*/) const { return {}; }
+        Value operator()(std::uint64_t number) const { return count(number); }
+        Value operator()(double number) const { return number; }
+        Value operator()(bool is_true) const { return std::string{is_true ? "true" : "false"}; }
+    };
+    return std::visit(ToValue{}, value);
 }
 
-void add_error_columns(ResultColumns& columns)
+template <typename Source>
+std::vector<RunColumn<Source>> columns_of(const std::vector<analysis::Metric<Source>>& metrics)
 {
-    using analysis::Metrics;
-    for (const auto& [name, member] :
-         {std::pair{"false_shadow", &Metrics::false_shadow}, {"false_lit", &Metrics::false_lit}}) {
-        columns.push_back(
-            {name, integer_type, [member = member](const ConfigurationResult& result) {
-                 return count(result.metrics.*member);
-             }});
+    std::vector<RunColumn<Source>> columns;
+    for (const analysis::Metric<Source>& metric : metrics) {
+        columns.push_back({metric.name, type_of(metric.type),
+                           [&metric](const Source& source) { return cell(metric.value(source)); }});
     }
-    for (const auto& [name, member] : {std::pair{"false_shadow_rate", &Metrics::false_shadow_rate},
-                                       {"false_lit_rate", &Metrics::false_lit_rate},
-                                       {"error_rate", &Metrics::error_rate},
-                                       {"mean_abs_error", &Metrics::mean_abs_error}}) {
-        columns.push_back({name, real_type, [member = member](const ConfigurationResult& result) {
-                               return number(result.metrics.*member);
-                           }});
-    }
-}
-
-/// The first name, "none", is left out.
-template <typename Names, typename Counts>
-void add_counts_by_name(ResultColumns& columns, std::string_view group, const Names& names,
-                        Counts analysis::CauseCounts::*counts)
-{
-    for (std::size_t i = 1; i < names.size(); ++i) {
-        columns.push_back({fmt::format("{}.{}", group, names[i]), integer_type,
-                           [i, counts](const ConfigurationResult& result) {
-                               return result.causes ? count(((*result.causes).*counts)[i])
-                                                    : Value{};
-                           }});
-    }
-}
-
-void add_gap_columns(ResultColumns& columns)
-{
-    using analysis::Gaps;
-    for (const auto& [group, unit] : {std::pair{"peter_panning_gap_m", &Gaps::metres},
-                                      {"peter_panning_gap_texels", &Gaps::texels}}) {
-        for (const auto& [name, member] : {std::pair{"median", &Quantiles::median},
-                                           {"p95", &Quantiles::p95},
-                                           {"max", &Quantiles::max}}) {
-            columns.push_back({fmt::format("{}.{}", group, name), real_type,
-                               [unit = unit, member = member](const ConfigurationResult& result) {
-                                   const auto& lengths = result.peter_panning.*unit;
-                                   return lengths ? finite((*lengths).*member) : Value{};
-                               }});
-        }
-    }
-    columns.push_back(
-        {"peter_panning_gap_pixels", integer_type, [](const ConfigurationResult& result) {
-             const auto& gaps = result.peter_panning.metres;
-             return result.causes ? count(gaps ? gaps->count : 0) : Value{};
-         }});
-}
-
-/// Finds the limits that three columns are about.
-using FindLimits = std::function<const BiasLimits&(const BiasBounds&)>;
-
-void add_limit_columns(CurveColumns& columns, const std::string& prefix, const FindLimits& find)
-{
-    for (const auto& [name, member] :
-         {std::pair{"acne_free", &BiasLimits::acne_free},
-          {"panning_free", &BiasLimits::panning_free},
-          {"panning_free_beyond_zero", &BiasLimits::panning_free_beyond_zero}}) {
-        columns.push_back(
-            {prefix + name, real_type, [find, member = member](const CurveResult& curve) {
-                 return curve.bounds ? finite(find(*curve.bounds).*member) : Value{};
-             }});
-    }
-}
-
-void add_allowance_columns(CurveColumns& columns)
-{
-    for (std::size_t i = 0; i < std::tuple_size_v<decltype(BiasBounds::allowances)>; ++i) {
-        const std::string prefix = fmt::format("bias_curve.allowances.{}.", i);
-        columns.push_back({prefix + "allowance", real_type, [i](const CurveResult& curve) {
-                               return curve.bounds ? Value{curve.bounds->allowances[i].allowance}
-                                                   : Value{};
-                           }});
-        add_limit_columns(columns, prefix, [i](const BiasBounds& bounds) -> const BiasLimits& {
-            return bounds.allowances[i];
-        });
-    }
-}
-
-void add_best_columns(CurveColumns& columns)
-{
-    using analysis::BiasInterval;
-    for (const auto& [name, end] :
-         {std::pair{"lo", &BiasInterval::lo}, {"hi", &BiasInterval::hi}}) {
-        columns.push_back({fmt::format("bias_curve.best_interval.{}", name), real_type,
-                           [end = end](const CurveResult& curve) {
-                               return curve.best ? finite(curve.best->interval.*end) : Value{};
-                           }});
-    }
-    columns.push_back({"bias_curve.best_errors", integer_type, [](const CurveResult& curve) {
-                           return curve.best ? count(curve.best->errors.total()) : Value{};
-                       }});
+    return columns;
 }
 
 void add_quantile_columns(std::vector<RunColumn<ErrorBin>>& columns, std::string_view group,
@@ -271,34 +171,22 @@ const std::vector<JobColumn>& curve_key_columns()
 
 const CurveColumns& map_columns()
 {
-    static const CurveColumns columns{
-        {"map_near_m", real_type, [](const CurveResult& curve) { return number(curve.near_m); }},
-        {"map_far_m", real_type, [](const CurveResult& curve) { return number(curve.far_m); }},
-        {"map_bytes", integer_type,
-         [](const CurveResult& curve) {
-             return curve.map_bytes ? count(*curve.map_bytes) : Value{};
-         }},
-        {"bias_source", text_type, [](const CurveResult& curve) {
-             // Of another renderer whose map is not known nothing knows other biases.
-             return curve.best || curve.map_bytes
-                        ? Value{std::string{curve.best ? "curve" : "rerun"}}
-                        : Value{};
-         }}};
+    static const CurveColumns columns = [] {
+        CurveColumns all = columns_of(analysis::map_metrics());
+        all.push_back({"bias_source", text_type, [](const CurveResult& curve) {
+                           // Of another renderer whose map is not known nothing knows other biases.
+                           return curve.best || curve.map_bytes
+                                      ? Value{std::string{curve.best ? "curve" : "rerun"}}
+                                      : Value{};
+                       }});
+        return all;
+    }();
     return columns;
 }
 
 const ResultColumns& result_columns()
 {
-    static const ResultColumns columns = [] {
-        ResultColumns all;
-        add_class_columns(all);
-        add_reason_columns(all);
-        add_error_columns(all);
-        add_counts_by_name(all, "causes", analysis::cause_names, &analysis::CauseCounts::by_cause);
-        add_counts_by_name(all, "labels", analysis::label_names, &analysis::CauseCounts::by_label);
-        add_gap_columns(all);
-        return all;
-    }();
+    static const ResultColumns columns = columns_of(analysis::configuration_metrics());
     return columns;
 }
 
@@ -313,19 +201,7 @@ const ResultColumns& part_columns()
 
 const CurveColumns& bias_curve_columns()
 {
-    static const CurveColumns columns = [] {
-        CurveColumns all;
-        add_best_columns(all);
-        add_limit_columns(all, "bias_curve.", [](const BiasBounds& bounds) -> const BiasLimits& {
-            return bounds.strict;
-        });
-        add_allowance_columns(all);
-        all.push_back(
-            {"bias_curve.no_constant_bias_serves", text_type, [](const CurveResult& curve) {
-                 return curve.bounds ? flag(curve.bounds->no_constant_bias_serves) : Value{};
-             }});
-        return all;
-    }();
+    static const CurveColumns columns = columns_of(analysis::curve_metrics());
     return columns;
 }
 

@@ -1,6 +1,7 @@
 #include "example_comparison.hpp"
 #include "example_run.hpp"
 
+#include "analysis/metric_table.hpp"
 #include "csv_table.hpp"
 #include "scene/job_file.hpp"
 
@@ -13,7 +14,30 @@
 namespace gnomon::reports {
 namespace {
 
-/// The columns that the document's section describes, in its order; its row "…" is the job's keys.
+/// The columns that a row "…" of the document stands for, by the page that it refers to.
+std::vector<std::string> columns_elsewhere(const std::string& row)
+{
+    std::vector<std::string> columns;
+    const auto add = [&](const auto& metrics) {
+        for (const analysis::MetricDescription& metric : metrics) {
+            columns.push_back(metric.name);
+        }
+    };
+    if (row.find("metrics.md#the-map") != std::string::npos) {
+        add(analysis::map_metrics());
+    } else if (row.find("metrics.md#the-pixels") != std::string::npos) {
+        add(analysis::configuration_metrics());
+    } else if (row.find("metrics.md#the-bias-curve") != std::string::npos) {
+        add(analysis::curve_metrics());
+    } else if (row.find("(job_file.md)") != std::string::npos) {
+        for (const scene::JobKey& key : scene::job_keys()) {
+            columns.push_back(key.name);
+        }
+    }
+    return columns;
+}
+
+/// The columns that the document's section describes, in its order.
 std::vector<std::string> documented_columns(const std::string& section)
 {
     std::ifstream document{GNOMON_CSV_SCHEMA_DOCUMENT};
@@ -25,9 +49,8 @@ std::vector<std::string> documented_columns(const std::string& section)
         } else if (is_inside && line.starts_with("| `")) {
             columns.push_back(line.substr(3, line.find('`', 3) - 3));
         } else if (is_inside && line.starts_with("| … |")) {
-            for (const scene::JobKey& key : scene::job_keys()) {
-                columns.push_back(key.name);
-            }
+            const std::vector<std::string> elsewhere = columns_elsewhere(line);
+            columns.insert(columns.end(), elsewhere.begin(), elsewhere.end());
         }
     }
     return columns;

@@ -1,23 +1,15 @@
 // The sweep's table with its filter and its choice of columns.
 
-const outcomeColumns = [
-  "false_shadow",
-  "false_lit",
-  "false_shadow_rate",
-  "false_lit_rate",
-  "error_rate",
-  "bias_curve.best_errors",
-];
-
 /** The part of section#sweep with the table of configurations. */
 class ConfigurationTable {
   /**
    * @param {Table} table
    * @param {string[]} axes  names of the sweep's axes
+   * @param {object[]} metrics  as in the page's data
    * @param {boolean} hasFailures  then status and message are shown at first
    * @param {function(number)} onOpen
    */
-  constructor(table, axes, hasFailures, onOpen) {
+  constructor(table, axes, metrics, hasFailures, onOpen) {
     this.table = table;
     this.words = table.names.filter(
       (name) => (table.isText(name) && !["id", "curve"].includes(name)) || axes.includes(name),
@@ -26,7 +18,7 @@ class ConfigurationTable {
       ...(table.has("ordinal") ? ["ordinal"] : []),
       ...axes,
       ...(hasFailures ? ["status", "message"] : []),
-      ...outcomeColumns,
+      ...metrics.filter(({ is_outcome: isOutcome }) => isOutcome).map(({ name }) => name),
     ];
     this.rows = new RowTable(
       table,

@@ -94,13 +94,18 @@ function heatCanvas(across, down, cells, title) {
 
 /** The part of section#sweep with the heat map of two axes. */
 class HeatMap {
-  constructor(table, axes) {
+  /**
+   * @param {Table} table
+   * @param {Map<string, Axis>} axes
+   * @param {object[]} metrics  as in the page's data
+   */
+  constructor(table, axes, metrics) {
     this.table = table;
     this.axes = axes;
+    this.rates = measuresOf(metrics, table).filter(({ isRate }) => isRate);
     const names = [...axes.keys()];
     const options = names.map((name) => [name, name]);
-    const rates = measures.filter((measure) => measure.isRate && table.has(measure.name));
-    this.chosen = { measure: rates[0].name, across: names[0], down: names[1] };
+    this.chosen = { measure: firstMeasure, across: names[0], down: names[1] };
     this.host = element("div");
     const select = (key, choices) => choice(choices, this.chosen[key], (value) => this.choose(key, value));
     this.root = element(
@@ -114,7 +119,7 @@ class HeatMap {
           "Median of the",
           select(
             "measure",
-            rates.map(({ name, title }) => [name, title]),
+            this.rates.map(({ name, title }) => [name, title]),
           ),
         ),
         labelled("across", select("across", options)),
@@ -142,7 +147,7 @@ class HeatMap {
 
   async draw() {
     const { values } = await this.table.column(this.chosen.measure);
-    const title = `${measures.find(({ name }) => name === this.chosen.measure).title}, median of each cell`;
+    const title = `${this.rates.find(({ name }) => name === this.chosen.measure).title}, median of each cell`;
     const small = this.summarise(values, mostTableColumns, mostTableRows);
     const table = heatTable(small.across, small.down, small.cells, title);
     const isWhole =

@@ -86,12 +86,16 @@ class SweepSection {
     );
     const names = [...columns.keys()];
     this.detail = new ConfigurationDetail(this.table, data.run);
-    this.rows = new ConfigurationTable(this.table, names, data.run.failed > 0, this.onShow);
+    this.rows = new ConfigurationTable(this.table, names, data.metrics, data.run.failed > 0, this.onShow);
     const hasRates = this.table.has("error_rate");
     const parts = [
-      hasRates && axes.size > 0 ? new AxisCharts(this.table, axes) : null,
+      hasRates && axes.size > 0 ? new AxisCharts(this.table, axes, data.metrics) : null,
       hasRates && axes.size > 1
-        ? new HeatMap(this.table, byEffect(axes, (await this.table.column("error_rate")).values))
+        ? new HeatMap(
+            this.table,
+            byEffect(axes, (await this.table.column("error_rate")).values),
+            data.metrics,
+          )
         : null,
       this.table.has("false_shadow_rate") && this.table.has("false_lit_rate")
         ? new ParetoChart(this.table, names, this.onShow)

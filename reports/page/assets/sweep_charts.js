@@ -3,20 +3,21 @@
 const mostPoints = 400;
 const mostPanels = 12;
 
-const isRate = true;
-const measures = [
-  { name: "error_rate", title: "error rate", isRate },
-  { name: "false_shadow_rate", title: "false-shadow rate", isRate },
-  { name: "false_lit_rate", title: "false-lit rate", isRate },
-  { name: "mean_abs_error", title: "mean absolute error", isRate },
-  { name: "false_shadow", title: "false shadow [pixels]" },
-  { name: "false_lit", title: "false lit [pixels]" },
-  { name: "bias_curve.best_errors", title: "errors at the best bias [pixels]" },
-  { name: "labels.acne", title: "acne [pixels]" },
-  { name: "labels.peter_panning", title: "peter panning [pixels]" },
-  { name: "labels.leak", title: "leaks [pixels]" },
-  { name: "labels.edge", title: "edge errors [pixels]" },
-];
+/** The measure that charts show at first. */
+const firstMeasure = "error_rate";
+
+/**
+ * The metrics that the table has and charts show, rates before counts.
+ * @param {{name: string, title: string, is_rate: boolean}[]} metrics
+ * @param {Table} table
+ * @return {{name: string, title: string, isRate: boolean}[]}
+ */
+function measuresOf(metrics, table) {
+  const measures = metrics
+    .filter(({ name, title }) => title !== "" && table.has(name))
+    .map(({ name, title, is_rate: isRate }) => ({ name, title, isRate }));
+  return [...measures.filter(({ isRate }) => isRate), ...measures.filter(({ isRate }) => !isRate)];
+}
 
 /** A value of an axis as text. */
 function axisText(axis, value) {
@@ -102,12 +103,13 @@ class AxisCharts {
   /**
    * @param {Table} table
    * @param {Map<string, Axis>} axes
+   * @param {object[]} metrics  as in the page's data
    */
-  constructor(table, axes) {
+  constructor(table, axes, metrics) {
     this.table = table;
     this.axes = axes;
-    this.measures = measures.filter(({ name }) => table.has(name));
-    this.chosen = { axis: this.mostInteresting(), measure: this.measures[0].name, by: "" };
+    this.measures = measuresOf(metrics, table);
+    this.chosen = { axis: this.mostInteresting(), measure: firstMeasure, by: "" };
     this.host = element("div", { class: "panels" });
     this.note = element("p", { class: "hint" });
     const heading = element("h3", { text: "Error against an axis" });

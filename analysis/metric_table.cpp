@@ -1,0 +1,306 @@
+#include "analysis/metric_table.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::ClassReason;
+using scene::PixelClass;
+
+constexpr MetricValue none{};
+
+MetricValue number(const std::optional<double>& value)
+{
+    return value ? MetricValue{*value} : none;
+}
+/// A limit that does not exist is infinite.
+MetricValue finite(float value)
+{
+    return std::isfinite(value) ? MetricValue{double{value}} : none;
+}
+
+/// A count of pixels, of which more are worse.
+MetricDescription pixel_count(std::string name, std::string meaning, Worse worse = Worse::up)
+{
+    return {std::move(name), MetricType::count, "px", std::move(meaning), worse};
+}
+/// A number of which more is worse.
+MetricDescription measured(std::string name, std::string_view unit, std::string meaning,
+                           Worse worse = Worse::up)
+{
+    return {std::move(name), MetricType::number, unit, std::move(meaning), worse};
+}
+MetricDescription titled(MetricDescription metric, std::string_view title)
+{
+    metric.title = title;
+    return metric;
+}
+MetricDescription outcome(MetricDescription metric, std::string_view title)
+{
+    metric.is_outcome = true;
+    return titled(std::move(metric), title);
+}
+
+void add_classes(ConfigurationMetrics& metrics)
+{
+    metrics.push_back({pixel_count("pixels.total", "width × height", Worse::both),
+                       [](const ConfigurationResult& result) {
+                           return MetricValue{result.metrics.pixels.total};
+                       }});
+    for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
+        const auto pixel_class = static_cast<PixelClass>(i);
+        const bool is_failure =
+            pixel_class == PixelClass::unmatched || pixel_class == PixelClass::indeterminate;
+        metrics.push_back({pixel_count(fmt::format("pixels.{}", scene::pixel_class_names[i]),
+                                       i == 0 ? "pixels of each [class](truth.md)" : "",
+                                       is_failure ? Worse::up : Worse::both),
+                           [pixel_class](const ConfigurationResult& result) {
+                               return MetricValue{result.metrics.pixels.of(pixel_class)};
+                           }});
+    }
+}
+
+void add_reasons(ConfigurationMetrics& metrics)
+{
+    struct Reason {
+        const char* name;
+        const char* meaning;
+        ClassReason reason;
+    };
+    for (const Reason& one : {
+             Reason{"unmatched_kinds.snap", "unmatched pixels by kind", ClassReason::snap},
+             {"unmatched_kinds.tie", "", ClassReason::tie},
+             {"unmatched_kinds.mismatch", "", ClassReason::mismatch},
+             {"indeterminate_kinds.silhouette", "indeterminate pixels by kind",
+              ClassReason::silhouette},
+             {"indeterminate_kinds.vertex", "", ClassReason::vertex},
+             {"indeterminate_kinds.graze", "", ClassReason::graze},
+         }) {
+        metrics.push_back({pixel_count(one.name, one.meaning),
+                           [reason = one.reason](const ConfigurationResult& result) {
+                               return MetricValue{result.metrics.pixels.of(reason)};
+                           }});
+    }
+}
+
+void add_errors(ConfigurationMetrics& metrics)
+{
+    const auto add = [&](MetricDescription metric, auto Metrics::*member) {
+        metrics.push_back(
+            {std::move(metric), [member](const ConfigurationResult& result) {
+                 if constexpr (std::is_same_v<decltype(member), std::uint64_t Metrics::*>) {
+                     return MetricValue{result.metrics.*member};
+                 } else {
+                     return number(result.metrics.*member);
+                 }
+             }});
+    };
+    add(outcome(pixel_count("false_shadow", "truth lit, verdict shadowed"),
+                "false shadow [pixels]"),
+        &Metrics::false_shadow);
+    add(outcome(pixel_count("false_lit", "truth blocked, verdict lit"), "false lit [pixels]"),
+        &Metrics::false_lit);
+    add(outcome(measured("false_shadow_rate", "", "`false_shadow` / `pixels.lit`"),
+                "false-shadow rate"),
+        &Metrics::false_shadow_rate);
+    add(outcome(measured("false_lit_rate", "", "`false_lit` / `pixels.blocked`"), "false-lit rate"),
+        &Metrics::false_lit_rate);
+    add(outcome(measured("error_rate", "", "both / (`pixels.lit` + `pixels.blocked`)"),
+                "error rate"),
+        &Metrics::error_rate);
+    add(titled(measured("mean_abs_error", "",
+                        "mean of \\|verdict − truth\\| over lit and blocked pixels"),
+               "mean absolute error"),
+        &Metrics::mean_abs_error);
+}
+
+/// The first name, "none", is left out.
+template <std::size_t size>
+void add_counts_by_name(ConfigurationMetrics& metrics, std::string_view group,
+                        const std::array<std::string_view, size>& names,
+                        std::span<const std::string_view> titles, const std::string& meaning,
+                        std::array<std::uint64_t, size> CauseCounts::*counts)
+{
+    for (std::size_t i = 1; i < size; ++i) {
+        metrics.push_back(
+            {titled(pixel_count(fmt::format("{}.{}", group, names.at(i)), i == 1 ? meaning : ""),
+                    i <= titles.size() ? titles[i - 1] : ""),
+             [i, counts](const ConfigurationResult& result) {
+                 return result.causes ? MetricValue{((*result.causes).*counts).at(i)} : none;
+             }});
+    }
+}
+
+void add_causes(ConfigurationMetrics& metrics)
+{
+    static constexpr std::array<std::string_view, 4> label_titles{
+        "acne [pixels]", "peter panning [pixels]", "leaks [pixels]", "edge errors [pixels]"};
+    add_counts_by_name(metrics, "causes", cause_names, {}, "wrong pixels by [cause](causes.md)",
+                       &CauseCounts::by_cause);
+    add_counts_by_name(metrics, "labels", label_names, label_titles,
+                       "wrong pixels by [name](causes.md#the-names)", &CauseCounts::by_label);
+}
+
+void add_gaps(ConfigurationMetrics& metrics)
+{
+    for (const auto& [unit, lengths] : {std::pair{"m", &Gaps::metres}, {"texels", &Gaps::texels}}) {
+        const std::string meaning = fmt::format("[gaps](causes.md#gaps) in {}",
+                                                unit == std::string_view{"m"} ? "metres" : unit);
+        for (const auto& [name, member] : {std::pair{"median", &Quantiles::median},
+                                           {"p95", &Quantiles::p95},
+                                           {"max", &Quantiles::max}}) {
+            metrics.push_back(
+                {measured(fmt::format("peter_panning_gap_{}.{}", unit, name), unit,
+                          member == &Quantiles::median ? meaning : ""),
+                 [lengths = lengths, member = member](const ConfigurationResult& result) {
+                     const auto& gaps = result.peter_panning.*lengths;
+                     return gaps ? finite((*gaps).*member) : none;
+                 }});
+        }
+    }
+    metrics.push_back(
+        {pixel_count("peter_panning_gap_pixels",
+                     "pixels that have a gap: those of `labels.peter_panning` whose shadow the "
+                     "bias detached"),
+         [](const ConfigurationResult& result) {
+             const auto& gaps = result.peter_panning.metres;
+             return result.causes ? MetricValue{gaps ? std::uint64_t{gaps->count} : 0} : none;
+         }});
+}
+
+void add_best(CurveMetrics& metrics)
+{
+    const auto add_end = [&](const char* name, std::string meaning, float BiasInterval::*end) {
+        metrics.push_back({measured(name, "depth units", std::move(meaning), Worse::both),
+                           [end](const CurveResult& curve) {
+                               return curve.best ? finite(curve.best->interval.*end) : none;
+                           }});
+    };
+    add_end(
+        "bias_curve.best_interval.lo",
+        "constant biases with the fewest errors, of all that differ in nothing else; this and all "
+        "below: [bias_curve.md](bias_curve.md)",
+        &BiasInterval::lo);
+    add_end("bias_curve.best_interval.hi", "", &BiasInterval::hi);
+    metrics.push_back(
+        {outcome(pixel_count("bias_curve.best_errors", "how many wrong pixels those have"),
+                 "errors at the best bias [pixels]"),
+         [](const CurveResult& curve) {
+             return curve.best ? MetricValue{curve.best->errors.total()} : none;
+         }});
+}
+
+/// Finds the limits that three metrics are about.
+using FindLimits = std::function<const BiasLimits&(const BiasBounds&)>;
+
+void add_limits(CurveMetrics& metrics, const std::string& prefix,
+                const std::array<const char*, 3>& meanings, const FindLimits& find)
+{
+    const auto add = [&](const char* name, const char* meaning, Worse worse,
+                         float BiasLimits::*member) {
+        metrics.push_back({measured(prefix + name, "depth units", meaning, worse),
+                           [find, member](const CurveResult& curve) {
+                               return curve.bounds ? finite(find(*curve.bounds).*member) : none;
+                           }});
+    };
+    add("acne_free", meanings[0], Worse::up, &BiasLimits::acne_free);
+    add("panning_free", meanings[1], Worse::down, &BiasLimits::panning_free);
+    add("panning_free_beyond_zero", meanings[2], Worse::down,
+        &BiasLimits::panning_free_beyond_zero);
+}
+
+void add_allowances(CurveMetrics& metrics)
+{
+    static constexpr std::array<const char*, 3> meanings{
+        "0.0001: the same three with that share of the scored pixels allowed to be wrong", "0.001",
+        "0.01"};
+    for (std::size_t i = 0; i < meanings.size(); ++i) {
+        const std::string prefix = fmt::format("bias_curve.allowances.{}.", i);
+        metrics.push_back(
+            {MetricDescription{prefix + "allowance", MetricType::number, "", meanings.at(i), {}},
+             [i](const CurveResult& curve) {
+                 return curve.bounds ? MetricValue{curve.bounds->allowances.at(i).allowance} : none;
+             }});
+        add_limits(
+            metrics, prefix, {"", "", ""},
+            [i](const BiasBounds& bounds) -> const BiasLimits& { return bounds.allowances.at(i); });
+    }
+}
+
+} // namespace
+
+const CurveMetrics& map_metrics()
+{
+    static const CurveMetrics metrics{
+        {measured("map_near_m", "m", "near plane of the shadow map, as fitted", Worse::both),
+         [](const CurveResult& curve) { return number(curve.near_m); }},
+        {measured("map_far_m", "m", "far plane", Worse::both),
+         [](const CurveResult& curve) { return number(curve.far_m); }},
+        {MetricDescription{"map_bytes", MetricType::count, "bytes", "memory of the shadow map",
+                           Worse::up},
+         [](const CurveResult& curve) {
+             return curve.map_bytes ? MetricValue{*curve.map_bytes} : none;
+         }}};
+    return metrics;
+}
+
+const ConfigurationMetrics& configuration_metrics()
+{
+    static const ConfigurationMetrics metrics = [] {
+        ConfigurationMetrics all;
+        add_classes(all);
+        add_reasons(all);
+        add_errors(all);
+        add_causes(all);
+        add_gaps(all);
+        return all;
+    }();
+    return metrics;
+}
+
+const CurveMetrics& curve_metrics()
+{
+    static const CurveMetrics metrics = [] {
+        CurveMetrics all;
+        add_best(all);
+        add_limits(all, "bias_curve.",
+                   {"the smallest bias without acne",
+                    "the largest bias below every blocked pixel's critical bias",
+                    "the same without the pixels that are false lit without any bias"},
+                   [](const BiasBounds& bounds) -> const BiasLimits& { return bounds.strict; });
+        add_allowances(all);
+        all.push_back({MetricDescription{"bias_curve.no_constant_bias_serves",
+                                         MetricType::flag,
+                                         "",
+                                         "at 0.1 %, acne needs more bias than panning allows",
+                                         {}},
+                       [](const CurveResult& curve) {
+                           return curve.bounds ? MetricValue{curve.bounds->no_constant_bias_serves}
+                                               : none;
+                       }});
+        return all;
+    }();
+    return metrics;
+}
+
+const std::vector<MetricDescription>& metric_descriptions()
+{
+    static const std::vector<MetricDescription> descriptions = [] {
+        std::vector<MetricDescription> all;
+        all.insert(all.end(), map_metrics().begin(), map_metrics().end());
+        all.insert(all.end(), configuration_metrics().begin(), configuration_metrics().end());
+        all.insert(all.end(), curve_metrics().begin(), curve_metrics().end());
+        return all;
+    }();
+    return descriptions;
+}
+
+} // namespace gnomon::analysis

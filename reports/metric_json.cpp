@@ -1,0 +1,37 @@
+#include "reports/metric_json.hpp"
+
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace gnomon::reports {
+
+namespace {
+
+std::optional<std::size_t> place_in_array(std::string_view part)
+{
+    if (part == "lo" || part == "hi") {
+        return part == "lo" ? 0 : 1;
+    }
+    std::size_t place = 0;
+    const char* const end = part.data() + part.size();
+    const auto [stop, error] = std::from_chars(part.data(), end, place);
+    return error == std::errc{} && stop == end ? std::optional{place} : std::nullopt;
+}
+
+} // namespace
+
+Json& member_at(Json& json, std::string_view name)
+{
+    Json* found = &json;
+    while (!name.empty()) {
+        const std::string_view part = name.substr(0, name.find('.'));
+        name.remove_prefix(part.size() == name.size() ? part.size() : part.size() + 1);
+        const auto place = place_in_array(part);
+        found = place ? &(*found)[*place] : &(*found)[std::string{part}];
+    }
+    return *found;
+}
+
+} // namespace gnomon::reports

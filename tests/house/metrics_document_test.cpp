@@ -1,0 +1,95 @@
+// docs/metrics.md is the metric table: GNOMON_UPDATE_DOCUMENTS=1 writes it.
+
+#include "analysis/metric_table.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::analysis {
+namespace {
+
+std::string_view type_name(MetricType type)
+{
+    switch (type) {
+    case MetricType::count:
+        return "integer";
+    case MetricType::number:
+        return "real";
+    case MetricType::flag:
+        return "boolean";
+    }
+    return "";
+}
+
+std::string_view worse_name(const std::optional<Worse>& worse)
+{
+    if (!worse) {
+        return "–";
+    }
+    switch (*worse) {
+    case Worse::up:
+        return "more";
+    case Worse::down:
+        return "less";
+    case Worse::both:
+        return "either";
+    }
+    return "";
+}
+
+template <typename Metrics>
+std::string section(std::string_view heading, std::string_view words, const Metrics& metrics)
+{
+    std::string text = fmt::format(
+        "\n## {}\n\n{}\n\n| metric | type | unit | worse | meaning |\n|---|---|---|---|---|\n",
+        heading, words);
+    for (const MetricDescription& metric : metrics) {
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", metric.name, type_name(metric.type),
+                            metric.unit, worse_name(metric.worse), metric.meaning);
+    }
+    return text;
+}
+
+std::string document()
+{
+    return "# Metrics\n\n"
+           "Every number that is measured of a configuration. Its name is the way to it in what "
+           "`gnomon compare --json`\n"
+           "[prints](json_schema.md), joined with dots: `pixels.lit` is `pixels` → `lit`; members "
+           "of an array are counted\n"
+           "from 0, and the two ends of an interval are `lo` and `hi`. It is the name of a column "
+           "of\n"
+           "[results.csv](csv_schema.md) and of what a rule of the [gate](gate.md#metrics) is "
+           "about; *worse* is the change\n"
+           "that a rule guards against unless it says otherwise (–: no rule can be about it). A "
+           "value that does not exist\n"
+           "is `null`, and an empty cell: a rate without a denominator, a limit that is infinite. "
+           "Real numbers without a\n"
+           "unit are shares.\n" +
+           section("The map", "As fitted; not in the JSON, where `frustum` says more.",
+                   map_metrics()) +
+           section("The pixels", "With the configuration's own bias.", configuration_metrics()) +
+           section("The bias curve", "Of all constant biases at once; none for `hardware`.",
+                   curve_metrics());
+}
+
+TEST(MetricsDocument, IsTheTable)
+{
+    if (std::getenv("GNOMON_UPDATE_DOCUMENTS") != nullptr) {
+        std::ofstream{GNOMON_METRICS_DOCUMENT} << document();
+    }
+    std::ostringstream written;
+    written << std::ifstream{GNOMON_METRICS_DOCUMENT}.rdbuf();
+    EXPECT_EQ(written.str(), document())
+        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R metrics_document_test writes it anew";
+}
+
+} // namespace
+} // namespace gnomon::analysis
