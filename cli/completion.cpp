@@ -81,7 +81,7 @@ std::string key_names()
 
 std::string figure_names()
 {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const FigureKind& kind : figure_kinds()) {
         names.push_back(kind.name);
     }

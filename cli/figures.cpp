@@ -2,11 +2,11 @@
 
 #include "cli/captured_process.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/figure_list.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <system_error>
 
 namespace gnomon::cli {
@@ -14,24 +14,15 @@ namespace {
 
 constexpr int module_missing = 3; ///< of make.py
 
-constexpr std::array<FigureKind, 16> kinds{{
-    {"bias-curve", "RUN", "false shadow and false lit at every constant bias"},
-    {"errors-vs-z", "RUN", "wrong pixels by distance from the light (of a RUN also error-vs-z)"},
-    {"depth-error-vs-z", "RUN", "the map's depth errors by distance, and the formula's envelope"},
-    {"causes", "RUN", "why pixels are wrong, by configuration or axis"},
-    {"error-vs-axis", "RUN", "wrong pixels along each axis of a sweep"},
-    {"heat-map", "RUN", "error rate over the two axes that matter most"},
-    {"pareto", "RUN", "false shadow against false lit, and the front"},
-    {"shadow-errors-on-depth-error", "RUN", "wrong pixels over the map's depth errors"},
-    {"map-resolution", "RUN", "wrong pixels at the edges of shadows against the resolution"},
-    {"peter-panning", "RUN", "of a sweep of `wall`: the strip of light, and b sin theta"},
-    {"acne", "CSV", "of an image's pixels: acne at zero bias, and its disappearance"},
-    {"pcf-edge", "CSV", "of rows of pixels: the edge of a shadow by filters of 1 to 9 x 9 taps"},
-    {"depth-map", "CSV", "of a depth map's texels: the light's view, in metres"},
-    {"error-vs-z", "CSV", "of `gnomon depth --theory-only --bits`: envelope and sawtooth"},
-    {"reversed-float", "CSV", "of `gnomon depth`: standard and reversed float depth"},
-    {"measured-against-formula", "CSV", "of `gnomon depth`: GL's depths against the formula"},
-}};
+std::vector<FigureKind> listed_figures()
+{
+    std::vector<FigureKind> kinds;
+    for (const auto& figure : nlohmann::json::parse(figure_list)) {
+        const bool is_of_a_run = figure.at("reads") != "tables";
+        kinds.push_back({figure.at("name"), is_of_a_run ? "RUN" : "CSV", figure.at("shows")});
+    }
+    return kinds;
+}
 
 [[noreturn]] void throw_missing(const std::string& what)
 {
@@ -106,6 +97,7 @@ std::string operand(const std::filesystem::path& path)
 
 std::span<const FigureKind> figure_kinds()
 {
+    static const std::vector<FigureKind> kinds = listed_figures();
     return kinds;
 }
 

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 /// Figures by matplotlib: reports/figures/make.py, run as a program of its own.
@@ -22,9 +21,9 @@ public:
 
 /// A figure by its name in `gnomon figure NAME`.
 struct FigureKind {
-    std::string_view name;
-    std::string_view input; ///< "RUN" or "CSV"
-    std::string_view description;
+    std::string name;
+    std::string input; ///< "RUN" or "CSV"
+    std::string description;
 };
 
 /// Every figure, those of a run first.

@@ -19,7 +19,7 @@ endforeach()
 install(TARGETS gnomon RUNTIME)
 install(TARGETS gnomon_images_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gnomon)
 install(DIRECTORY reports/figures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/figures
-        FILES_MATCHING PATTERN "*.py")
+        FILES_MATCHING PATTERN "*.py" PATTERN "figures.json")
 install(FILES LICENSE CHANGELOG.md CITATION.cff TYPE DOC)
 
 install(EXPORT gnomon-targets NAMESPACE gnomon:: DESTINATION ${gnomon_package_dir})

@@ -2,8 +2,10 @@
 """Draws figures from CSV files that Gnomon wrote; docs/figures.md shows them."""
 
 import argparse
+import importlib
 import json
 import sys
+import types
 import warnings
 from pathlib import Path
 
@@ -11,56 +13,21 @@ try:
     import gnomon
     import matplotlib
 
-    import acne
-    import bias_curve
-    import causes
-    import depth_error_vs_z
-    import depth_map
-    import error_vs_axis
-    import error_vs_z
-    import errors_vs_z
-    import heat_map
-    import map_resolution
-    import measured_against_formula
-    import pareto
-    import pcf_edge
-    import peter_panning
-    import reversed_float
     import run_settings
-    import shadow_errors_on_depth_error
     import style
+
+    # The list of all figures, which the program reads, too. A figure is drawn by the module of its name, with
+    # draw(tables); `reads` says of what: "run": read(run), which raises DoesNotApply, and words(tables); "tables":
+    # read(paths) of CSV files; names of files: the same, of those of a run, too.
+    FIGURES = {
+        figure["name"]: types.SimpleNamespace(
+            **figure, module=importlib.import_module(figure["name"].replace("-", "_")))
+        for figure in json.loads((Path(__file__).parent / "figures.json").read_text(encoding="utf-8"))
+    }
 except ModuleNotFoundError as missing:
     print(f"make.py: {sys.executable} has no {missing.name}", file=sys.stderr)
     sys.exit(3)
 
-# Of tables: read(paths) and draw(tables).
-TABLE_FIGURES = {
-    "error-vs-z": error_vs_z,
-    "reversed-float": reversed_float,
-    "measured-against-formula": measured_against_formula,
-    "shadow-errors-on-depth-error": shadow_errors_on_depth_error,
-    "map-resolution": map_resolution,
-    "peter-panning": peter_panning,
-    "acne": acne,
-    "pcf-edge": pcf_edge,
-    "depth-map": depth_map,
-}
-# Of the former those whose tables a run has.
-TABLES_OF_A_RUN = {
-    "shadow-errors-on-depth-error": ("error_vs_z.csv", "results.csv"),
-    "map-resolution": ("results.csv",),
-    "peter-panning": ("results.csv",),
-}
-# Of a run: read(run), which raises DoesNotApply, draw(tables) and words(tables).
-RUN_FIGURES = {
-    "bias-curve": bias_curve,
-    "errors-vs-z": errors_vs_z,
-    "depth-error-vs-z": depth_error_vs_z,
-    "causes": causes,
-    "error-vs-axis": error_vs_axis,
-    "heat-map": heat_map,
-    "pareto": pareto,
-}
 SUFFIXES = (".pdf", ".svg", ".png")
 
 
@@ -74,8 +41,7 @@ class Parser(argparse.ArgumentParser):
 def parse(arguments):
     """The command line, checked."""
     parser = Parser(description=__doc__)
-    parser.add_argument("name", metavar="NAME", help=", ".join({**RUN_FIGURES, **TABLE_FIGURES})
-                        + "; or run: all that apply to a run, into a folder")
+    parser.add_argument("name", metavar="NAME", help=", ".join(FIGURES) + "; or run: all that apply to a run, into a folder")
     parser.add_argument("inputs", metavar="RUN|CSV", nargs="+", type=Path,
                         help="a folder of gnomon sweep or compare --out, or its CSV files")
     where = parser.add_mutually_exclusive_group(required=True)
@@ -83,7 +49,7 @@ def parse(arguments):
                        help="the figure: .pdf, .svg or .png")
     where.add_argument("--out", metavar="DIR", type=Path, help="the folder, for run")
     options = parser.parse_args(arguments)
-    if options.name not in ("run", *RUN_FIGURES, *TABLE_FIGURES):
+    if options.name not in ("run", *FIGURES):
         parser.error(f"invalid choice: '{options.name}'")
     if (options.name == "run") != (options.out is not None):
         parser.error("--out goes with run, and -o with a figure")
@@ -112,22 +78,24 @@ def draw(name, inputs):
     is_run = len(inputs) == 1 and inputs[0].is_dir()
     if name == "error-vs-z" and is_run:
         name = "errors-vs-z"
-    if name in RUN_FIGURES:
-        figure = RUN_FIGURES[name]
-        return figure.draw(figure.read(load(inputs)))
+    figure = FIGURES[name]
+    module = figure.module
+    if figure.reads == "run":
+        return module.draw(module.read(load(inputs)))
     if is_run:
-        inputs = [inputs[0] / file for file in TABLES_OF_A_RUN.get(name, ("results.csv",))]
-    figure = TABLE_FIGURES[name]
-    return figure.draw(figure.read(inputs))
+        files = ["results.csv"] if figure.reads == "tables" else figure.reads
+        inputs = [inputs[0] / file for file in files]
+    return module.draw(module.read(inputs))
 
 
 def applying(run):
     """The names, modules and tables of the figures that apply to a run."""
-    for name, module in RUN_FIGURES.items():
-        try:
-            yield name, module, module.read(run)
-        except run_settings.DoesNotApply:
-            continue
+    for figure in FIGURES.values():
+        if figure.reads == "run":
+            try:
+                yield figure.name, figure.module, figure.module.read(run)
+            except run_settings.DoesNotApply:
+                continue
 
 
 def draw_run(run, folder):
