@@ -17,6 +17,7 @@ foreach(layer scene raster_gl analysis reports)
 endforeach()
 
 install(TARGETS gnomon RUNTIME)
+install(FILES ${PROJECT_BINARY_DIR}/gnomon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
 install(TARGETS gnomon_images_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gnomon)
 install(DIRECTORY reports/figures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/figures
         FILES_MATCHING PATTERN "*.py" PATTERN "figures.json")

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
@@ -29,6 +31,35 @@ TEST(Program, AnswersHelpAndVersion)
     const Ending version = gnomon({"--version"});
     expect_done(version);
     EXPECT_THAT(version.out, ::testing::MatchesRegex("gnomon [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(Manual, AsMarkdownIsThePageOfTheDocumentation)
+{
+    const Ending ending = gnomon({"manual", "--markdown"});
+    expect_done(ending);
+    if (std::getenv("GNOMON_UPDATE_DOCUMENTS") != nullptr) {
+        std::ofstream{GNOMON_ROOT "/docs/commands.md"} << ending.out;
+    }
+    EXPECT_EQ(text_of(GNOMON_ROOT "/docs/commands.md"), ending.out)
+        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R cli_program_test writes it anew";
+}
+
+TEST(Manual, NamesEveryCommandAndHoldsNoRequestOfItsOwn)
+{
+    const Ending ending = gnomon({"manual"});
+    expect_done(ending);
+    for (const char* const command : {"compare", "sweep", "gate", "baseline save", "manual"}) {
+        EXPECT_THAT(ending.out, HasSubstr(".SS gnomon " + std::string{command} + "\n"));
+    }
+    EXPECT_THAT(ending.out, HasSubstr(".B \\-\\-set TEXT\n"));
+    const std::set<std::string> requests{".TH", ".SH", ".SS", ".TP", ".PP",
+                                         ".B",  ".I",  ".RI", ".nf", ".fi"};
+    std::istringstream lines{ending.out};
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with('.') || line.starts_with('\'')) {
+            EXPECT_TRUE(requests.contains(line.substr(0, line.find(' ')))) << line;
+        }
+    }
 }
 
 TEST(Init, WritesAJobThatCompares)
