@@ -115,7 +115,7 @@ private:
     void measure_with(const Job& job, const scene::View& view, std::vector<std::string> keys)
     {
         const Metrics metrics = measure(comparison_.truth, renderers_.look_up(job, view),
-                                        equal_taps(job.lookup.filter));
+                                        scene::promises(job.lookup.filter).equal_taps());
         advice_.push_back(
             {std::move(keys), {metrics.false_shadow, metrics.false_lit}, metrics.error_rate});
     }

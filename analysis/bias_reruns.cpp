@@ -26,8 +26,8 @@ std::vector<BiasRerun> rerun_biases(const scene::Job& job, const scene::View& vi
     std::vector<BiasRerun> reruns;
     for (const float bias : rerun_list()) {
         biased.bias.constant = bias;
-        const Metrics metrics =
-            measure(truth, renderers.look_up(job, biased), equal_taps(job.lookup.filter));
+        const Metrics metrics = measure(truth, renderers.look_up(job, biased),
+                                        scene::promises(job.lookup.filter).equal_taps());
         reruns.push_back({bias,
                           {metrics.false_shadow, metrics.false_lit},
                           metrics.false_shadow_rate,

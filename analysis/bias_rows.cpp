@@ -222,12 +222,13 @@ public:
             return;
         }
         const scene::LookupSample& sample = lookup_.samples[pixel];
-        std::array<float, PcfTaps::most_taps> depths; // filled as far as it is read
+        std::array<float, scene::most_taps> depths; // filled as far as it is read
         const auto read = taps_.gather(sample, lookup_.texels[pixel], depths);
         const bool is_lit_truth = truth == PixelClass::lit;
         if (read.empty()) {
             const bool is_wrong = is_lit_truth == (rule_.outside == scene::Outside::shadowed);
-            changes.add(0, biases_.size(), is_wrong ? equal_taps(rule_.filter) : 0);
+            changes.add(0, biases_.size(),
+                        is_wrong ? scene::promises(rule_.filter).equal_taps() : 0);
             return;
         }
         const float slope_term = rule_.slope * sample.tan_theta;

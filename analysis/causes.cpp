@@ -252,7 +252,7 @@ void require_sizes(const CauseInputs& inputs)
         throw std::invalid_argument("find_causes: the lookup is not of the truth's size");
     }
     const scene::ImageSize map{inputs.resolution_texels, inputs.resolution_texels};
-    if (inputs.lookup.filter != scene::Filter::nearest && inputs.map_depths.size() != map) {
+    if (!scene::promises(inputs.lookup.filter).has_one_tap() && inputs.map_depths.size() != map) {
         throw std::invalid_argument("find_causes: map_depths is not of the map's size");
     }
 }
@@ -262,7 +262,7 @@ void require_sizes(const CauseInputs& inputs)
 scene::Image<PixelCause> find_causes(const CauseInputs& inputs, CauseMemory* memory)
 {
     require_sizes(inputs);
-    if (memory != nullptr && inputs.lookup.filter != scene::Filter::nearest) {
+    if (memory != nullptr && !scene::promises(inputs.lookup.filter).has_one_tap()) {
         throw std::invalid_argument("find_causes: memory: only for the filter nearest");
     }
     return CauseFinder{inputs, memory}.find();

@@ -54,7 +54,7 @@ struct CauseInputs {
     [[nodiscard]] float stored_depth(std::size_t pixel, const scene::Texel& texel) const
     {
         // The map's rows are counted from the top, texels from the bottom.
-        return lookup.filter == scene::Filter::nearest
+        return scene::promises(lookup.filter).has_one_tap()
                    ? unbiased.samples[pixel].map_depth
                    : map_depths(texel.x, resolution_texels - 1 - texel.y);
     }

@@ -72,8 +72,8 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers)
     require_size("lookup", comparison.lookup.samples, view.image);
     require_size("truth", comparison.truth.pixel_class, view.image);
     require_size("witness", comparison.truth.witness, view.image);
-    comparison.metrics =
-        measure(comparison.truth, comparison.lookup, equal_taps(comparison.job.lookup.filter));
+    comparison.metrics = measure(comparison.truth, comparison.lookup,
+                                 scene::promises(comparison.job.lookup.filter).equal_taps());
     if (renderers.make_exact_light) {
         comparison.diagnosis = diagnose(
             comparison.job, view,

@@ -165,7 +165,7 @@ private:
 /// The median of the taps' depths; NaN where the policy decides.
 float deciding_depth(const PcfTaps& taps, const scene::LookupSample& sample, Vec2f texel)
 {
-    std::array<float, PcfTaps::most_taps> depths; // filled as far as it is read
+    std::array<float, scene::most_taps> depths; // filled as far as it is read
     const std::span<float> read = taps.gather(sample, texel, depths);
     if (read.empty()) {
         return not_a_depth;
@@ -209,11 +209,12 @@ LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
 scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Image<Vec2f>& texels,
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
-    if (rule.filter == scene::Filter::hardware) {
+    const scene::FilterPromises& promised = scene::promises(rule.filter);
+    if (!promised.has_curve()) {
         throw std::invalid_argument("deciding_samples: rule: the filter hardware has the driver's "
                                     "weights and no deciding tap");
     }
-    if (rule.filter == scene::Filter::nearest || rule.filter == scene::Filter::linear) {
+    if (promised.returns_deciding_depth()) {
         return lookup;
     }
     require_taps(lookup, texels, map_depths);
@@ -229,7 +230,7 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
 
 bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
 {
-    return job.lookup.filter != scene::Filter::hardware && view.bias.normal_texels == 0;
+    return scene::promises(job.lookup.filter).has_curve() && view.bias.normal_texels == 0;
 }
 
 void set_verdicts(scene::LookupLayers& lookup, const scene::Image<float>& criticals, float bias)

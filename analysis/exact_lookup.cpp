@@ -10,7 +10,6 @@
 namespace gnomon::analysis {
 
 using scene::ExactTap;
-using scene::Filter;
 using scene::infinity;
 using scene::LinearQuery;
 using scene::NearestQuery;
@@ -39,16 +38,15 @@ public:
         if (lookups_.size() == 0) {
             return {};
         }
-        switch (rules_.lookup.filter) {
-        case Filter::nearest:
-            return light_.critical_biases(all_taps(), clamps_);
-        case Filter::linear:
+        const scene::FilterPromises& promised = scene::promises(rules_.lookup.filter);
+        if (promised.compares == scene::FilterPromises::Compares::mean_depth) {
             return interpolated();
-        case Filter::hardware:
-            return weighted();
-        default:
-            return median_of_taps();
         }
+        if (promised.interpolates()) {
+            return weighted();
+        }
+        return promised.has_one_tap() ? light_.critical_biases(all_taps(), clamps_)
+                                      : median_of_taps();
     }
 
 private:

@@ -33,14 +33,9 @@ double upper_weight(float x)
 
 } // namespace
 
-bool Footprint::interpolates() const
-{
-    return filter_ == scene::Filter::linear || filter_ == scene::Filter::hardware;
-}
-
 Texel Footprint::first_tap(const Vec2f& point) const
 {
-    if (interpolates()) {
+    if (interpolates_) {
         return {texel_coordinate(point.x - 0.5F, resolution_),
                 texel_coordinate(point.y - 0.5F, resolution_)};
     }
@@ -59,7 +54,7 @@ std::vector<Tap> Footprint::taps(const Vec2f& point) const
 void Footprint::append_taps(const Vec2f& point, std::vector<Tap>& taps) const
 {
     const Texel first = first_tap(point);
-    const bool is_weighted = interpolates();
+    const bool is_weighted = interpolates_;
     const double right = is_weighted ? upper_weight(point.x) : 0;
     const double above = is_weighted ? upper_weight(point.y) : 0;
     const std::array<double, 4> bilinear{(1 - right) * (1 - above), right * (1 - above),

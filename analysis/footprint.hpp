@@ -19,7 +19,7 @@ struct Tap {
 class Footprint {
 public:
     Footprint(const scene::LookupSettings& settings, int resolution_texels)
-        : filter_{settings.filter},
+        : interpolates_{scene::promises(settings.filter).interpolates()},
           clamps_{settings.outside == scene::Outside::clamp},
           width_{scene::filter_width_texels(settings.filter)},
           resolution_{resolution_texels}
@@ -47,11 +47,10 @@ public:
     [[nodiscard]] bool is_inside(const scene::Vec2f& point) const;
 
 private:
-    [[nodiscard]] bool interpolates() const;
     /// The lower left tap, before any clamping.
     [[nodiscard]] scene::Texel first_tap(const scene::Vec2f& point) const;
 
-    scene::Filter filter_;
+    bool interpolates_;
     bool clamps_;
     int width_;
     int resolution_;

@@ -121,15 +121,6 @@ ClassCounts count_classes(const scene::TruthLayers& truth)
     return counts;
 }
 
-int equal_taps(scene::Filter filter)
-{
-    if (filter == scene::Filter::hardware) {
-        return 0;
-    }
-    const int width = filter == scene::Filter::linear ? 1 : scene::filter_width_texels(filter);
-    return width * width;
-}
-
 Metrics make_metrics(const ClassCounts& pixels, const VerdictErrors& errors)
 {
     Metrics metrics;

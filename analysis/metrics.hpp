@@ -42,11 +42,8 @@ struct Metrics {
 
 [[nodiscard]] ClassCounts count_classes(const scene::TruthLayers& truth);
 
-/// Comparisons of equal weight that make a verdict: 1, or K² for pcfK; 0 for `hardware`, whose
-/// weights are the driver's own.
-[[nodiscard]] int equal_taps(scene::Filter filter);
-
-/// @param taps  `equal_taps` of the lookup: the verdicts are multiples of 1/taps and their errors
+/// @param taps  `FilterPromises::equal_taps` of the lookup: the verdicts are multiples of 1/taps
+/// and their errors
 ///              are added as integers; 0: as doubles.
 /// @throws std::invalid_argument  if the layers differ in size.
 [[nodiscard]] Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup,

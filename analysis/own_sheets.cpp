@@ -8,7 +8,6 @@ namespace gnomon::analysis {
 
 namespace {
 
-using scene::Filter;
 using scene::Outside;
 
 /// Which taps shadow without bias, by the depths that GL stored.
@@ -18,8 +17,7 @@ public:
 
     [[nodiscard]] bool shadows(std::size_t pixel, const Tap& tap) const
     {
-        const Filter filter = inputs_.lookup.filter;
-        const bool interpolates = filter == Filter::linear || filter == Filter::hardware;
+        const bool interpolates = scene::promises(inputs_.lookup.filter).interpolates();
         if (!tap.is_inside && !interpolates) {
             return inputs_.lookup.outside == Outside::shadowed;
         }
@@ -98,7 +96,8 @@ std::vector<std::size_t> detached_pixels(const CauseInputs& inputs,
                                          std::span<const std::size_t> pixels)
 {
     // Interpolated depths have one comparison, of which a share says nothing.
-    const bool is_one_comparison = inputs.lookup.filter == Filter::linear;
+    const bool is_one_comparison = scene::promises(inputs.lookup.filter).compares ==
+                                   scene::FilterPromises::Compares::mean_depth;
     const auto shares = shadow_shares(inputs, trace_lookups(inputs, pixels));
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < pixels.size(); ++i) {

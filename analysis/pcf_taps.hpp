@@ -13,8 +13,6 @@ namespace gnomon::analysis {
 /// The stored depths that a pcfK lookup reads, gathered as raster_gl/shaders/lookup.frag does.
 class PcfTaps {
 public:
-    static constexpr std::size_t most_taps = 81;
-
     /// @param map_depths  As shaders see them, top left first, square; must outlive this.
     PcfTaps(const scene::Image<float>& map_depths, const LookupRule& rule);
 

@@ -47,13 +47,13 @@ BiasSearch::BiasSearch(const scene::Job& job, const scene::View& view,
       truth_{truth},
       renderers_{renderers}
 {
-    if (job.lookup.filter == scene::Filter::hardware) {
+    const scene::FilterPromises& promised = scene::promises(job.lookup.filter);
+    if (!promised.has_curve()) {
         return;
     }
     const scene::LookupLayers lookup = renderers.look_up(job, view);
-    const bool has_one_comparison =
-        job.lookup.filter == scene::Filter::nearest || job.lookup.filter == scene::Filter::linear;
-    const auto depths = has_one_comparison ? scene::Image<float>{} : renderers.read_map_depths();
+    const auto depths =
+        promised.returns_deciding_depth() ? scene::Image<float>{} : renderers.read_map_depths();
     deciding_ = deciding_samples(lookup, lookup.texels, depths, lookup_rule(job, view));
 }
 

@@ -16,7 +16,7 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
                                scene::resolve_light(job, defaults),
                                {},
                                {}};
-    if (job.lookup.filter != scene::Filter::nearest) {
+    if (!scene::promises(job.lookup.filter).has_one_tap()) {
         extras.map_depths = renderers.read_map_depths();
     }
     if (!analysis::can_derive_unbiased(job, comparison.view)) {

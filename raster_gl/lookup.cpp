@@ -11,13 +11,18 @@
 namespace gnomon::raster_gl {
 namespace {
 
-using scene::Filter;
 using scene::Outside;
 
-int tap_width(Filter filter)
+/// Whether GL interpolates depths, and the shader compares.
+bool is_of_mean_depth(const scene::FilterPromises& promised)
 {
-    const bool taps = filter != Filter::linear && filter != Filter::hardware;
-    return taps ? scene::filter_width_texels(filter) : 1;
+    return promised.compares == scene::FilterPromises::Compares::mean_depth;
+}
+
+/// Whether GL compares and interpolates.
+bool is_by_gl(const scene::FilterPromises& promised)
+{
+    return promised.weights == scene::FilterPromises::Weights::bilinear_of_gl;
 }
 
 const char* flag(bool on)
@@ -68,10 +73,12 @@ const Program& LookupPass::program(const Variant& variant)
         return found->second;
     }
     const auto [filter, outside, reversed, spot] = variant;
+    const scene::FilterPromises& promised = scene::promises(filter);
     const Definitions definitions{
-        {"FILTER_TAPS", std::to_string(tap_width(filter))},
-        {"FILTER_LINEAR", flag(filter == Filter::linear)},
-        {"FILTER_HARDWARE", flag(filter == Filter::hardware)},
+        // What GL interpolates is one fetch.
+        {"FILTER_TAPS", std::to_string(promised.interpolates() ? 1 : promised.width_texels)},
+        {"FILTER_LINEAR", flag(is_of_mean_depth(promised))},
+        {"FILTER_HARDWARE", flag(is_by_gl(promised))},
         {"OUTSIDE_CLAMP", flag(outside == Outside::clamp)},
         {"OUTSIDE_VERDICT", outside == Outside::shadowed ? "0.0" : "1.0"},
         {"REVERSED", flag(reversed)},
@@ -99,8 +106,9 @@ void LookupPass::allocate(scene::ImageSize size)
 
 void LookupPass::bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const
 {
-    const bool linear = settings.filter == Filter::linear;
-    set_sampler(map_sampler_, linear ? GL_LINEAR : GL_NEAREST, settings.outside, map.reversed);
+    const scene::FilterPromises& promised = scene::promises(settings.filter);
+    set_sampler(map_sampler_, is_of_mean_depth(promised) ? GL_LINEAR : GL_NEAREST, settings.outside,
+                map.reversed);
     set_sampler(compare_sampler_, GL_LINEAR, settings.outside, map.reversed);
     glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_MODE,
                         GL_COMPARE_REF_TO_TEXTURE);
@@ -108,7 +116,7 @@ void LookupPass::bind_map(const ShadowMap& map, const scene::LookupSettings& set
                         map.reversed ? GL_GEQUAL : GL_LEQUAL);
     glBindTextureUnit(3, map.depth.name());
     glBindSampler(3, map_sampler_.name());
-    if (settings.filter == Filter::hardware) {
+    if (is_by_gl(promised)) {
         glBindTextureUnit(4, map.depth.name());
         glBindSampler(4, compare_sampler_.name());
     }

@@ -16,9 +16,6 @@ constexpr std::array<std::pair<std::string_view, DepthFormat>, 4> gl_depth_forma
      {"d32", {DepthFormat::Kind::d32, 32}},
      {"d32f", {DepthFormat::Kind::d32f, 32}}}};
 
-constexpr std::array<std::string_view, 7> filter_names{"nearest", "linear", "hardware", "pcf3",
-                                                       "pcf5",    "pcf7",   "pcf9"};
-constexpr std::array<int, 7> filter_widths_texels{1, 2, 2, 3, 5, 7, 9};
 constexpr std::array<std::string_view, 3> outside_names{"lit", "shadowed", "clamp"};
 constexpr std::array<std::string_view, 3> cull_names{"none", "front", "back"};
 constexpr std::array<std::string_view, 3> fit_names{"scene", "camera", "fixed"};
@@ -48,16 +45,6 @@ std::string depth_format_name(DepthFormat format)
         }
     }
     return fmt::format("u{}", format.bits);
-}
-
-int filter_width_texels(Filter filter)
-{
-    return filter_widths_texels.at(static_cast<std::size_t>(filter));
-}
-
-std::string_view filter_name(Filter filter)
-{
-    return filter_names.at(static_cast<std::size_t>(filter));
 }
 
 std::string_view outside_name(Outside outside)

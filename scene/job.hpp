@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/camera.hpp"
+#include "scene/filter.hpp"
 #include "scene/image.hpp"
 #include "scene/light.hpp"
 #include "scene/light_frustum.hpp"
@@ -42,12 +43,8 @@ struct DepthFormat {
 [[nodiscard]] std::string depth_format_name(DepthFormat format);
 
 enum class Cull : std::uint8_t { none, front, back };
-enum class Filter : std::uint8_t { nearest, linear, hardware, pcf3, pcf5, pcf7, pcf9 };
 enum class Outside : std::uint8_t { lit, shadowed, clamp };
 
-/// Taps across a filter's footprint: 1 for nearest, 2 for linear and hardware, K for pcfK.
-[[nodiscard]] int filter_width_texels(Filter filter);
-[[nodiscard]] std::string_view filter_name(Filter filter);
 [[nodiscard]] std::string_view outside_name(Outside outside);
 [[nodiscard]] std::string_view cull_name(Cull cull);
 [[nodiscard]] std::string_view fit_name(Fit fit);

@@ -20,7 +20,7 @@ ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
       zeta_m_{receivers_->zeta_m(view_.frustum, geometry_)},
       distances_{receivers_->distances(view_.frustum, geometry_)},
       remembers_causes_{receivers_->use().by_many_maps &&
-                        job.lookup.filter == scene::Filter::nearest},
+                        scene::promises(job.lookup.filter).has_one_tap()},
       causes_{size_if(remembers_causes_)},
       detaches_{size_if(remembers_causes_), not_asked},
       pixel_gaps_{size_if(receivers_->use().by_many_maps), unknown_gap}

@@ -39,7 +39,7 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
         unbiased.bias = {};
         lookup.unbiased = renderers.look_up(job, unbiased);
     }
-    if (job.lookup.filter != scene::Filter::nearest) {
+    if (!scene::promises(job.lookup.filter).has_one_tap()) {
         lookup.map_depths = renderers.read_map_depths();
     }
     return lookup;
@@ -58,7 +58,7 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
 
 scene::LookupLayers LookupAnswers::make_deciding() const
 {
-    return equal_taps(rule_.filter) > 1
+    return scene::promises(rule_.filter).equal_taps() > 1
                ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
                                   lookup_.map_depths, rule_)
                : scene::LookupLayers{};
@@ -118,7 +118,7 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
     }
     LookupRule rule = rule_;
     rule.slope = curve.slope;
-    const int taps = equal_taps(rule.filter);
+    const int taps = scene::promises(rule.filter).equal_taps();
     const BiasRowInputs inputs{classes(), deciding(), curve.critical_bias, causes_, rule};
     const auto counts = count_rows(inputs, curve.curve, biases);
     const auto parts = count_parts(exact_->parts(), inputs, biases);
@@ -193,7 +193,7 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own) &&
     // What follows asks for neither, and takes the most memory.
     lookup_.unbiased = {};
     exact_->forget_texels();
-    if (rule_.filter != scene::Filter::hardware) {
+    if (scene::promises(rule_.filter).has_curve()) {
         const auto acne = acne_flags(classes(), causes_);
         diagnosis.biases =
             answer_biases({lookup_.job, lookup_.view, curves(acne), exact_->zeta_m()});

@@ -239,7 +239,7 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
 {
     const scene::CaseLayers& layers = subject.layers;
     const bool has_one_tap = subject.file.says("lookup.filter") &&
-                             comparison.job.lookup.filter == scene::Filter::nearest;
+                             scene::promises(comparison.job.lookup.filter).has_one_tap();
     const bool is_unmoved =
         subject.file.says("bias.normal_texels") && comparison.job.bias.normal_texels == 0;
     std::vector<std::string> missing;
@@ -381,9 +381,10 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.truth_method = "exact for all positions that round to P";
     result.environment = {subject.file.renderer, "another renderer", truth.embree, truth.gnomon};
     Evaluation& evaluation = result.evaluation.emplace(make_evaluation(subject, checked));
-    result.metrics =
-        measure(result.truth, result.lookup,
-                subject.file.says("lookup.filter") ? equal_taps(result.job.lookup.filter) : 0);
+    result.metrics = measure(result.truth, result.lookup,
+                             subject.file.says("lookup.filter")
+                                 ? scene::promises(result.job.lookup.filter).equal_taps()
+                                 : 0);
     evaluation.by_object = errors_by_object(result.truth.pixel_class, result.lookup,
                                             result.receivers.triangle, subject.mesh);
     find_all_causes(subject, truth, result, evaluation);

@@ -55,14 +55,14 @@ std::string id_of(std::string_view version, std::string_view scene_name,
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
                      const Parameters& parameters)
 {
-    const bool has_curve = job.lookup.filter != scene::Filter::hardware;
+    const bool has_curve = scene::promises(job.lookup.filter).has_curve();
     return id_of(version, scene_name, parameters, !has_curve);
 }
 
 /// The constant bias that a job has but for the sweep's axes.
 std::string job_bias_text(const scene::BiasSettings& own, scene::Filter filter)
 {
-    if (filter == scene::Filter::hardware) {
+    if (!scene::promises(filter).has_curve()) {
         return {};
     }
     return own.constant_m ? fmt::format("{} m", *own.constant_m) : fmt::format("{}", own.constant);
@@ -112,7 +112,7 @@ void SweepCatalogue::add_structure(std::vector<std::uint64_t> ordinals)
         refusals_.push_back({std::move(ordinals), error.what()});
         return;
     }
-    if (!keeps_every_bias_ && job.lookup.filter != scene::Filter::hardware) {
+    if (!keeps_every_bias_ && scene::promises(job.lookup.filter).has_curve()) {
         add_request(job, std::move(ordinals));
         return;
     }

@@ -184,7 +184,7 @@ private:
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
     void make_room_for_depths()
     {
-        if (task_.job.lookup.filter != scene::Filter::nearest &&
+        if (!scene::promises(task_.job.lookup.filter).has_one_tap() &&
             task_.job.shadow_map.resolution_texels > 4096) {
             lookup_ = {};
             finish_lanes();
@@ -220,7 +220,7 @@ private:
     /// Whether every bias is looked up and compared by itself.
     [[nodiscard]] bool is_compared() const
     {
-        return hooks_.keep_pixels || task_.job.lookup.filter == scene::Filter::hardware;
+        return hooks_.keep_pixels || !scene::promises(task_.job.lookup.filter).has_curve();
     }
 
     void answer(std::size_t slot)

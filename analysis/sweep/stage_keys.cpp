@@ -99,7 +99,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
 
 StageKeys stage_keys(const scene::Job& job)
 {
-    return keys_of(job, job.lookup.filter == scene::Filter::hardware);
+    return keys_of(job, !scene::promises(job.lookup.filter).has_curve());
 }
 
 StageKeys stage_keys_with_bias(const scene::Job& job)

@@ -331,7 +331,7 @@ TEST(WrongTaps, AgreeWithCountingEachBiasByItself)
         const auto biases = random_biases(random, criticals);
         const auto wrong = count_wrong_taps(taps.classes, taps.lookup, taps.map, taps.rule, biases);
         ASSERT_EQ(wrong.size(), biases.size());
-        const int all = equal_taps(taps.rule.filter);
+        const int all = scene::promises(taps.rule.filter).equal_taps();
         for (std::size_t i = 0; i < biases.size(); ++i) {
             std::uint64_t expected = 0;
             for (std::size_t pixel = 0; pixel < taps.classes.pixel_count(); ++pixel) {

@@ -153,7 +153,7 @@ private:
         {
             const float bias = view_.bias.constant + view_.bias.slope * sample.tan_theta;
             const int radius = scene::filter_width_texels(job_.lookup.filter) / 2;
-            const bool is_pcf = equal_taps(job_.lookup.filter) > 1;
+            const bool is_pcf = scene::promises(job_.lookup.filter).equal_taps() > 1;
             if (!is_pcf) {
                 return tap(sample.receiver_depth, sample.map_depth, bias);
             }
@@ -163,7 +163,7 @@ private:
                     sum += tap(sample.receiver_depth, depth_at(texel, x, y), bias);
                 }
             }
-            return sum / static_cast<float>(equal_taps(job_.lookup.filter));
+            return sum / static_cast<float>(scene::promises(job_.lookup.filter).equal_taps());
         }
 
         const SweepWorld& world_;
