@@ -192,15 +192,12 @@ scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& 
     }
     const scene::ImageSize size{map.resolution_texels, map.resolution_texels};
     const auto read = [&] {
-        switch (map.format.kind) {
-        case Kind::unorm:
+        if (map.format.kind == Kind::unorm) {
             return read_texture<std::uint32_t>(map.code, size, GL_RED_INTEGER, GL_UNSIGNED_INT);
-        case Kind::d32f: // the float's bits
-            return read_texture<std::uint32_t>(map.depth, size, GL_DEPTH_COMPONENT, GL_FLOAT);
-        default:
-            return read_texture<std::uint32_t>(map.depth, size, GL_DEPTH_COMPONENT,
-                                               GL_UNSIGNED_INT);
         }
+        // Of floats the bits.
+        return read_texture<std::uint32_t>(map.depth, size, GL_DEPTH_COMPONENT,
+                                           map.format.is_float() ? GL_FLOAT : GL_UNSIGNED_INT);
     };
     scene::Image<std::uint32_t> codes = read();
     context.check("reading the map's codes");

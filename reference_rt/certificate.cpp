@@ -35,14 +35,10 @@ std::size_t code(PixelClass pixel_class)
 
 float truth_of(PixelClass pixel_class)
 {
-    switch (pixel_class) {
-    case PixelClass::lit:
-        return 1.0F;
-    case PixelClass::blocked:
-        return 0.0F;
-    default:
+    if (!scene::is_scored(pixel_class)) {
         return -1.0F;
     }
+    return pixel_class == PixelClass::lit ? 1.0F : 0.0F;
 }
 
 /// Draws without replacement: of a population that is met one by one, each item is taken with the

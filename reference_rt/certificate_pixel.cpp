@@ -39,14 +39,12 @@ std::string explain_contact(const Finding& finding)
     const auto text = [&](std::string_view what) {
         return fmt::format("triangle {} {} {}", finding.triangle, what, signs_text(finding.signs));
     };
-    switch (finding.reason) {
-    case ClassReason::vertex:
+    if (finding.reason == ClassReason::vertex) {
         return text("is met exactly at a corner");
-    case ClassReason::silhouette:
-        return text("is met exactly at an edge that is no seam");
-    default:
-        return text("is met in its plane");
     }
+    return text(finding.reason == ClassReason::silhouette
+                    ? "is met exactly at an edge that is no seam"
+                    : "is met in its plane");
 }
 
 std::string explain_blocked(const Finding& finding)

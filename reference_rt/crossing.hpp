@@ -12,13 +12,14 @@ namespace gnomon::reference_rt {
 [[nodiscard]] constexpr bool is_left(scene::Cull cull, Sign light_side)
 {
     switch (cull) {
+    case scene::Cull::none:
+        return light_side != 0;
     case scene::Cull::front:
         return light_side < 0;
     case scene::Cull::back:
         return light_side > 0;
-    default:
-        return light_side != 0;
     }
+    return false; // not reached
 }
 
 /// True when the segment P→light crosses the plane of S in front of the light and at a matrix depth

@@ -93,14 +93,10 @@ Vec3f colour(const Shade& shade, float lit)
 /// The true fraction of light; halfway where the truth takes no side.
 float true_fraction(PixelClass pixel_class)
 {
-    switch (pixel_class) {
-    case PixelClass::lit:
-        return 1.0F;
-    case PixelClass::blocked:
-        return 0.0F;
-    default:
+    if (!scene::is_scored(pixel_class)) {
         return 0.5F;
     }
+    return pixel_class == PixelClass::lit ? 1.0F : 0.0F;
 }
 
 std::uint8_t encode_srgb(float linear)
@@ -194,9 +190,12 @@ Mark mark_of(PixelClass pixel_class, float verdict)
         return Mark::unmatched;
     case PixelClass::indeterminate:
         return Mark::indeterminate;
-    default:
+    case PixelClass::background:
+    case PixelClass::attached:
+    case PixelClass::out_of_light:
         return Mark::none;
     }
+    return Mark::none; // not reached
 }
 
 Rgb mark_colour(Mark mark)
