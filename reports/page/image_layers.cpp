@@ -2,7 +2,6 @@
 
 #include "analysis/bias_order.hpp"
 #include "analysis/bias_units.hpp"
-#include "analysis/critical_bias.hpp"
 #include "scene/infinity.hpp"
 
 #include <bit>
@@ -89,19 +88,19 @@ ImageLayers::ImageLayers(LayerFile& file, const PixelRules& rules)
     }
 }
 
-bool ImageLayers::can_derive_critical() const
+std::vector<std::uint32_t> ImageLayers::critical_steps() const
 {
-    if (!has_biases_ || !rules_.compares_once()) {
-        return false;
+    std::vector<std::uint32_t> steps(classes_.pixel_count());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (scene::is_scored(classes_[i])) {
+            const float above = receiver_depth_[i] - map_depth_[i];
+            const float difference = rules_.light.reversed ? -above : above;
+            const float start = std::isnormal(difference) ? difference : 0.0F;
+            steps[i] = static_cast<std::uint32_t>(analysis::bias_rank(critical_[i])) -
+                       static_cast<std::uint32_t>(analysis::bias_rank(start));
+        }
     }
-    const float policy = rules_.outside == "shadowed" ? scene::infinity : -scene::infinity;
-    return all_scored([&](std::size_t i) {
-        const float critical = std::isnan(map_depth_[i])
-                                   ? policy
-                                   : analysis::critical_bias(receiver_depth_[i], map_depth_[i], 0,
-                                                             rules_.light.reversed);
-        return are_same(critical, critical_[i]);
-    });
+    return steps;
 }
 
 bool ImageLayers::can_derive_lengths() const

@@ -8,8 +8,10 @@
 #include "scene/pixel_class.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gnomon::reports {
 
@@ -19,11 +21,6 @@ struct PixelRules {
     /// @throws nlohmann::json::exception  if it lacks something.
     explicit PixelRules(const Json& detail);
 
-    /// One comparison of depths decides, and the tangent of the angle has no part in it.
-    [[nodiscard]] bool compares_once() const
-    {
-        return (filter == "nearest" || filter == "linear") && slope == 0;
-    }
     [[nodiscard]] double texel_m(double zeta_m) const
     {
         const bool is_perspective = light.projection == scene::Projection::perspective;
@@ -56,8 +53,10 @@ public:
     [[nodiscard]] bool has_biases() const { return has_biases_; }
     [[nodiscard]] bool has_diagnosis() const { return has_diagnosis_; }
 
-    /// Whether every scored pixel's critical bias is, bit by bit, that of its two depths.
-    [[nodiscard]] bool can_derive_critical() const;
+    /// Of each scored pixel the critical bias, told by how far it is, in the order of biases, from
+    /// the plain difference of the pixel's two depths: mostly next to nothing, which packs well.
+    /// Modulo 2^32; 0 elsewhere.
+    [[nodiscard]] std::vector<std::uint32_t> critical_steps() const;
     /// Whether every scored pixel's needed bias in metres and texels is, bit by bit, that of its
     /// critical bias and light distance, computed in double and rounded once.
     [[nodiscard]] bool can_derive_lengths() const;

@@ -122,9 +122,9 @@ std::vector<NamedLayer> page_layers(LayerFile& file, const ImageLayers& image, c
         layers.push_back(converted<float>("map_error_m", file.floats("map_error_m"), with_11_bits));
     }
     if (image.has_biases()) {
+        layers.push_back({"critical_bias_steps", image.critical_steps()});
         for (const auto& [name, values] :
-             {std::pair{"critical_bias", &image.critical()},
-              std::pair{"needed_bias_m", &image.needed_m()},
+             {std::pair{"needed_bias_m", &image.needed_m()},
               std::pair{"needed_bias_texels", &image.needed_texels()}}) {
             if (!derive.at(name).get<bool>()) {
                 layers.push_back(unchanged(name, *values));
@@ -172,9 +172,7 @@ Json image_entry(LayerFile& file, const Json& detail, const Pack& pack_layers)
     const PixelRules rules{detail};
     const ImageLayers image{file, rules};
     const bool derives_lengths = image.can_derive_lengths();
-    const Json derive{{"critical_bias", image.can_derive_critical()},
-                      {"needed_bias_m", derives_lengths},
-                      {"needed_bias_texels", derives_lengths}};
+    const Json derive{{"needed_bias_m", derives_lengths}, {"needed_bias_texels", derives_lengths}};
     Json frustum = rules.frustum;
     frustum["range_m"] = rules.light.range_m();
     frustum["inverse_range_per_m"] = 1.0 / rules.light.near_m - 1.0 / rules.light.far_m;

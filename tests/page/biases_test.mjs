@@ -1,16 +1,13 @@
-// Critical biases, their units and counts, against their definitions in float32.
+// Biases in their order, their units and counts, against their definitions in float32.
 
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
 import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
-  ["pixel_names.js", "critical_bias.js", "bias_units.js", "bias_counts.js", "numbers.js", "slider_scale.js"],
+  ["pixel_names.js", "bias_order.js", "bias_units.js", "bias_counts.js", "numbers.js", "slider_scale.js"],
   [
-    "criticalBias",
     "criticalBiases",
-    "searchCriticalBias",
-    "guessCriticalBias",
     "previousBias",
     "biasRank",
     "biasOfRank",
@@ -24,64 +21,30 @@ const page = loadScripts(
   ],
 );
 
-/** Whether the lookup is lit, as the shader computes it. */
-function isLit(r, d, bias, reversed) {
-  return reversed ? Math.fround(r + bias) >= d : Math.fround(r - bias) <= d;
-}
-
-/** A float32 from a few kinds that make trouble. */
-function troublesomeDepth(random) {
-  const kinds = [
-    () => random(),
-    () => 1 - random() * 1e-6,
-    () => random() * 1e-6,
-    () => Math.round(random() * 65535) / 65535,
-    () => 2 ** Math.floor(-140 * random()),
-    () => Math.floor(2 * random()),
-    () => 2 * random() - 0.5,
-  ];
-  return Math.fround(kinds[Math.floor(kinds.length * random())]());
-}
-
-describe("A critical bias", () => {
-  it("is the difference where it is exact", () => {
-    assert.equal(page.criticalBias(0.75, 0.5, false), page.searchCriticalBias(-0.75, -0.5));
-    assert.ok(isLit(0.75, 0.5, page.criticalBias(0.75, 0.5, false), false));
-    assert.equal(page.criticalBias(0, 0, false), 0);
-    assert.ok(Object.is(page.criticalBias(0, 0, true), 0));
-  });
-
-  it("is the smallest bias that is lit, for 20,000 random pairs of depths", () => {
-    const random = seededRandom(20261122);
-    for (let i = 0; i < 20000; ++i) {
-      const [r, d, reversed] = [troublesomeDepth(random), troublesomeDepth(random), random() < 0.5];
-      const critical = page.criticalBias(r, d, reversed);
-      const told = `r = ${r}, d = ${d}, reversed = ${reversed}, critical = ${critical}`;
-      assert.ok(isLit(r, d, critical, reversed), told);
-      assert.ok(!isLit(r, d, page.previousBias(critical), reversed), told);
-      assert.ok(critical === 0 || Math.abs(critical) >= 2 ** -126, told);
+describe("Critical biases", () => {
+  it("are so many steps from the depths' difference, for random depths and biases", () => {
+    const random = seededRandom(20261124);
+    const special = [0, -0, NaN, Infinity, 2 ** -140, 1];
+    const depth = () => (random() < 0.3 ? special[Math.floor(special.length * random())] : random());
+    for (const reversed of [false, true]) {
+      const count = 2000;
+      const layers = {
+        class: Uint8Array.from({ length: count }, () => Math.floor(7 * random())),
+        receiver_depth: Float32Array.from({ length: count }, depth),
+        map_depth: Float32Array.from({ length: count }, depth),
+      };
+      const ranks = Int32Array.from({ length: count }, () => Math.floor((2 * random() - 1) * 0x7f000002));
+      layers.critical_bias_steps = Uint32Array.from(ranks, (rank, i) => {
+        const above = Math.fround(layers.receiver_depth[i] - layers.map_depth[i]);
+        const difference = reversed ? -above : above;
+        const isNormal = Number.isFinite(difference) && Math.abs(difference) >= 2 ** -126;
+        return rank - (isNormal ? page.biasRank(difference) : 0);
+      });
+      page.criticalBiases(layers, reversed).forEach((critical, i) => {
+        const wanted = layers.class[i] === 5 || layers.class[i] === 6 ? page.biasOfRank(ranks[i]) : NaN;
+        assert.ok(Object.is(critical, wanted), `pixel ${i}: ${critical}, not ${wanted}`);
+      });
     }
-  });
-
-  it("is what bisection finds, for random pairs", () => {
-    const random = seededRandom(7);
-    for (let i = 0; i < 2000; ++i) {
-      const [r, d] = [troublesomeDepth(random), troublesomeDepth(random)];
-      assert.ok(
-        Object.is(page.criticalBias(r, d, false), page.searchCriticalBias(-r, d === 0 ? -0 : -d)),
-        `r = ${r}, d = ${d}`,
-      );
-    }
-  });
-
-  it("is infinite where no bias decides", () => {
-    assert.equal(page.criticalBias(NaN, 0.5, false), Infinity);
-    assert.equal(page.criticalBias(0.5, Infinity, false), -Infinity);
-    const classes = Uint8Array.of(5, 6, 0);
-    const [r, d] = [new Float32Array(3).fill(0.5), new Float32Array(3).fill(NaN)];
-    const of = (outside) => [...page.criticalBiases(classes, r, d, { reversed: false, outside })];
-    assert.deepEqual(of("lit"), [-Infinity, -Infinity, NaN]);
-    assert.deepEqual(of("shadowed"), [Infinity, Infinity, NaN]);
   });
 });
 

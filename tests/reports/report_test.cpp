@@ -1,5 +1,6 @@
 #include "reports/page/report.hpp"
 
+#include "analysis/bias_order.hpp"
 #include "reports/aov_exr.hpp"
 #include "reports/comparison_json.hpp"
 #include "reports/images/layer_file.hpp"
@@ -9,6 +10,7 @@
 #include "reports/run/pixels.hpp"
 #include "reports/run/run_store.hpp"
 #include "scene/error.hpp"
+#include "scene/infinity.hpp"
 
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
@@ -20,7 +22,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -164,7 +168,8 @@ TEST(Report, OfARunThatFailedSaysSo)
 }
 
 /// A run of one comparison, with its layers.
-void keep_example(const std::filesystem::path& folder)
+void keep_example(const std::filesystem::path& folder,
+                  const analysis::Comparison& comparison = example().comparison)
 {
     ExampleRun run;
     run.curves = 1;
@@ -175,12 +180,12 @@ void keep_example(const std::filesystem::path& folder)
     RunStore store{folder, RunStore::Access::write};
     store.plan(description, run.configurations());
     analysis::FinishedCurve curve = run.curve(0);
-    curve.rows.front().result.metrics = example().comparison.metrics;
+    curve.rows.front().result.metrics = comparison.metrics;
     store.record(curve);
     const std::string id = run.configurations().front().id;
     make_pixels_folder(folder);
-    write_file(detail_path(folder, id), comparison_json(example().comparison));
-    write_aov(pixels_path(folder, id), example().comparison, example().points);
+    write_file(detail_path(folder, id), comparison_json(comparison));
+    write_aov(pixels_path(folder, id), comparison, example().points);
 }
 
 TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
@@ -206,6 +211,58 @@ TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
         ASSERT_EQ(verdicts[i], comparison.lookup.samples[i].verdict);
     }
     EXPECT_EQ(image.at("frustum").at("near_m"), comparison.view.frustum.near_m);
+}
+
+/// The example with a critical bias for each pixel: any at all.
+analysis::Comparison with_critical_biases()
+{
+    analysis::Comparison comparison = example().comparison;
+    const auto& classes = comparison.truth.pixel_class;
+    scene::Image<float> criticals{classes.size()};
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        const float r = comparison.lookup.samples[i].receiver_depth;
+        const float d = comparison.lookup.samples[i].map_depth;
+        constexpr std::array<float, 3> unlike{scene::infinity, -scene::infinity, 0.25F};
+        criticals[i] = i % 7 < unlike.size() ? unlike.at(i % 7) : analysis::next_bias(r - d);
+    }
+    const scene::Image<float> zeros{classes.size()};
+    analysis::BiasCurve curve{criticals, classes};
+    comparison.diagnosis = analysis::Diagnosis{
+        .pixels = {},
+        .zeta_m = zeros,
+        .map_error_m = zeros,
+        .causes = {scene::Image<analysis::Cause>{classes.size()},
+                   scene::Image<analysis::Label>{classes.size()},
+                   {}},
+        .peter_panning = {},
+        .biases = analysis::BiasAnswers{
+            criticals, std::move(curve), {}, {}, {zeros, zeros, zeros, zeros}, {}, 0}};
+    return comparison;
+}
+
+TEST(Report, TellsEveryCriticalBiasByItsDistanceFromTheDepthsDifference)
+{
+    const TemporaryFolder folder;
+    const analysis::Comparison comparison = with_critical_biases();
+    keep_example(folder / "run", comparison);
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    const auto& layers = page.data().at("images").at(0).at("layers");
+    const auto receivers = page.floats(layers.at("receiver_depth"));
+    const auto depths = page.floats(layers.at("map_depth"));
+    const auto steps = page.bits(layers.at("critical_bias_steps"));
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (!scene::is_scored(comparison.truth.pixel_class[i])) {
+            EXPECT_EQ(steps[i], 0U) << i;
+            continue;
+        }
+        const float difference = receivers[i] - depths[i];
+        const auto start = static_cast<std::uint32_t>(
+            analysis::bias_rank(std::isnormal(difference) ? difference : 0.0F));
+        const auto rank = static_cast<std::uint32_t>(start + steps[i]);
+        EXPECT_EQ(analysis::bias_of_rank(static_cast<std::int32_t>(rank)),
+                  comparison.diagnosis->biases->critical_bias[i])
+            << i;
+    }
 }
 
 TEST(Report, RefusesAConfigurationWhoseLayersWereNotKept)

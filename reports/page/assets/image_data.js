@@ -20,7 +20,6 @@ class PixelImage {
       depthStep: stored.depth_step,
       derive: stored.derive,
     });
-    this.outside = stored.outside;
     this.deriveLayers();
     this.counts = this.hasCurve ? new BiasCounts(layers.class, layers.critical_bias) : null;
   }
@@ -32,11 +31,8 @@ class PixelImage {
 
   deriveLayers() {
     const { layers, derive, frustum } = this;
-    if (derive.critical_bias) {
-      layers.critical_bias = criticalBiases(layers.class, layers.receiver_depth, layers.map_depth, {
-        reversed: frustum.reversed,
-        outside: this.outside,
-      });
+    if (layers.critical_bias_steps !== undefined) {
+      layers.critical_bias = criticalBiases(layers, frustum.reversed);
     }
     if (layers.critical_bias !== undefined && (derive.needed_bias_m || derive.needed_bias_texels)) {
       const { metres, texels } = neededBiases(
