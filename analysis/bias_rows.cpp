@@ -1,7 +1,8 @@
 #include "analysis/bias_rows.hpp"
 
+#include "analysis/bias_index.hpp"
+#include "analysis/lookup/tap_criticals.hpp"
 #include "analysis/metrics.hpp"
-#include "analysis/pcf_taps.hpp"
 #include "analysis/pixel_runs.hpp"
 #include "analysis/radix_sort.hpp"
 #include "analysis/wrong_biases.hpp"
@@ -202,75 +203,13 @@ private:
     std::vector<std::int64_t> changes_;
 };
 
-/// Counts a pcfK lookup's taps that disagree with the truth.
-class TapCounter {
-public:
-    TapCounter(const scene::Image<PixelClass>& classes, const scene::LookupLayers& lookup,
-               const PcfTaps& taps, const LookupRule& rule, std::span<const float> biases)
-        : classes_{classes},
-          lookup_{lookup},
-          taps_{taps},
-          rule_{rule},
-          biases_{biases}
-    {
-    }
-
-    void count(std::size_t pixel, TapChanges& changes) const
-    {
-        const PixelClass truth = classes_[pixel];
-        if (!scene::is_scored(truth)) {
-            return;
-        }
-        const scene::LookupSample& sample = lookup_.samples[pixel];
-        std::array<float, scene::most_taps> depths; // filled as far as it is read
-        const auto read = taps_.gather(sample, lookup_.texels[pixel], depths);
-        const bool is_lit_truth = truth == PixelClass::lit;
-        if (read.empty()) {
-            const bool is_wrong = is_lit_truth == (rule_.outside == scene::Outside::shadowed);
-            changes.add(0, biases_.size(),
-                        is_wrong ? scene::promises(rule_.filter).equal_taps() : 0);
-            return;
-        }
-        const float slope_term = rule_.slope * sample.tan_theta;
-        for (const float depth : read) {
-            const std::size_t first = first_lit(sample.receiver_depth, depth, slope_term);
-            changes.add(is_lit_truth ? 0 : first, is_lit_truth ? first : biases_.size(), 1);
-        }
-    }
-
-private:
-    /// Index of the first bias with which the tap is lit.
-    [[nodiscard]] std::size_t first_lit(float r, float d, float slope_term) const
-    {
-        const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
-            return !is_lit(r, d, bias + slope_term);
-        });
-        return static_cast<std::size_t>(first - biases_.begin());
-    }
-    /// The lookup's comparison; an infinite depth stands for the policy's verdict.
-    [[nodiscard]] bool is_lit(float r, float d, float bias) const
-    {
-        return rule_.reversed ? r + bias >= d : r - bias <= d;
-    }
-
-    const scene::Image<PixelClass>& classes_;
-    const scene::LookupLayers& lookup_;
-    PcfTaps taps_;
-    const LookupRule& rule_;
-    std::span<const float> biases_;
-};
-
-/// Adds up what `count` says of each pixel.
+/// Adds up what `count` says of runs of pixels.
 template <typename Sum, typename Count>
-Sum sum_over_pixels(std::size_t pixels, const Sum& zero, const Count& count)
+Sum sum_over_runs(std::size_t pixels, const Sum& zero, const Count& count)
 {
     tbb::enumerable_thread_specific<Sum> parts{zero};
-    for_each_run(pixels, [&](std::size_t first, std::size_t last) {
-        Sum& part = parts.local();
-        for (std::size_t i = first; i != last; ++i) {
-            count(i, part);
-        }
-    });
+    for_each_run(pixels,
+                 [&](std::size_t first, std::size_t last) { count(first, last, parts.local()); });
     Sum sum = zero;
     for (const Sum& part : parts) {
         sum.add(part);
@@ -289,14 +228,16 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& cu
     for (std::size_t first = 0; first < biases.size(); first += biases_at_once) {
         const auto part = biases.subspan(first, std::min(biases_at_once, biases.size() - first));
         const WrongBiases wrong{inputs, part};
+        const auto count = [&](std::size_t begin, std::size_t end, Changes& sum) {
+            for (std::size_t pixel = begin; pixel != end; ++pixel) {
+                wrong.visit_unbiased(
+                    pixel, [&](std::size_t from, std::size_t to, Cause cause, Label label) {
+                        sum.add(from, to, inputs.classes[pixel], cause, label);
+                    });
+            }
+        };
         const Changes changes =
-            sum_over_pixels(inputs.classes.pixel_count(), Changes{part.size()},
-                            [&](std::size_t pixel, Changes& sum) {
-                                wrong.visit_unbiased(pixel, [&](std::size_t from, std::size_t to,
-                                                                Cause cause, Label label) {
-                                    sum.add(from, to, inputs.classes[pixel], cause, label);
-                                });
-                            });
+            sum_over_runs(inputs.classes.pixel_count(), Changes{part.size()}, count);
         const std::vector<BiasRow> counted = changes.rows();
         rows.insert(rows.end(), counted.begin(), counted.end());
     }
@@ -334,10 +275,21 @@ std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& clas
                                             const LookupRule& rule, std::span<const float> biases)
 {
     require_ascending(biases, "count_wrong_taps");
-    const TapCounter counter{classes, lookup, {map_depths, rule}, rule, biases};
-    const TapChanges changes =
-        sum_over_pixels(classes.pixel_count(), TapChanges{biases.size()},
-                        [&](std::size_t pixel, TapChanges& sum) { counter.count(pixel, sum); });
+    const TapCriticals taps{lookup, map_depths, rule};
+    const BiasIndex index{biases};
+    const auto is_scored = [&](std::size_t pixel) { return scene::is_scored(classes[pixel]); };
+    const TapChanges changes = sum_over_runs(
+        classes.pixel_count(), TapChanges{biases.size()},
+        [&](std::size_t begin, std::size_t end, TapChanges& sum) {
+            taps.visit(begin, end, is_scored,
+                       [&](std::size_t pixel, std::span<const float> criticals) {
+                           const bool is_lit = classes[pixel] == PixelClass::lit;
+                           for (const float critical : criticals) {
+                               const std::size_t change = index.first_from(critical);
+                               sum.add(is_lit ? 0 : change, is_lit ? change : biases.size(), 1);
+                           }
+                       });
+        });
     return changes.sums();
 }
 

@@ -3,8 +3,8 @@
 #include "analysis/bias_curve.hpp"
 #include "analysis/cause.hpp"
 #include "analysis/causes.hpp"
-#include "analysis/critical_bias.hpp"
 #include "analysis/gaps.hpp"
+#include "analysis/lookup/critical_bias.hpp"
 #include "scene/image.hpp"
 #include "scene/layers.hpp"
 

@@ -1,9 +1,9 @@
 #include "analysis/causes.hpp"
 
-#include "analysis/exact_lookup.hpp"
-#include "analysis/footprint.hpp"
+#include "analysis/lookup/exact_lookup.hpp"
+#include "analysis/lookup/footprint.hpp"
+#include "analysis/lookup/texel_hits.hpp"
 #include "analysis/own_sheets.hpp"
-#include "analysis/texel_hits.hpp"
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
@@ -41,7 +41,7 @@ public:
     CauseFinder(const CauseInputs& inputs, CauseMemory* memory)
         : inputs_{inputs},
           memory_{memory},
-          rules_{inputs.rules()},
+          rule_{inputs.rule()},
           footprint_{inputs.lookup, inputs.resolution_texels},
           causes_{inputs.truth.pixel_class.size()}
     {
@@ -161,7 +161,7 @@ private:
         Lookups& lookups = is_lit_truth ? lit : blocked;
         const std::size_t before = lookups.taps.size();
         footprint_.append_taps(inputs_.unbiased.texels[pixel], lookups.taps);
-        if (rules_.is_policy(sample.receiver_depth, std::span{lookups.taps}.subspan(before))) {
+        if (rule_.is_policy(sample.receiver_depth, std::span{lookups.taps}.subspan(before))) {
             causes_[pixel] = {Cause::coverage, false, std::numeric_limits<float>::infinity()};
             remember(pixel);
             lookups.taps.resize(before);
@@ -172,7 +172,7 @@ private:
 
     void explain_lit(const TracedLookups& lookups)
     {
-        const auto critical = exact_critical_biases(rules_, lookups, inputs_.light);
+        const auto critical = exact_critical_biases(rule_, lookups, inputs_.light);
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             const std::size_t pixel = lookups.pixel(i);
             // V3: nothing crosses the segment, so only a policy can shadow.
@@ -189,12 +189,12 @@ private:
     [[nodiscard]] bool is_uncovered(std::size_t pixel) const
     {
         return !footprint_.is_inside(inputs_.unbiased.texels[pixel]) ||
-               rules_.is_beyond_far(inputs_.unbiased.samples[pixel].receiver_depth);
+               rule_.is_beyond_far(inputs_.unbiased.samples[pixel].receiver_depth);
     }
 
     void explain_blocked(const TracedLookups& lookups)
     {
-        const auto critical = exact_critical_biases(rules_, lookups, inputs_.light);
+        const auto critical = exact_critical_biases(rule_, lookups, inputs_.light);
         std::vector<std::size_t> lost; // exact depths do not help
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             if (critical[i] > 0) {
@@ -240,7 +240,7 @@ private:
 
     const CauseInputs& inputs_;
     CauseMemory* memory_;
-    TapRules rules_;
+    LookupRule rule_;
     Footprint footprint_;
     scene::Image<PixelCause> causes_;
 };

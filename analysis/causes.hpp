@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/cause.hpp"
-#include "analysis/tap_rules.hpp"
-#include "analysis/texel_hits.hpp"
+#include "analysis/lookup/lookup_rule.hpp"
+#include "analysis/lookup/texel_hits.hpp"
 #include "scene/exact_light.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
@@ -49,7 +49,8 @@ struct CauseInputs {
     const scene::ExactLight& light;
     const TexelHits* known_hits = nullptr; ///< of the light's texels, not to be traced again
 
-    [[nodiscard]] TapRules rules() const { return {lookup, resolution_texels, reversed}; }
+    /// Without any bias.
+    [[nodiscard]] LookupRule rule() const { return {lookup.filter, lookup.outside, reversed, 0}; }
     /// The depth that GL stored in a texel that the pixel's lookup reads.
     [[nodiscard]] float stored_depth(std::size_t pixel, const scene::Texel& texel) const
     {

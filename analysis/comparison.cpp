@@ -6,6 +6,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -99,20 +100,29 @@ std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                          biases_to_verify(answers.critical_bias, triangles, wanted), renderers);
 }
 
-Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
+Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
+                            SceneSummary summary, const Renderers& renderers)
 {
     require_renderers(renderers);
-    Comparison result;
-    StageSeconds& seconds = result.seconds;
-    result.job = job;
-    result.triangles = &file.scene;
-    result.truth_method = renderers.truth_method;
-    result.subpixel_bits = renderers.subpixel_bits;
-    result.environment = renderers.environment;
-    timed(seconds.scene, [&] {
-        result.scene = summarise_scene(job.scene, file.scene);
-        result.view = scene::resolve_view(job, file.scene, file.defaults);
+    Comparison comparison;
+    comparison.job = job;
+    comparison.view = scene::resolve_view(job, file.scene, file.defaults);
+    comparison.scene = std::move(summary);
+    comparison.triangles = &file.scene;
+    comparison.truth_method = renderers.truth_method;
+    comparison.subpixel_bits = renderers.subpixel_bits;
+    comparison.environment = renderers.environment;
+    return comparison;
+}
+
+Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
+{
+    double scene_seconds = 0;
+    Comparison result = timed(scene_seconds, [&] {
+        return begin_comparison(job, file, summarise_scene(job.scene, file.scene), renderers);
     });
+    StageSeconds& seconds = result.seconds;
+    seconds.scene = scene_seconds;
     const scene::View& view = result.view;
 
     result.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });

@@ -76,6 +76,12 @@ struct Comparison {
     StageSeconds seconds;
 };
 
+/// A comparison of which nothing is measured yet: the job made concrete, and who will measure it.
+/// @param file  must outlive it.
+/// @throws std::invalid_argument  if a renderer's stage has no callable.
+[[nodiscard]] Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
+                                          SceneSummary summary, const Renderers& renderers);
+
 /// Fills in metrics and, where the renderers can answer for it, the diagnosis of a comparison whose
 /// other members are known, and holds its verdicts to the bias curve.
 /// @throws std::invalid_argument  if its layers are not of the image's size.

@@ -2,7 +2,7 @@
 
 #include "analysis/bias_units.hpp"
 #include "analysis/depth/depth_mapping.hpp"
-#include "analysis/footprint.hpp"
+#include "analysis/lookup/footprint.hpp"
 #include "analysis/pixel_runs.hpp"
 
 #include <cmath>
@@ -65,7 +65,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
                                        scene::DepthFormat format)
 {
     const DepthMapping mapping{frustum.depth_range()};
-    const float farthest = inputs.rules().farthest_depth();
+    const float farthest = inputs.rule().farthest_depth();
     scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
                                  std::numeric_limits<float>::quiet_NaN()};
     const auto& seen = hits.seen();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/causes.hpp"
-#include "analysis/texel_hits.hpp"
+#include "analysis/lookup/texel_hits.hpp"
 #include "scene/image.hpp"
 #include "scene/job.hpp"
 #include "scene/light_frustum.hpp"

@@ -237,70 +237,50 @@ void add_allowances(CurveMetrics& metrics)
 
 } // namespace
 
-const CurveMetrics& map_metrics()
+CurveMetrics describe_map_metrics()
 {
-    static const CurveMetrics metrics{
-        {measured("map_near_m", "m", "near plane of the shadow map, as fitted", Worse::both),
-         [](const CurveResult& curve) { return number(curve.near_m); }},
-        {measured("map_far_m", "m", "far plane", Worse::both),
-         [](const CurveResult& curve) { return number(curve.far_m); }},
-        {MetricDescription{"map_bytes", MetricType::count, "bytes", "memory of the shadow map",
-                           Worse::up},
-         [](const CurveResult& curve) {
-             return curve.map_bytes ? MetricValue{*curve.map_bytes} : none;
-         }}};
-    return metrics;
+    return {{measured("map_near_m", "m", "near plane of the shadow map, as fitted", Worse::both),
+             [](const CurveResult& curve) { return number(curve.near_m); }},
+            {measured("map_far_m", "m", "far plane", Worse::both),
+             [](const CurveResult& curve) { return number(curve.far_m); }},
+            {MetricDescription{"map_bytes", MetricType::count, "bytes", "memory of the shadow map",
+                               Worse::up},
+             [](const CurveResult& curve) {
+                 return curve.map_bytes ? MetricValue{*curve.map_bytes} : none;
+             }}};
 }
 
-const ConfigurationMetrics& configuration_metrics()
+ConfigurationMetrics describe_configuration_metrics()
 {
-    static const ConfigurationMetrics metrics = [] {
-        ConfigurationMetrics all;
-        add_classes(all);
-        add_reasons(all);
-        add_errors(all);
-        add_causes(all);
-        add_gaps(all);
-        return all;
-    }();
-    return metrics;
+    ConfigurationMetrics all;
+    add_classes(all);
+    add_reasons(all);
+    add_errors(all);
+    add_causes(all);
+    add_gaps(all);
+    return all;
 }
 
-const CurveMetrics& curve_metrics()
+CurveMetrics describe_curve_metrics()
 {
-    static const CurveMetrics metrics = [] {
-        CurveMetrics all;
-        add_best(all);
-        add_limits(all, "bias_curve.",
-                   {"the smallest bias without acne",
-                    "the largest bias below every blocked pixel's critical bias",
-                    "the same without the pixels that are false lit without any bias"},
-                   [](const BiasBounds& bounds) -> const BiasLimits& { return bounds.strict; });
-        add_allowances(all);
-        all.push_back({MetricDescription{"bias_curve.no_constant_bias_serves",
-                                         MetricType::flag,
-                                         "",
-                                         "at 0.1 %, acne needs more bias than panning allows",
-                                         {}},
-                       [](const CurveResult& curve) {
-                           return curve.bounds ? MetricValue{curve.bounds->no_constant_bias_serves}
-                                               : none;
-                       }});
-        return all;
-    }();
-    return metrics;
-}
-
-const std::vector<MetricDescription>& metric_descriptions()
-{
-    static const std::vector<MetricDescription> descriptions = [] {
-        std::vector<MetricDescription> all;
-        all.insert(all.end(), map_metrics().begin(), map_metrics().end());
-        all.insert(all.end(), configuration_metrics().begin(), configuration_metrics().end());
-        all.insert(all.end(), curve_metrics().begin(), curve_metrics().end());
-        return all;
-    }();
-    return descriptions;
+    CurveMetrics all;
+    add_best(all);
+    add_limits(all, "bias_curve.",
+               {"the smallest bias without acne",
+                "the largest bias below every blocked pixel's critical bias",
+                "the same without the pixels that are false lit without any bias"},
+               [](const BiasBounds& bounds) -> const BiasLimits& { return bounds.strict; });
+    add_allowances(all);
+    all.push_back({MetricDescription{"bias_curve.no_constant_bias_serves",
+                                     MetricType::flag,
+                                     "",
+                                     "at 0.1 %, acne needs more bias than panning allows",
+                                     {}},
+                   [](const CurveResult& curve) {
+                       return curve.bounds ? MetricValue{curve.bounds->no_constant_bias_serves}
+                                           : none;
+                   }});
+    return all;
 }
 
 } // namespace gnomon::analysis

@@ -49,6 +49,11 @@ struct Metric : MetricDescription {
 using CurveMetrics = std::vector<Metric<CurveResult>>;
 using ConfigurationMetrics = std::vector<Metric<ConfigurationResult>>;
 
+/// The lists that everybody below reads, described anew.
+[[nodiscard]] CurveMetrics describe_map_metrics();
+[[nodiscard]] ConfigurationMetrics describe_configuration_metrics();
+[[nodiscard]] CurveMetrics describe_curve_metrics();
+
 /// Of the shadow map, as fitted.
 [[nodiscard]] const CurveMetrics& map_metrics();
 /// Of the pixels, with a configuration's own bias.

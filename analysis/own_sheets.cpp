@@ -1,6 +1,6 @@
 #include "analysis/own_sheets.hpp"
 
-#include "analysis/footprint.hpp"
+#include "analysis/lookup/footprint.hpp"
 
 #include <utility>
 
@@ -8,28 +8,14 @@ namespace gnomon::analysis {
 
 namespace {
 
-using scene::Outside;
-
-/// Which taps shadow without bias, by the depths that GL stored.
-class StoredTaps {
-public:
-    explicit StoredTaps(const CauseInputs& inputs) : inputs_{inputs}, rules_{inputs.rules()} {}
-
-    [[nodiscard]] bool shadows(std::size_t pixel, const Tap& tap) const
-    {
-        const bool interpolates = scene::promises(inputs_.lookup.filter).interpolates();
-        if (!tap.is_inside && !interpolates) {
-            return inputs_.lookup.outside == Outside::shadowed;
-        }
-        const float depth =
-            tap.is_inside ? inputs_.stored_depth(pixel, tap.texel) : rules_.border_depth();
-        return !rules_.is_lit(inputs_.unbiased.samples[pixel].receiver_depth, depth);
-    }
-
-private:
-    const CauseInputs& inputs_;
-    TapRules rules_;
-};
+/// Whether a tap shadows without bias, by the depth that GL stored.
+bool shadows(const CauseInputs& inputs, std::size_t pixel, const Tap& tap)
+{
+    const LookupRule rule = inputs.rule();
+    const float depth =
+        tap.is_inside ? inputs.stored_depth(pixel, tap.texel) : rule.outside_depth();
+    return !rule.is_lit(inputs.unbiased.samples[pixel].receiver_depth, depth);
+}
 
 /// Weights of a lookup's taps.
 struct ShadowShares {
@@ -40,7 +26,6 @@ struct ShadowShares {
 
 std::vector<ShadowShares> shadow_shares(const CauseInputs& inputs, const TracedLookups& lookups)
 {
-    const StoredTaps stored{inputs};
     std::vector<scene::SheetQuery> queries;
     std::vector<std::size_t> lookup_of;
     std::vector<double> weights;
@@ -49,7 +34,7 @@ std::vector<ShadowShares> shadow_shares(const CauseInputs& inputs, const TracedL
         for (std::size_t t = 0; t < lookups.taps_of(i).size(); ++t) {
             const Tap& tap = lookups.taps_of(i)[t];
             shares[i].all += tap.weight;
-            if (!stored.shadows(lookups.pixel(i), tap)) {
+            if (!shadows(inputs, lookups.pixel(i), tap)) {
                 continue;
             }
             shares[i].others += tap.weight;
@@ -96,8 +81,8 @@ std::vector<std::size_t> detached_pixels(const CauseInputs& inputs,
                                          std::span<const std::size_t> pixels)
 {
     // Interpolated depths have one comparison, of which a share says nothing.
-    const bool is_one_comparison = scene::promises(inputs.lookup.filter).compares ==
-                                   scene::FilterPromises::Compares::mean_depth;
+    const bool is_one_comparison =
+        inputs.rule().promises().compares == scene::FilterPromises::Compares::mean_depth;
     const auto shares = shadow_shares(inputs, trace_lookups(inputs, pixels));
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < pixels.size(); ++i) {

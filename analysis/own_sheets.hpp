@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/causes.hpp"
-#include "analysis/exact_lookup.hpp"
+#include "analysis/lookup/exact_lookup.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/bias_limits.hpp"
-#include "analysis/critical_bias.hpp"
+#include "analysis/lookup/critical_bias.hpp"
 
 #include <vector>
 

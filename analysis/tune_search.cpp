@@ -1,4 +1,5 @@
 #include "analysis/tune_search.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 
 #include "analysis/bias_reruns.hpp"
 

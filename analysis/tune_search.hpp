@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/critical_bias.hpp"
+#include "analysis/lookup/critical_bias.hpp"
 #include "analysis/tune.hpp"
 #include "scene/layers.hpp"
 

@@ -1,6 +1,6 @@
 #include "analysis/bias_curve.hpp"
 #include "analysis/comparison.hpp"
-#include "analysis/critical_bias.hpp"
+#include "analysis/lookup/critical_bias.hpp"
 #include "cli/renderers.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"

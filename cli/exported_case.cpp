@@ -1,6 +1,7 @@
 #include "cli/exported_case.hpp"
 
-#include "analysis/critical_bias.hpp"
+#include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 #include "cli/kept_pixels.hpp"
 #include "reports/case/case_write.hpp"
 #include "scene/view_settings.hpp"

@@ -1,9 +1,9 @@
 #include "analysis/answers/finished_curve.hpp"
 
 #include "analysis/bias_rows.hpp"
-#include "analysis/critical_bias.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/error_parts.hpp"
+#include "analysis/lookup/critical_bias.hpp"
 #include "analysis/tune.hpp"
 
 #include <array>

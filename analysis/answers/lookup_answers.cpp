@@ -1,4 +1,5 @@
 #include "analysis/answers/lookup_answers.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/bias_answers.hpp"

@@ -1,5 +1,6 @@
 #include "analysis/evaluate/bias_causes.hpp"
 
+#include "analysis/lookup/lookup_rule.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <cmath>
@@ -12,6 +13,7 @@ using scene::PixelClass;
 BiasCauses find_bias_causes(const scene::CaseLayers& layers, const scene::TruthLayers& truth,
                             bool reversed)
 {
+    const LookupRule rule{.reversed = reversed};
     const auto& classes = truth.pixel_class;
     BiasCauses found{scene::Image<Cause>{classes.size()}, scene::Image<Label>{classes.size()}};
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
@@ -22,8 +24,7 @@ BiasCauses find_bias_causes(const scene::CaseLayers& layers, const scene::TruthL
         const float r = layers.z_light[i];
         const float d = layers.z_map[i];
         const bool compares = std::isfinite(r) && std::isfinite(d);
-        const bool unbiased_is_lit = reversed ? r >= d : r <= d;
-        if (!compares || unbiased_is_lit != is_lit) {
+        if (!compares || rule.is_lit(r, d) != is_lit) {
             ++found.unknown;
             continue;
         }

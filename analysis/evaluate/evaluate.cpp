@@ -1,11 +1,11 @@
 #include "analysis/evaluate/evaluate.hpp"
 
-#include "analysis/critical_bias.hpp"
 #include "analysis/evaluate/bias_causes.hpp"
 #include "analysis/evaluate/mask_check.hpp"
 #include "analysis/evaluate/position_check.hpp"
 #include "analysis/evaluate/surface_check.hpp"
 #include "analysis/evaluate/view_check.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 #include "scene/error.hpp"
 #include "scene/job_file.hpp"
 #include "scene/job_toml.hpp"

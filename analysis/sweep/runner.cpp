@@ -312,15 +312,10 @@ private:
         const auto subject = need(subjects_[slot]);
         const auto scene = need(scene_);
         select(slot);
-        Comparison comparison;
-        comparison.job = task_.job;
-        comparison.job.bias = row.bias;
-        comparison.view = view_of(comparison.job);
-        comparison.scene = scene->summary;
-        comparison.triangles = &scene->open.file->scene;
-        comparison.truth_method = renderers().truth_method;
-        comparison.subpixel_bits = renderers().subpixel_bits;
-        comparison.environment = renderers().environment;
+        scene::Job job = task_.job;
+        job.bias = row.bias;
+        Comparison comparison =
+            begin_comparison(job, *scene->open.file, scene->summary, renderers());
         comparison.receivers = subject->receivers;
         comparison.truth = subject->truth;
         comparison.lookup = renderers().look_up(comparison.job, comparison.view);

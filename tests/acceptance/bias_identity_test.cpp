@@ -1,6 +1,7 @@
 #include "analysis/bias_order.hpp"
 #include "analysis/bias_verification.hpp"
-#include "analysis/critical_bias.hpp"
+#include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 #include "gl_case.hpp"
 
 #include <fmt/format.h>

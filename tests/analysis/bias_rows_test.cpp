@@ -3,8 +3,8 @@
 #include "analysis/bias_rows.hpp"
 
 #include "analysis/bias_order.hpp"
+#include "analysis/lookup/stored_taps.hpp"
 #include "analysis/metrics.hpp"
-#include "analysis/pcf_taps.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/critical_bias.hpp"
+#include "analysis/lookup/critical_bias.hpp"
 
 #include "analysis/bias_order.hpp"
 #include "lookup_layers.hpp"

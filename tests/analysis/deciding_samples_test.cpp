@@ -1,4 +1,5 @@
-#include "analysis/critical_bias.hpp"
+#include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 #include "lookup_layers.hpp"
 
 #include <gtest/gtest.h>

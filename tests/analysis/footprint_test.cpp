@@ -1,4 +1,4 @@
-#include "analysis/footprint.hpp"
+#include "analysis/lookup/footprint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "analysis/exact_lookup.hpp"
+#include "analysis/lookup/exact_lookup.hpp"
 
 #include "scene/infinity.hpp"
 
@@ -25,11 +25,12 @@ struct Key {
 
 class ExactLookup {
 public:
-    ExactLookup(const TapRules& rules, const TracedLookups& lookups, const scene::ExactLight& light)
-        : rules_{rules},
+    ExactLookup(const LookupRule& rule, const TracedLookups& lookups,
+                const scene::ExactLight& light)
+        : rule_{rule},
           lookups_{lookups},
           light_{light},
-          clamps_{rules.lookup.outside == Outside::clamp}
+          clamps_{rule.outside == Outside::clamp}
     {
     }
 
@@ -38,7 +39,7 @@ public:
         if (lookups_.size() == 0) {
             return {};
         }
-        const scene::FilterPromises& promised = scene::promises(rules_.lookup.filter);
+        const scene::FilterPromises& promised = rule_.promises();
         if (promised.compares == scene::FilterPromises::Compares::mean_depth) {
             return interpolated();
         }
@@ -58,7 +59,7 @@ private:
     {
         const scene::Texel& texel = lookups_.taps_of(lookup)[tap].texel;
         const scene::TexelHit* hit = lookups_.hits_of(lookup)[tap];
-        return hit == nullptr ? ExactTap{texel, scene::no_triangle, rules_.border_depth(), 0}
+        return hit == nullptr ? ExactTap{texel, scene::no_triangle, rule_.outside_depth(), 0}
                               : ExactTap{texel, hit->triangle, hit->depth, hit->depth_error};
     }
 
@@ -151,17 +152,13 @@ private:
         return result;
     }
 
-    [[nodiscard]] static std::size_t middle_rank(std::size_t tap_count)
-    {
-        return (tap_count + 1) / 2 - 1;
-    }
     /// The keys' ends of middle rank.
     /// @param ends  of the same size; overwritten.
     [[nodiscard]] static double middle_of(const std::vector<Key>& keys, double Key::*end,
                                           std::vector<double>& ends)
     {
         std::ranges::transform(keys, ends.begin(), end);
-        const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(middle_rank(keys.size()));
+        const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(deciding_rank(keys.size()));
         std::ranges::nth_element(ends, middle);
         return *middle;
     }
@@ -179,7 +176,7 @@ private:
     [[nodiscard]] Rank ask_around(std::size_t lookup, const std::vector<Key>& keys,
                                   const Key& median, std::vector<NearestQuery>& queries) const
     {
-        Rank rank{lookup, middle_rank(keys.size()), queries.size(), 0};
+        Rank rank{lookup, deciding_rank(keys.size()), queries.size(), 0};
         for (std::size_t t = 0; t < keys.size(); ++t) {
             if (keys[t].high < median.low) {
                 --rank.rank;
@@ -195,17 +192,16 @@ private:
     [[nodiscard]] Key key(const scene::TexelHit* hit) const
     {
         if (hit == nullptr) {
-            const double always =
-                rules_.lookup.outside == Outside::shadowed ? double{infinity} : -double{infinity};
+            const double always{rule_.policy_critical_bias()};
             return {always, always};
         }
-        const double depth = rules_.reversed ? hit->depth : -hit->depth;
+        const double depth = rule_.reversed ? hit->depth : -hit->depth;
         // Pays for the roundings here, as a depth is in [0, 1].
         const double reach = (1 + 0x1p-50) * hit->depth_error + 0x1p-50;
         return {depth - reach, depth + reach};
     }
 
-    const TapRules& rules_;
+    const LookupRule& rule_;
     const TracedLookups& lookups_;
     const scene::ExactLight& light_;
     bool clamps_;
@@ -237,10 +233,10 @@ TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light,
     });
 }
 
-std::vector<float> exact_critical_biases(const TapRules& rules, const TracedLookups& lookups,
+std::vector<float> exact_critical_biases(const LookupRule& rule, const TracedLookups& lookups,
                                          const scene::ExactLight& light)
 {
-    return ExactLookup{rules, lookups, light}.find();
+    return ExactLookup{rule, lookups, light}.find();
 }
 
 } // namespace gnomon::analysis

@@ -1,7 +1,6 @@
-#include "analysis/footprint.hpp"
+#include "analysis/lookup/footprint.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace gnomon::analysis {
@@ -22,13 +21,6 @@ int texel_coordinate(float x, int resolution)
 bool is_on_map(const Texel& texel, int resolution)
 {
     return texel.x >= 0 && texel.y >= 0 && texel.x < resolution && texel.y < resolution;
-}
-
-/// The part of a whole that goes to the upper of two neighbours.
-double upper_weight(float x)
-{
-    const float shifted = x - 0.5F;
-    return double{shifted - std::floor(shifted)};
 }
 
 } // namespace
@@ -53,27 +45,30 @@ std::vector<Tap> Footprint::taps(const Vec2f& point) const
 
 void Footprint::append_taps(const Vec2f& point, std::vector<Tap>& taps) const
 {
-    const Texel first = first_tap(point);
-    const bool is_weighted = interpolates_;
-    const double right = is_weighted ? upper_weight(point.x) : 0;
-    const double above = is_weighted ? upper_weight(point.y) : 0;
-    const std::array<double, 4> bilinear{(1 - right) * (1 - above), right * (1 - above),
-                                         (1 - right) * above, right * above};
-    std::size_t next = 0;
-    for (int y = 0; y < width_; ++y) {
-        for (int x = 0; x < width_; ++x) {
-            Tap tap{{first.x + x, first.y + y}, true, 1};
-            if (clamps_) {
-                tap.texel = {std::clamp(tap.texel.x, 0, resolution_ - 1),
-                             std::clamp(tap.texel.y, 0, resolution_ - 1)};
-            }
-            tap.is_inside = is_on_map(tap.texel, resolution_);
-            if (is_weighted) {
-                tap.weight = bilinear[next++];
-            }
-            taps.push_back(tap);
-        }
+    visit_taps(point, [&](const Tap& tap) { taps.push_back(tap); });
+}
+
+std::array<double, 2> Footprint::weights(float x)
+{
+    const float shifted = x - 0.5F;
+    const double upper{shifted - std::floor(shifted)};
+    return {1 - upper, upper};
+}
+
+Tap Footprint::tap_at(Texel texel, double weight) const
+{
+    if (clamps_) {
+        texel = {std::clamp(texel.x, 0, resolution_ - 1), std::clamp(texel.y, 0, resolution_ - 1)};
     }
+    return {texel, is_on_map(texel, resolution_), weight};
+}
+
+std::optional<Texel> Footprint::first_if_on_map(const Vec2f& point) const
+{
+    const Texel first = first_tap(point);
+    const Texel last{first.x + width_ - 1, first.y + width_ - 1};
+    return is_on_map(first, resolution_) && is_on_map(last, resolution_) ? std::optional{first}
+                                                                         : std::nullopt;
 }
 
 std::vector<Texel> Footprint::ring(const Vec2f& point) const

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/footprint.hpp"
-#include "analysis/texel_index.hpp"
+#include "analysis/lookup/footprint.hpp"
+#include "analysis/lookup/texel_index.hpp"
 #include "scene/exact_light.hpp"
 
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/footprint.hpp"
-#include "analysis/tap_rules.hpp"
-#include "analysis/texel_hits.hpp"
+#include "analysis/lookup/footprint.hpp"
+#include "analysis/lookup/lookup_rule.hpp"
+#include "analysis/lookup/texel_hits.hpp"
 #include "scene/exact_light.hpp"
 
 #include <cstddef>
@@ -50,7 +50,7 @@ private:
 
 /// V2: for each receiver the smallest bias with which exact depths at the lookup's taps are lit
 /// (DESIGN §4); −∞ or +∞ where policy taps decide.
-[[nodiscard]] std::vector<float> exact_critical_biases(const TapRules& rules,
+[[nodiscard]] std::vector<float> exact_critical_biases(const LookupRule& rule,
                                                        const TracedLookups& lookups,
                                                        const scene::ExactLight& light);
 

@@ -1,4 +1,4 @@
-#include "analysis/texel_index.hpp"
+#include "analysis/lookup/texel_index.hpp"
 
 #include <algorithm>
 

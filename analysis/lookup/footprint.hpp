@@ -4,6 +4,9 @@
 #include "scene/job.hpp"
 #include "scene/vec.hpp"
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -26,18 +29,40 @@ public:
     {
     }
 
-    /// The taps of a lookup at `uv·resolution`, row by row from the lower left.
+    /// Calls `visit(tap)` for the taps of a lookup at `uv·resolution`, row by row from the lower
+    /// left.
     ///
-    /// nearest and pcf: 1 each. linear and hardware: from fract(uv·resolution − ½) in float32, 1 in
-    /// all.
+    /// nearest and pcf: of weight 1 each. linear and hardware: from fract(uv·resolution − ½) in
+    /// float32, 1 in all.
+    template <typename Visit>
+    void visit_taps(const scene::Vec2f& point, const Visit& visit) const
+    {
+        const scene::Texel first = first_tap(point);
+        const std::array<double, 2> columns = weights(point.x);
+        const std::array<double, 2> rows = weights(point.y);
+        for (int y = 0; y < width_; ++y) {
+            for (int x = 0; x < width_; ++x) {
+                const double weight = interpolates_ ? columns[static_cast<std::size_t>(x)] *
+                                                          rows[static_cast<std::size_t>(y)]
+                                                    : 1;
+                visit(tap_at({first.x + x, first.y + y}, weight));
+            }
+        }
+    }
+    /// The same taps.
     [[nodiscard]] std::vector<Tap> taps(const scene::Vec2f& point) const;
     /// Appends the same taps.
     void append_taps(const scene::Vec2f& point, std::vector<Tap>& taps) const;
 
+    /// Taps across.
+    [[nodiscard]] int width_texels() const { return width_; }
     [[nodiscard]] std::size_t tap_count() const
     {
         return static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
     }
+
+    /// The lower left tap's texel where all taps are on the map: the others are the square from it.
+    [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::Vec2f& point) const;
 
     /// The texels of the map around the taps: nearest, the 8 around one; linear and hardware, the
     /// 12 around 2×2; pcfK, the 4K + 4 around K×K.
@@ -49,6 +74,9 @@ public:
 private:
     /// The lower left tap, before any clamping.
     [[nodiscard]] scene::Texel first_tap(const scene::Vec2f& point) const;
+    /// The parts of two neighbours' centres in a point between them, the lower one's first.
+    [[nodiscard]] static std::array<double, 2> weights(float x);
+    [[nodiscard]] Tap tap_at(scene::Texel texel, double weight) const;
 
     bool interpolates_;
     bool clamps_;

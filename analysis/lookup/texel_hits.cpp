@@ -1,4 +1,4 @@
-#include "analysis/texel_hits.hpp"
+#include "analysis/lookup/texel_hits.hpp"
 
 namespace gnomon::analysis {
 

@@ -1,0 +1,82 @@
+#include "analysis/lookup/deciding_samples.hpp"
+
+#include "analysis/lookup/stored_taps.hpp"
+#include "analysis/pixel_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+using scene::Vec2f;
+
+namespace {
+
+constexpr float no_depth = std::numeric_limits<float>::quiet_NaN();
+
+/// The median of the taps' depths; NaN where the policy decides.
+float deciding_depth(const StoredTaps& taps, const scene::LookupSample& sample, Vec2f texel)
+{
+    std::array<float, scene::most_taps> depths; // filled as far as it is read
+    const std::span<float> read = taps.gather(sample, texel, depths);
+    if (read.empty()) {
+        return no_depth;
+    }
+    float* const middle = read.data() + deciding_rank(read.size());
+    std::nth_element(read.data(), middle, read.data() + read.size());
+    return std::isinf(*middle) ? no_depth : *middle;
+}
+
+void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& texels,
+                  const scene::Image<float>& map_depths)
+{
+    const scene::ImageSize map = map_depths.size();
+    if (texels.size() != lookup.samples.size()) {
+        throw std::invalid_argument(
+            fmt::format("deciding_samples: texels: {}x{}, but the lookup is {}x{}",
+                        texels.size().width_px, texels.size().height_px,
+                        lookup.samples.size().width_px, lookup.samples.size().height_px));
+    }
+    if (map.width_px != map.height_px || map_depths.empty()) {
+        throw std::invalid_argument(
+            fmt::format("deciding_samples: map_depths: {}x{}, but a shadow map is square",
+                        map.width_px, map.height_px));
+    }
+}
+
+} // namespace
+
+scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Image<Vec2f>& texels,
+                                     const scene::Image<float>& map_depths, const LookupRule& rule)
+{
+    const scene::FilterPromises& promised = scene::promises(rule.filter);
+    if (!promised.has_curve()) {
+        throw std::invalid_argument("deciding_samples: rule: the filter hardware has the driver's "
+                                    "weights and no deciding tap");
+    }
+    if (promised.returns_deciding_depth()) {
+        return lookup;
+    }
+    require_taps(lookup, texels, map_depths);
+    const StoredTaps taps{map_depths, rule};
+    for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            scene::LookupSample& sample = lookup.samples[i];
+            sample.map_depth = deciding_depth(taps, sample, texels[i]);
+        }
+    });
+    return lookup;
+}
+
+bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
+{
+    return scene::promises(job.lookup.filter).has_curve() && view.bias.normal_texels == 0;
+}
+
+} // namespace gnomon::analysis

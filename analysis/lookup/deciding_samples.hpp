@@ -1,0 +1,33 @@
+#pragma once
+
+#include "analysis/lookup/lookup_rule.hpp"
+#include "scene/image.hpp"
+#include "scene/job.hpp"
+#include "scene/layers.hpp"
+#include "scene/vec.hpp"
+
+namespace gnomon::analysis {
+
+/// The comparison that decides each pixel's verdict: a lookup's samples with `map_depth` replaced
+/// by the depth of the deciding tap, NaN where the policy for texels outside decides.
+///
+/// nearest and linear make one comparison: their samples are returned as they came. pcfK makes K ×
+/// K and is lit when at least ⌈K²/2⌉ are; the critical bias is monotone in the map depth, so the
+/// deciding tap is the one of median depth, where a tap outside the map counts as farther
+/// (`outside` lit) or nearer (shadowed) than every depth. Depends on no bias but a normal offset.
+/// @param texels      uv · resolution of each lookup, origin at the map's lower left.
+/// @param map_depths  The map's depths as shaders see them, top left first, square.
+///                    Neither is read unless the filter is pcfK.
+/// @throws std::invalid_argument  for `hardware`, whose weights are the driver's own; if the images
+///                                differ in size; if the map is not square.
+/// Source: raster_gl/shaders/lookup.frag; docs/bias_curve.md#critical-bias.
+[[nodiscard]] scene::LookupLayers deciding_samples(scene::LookupLayers lookup,
+                                                   const scene::Image<scene::Vec2f>& texels,
+                                                   const scene::Image<float>& map_depths,
+                                                   const LookupRule& rule);
+
+/// True if the lookup without any bias follows from the one with the job's bias: it is at the
+/// receiver itself, and each verdict has a deciding tap.
+[[nodiscard]] bool can_derive_unbiased(const scene::Job& job, const scene::View& view);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,37 @@
+#include "analysis/lookup/lookup_rule.hpp"
+
+#include <algorithm>
+
+namespace gnomon::analysis {
+
+using scene::infinity;
+using scene::Outside;
+
+float LookupRule::outside_depth() const
+{
+    if (promises().interpolates()) {
+        return (outside == Outside::shadowed) != reversed ? 0.0F : 1.0F;
+    }
+    return (outside == Outside::lit) != reversed ? infinity : -infinity;
+}
+
+bool LookupRule::is_beyond_far(float r) const
+{
+    if (outside == Outside::clamp) {
+        return reversed ? r <= 0 : r >= 1;
+    }
+    return reversed ? !(r >= 0) : !(r <= 1);
+}
+
+bool LookupRule::is_policy(float r, std::span<const Tap> taps) const
+{
+    return outside != Outside::clamp &&
+           (is_beyond_far(r) || std::ranges::none_of(taps, &Tap::is_inside));
+}
+
+LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
+{
+    return {job.lookup.filter, job.lookup.outside, view.frustum.reversed, view.bias.slope};
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "analysis/lookup/footprint.hpp"
+#include "analysis/lookup/lookup_rule.hpp"
+#include "scene/image.hpp"
+#include "scene/layers.hpp"
+#include "scene/vec.hpp"
+
+#include <span>
+
+namespace gnomon::analysis {
+
+/// The stored depths that a pcfK lookup reads, as raster_gl/shaders/lookup.frag does.
+class StoredTaps {
+public:
+    /// @param map_depths  As shaders see them, top left first, square; must outlive this.
+    StoredTaps(const scene::Image<float>& map_depths, const LookupRule& rule);
+
+    /// Writes the K × K depths to `out`; a tap outside the map has the rule's `outside_depth`.
+    /// @param texel  uv · resolution of the lookup.
+    /// @param out    At least K² long.
+    /// @return  What was written; empty where the policy decides for all taps: beyond far, or
+    ///          behind a spot.
+    [[nodiscard]] std::span<float> gather(const scene::LookupSample& sample, scene::Vec2f texel,
+                                          std::span<float> out) const;
+
+private:
+    [[nodiscard]] bool policy_decides_all(const scene::LookupSample& sample,
+                                          scene::Vec2f texel) const;
+
+    const scene::Image<float>& map_;
+    LookupRule rule_;
+    Footprint footprint_;
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/lookup_rule.hpp"
+#include "analysis/lookup/stored_taps.hpp"
+#include "scene/filter.hpp"
+#include "scene/image.hpp"
+#include "scene/layers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace gnomon::analysis {
+
+/// The taps of pcfK lookups, each with its own critical bias: at a bias, those whose critical bias
+/// is not above it are lit.
+class TapCriticals {
+public:
+    /// @param lookup      with its texels.
+    /// @param map_depths  As shaders see them, top left first.
+    /// All must outlive this.
+    TapCriticals(const scene::LookupLayers& lookup, const scene::Image<float>& map_depths,
+                 const LookupRule& rule)
+        : lookup_{lookup},
+          taps_{map_depths, rule},
+          rule_{rule},
+          taps_each_{rule.promises().tap_count()}
+    {
+    }
+
+    /// Calls `visit(pixel, criticals)` for the pixels in [first, last) that `wants(pixel)`, with
+    /// the critical biases of the pixel's K² taps, in the order of the footprint. Those that the
+    /// policy decides have its critical bias.
+    template <typename Wants, typename Visit>
+    void visit(std::size_t first, std::size_t last, const Wants& wants, const Visit& visit) const
+    {
+        std::array<std::size_t, ComparisonBlock::size> pixels; // filled as far as it is read
+        ComparisonBlock block;
+        const std::size_t pixels_at_once = ComparisonBlock::size / taps_each_;
+        std::size_t count = 0;
+        const auto flush = [&] {
+            const auto criticals = block.solve(count * taps_each_);
+            for (std::size_t i = 0; i < count; ++i) {
+                visit(pixels[i], criticals.subspan(i * taps_each_, taps_each_));
+            }
+            count = 0;
+        };
+        for (std::size_t pixel = first; pixel != last; ++pixel) {
+            if (!wants(pixel)) {
+                continue;
+            }
+            fill(pixel, count * taps_each_, block);
+            pixels[count++] = pixel;
+            if (count == pixels_at_once) {
+                flush();
+            }
+        }
+        flush();
+    }
+
+private:
+    /// Sets the comparisons of a pixel's taps, from the place `at` on.
+    void fill(std::size_t pixel, std::size_t at, ComparisonBlock& block) const
+    {
+        const scene::LookupSample& sample = lookup_.samples[pixel];
+        std::array<float, scene::most_taps> depths; // filled as far as it is read
+        const auto read = taps_.gather(sample, lookup_.texels[pixel], depths);
+        const float slope_term = rule_.slope * sample.tan_theta;
+        for (std::size_t t = 0; t < taps_each_; ++t) {
+            if (read.empty()) { // any receiver depth does, but a spot's may be NaN
+                block.set(at + t,
+                          OneWayComparison::of(0, rule_.outside_depth(), 0, rule_.reversed));
+            } else {
+                block.set(at + t, OneWayComparison::of(sample.receiver_depth, read[t], slope_term,
+                                                       rule_.reversed));
+            }
+        }
+    }
+
+    const scene::LookupLayers& lookup_;
+    StoredTaps taps_;
+    const LookupRule& rule_;
+    std::size_t taps_each_;
+};
+
+} // namespace gnomon::analysis
