@@ -45,9 +45,8 @@ scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& cla
     return flags;
 }
 
-BiasAnswers answer_biases(const BiasQuestion& question)
+BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own)
 {
-    SlopeCurve own = slope_curve(question.curves, question.view.bias.slope);
     BiasMap map = map_biases({own.critical_bias, question.curves.classes, question.curves.samples,
                               question.zeta_m, question.view.frustum,
                               question.job.shadow_map.resolution_texels,

@@ -43,7 +43,8 @@ struct BiasQuestion {
 [[nodiscard]] scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& classes,
                                                     const scene::Image<PixelCause>& pixels);
 
+/// @param own  the curve of the job's own slope.
 /// @throws std::invalid_argument  if the images differ in size.
-[[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question);
+[[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own);
 
 } // namespace gnomon::analysis

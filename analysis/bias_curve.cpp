@@ -283,11 +283,11 @@ std::vector<CurvePoint> pareto_front(const BiasCurve& curve, std::size_t most_po
     return thinned(front, most_points);
 }
 
-std::vector<CurvePoint> sample_curve(const BiasCurve& curve, std::size_t most_points)
+std::vector<float> sample_biases(const BiasCurve& curve, std::size_t most_points)
 {
     if (most_points < 8) {
         throw std::invalid_argument(
-            fmt::format("sample_curve: most_points: {} is below 8", most_points));
+            fmt::format("sample_biases: most_points: {} is below 8", most_points));
     }
     std::vector<float> biases{0.0F};
     const std::vector<float> criticals = finite_criticals(curve);
@@ -307,12 +307,7 @@ std::vector<CurvePoint> sample_curve(const BiasCurve& curve, std::size_t most_po
         }
     }
     sort_and_remove_repeats(biases);
-    std::vector<CurvePoint> points;
-    points.reserve(biases.size());
-    for (const float bias : biases) {
-        points.push_back({bias, curve.at(bias)});
-    }
-    return points;
+    return biases;
 }
 
 } // namespace gnomon::analysis

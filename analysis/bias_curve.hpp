@@ -117,13 +117,13 @@ struct CurvePoint {
 /// @throws std::invalid_argument  if `most_points` < 2.
 [[nodiscard]] std::vector<CurvePoint> pareto_front(const BiasCurve& curve, std::size_t most_points);
 
-/// Points spread over the curve's range, ascending, for tables and plots: just below the first
+/// Biases spread over the curve's range, ascending, for tables and plots: just below the first
 /// critical bias, 0, every critical bias if they are few, and else half of the points evenly spaced
 /// among the pixels' critical biases (so that few pixels change between neighbours) and half
 /// logarithmically spaced over the positive ones.
 /// @param most_points  >= 8.
 /// @throws std::invalid_argument  if `most_points` < 8.
-[[nodiscard]] std::vector<CurvePoint> sample_curve(const BiasCurve& curve,
-                                                   std::size_t most_points = 2048);
+[[nodiscard]] std::vector<float> sample_biases(const BiasCurve& curve,
+                                               std::size_t most_points = 2048);
 
 } // namespace gnomon::analysis

@@ -1,14 +1,11 @@
 #include "analysis/bias_rows.hpp"
 
-#include "analysis/bias_index.hpp"
-#include "analysis/lookup/tap_criticals.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/pixel_runs.hpp"
 #include "analysis/radix_sort.hpp"
 #include "analysis/wrong_biases.hpp"
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <array>
@@ -176,47 +173,6 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Wrong taps at each bias, as differences from one bias to the next.
-class TapChanges {
-public:
-    explicit TapChanges(std::size_t biases) : changes_(biases + 1) {}
-
-    /// Counts `taps` as wrong at the biases [first, last).
-    void add(std::size_t first, std::size_t last, std::int64_t taps)
-    {
-        changes_[first] += taps;
-        changes_[last] -= taps;
-    }
-    void add(const TapChanges& other)
-    {
-        std::transform(changes_.begin(), changes_.end(), other.changes_.begin(), changes_.begin(),
-                       std::plus<>{});
-    }
-    [[nodiscard]] std::vector<std::uint64_t> sums() const
-    {
-        std::vector<std::uint64_t> sums(changes_.size() - 1);
-        std::partial_sum(changes_.begin(), changes_.end() - 1, sums.begin());
-        return sums;
-    }
-
-private:
-    std::vector<std::int64_t> changes_;
-};
-
-/// Adds up what `count` says of runs of pixels.
-template <typename Sum, typename Count>
-Sum sum_over_runs(std::size_t pixels, const Sum& zero, const Count& count)
-{
-    tbb::enumerable_thread_specific<Sum> parts{zero};
-    for_each_run(pixels,
-                 [&](std::size_t first, std::size_t last) { count(first, last, parts.local()); });
-    Sum sum = zero;
-    for (const Sum& part : parts) {
-        sum.add(part);
-    }
-    return sum;
-}
-
 } // namespace
 
 std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& curve,
@@ -267,30 +223,6 @@ CauseLayers classify_errors(const BiasRowInputs& inputs, float bias)
         wrong.visit_biased(i, set);
     }
     return layers;
-}
-
-std::vector<std::uint64_t> count_wrong_taps(const scene::Image<PixelClass>& classes,
-                                            const scene::LookupLayers& lookup,
-                                            const scene::Image<float>& map_depths,
-                                            const LookupRule& rule, std::span<const float> biases)
-{
-    require_ascending(biases, "count_wrong_taps");
-    const TapCriticals taps{lookup, map_depths, rule};
-    const BiasIndex index{biases};
-    const auto is_scored = [&](std::size_t pixel) { return scene::is_scored(classes[pixel]); };
-    const TapChanges changes = sum_over_runs(
-        classes.pixel_count(), TapChanges{biases.size()},
-        [&](std::size_t begin, std::size_t end, TapChanges& sum) {
-            taps.visit(begin, end, is_scored,
-                       [&](std::size_t pixel, std::span<const float> criticals) {
-                           const bool is_lit = classes[pixel] == PixelClass::lit;
-                           for (const float critical : criticals) {
-                               const std::size_t change = index.first_from(critical);
-                               sum.add(is_lit ? 0 : change, is_lit ? change : biases.size(), 1);
-                           }
-                       });
-        });
-    return changes.sums();
 }
 
 std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps, std::span<const float> biases)

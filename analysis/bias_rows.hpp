@@ -49,14 +49,6 @@ struct BiasRowInputs {
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] CauseLayers classify_errors(const BiasRowInputs& inputs, float bias);
 
-/// Σ |verdict − truth| over the scored pixels at each bias, in units of one of a pcfK lookup's K²
-/// taps.
-/// @param map_depths  As shaders see them, top left first.
-[[nodiscard]] std::vector<std::uint64_t>
-count_wrong_taps(const scene::Image<scene::PixelClass>& classes, const scene::LookupLayers& lookup,
-                 const scene::Image<float>& map_depths, const LookupRule& rule,
-                 std::span<const float> biases);
-
 /// A pixel whose shadow the bias detaches, once it is at least `critical_bias`.
 struct PanningGap {
     float critical_bias = 0;

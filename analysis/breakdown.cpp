@@ -1,7 +1,7 @@
 #include "analysis/breakdown.hpp"
 
+#include "analysis/amounts.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "analysis/ratio.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -21,16 +21,37 @@ namespace {
 
 using scene::PixelClass;
 
-void count_pixel(PartCounts& counts, PixelClass pixel_class, bool is_lit)
-{
-    if (pixel_class == PixelClass::lit) {
-        ++counts.lit;
-        counts.false_shadow += is_lit ? 0 : 1;
-    } else {
-        ++counts.blocked;
-        counts.false_lit += is_lit ? 1 : 0;
+/// Counts the pixels of a part by their verdicts.
+class PartTally {
+public:
+    explicit PartTally(int taps) : shadow_{taps}, light_{taps} {}
+
+    void add(PixelClass pixel_class, float verdict)
+    {
+        const bool is_lit = scene::is_lit(verdict);
+        if (pixel_class == PixelClass::lit) {
+            ++counts_.lit;
+            counts_.false_shadow += is_lit ? 0 : 1;
+            shadow_.add(1 - double{verdict});
+        } else {
+            ++counts_.blocked;
+            counts_.false_lit += is_lit ? 1 : 0;
+            light_.add(double{verdict});
+        }
     }
-}
+    [[nodiscard]] PartCounts counts() const
+    {
+        PartCounts counts = counts_;
+        counts.shadow_amount = shadow_.value();
+        counts.light_amount = light_.value();
+        return counts;
+    }
+
+private:
+    PartCounts counts_;
+    AmountSum shadow_;
+    AmountSum light_;
+};
 
 void require_bins(std::string_view function, int bins)
 {
@@ -154,8 +175,28 @@ PartCounts count_at(const BinValues& values, float bias)
     const auto count = [&](const std::vector<float>& criticals) {
         return static_cast<std::uint64_t>(std::ranges::count_if(criticals, is_lit));
     };
-    return {values.lit.size(), values.blocked.size(), values.lit.size() - count(values.lit),
-            count(values.blocked)};
+    const std::uint64_t false_shadow = values.lit.size() - count(values.lit);
+    const std::uint64_t false_lit = count(values.blocked);
+    return {values.lit.size(),
+            values.blocked.size(),
+            false_shadow,
+            false_lit,
+            static_cast<double>(false_shadow),
+            static_cast<double>(false_lit)};
+}
+
+/// Replaces the amounts by those of so many lit taps.
+void set_amounts(PartCounts& counts, std::span<const std::uint32_t> pixels,
+                 const BreakdownInputs& inputs, const scene::Image<std::uint8_t>& lit_taps)
+{
+    std::array<std::uint64_t, 2> lit{}; // by whether the truth is lit
+    for (const std::uint32_t i : pixels) {
+        lit[inputs.classes[i] == PixelClass::lit ? 1 : 0] += lit_taps[i];
+    }
+    const auto taps = static_cast<std::uint64_t>(inputs.taps);
+    counts.shadow_amount =
+        static_cast<double>(counts.lit * taps - lit[1]) / static_cast<double>(taps);
+    counts.light_amount = static_cast<double>(lit[0]) / static_cast<double>(taps);
 }
 
 /// The bin without its counts; reorders the values.
@@ -179,21 +220,6 @@ void require_inputs(const Binning& binning, const BreakdownInputs& inputs)
 }
 
 } // namespace
-
-std::optional<double> PartCounts::false_shadow_rate() const
-{
-    return ratio(false_shadow, lit);
-}
-
-std::optional<double> PartCounts::false_lit_rate() const
-{
-    return ratio(false_lit, blocked);
-}
-
-std::optional<double> PartCounts::error_rate() const
-{
-    return ratio(false_shadow + false_lit, lit + blocked);
-}
 
 double Binning::edge(int i) const
 {
@@ -230,7 +256,8 @@ Binning bin_by_angle(const scene::Image<PixelClass>& classes, const scene::Looku
 }
 
 std::vector<std::vector<ErrorBin>>
-errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases)
+errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases,
+              std::span<const scene::Image<std::uint8_t>> lit_taps)
 {
     require_inputs(binning, inputs);
     const auto bins = static_cast<std::size_t>(binning.bins);
@@ -241,6 +268,9 @@ errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<c
         for (std::size_t i = 0; i < biases.size(); ++i) {
             result[i][bin] = spread;
             result[i][bin].counts = count_at(values, biases[i]);
+            if (!lit_taps.empty()) {
+                set_amounts(result[i][bin].counts, binning.pixels_of(bin), inputs, lit_taps[i]);
+            }
         }
     });
     return result;
@@ -253,10 +283,11 @@ std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInput
     tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t bin) {
         BinValues values = gather(binning, bin, inputs);
         bins[bin] = measure_spread(binning, bin, values);
+        PartTally tally{inputs.taps};
         for (const std::uint32_t i : binning.pixels_of(bin)) {
-            count_pixel(bins[bin].counts, inputs.classes[i],
-                        scene::is_lit(inputs.lookup.samples[i].verdict));
+            tally.add(inputs.classes[i], inputs.lookup.samples[i].verdict);
         }
+        bins[bin].counts = tally.counts();
     });
     return bins;
 }
@@ -264,20 +295,20 @@ std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInput
 std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& classes,
                                            const scene::LookupLayers& lookup,
                                            const scene::Image<std::uint32_t>& triangles,
-                                           const scene::TriangleScene& scene)
+                                           const scene::TriangleScene& scene, int taps)
 {
     if (lookup.samples.size() != classes.size() || triangles.size() != classes.size()) {
         throw std::invalid_argument("errors_by_object: the images differ in size");
     }
-    std::vector<ObjectErrors> errors;
-    for (const scene::Object& object : scene.objects) {
-        errors.push_back({object.name, {}});
-    }
+    std::vector<PartTally> tallies(scene.objects.size(), PartTally{taps});
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
-            ObjectErrors& of_object = errors[scene.object_of(triangles[i])];
-            count_pixel(of_object.counts, classes[i], scene::is_lit(lookup.samples[i].verdict));
+            tallies[scene.object_of(triangles[i])].add(classes[i], lookup.samples[i].verdict);
         }
+    }
+    std::vector<ObjectErrors> errors;
+    for (std::size_t i = 0; i < tallies.size(); ++i) {
+        errors.push_back({scene.objects[i].name, tallies[i].counts()});
     }
     return errors;
 }

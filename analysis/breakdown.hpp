@@ -18,12 +18,9 @@ struct PartCounts {
     std::uint64_t blocked = 0;      ///< truth blocked
     std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
     std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
+    double shadow_amount = 0;       ///< Σ (1 − verdict) over the lit [px]
+    double light_amount = 0;        ///< Σ verdict over the blocked [px]
 
-    [[nodiscard]] std::optional<double>
-    false_shadow_rate() const; ///< of lit; empty if there is none
-    [[nodiscard]] std::optional<double>
-    false_lit_rate() const;                                 ///< of blocked; empty if there is none
-    [[nodiscard]] std::optional<double> error_rate() const; ///< of both; empty if there is none
     friend bool operator==(const PartCounts&, const PartCounts&) = default;
 };
 
@@ -33,6 +30,7 @@ struct BreakdownInputs {
     const scene::LookupLayers& lookup;
     const scene::Image<float>& criticals;   ///< critical bias, depth units
     const scene::Image<float>& map_error_m; ///< stored minus exact ζ [m]; NaN: none; may be empty
+    int taps = 1; ///< the verdicts' fractions are multiples of 1/taps; 0: any
 };
 
 /// The pixels whose value lies in [lower, upper), the last bin's in [lower, upper].
@@ -81,10 +79,13 @@ struct Binning {
 
 /// The errors of each bin. Needed bias and map error do not depend on the bias: they are found once
 /// for all of `biases`.
-/// @param biases  Verdicts are those of these constant biases, by the critical biases.
+/// @param biases    Verdicts are those of these constant biases, by the critical biases.
+/// @param lit_taps  Of a pcfK lookup, for each bias how many taps of each pixel are lit; empty for
+///                  one comparison.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<std::vector<ErrorBin>>
-errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases);
+errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases,
+              std::span<const scene::Image<std::uint8_t>> lit_taps = {});
 /// The same with the lookup's own verdicts.
 [[nodiscard]] std::vector<ErrorBin> errors_by_bin(const Binning& binning,
                                                   const BreakdownInputs& inputs);
@@ -97,9 +98,11 @@ struct ObjectErrors {
 /// By object that receives the light: one entry an object of the scene, in its order, also for
 /// those that no pixel shows.
 /// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
+/// @param taps       As in `BreakdownInputs`.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<ObjectErrors>
 errors_by_object(const scene::Image<scene::PixelClass>& classes, const scene::LookupLayers& lookup,
-                 const scene::Image<std::uint32_t>& triangles, const scene::TriangleScene& scene);
+                 const scene::Image<std::uint32_t>& triangles, const scene::TriangleScene& scene,
+                 int taps);
 
 } // namespace gnomon::analysis

@@ -66,7 +66,7 @@ SceneSummary summarise_scene(const scene::SceneSettings& settings,
     return summary;
 }
 
-void measure_comparison(Comparison& comparison, const Renderers& renderers)
+void measure_comparison(Comparison& comparison, const Renderers& renderers, float profile_bias)
 {
     const scene::View& view = comparison.view;
     require_size("receivers", comparison.receivers.triangle, view.image);
@@ -76,10 +76,10 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers)
     comparison.metrics = measure(comparison.truth, comparison.lookup,
                                  scene::promises(comparison.job.lookup.filter).equal_taps());
     if (renderers.make_exact_light) {
-        comparison.diagnosis = diagnose(
-            comparison.job, view,
-            {*comparison.triangles, comparison.receivers, comparison.truth, comparison.lookup},
-            renderers);
+        comparison.diagnosis = diagnose(comparison.job, view,
+                                        {*comparison.triangles, comparison.receivers,
+                                         comparison.truth, comparison.lookup, profile_bias},
+                                        renderers);
         if (const auto& biases = comparison.diagnosis->biases) {
             comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
                                             biases->critical_bias, view.bias.constant);
@@ -131,7 +131,7 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     result.truth =
         timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
 
-    timed(seconds.analysis, [&] { measure_comparison(result, renderers); });
+    timed(seconds.analysis, [&] { measure_comparison(result, renderers, view.bias.constant); });
     if (result.diagnosis && !result.diagnosis->biases) {
         result.reruns = timed(seconds.analysis,
                               [&] { return rerun_biases(job, view, result.truth, renderers); });

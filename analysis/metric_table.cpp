@@ -93,33 +93,53 @@ void add_reasons(ConfigurationMetrics& metrics)
 
 void add_errors(ConfigurationMetrics& metrics)
 {
-    const auto add = [&](MetricDescription metric, auto Metrics::*member) {
-        metrics.push_back(
-            {std::move(metric), [member](const ConfigurationResult& result) {
-                 if constexpr (std::is_same_v<decltype(member), std::uint64_t Metrics::*>) {
-                     return MetricValue{result.metrics.*member};
-                 } else {
-                     return number(result.metrics.*member);
-                 }
-             }});
+    const auto add = [&](MetricDescription metric, auto value) {
+        metrics.push_back({std::move(metric), [value](const ConfigurationResult& result) {
+                               return value(result.metrics);
+                           }});
     };
-    add(outcome(pixel_count("false_shadow", "truth lit, verdict shadowed"),
+    add(outcome(pixel_count("false_shadow", "truth lit, verdict below one half"),
                 "false shadow [pixels]"),
-        &Metrics::false_shadow);
-    add(outcome(pixel_count("false_lit", "truth blocked, verdict lit"), "false lit [pixels]"),
-        &Metrics::false_lit);
+        [](const Metrics& of) { return MetricValue{of.false_shadow}; });
+    add(outcome(pixel_count("false_lit", "truth blocked, verdict at least one half"),
+                "false lit [pixels]"),
+        [](const Metrics& of) { return MetricValue{of.false_lit}; });
     add(outcome(measured("false_shadow_rate", "", "`false_shadow` / `pixels.lit`"),
                 "false-shadow rate"),
-        &Metrics::false_shadow_rate);
+        [](const Metrics& of) { return number(of.false_shadow_rate); });
     add(outcome(measured("false_lit_rate", "", "`false_lit` / `pixels.blocked`"), "false-lit rate"),
-        &Metrics::false_lit_rate);
+        [](const Metrics& of) { return number(of.false_lit_rate); });
     add(outcome(measured("error_rate", "", "both / (`pixels.lit` + `pixels.blocked`)"),
                 "error rate"),
-        &Metrics::error_rate);
-    add(titled(measured("mean_abs_error", "",
-                        "mean of \\|verdict − truth\\| over lit and blocked pixels"),
-               "mean absolute error"),
-        &Metrics::mean_abs_error);
+        [](const Metrics& of) { return number(of.error_rate); });
+    add(outcome(measured("mean_abs_error", "",
+                         "mean of \\|verdict − truth\\| over lit and blocked pixels: both amounts "
+                         "/ (`pixels.lit` + `pixels.blocked`)"),
+                "mean absolute error"),
+        [](const Metrics& of) { return number(of.mean_abs_error); });
+    add(outcome(measured("shadow_amount", "px",
+                         "[amount](errors.md#amounts) of false shadow: Σ (1 − verdict) over lit "
+                         "pixels"),
+                "amount of false shadow [pixels]"),
+        [](const Metrics& of) { return MetricValue{of.amounts.shadow}; });
+    add(outcome(
+            measured("light_amount", "px", "amount of false light: Σ verdict over blocked pixels"),
+            "amount of false light [pixels]"),
+        [](const Metrics& of) { return MetricValue{of.amounts.light}; });
+    add(titled(measured("shadow_amount_rate", "", "`shadow_amount` / `pixels.lit`"),
+               "amount of false shadow per lit pixel"),
+        [](const Metrics& of) { return number(of.shadow_amount_rate); });
+    add(titled(measured("light_amount_rate", "", "`light_amount` / `pixels.blocked`"),
+               "amount of false light per blocked pixel"),
+        [](const Metrics& of) { return number(of.light_amount_rate); });
+    add(titled(pixel_count("partial",
+                           "scored pixels on the right side of one half whose verdict is "
+                           "more than 1/256 from the truth"),
+               "partial [pixels]"),
+        [](const Metrics& of) { return MetricValue{of.amounts.partial}; });
+    add(measured("unassigned", "px",
+                 "the part of both amounts from right pixels that are not partial"),
+        [](const Metrics& of) { return MetricValue{of.amounts.unassigned}; });
 }
 
 /// The first name, "none", is left out.

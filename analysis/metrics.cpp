@@ -24,16 +24,19 @@ constexpr std::size_t no_pixel = std::numeric_limits<std::size_t>::max();
 
 /// What one part of the image adds to the metrics.
 struct Tally {
+    explicit Tally(int taps) : amount{AmountSum{taps}, AmountSum{taps}} {}
+
     /// By class, and by whether the verdict is lit: one histogram answers classes and errors.
     std::array<std::array<std::uint64_t, 2>, scene::pixel_class_count> by_verdict{};
     std::array<std::uint64_t, scene::class_reason_count> by_reason{};
-    std::uint64_t wrong_taps = 0;
-    double absolute_error = 0;
+    /// By whether the truth is lit: of scored pixels.
+    std::array<AmountSum, 2> amount;
+    std::uint64_t partial = 0;
+    double unassigned = 0;
     std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
 
     /// Without branches that depend on the image, for classes change from pixel to pixel.
-    void add(std::size_t pixel, PixelClass pixel_class, scene::ClassReason reason, float verdict,
-             double taps)
+    void add(std::size_t pixel, PixelClass pixel_class, scene::ClassReason reason, float verdict)
     {
         ++by_verdict[static_cast<std::size_t>(pixel_class)][scene::is_lit(verdict) ? 1 : 0];
         ++by_reason[static_cast<std::size_t>(reason)];
@@ -44,8 +47,10 @@ struct Tally {
         const float truth = pixel_class == PixelClass::lit ? 1.0F : 0.0F;
         const double error = std::abs(static_cast<double>(verdict) - static_cast<double>(truth));
         const double scored_error = scene::is_scored(pixel_class) & is_verdict ? error : 0.0;
-        absolute_error += scored_error;
-        wrong_taps += static_cast<std::uint64_t>(std::llrint(scored_error * taps));
+        amount[pixel_class == PixelClass::lit ? 1 : 0].add(scored_error);
+        const bool is_right = scene::is_lit(verdict) == (pixel_class == PixelClass::lit);
+        partial += static_cast<std::uint64_t>(is_right & (scored_error > partial_above));
+        unassigned += scored_error <= partial_above ? scored_error : 0.0;
     }
 
     void add(const Tally& other)
@@ -57,8 +62,10 @@ struct Tally {
         for (std::size_t i = 0; i < by_reason.size(); ++i) {
             by_reason[i] += other.by_reason[i];
         }
-        absolute_error += other.absolute_error;
-        wrong_taps += other.wrong_taps;
+        amount[0].add(other.amount[0]);
+        amount[1].add(other.amount[1]);
+        partial += other.partial;
+        unassigned += other.unassigned;
         first_bad_pixel = std::min(first_bad_pixel, other.first_bad_pixel);
     }
 
@@ -85,7 +92,7 @@ Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& l
 {
     const auto count = [&](const tbb::blocked_range<std::size_t>& pixels, Tally tally) {
         for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
-            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict, taps);
+            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict);
         }
         return tally;
     };
@@ -95,7 +102,7 @@ Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& l
     };
     return tbb::parallel_deterministic_reduce(
         tbb::blocked_range<std::size_t>{0, truth.pixel_class.pixel_count(), pixels_per_leaf},
-        Tally{}, count, join);
+        Tally{taps}, count, join);
 }
 
 } // namespace
@@ -108,6 +115,13 @@ std::uint64_t ClassCounts::scored() const
 std::uint64_t ClassCounts::surface() const
 {
     return total - of(PixelClass::background);
+}
+
+bool has_fractions(const Metrics& metrics)
+{
+    return metrics.amounts.partial > 0 || metrics.amounts.unassigned > 0 ||
+           metrics.amounts.shadow != static_cast<double>(metrics.false_shadow) ||
+           metrics.amounts.light != static_cast<double>(metrics.false_lit);
 }
 
 ClassCounts count_classes(const scene::TruthLayers& truth)
@@ -131,7 +145,10 @@ Metrics make_metrics(const ClassCounts& pixels, const VerdictErrors& errors)
     metrics.false_shadow_rate = ratio(errors.false_shadow, pixels.of(PixelClass::lit));
     metrics.false_lit_rate = ratio(errors.false_lit, pixels.of(PixelClass::blocked));
     metrics.error_rate = ratio(errors.false_shadow + errors.false_lit, scored);
-    metrics.mean_abs_error = ratio(errors.absolute, scored);
+    metrics.amounts = errors.amounts;
+    metrics.shadow_amount_rate = ratio(errors.amounts.shadow, pixels.of(PixelClass::lit));
+    metrics.light_amount_rate = ratio(errors.amounts.light, pixels.of(PixelClass::blocked));
+    metrics.mean_abs_error = ratio(errors.amounts.total(), scored);
     return metrics;
 }
 
@@ -150,10 +167,10 @@ Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& look
         pixels.by_class[i] = tally.by_verdict[i][0] + tally.by_verdict[i][1];
     }
     pixels.by_reason = tally.by_reason;
-    const double absolute =
-        taps > 0 ? static_cast<double>(tally.wrong_taps) / taps : tally.absolute_error;
     return make_metrics(pixels, {tally.count(PixelClass::lit, false),
-                                 tally.count(PixelClass::blocked, true), absolute});
+                                 tally.count(PixelClass::blocked, true),
+                                 {tally.amount[1].value(), tally.amount[0].value(), tally.partial,
+                                  tally.unassigned}});
 }
 
 } // namespace gnomon::analysis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/amounts.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
@@ -37,8 +38,14 @@ struct Metrics {
     std::optional<double> false_shadow_rate; ///< false_shadow / scored lit; empty if there is none
     std::optional<double> false_lit_rate;    ///< false_lit / scored blocked; empty if there is none
     std::optional<double> error_rate;        ///< both / scored; empty if there is none
-    std::optional<double> mean_abs_error;    ///< mean |verdict − truth| over the scored pixels
+    ErrorAmounts amounts;
+    std::optional<double> shadow_amount_rate; ///< amounts.shadow / scored lit
+    std::optional<double> light_amount_rate;  ///< amounts.light / scored blocked
+    std::optional<double> mean_abs_error;     ///< mean |verdict − truth| over the scored pixels
 };
+
+/// Whether some verdict is neither right nor wholly wrong, so that amounts say more than counts.
+[[nodiscard]] bool has_fractions(const Metrics& metrics);
 
 [[nodiscard]] ClassCounts count_classes(const scene::TruthLayers& truth);
 
@@ -53,7 +60,7 @@ struct Metrics {
 struct VerdictErrors {
     std::uint64_t false_shadow = 0;
     std::uint64_t false_lit = 0;
-    double absolute = 0; ///< Σ |verdict − truth| over the scored pixels
+    ErrorAmounts amounts;
 };
 /// The metrics of an image with these classes and errors.
 [[nodiscard]] Metrics make_metrics(const ClassCounts& pixels, const VerdictErrors& errors);

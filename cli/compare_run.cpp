@@ -65,8 +65,7 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), command, command},
                 configurations, reports::Environments::several);
     keep_pixels(folder_, own.id, comparison);
-    store_.record(
-        analysis::finish_compared(comparison, own.curve, 0, comparison.view.bias.constant));
+    store_.record(analysis::finish_compared(comparison, own.curve, 0));
     store_.write_csv();
 }
 

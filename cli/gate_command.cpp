@@ -2,11 +2,11 @@
 
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_rules.hpp"
-#include "cli/baseline_command.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/gate_outputs.hpp"
 #include "cli/gate_update.hpp"
 #include "cli/standard_output.hpp"
+#include "reports/gate/baseline_read.hpp"
 #include "reports/gate/gate_json.hpp"
 #include "reports/gate/gate_junit.hpp"
 #include "reports/gate/gate_names.hpp"
@@ -15,15 +15,20 @@
 #include "reports/gate/gate_run.hpp"
 #include "reports/gate/gate_table.hpp"
 #include "reports/gate/kept_wrong_pixels.hpp"
+#include "reports/gate/pixel_mask.hpp"
 #include "reports/output_file.hpp"
+#include "reports/run/sqlite.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
@@ -41,6 +46,16 @@ struct GateOptions {
     bool github = false;
 };
 
+/// The run cannot be held to this baseline: says so, in JUnit's file too, and ends the program.
+[[noreturn]] void end_without_baseline(const GateOptions& options, const std::string& problem)
+{
+    fmt::print(stderr, "gnomon: {}\n", problem);
+    if (!options.junit.empty()) {
+        reports::write_file(options.junit, reports::gate_junit_refusal(options.baseline, problem));
+    }
+    throw CLI::RuntimeError{exit_codes::other_environment};
+}
+
 void require_environment(const GateOptions& options, const reports::GateReport& report)
 {
     if (options.allows_environment) {
@@ -56,10 +71,10 @@ void require_environment(const GateOptions& options, const reports::GateReport& 
     } else {
         return;
     }
-    fmt::print(stderr,
-               "gnomon: {}: {}: save a baseline of this environment, or pass --allow-environment\n",
-               scene::one_line(options.baseline), problem);
-    throw CLI::RuntimeError{exit_codes::other_environment};
+    end_without_baseline(
+        options,
+        fmt::format("{}: {}: save a baseline of this environment, or pass --allow-environment",
+                    scene::one_line(options.baseline), problem));
 }
 
 /// A rule that matches nothing protects nothing. While results are missing it may be for that.
@@ -85,17 +100,41 @@ void end_as_verdict(analysis::GateVerdict verdict)
     }
 }
 
+/// The file's rules, or the default ones. Whatever a file asks, it must be asked of something.
+std::vector<analysis::GateRule> rules_of(const GateOptions& options)
+{
+    if (options.rules.empty()) {
+        return analysis::default_gate_rules();
+    }
+    std::vector<analysis::GateRule> rules = reports::read_gate_rules(options.rules);
+    const bool judges_scored = std::ranges::any_of(rules, [](const analysis::GateRule& rule) {
+        return rule.metric == analysis::scored_pixels_metric;
+    });
+    if (!judges_scored) {
+        std::ranges::move(analysis::tested_rules(), std::back_inserter(rules));
+    }
+    return rules;
+}
+
 /// Reads all that the gate needs; ends the program with exit status 3 where a part of the baseline
 /// is missing.
 reports::GateReport read_report(const GateOptions& options)
 {
     reports::GateReport report;
-    report.rules = options.rules.empty() ? analysis::default_gate_rules()
-                                         : reports::read_gate_rules(options.rules);
-    report.run = reports::read_gate_run(options.run, reports::curve_points_of(report.rules));
+    report.rules = rules_of(options);
+    try {
+        report.run = reports::read_gate_run(options.run, reports::curve_points_of(report.rules));
+    } catch (const reports::sqlite::DamagedDatabase& error) {
+        throw scene::EnvironmentError{error.what()}; // not a job or baseline that is bad
+    }
     report.baseline_file = options.baseline;
     if (options.update.empty()) {
-        report.baseline = baseline_or_end(options.baseline, Masks::required);
+        try {
+            report.baseline = reports::read_baseline(options.baseline);
+            reports::require_masks(options.baseline, report.baseline);
+        } catch (const reports::BaselineMissing& error) {
+            end_without_baseline(options, error.what());
+        }
     }
     return report;
 }

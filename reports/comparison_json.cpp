@@ -106,7 +106,7 @@ std::string job_json(const analysis::Comparison& comparison)
 
 std::string comparison_json(const analysis::Comparison& comparison)
 {
-    Json json{{"schema", 1}};
+    Json json{{"schema", 2}};
     add_metrics(json, analysis::configuration_metrics(), analysis::result_of(comparison));
     add_diagnosis(json, comparison);
     json["environment"] = environment(comparison.environment);

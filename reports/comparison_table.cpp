@@ -112,8 +112,18 @@ std::string errors(const analysis::Metrics& metrics)
                        denominator(counts.of(PixelClass::blocked), "blocked"));
     text += count_line("both", grouped(metrics.false_shadow + metrics.false_lit),
                        percent(metrics.error_rate), denominator(counts.scored(), "scored"));
-    return text +
-           count_line("mean |error|", "", percent(metrics.mean_abs_error), "verdict against truth");
+    if (!has_fractions(metrics)) {
+        return text;
+    }
+    text += count_line("amount", "pixels", "rate", "");
+    text += count_line("false shadow", grouped_amount(metrics.amounts.shadow),
+                       percent(metrics.shadow_amount_rate), "dark where lit");
+    text += count_line("false light", grouped_amount(metrics.amounts.light),
+                       percent(metrics.light_amount_rate), "lit where blocked");
+    text += count_line("both", grouped_amount(metrics.amounts.total()),
+                       percent(metrics.mean_abs_error), "mean |verdict - truth|");
+    return text + count_line("partial", grouped(metrics.amounts.partial), "",
+                             "right by side, wrong by amount");
 }
 
 std::string float_audit(const analysis::Comparison& comparison)

@@ -1,5 +1,6 @@
 #include "reports/diagnosis_json.hpp"
 
+#include "analysis/part_table.hpp"
 #include "reports/findings.hpp"
 #include "reports/json_values.hpp"
 #include "reports/metric_json.hpp"
@@ -82,12 +83,14 @@ Json slope_answers(const analysis::BiasAnswers& answers)
 
 Json part(const analysis::PartCounts& counts)
 {
-    return {{"lit", counts.lit},
-            {"blocked", counts.blocked},
-            {"false_shadow", counts.false_shadow},
-            {"false_lit", counts.false_lit},
-            {"false_shadow_rate", number_or_null(counts.false_shadow_rate())},
-            {"false_lit_rate", number_or_null(counts.false_lit_rate())}};
+    Json json = Json::object();
+    for (const analysis::PartQuantity& quantity : analysis::part_quantities()) {
+        json[std::string{quantity.name}] = value_json(quantity.value(counts));
+    }
+    for (const analysis::PartRate& rate : analysis::part_rates()) {
+        json[std::string{rate.name}] = number_or_null(rate_of(rate, counts));
+    }
+    return json;
 }
 
 Json bins(const std::vector<analysis::ErrorBin>& bins)

@@ -90,6 +90,25 @@ std::string share(std::uint64_t part, std::uint64_t whole)
     return percent < 1 ? "under 1 %" : fmt::format("{:.0f} %", percent);
 }
 
+/// No verdict is on the wrong side of one half, and yet they are not right.
+std::string none_is_wrong_but(const analysis::Metrics& metrics)
+{
+    return fmt::format("No scored pixel is wrong by more than one half, yet verdicts are off by {} "
+                       "on average: {} of {} pixels are partly wrong, by {} pixels of false shadow "
+                       "and {} of false light in all.",
+                       percent(metrics.mean_abs_error), grouped(metrics.amounts.partial),
+                       grouped(metrics.pixels.scored()), grouped_amount(metrics.amounts.shadow),
+                       grouped_amount(metrics.amounts.light));
+}
+
+/// What verdicts that are fractions add to the counts; empty where none are.
+std::string by_amount(const analysis::Metrics& metrics)
+{
+    return has_fractions(metrics) ? fmt::format(" By amount verdicts are off by {} on average.",
+                                                percent(metrics.mean_abs_error))
+                                  : "";
+}
+
 std::string what_is_wrong(const analysis::Metrics& metrics, const analysis::CauseCounts& counts)
 {
     const std::uint64_t wrong = metrics.false_shadow + metrics.false_lit;
@@ -97,14 +116,16 @@ std::string what_is_wrong(const analysis::Metrics& metrics, const analysis::Caus
         return "No pixel is scored: nothing that the camera sees faces the light.";
     }
     if (wrong == 0) {
-        return fmt::format("All {} scored pixels are right.", grouped(metrics.pixels.scored()));
+        return has_fractions(metrics) ? none_is_wrong_but(metrics)
+                                      : fmt::format("All {} scored pixels are right.",
+                                                    grouped(metrics.pixels.scored()));
     }
     const auto label = most<Label>(counts.by_label);
     const auto cause = most<Cause>(counts.by_cause);
     return fmt::format("{} of the scored pixels are wrong: {} of the errors are {}, and {} are due "
-                       "to {}.",
+                       "to {}.{}",
                        percent(metrics.error_rate), share(counts.of(label), wrong), words(label),
-                       share(counts.of(cause), wrong), words(cause));
+                       share(counts.of(cause), wrong), words(cause), by_amount(metrics));
 }
 
 /// "4.0 times"

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 namespace gnomon::reports {
 
@@ -32,6 +34,19 @@ Json& member_at(Json& json, std::string_view name)
         found = place ? &(*found)[*place] : &(*found)[std::string{part}];
     }
     return *found;
+}
+
+Json value_json(const analysis::MetricValue& value)
+{
+    return std::visit(
+        [](const auto& held) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) {
+                return Json(nullptr);
+            } else {
+                return Json(held);
+            }
+        },
+        value);
 }
 
 } // namespace gnomon::reports

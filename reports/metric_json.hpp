@@ -4,7 +4,6 @@
 #include "reports/json_values.hpp"
 
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace gnomon::reports {
@@ -13,21 +12,16 @@ namespace gnomon::reports {
 /// numbers and the two ends `lo` and `hi` of an interval places in an array.
 [[nodiscard]] Json& member_at(Json& json, std::string_view name);
 
+/// Null where there is none.
+[[nodiscard]] Json value_json(const analysis::MetricValue& value);
+
 /// Sets the members that the metrics are named after; null for what does not exist.
 template <typename Source>
 void add_metrics(Json& json, const std::vector<analysis::Metric<Source>>& metrics,
                  const Source& source)
 {
     for (const analysis::Metric<Source>& metric : metrics) {
-        member_at(json, metric.name) = std::visit(
-            [](const auto& value) {
-                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>) {
-                    return Json(nullptr);
-                } else {
-                    return Json(value);
-                }
-            },
-            metric.value(source));
+        member_at(json, metric.name) = value_json(metric.value(source));
     }
 }
 

@@ -85,7 +85,10 @@ Caption error_caption(const analysis::Metrics& metrics)
         return fmt::format("{} of {} {}", grouped(part), grouped(whole), noun);
     };
     return {
-        fmt::format("Errors: {} of scored pixels", percent(metrics.error_rate)),
+        has_fractions(metrics)
+            ? fmt::format("Errors: {} of scored pixels, {} by amount", percent(metrics.error_rate),
+                          percent(metrics.mean_abs_error))
+            : fmt::format("Errors: {} of scored pixels", percent(metrics.error_rate)),
         {{"false shadow", percent(metrics.false_shadow_rate),
           of_scored(metrics.false_shadow, counts.of(PixelClass::lit), "lit"), Mark::false_shadow},
          {"false lit", percent(metrics.false_lit_rate),

@@ -29,6 +29,12 @@ std::string grouped(std::uint64_t count)
     return text;
 }
 
+std::string grouped_amount(double pixels)
+{
+    return pixels < 1000 ? fmt::format("{:.3g}", pixels)
+                         : grouped(static_cast<std::uint64_t>(std::llround(pixels)));
+}
+
 std::string percent(std::optional<double> fraction)
 {
     if (!fraction) {

@@ -10,6 +10,10 @@ namespace gnomon::reports {
 /// A count with its thousands grouped: "1,048,578".
 [[nodiscard]] std::string grouped(std::uint64_t count);
 
+/// An amount of pixels: grouped and whole from 1000 on, else with three significant digits:
+/// "367,864", "12.4".
+[[nodiscard]] std::string grouped_amount(double pixels);
+
 /// A fraction in percent with three significant digits, at most four decimals: "1.23 %"; what is
 /// not zero never prints as zero ("<0.0001 %"); "-" if there is none.
 [[nodiscard]] std::string percent(std::optional<double> fraction);

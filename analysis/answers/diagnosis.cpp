@@ -12,11 +12,11 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
                    const Renderers& renderers)
 {
     auto receivers = std::make_shared<JudgedReceivers>(
-        layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_parts = false});
+        layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_parts = true});
     LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
                                                             job, view, renderers),
                           observe_lookup(job, view, layers.lookup, renderers)};
-    return std::move(answers).diagnose(layers.lookup);
+    return std::move(answers).diagnose(layers.lookup, layers.profile_bias);
 }
 
 } // namespace gnomon::analysis

@@ -4,8 +4,10 @@
 #include "analysis/bias_rows.hpp"
 #include "analysis/breakdown.hpp"
 #include "analysis/causes.hpp"
+#include "analysis/error_parts.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/renderers.hpp"
+#include "analysis/sweep/results.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
@@ -26,6 +28,8 @@ struct Diagnosis {
     std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below
     std::vector<ErrorBin> by_angle;
     std::vector<ObjectErrors> by_object;
+    std::vector<ErrorPart> parts; ///< by object and light distance; empty: too many
+    CurveResult curve;            ///< what a sweep keeps of it; without its id
 };
 
 /// What a comparison found.
@@ -34,6 +38,8 @@ struct ComparedLayers {
     const scene::ReceiverLayers& receivers;
     const scene::TruthLayers& truth;
     const scene::LookupLayers& lookup;
+    /// Beside its own bias, which errors by distance are asked of the curve (`CurveQuestion`).
+    float profile_bias = 0;
 };
 
 /// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and

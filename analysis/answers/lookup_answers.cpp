@@ -1,10 +1,10 @@
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 
-#include "analysis/answers/finished_curve.hpp"
 #include "analysis/bias_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/map_errors.hpp"
+#include "analysis/tune.hpp"
 
 #include <algorithm>
 #include <array>
@@ -110,6 +110,20 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
     return gaps;
 }
 
+LookupRule LookupAnswers::rule_with(float slope) const
+{
+    LookupRule rule = rule_;
+    rule.slope = slope;
+    return rule;
+}
+
+std::vector<ErrorAmounts> LookupAnswers::amounts(const SlopeCurve& curve,
+                                                 std::span<const float> biases) const
+{
+    return has_taps() ? sum_amounts(classes(), taps(curve.slope), biases)
+                      : sum_amounts(curve.curve, biases);
+}
+
 void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& curve,
                              FinishedCurve& finished)
 {
@@ -117,49 +131,73 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
     if (biases.empty()) {
         return;
     }
-    LookupRule rule = rule_;
-    rule.slope = curve.slope;
-    const int taps = scene::promises(rule.filter).equal_taps();
-    const BiasRowInputs inputs{classes(), deciding(), curve.critical_bias, causes_, rule};
+    const BiasRowInputs inputs{classes(), deciding(), curve.critical_bias, causes_,
+                               rule_with(curve.slope)};
     const auto counts = count_rows(inputs, curve.curve, biases);
     const auto parts = count_parts(exact_->parts(), inputs, biases);
-    const auto wrong_taps =
-        taps > 1 ? count_wrong_taps(classes(), lookup_.layers, lookup_.map_depths, rule, biases)
-                 : std::vector<std::uint64_t>{};
+    const auto errors_by = amounts(curve, biases);
     const auto gaps = find_gaps_at(panning_gaps(curve.critical_bias, biases.back()), biases);
     for (const CurveQuestion::Row& row : question.rows) {
         const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
         const auto i = static_cast<std::size_t>(found - biases.begin());
         const ErrorCounts& errors = counts[i].errors;
-        const std::uint64_t wrong = taps > 1 ? wrong_taps[i] : errors.total();
         finished.rows.push_back(
             {row.ordinal,
-             {make_metrics(exact_->receivers().classes(), {errors.false_shadow, errors.false_lit,
-                                                           static_cast<double>(wrong) / taps}),
+             {make_metrics(exact_->receivers().classes(),
+                           {errors.false_shadow, errors.false_lit, errors_by[i]}),
               counts[i].causes, gaps[i], parts[i]}});
     }
 }
 
+CurveResult LookupAnswers::describe_map() const
+{
+    CurveResult result;
+    result.near_m = lookup_.view.frustum.near_m;
+    result.far_m = lookup_.view.frustum.far_m;
+    result.map_bytes = map_bytes(lookup_.job.shadow_map);
+    return result;
+}
+
+CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
+{
+    using At = DistanceProfile::At;
+    CurveResult result = describe_map();
+    result.best = curve.best;
+    result.bounds = curve.bounds;
+    const std::vector<float> samples = sample_biases(curve.curve);
+    const auto errors_by = amounts(curve, samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const ErrorCounts errors = curve.curve.at(samples[i]);
+        result.points.push_back(
+            {samples[i],
+             {curve.curve.lit().size(), curve.curve.blocked().size(), errors.false_shadow,
+              errors.false_lit, errors_by[i].shadow, errors_by[i].light}});
+    }
+    const std::array<float, 2> biases{profile_bias, curve.best.recommended()};
+    const BreakdownInputs inputs{classes(), deciding(), curve.critical_bias, map_error_m_,
+                                 rule_.promises().equal_taps()};
+    auto profiles = errors_by_bin(exact_->distances(), inputs, biases,
+                                  has_taps() ? count_lit_taps(classes(), taps(curve.slope), biases)
+                                             : std::vector<scene::Image<std::uint8_t>>{});
+    for (std::vector<ErrorBin>& profile : profiles) {
+        add_envelopes(profile, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
+    }
+    result.by_distance = {{At::job_bias, biases[0], std::move(profiles[0])},
+                          {At::best_bias, biases[1], std::move(profiles[1])}};
+    return result;
+}
+
 scene::Image<float> LookupAnswers::critical_biases(float slope) const
 {
-    LookupRule rule = rule_;
-    rule.slope = slope;
-    return analysis::critical_biases(deciding(), rule);
+    return analysis::critical_biases(deciding(), rule_with(slope));
 }
 
 FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
 {
     const SlopeCurve curve = slope_curve(curves(acne_flags(classes(), causes_)), question.slope);
     FinishedCurve finished;
-    finished.curve =
-        describe_curve(question.id, {lookup_.job,
-                                     lookup_.view,
-                                     curve.curve,
-                                     curve.best,
-                                     curve.bounds,
-                                     exact_->distances(),
-                                     {classes(), deciding(), curve.critical_bias, map_error_m_},
-                                     question.job_bias});
+    finished.curve = describe(curve, question.job_bias);
+    finished.curve.id = question.id;
     add_rows(question, curve, finished);
     return finished;
 }
@@ -171,38 +209,48 @@ void LookupAnswers::break_down(const scene::LookupLayers& own, Diagnosis& diagno
                                            std::numeric_limits<float>::quiet_NaN()};
     const BreakdownInputs inputs{classes(), own,
                                  diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
-                                 diagnosis.map_error_m};
+                                 diagnosis.map_error_m, rule_.promises().equal_taps()};
     diagnosis.by_distance = errors_by_bin(exact_->distances(), inputs);
     add_envelopes(diagnosis.by_distance, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
     diagnosis.by_angle = errors_by_bin(bin_by_angle(classes(), own), inputs);
     diagnosis.by_object = errors_by_object(classes(), own, exact_->receivers().receivers().triangle,
-                                           exact_->triangles());
+                                           exact_->triangles(), rule_.promises().equal_taps());
 }
 
 void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis)
 {
     const std::array<float, 1> bias{lookup_.view.bias.constant};
     const scene::Image<float> verdicts = criticals_of_verdicts(own);
-    diagnosis.causes = classify_errors({classes(), own, verdicts, causes_, rule_}, bias.front());
+    const BiasRowInputs inputs{classes(), own, verdicts, causes_, rule_};
+    diagnosis.causes = classify_errors(inputs, bias.front());
+    diagnosis.parts = count_parts(exact_->parts(), inputs, bias).front();
     diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
 }
 
-Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own) &&
+Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_bias) &&
 {
     Diagnosis diagnosis;
     explain(own, diagnosis);
     // What follows asks for neither, and takes the most memory.
     lookup_.unbiased = {};
     exact_->forget_texels();
-    if (scene::promises(rule_.filter).has_curve()) {
+    if (rule_.promises().has_curve()) {
         const auto acne = acne_flags(classes(), causes_);
+        const SlopeInputs inputs = curves(acne);
+        SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
+        diagnosis.curve = describe(curve, profile_bias);
         diagnosis.biases =
-            answer_biases({lookup_.job, lookup_.view, curves(acne), exact_->zeta_m()});
+            answer_biases({lookup_.job, lookup_.view, inputs, exact_->zeta_m()}, std::move(curve));
     }
     diagnosis.pixels = std::move(causes_);
     diagnosis.zeta_m = exact_->zeta_m();
-    diagnosis.map_error_m = std::move(map_error_m_);
+    diagnosis.map_error_m = map_error_m_;
     break_down(own, diagnosis);
+    if (!diagnosis.biases) {
+        diagnosis.curve = describe_map();
+        diagnosis.curve.by_distance.push_back(
+            {DistanceProfile::At::job_bias, lookup_.view.bias.constant, diagnosis.by_distance});
+    }
     return diagnosis;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/amount_rows.hpp"
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/bias_rows.hpp"
@@ -12,6 +13,7 @@
 #include "scene/layers.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -44,8 +46,9 @@ public:
     [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
     /// Why the pixels of the same lookup with the job's bias are wrong, and what other biases would
     /// do. Takes along what it tells: the last question.
-    /// @param own  verdicts of the job's bias.
-    [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own) &&;
+    /// @param own           verdicts of the job's bias.
+    /// @param profile_bias  as in `CurveQuestion`.
+    [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own, float profile_bias) &&;
 
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;
@@ -64,6 +67,20 @@ private:
     [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
                                                        float largest_bias);
     void add_rows(const CurveQuestion& question, const SlopeCurve& curve, FinishedCurve& finished);
+    /// The rule with another slope.
+    [[nodiscard]] LookupRule rule_with(float slope) const;
+    /// Whether verdicts are made of several comparisons, so that amounts are not counts.
+    [[nodiscard]] bool has_taps() const { return rule_.promises().equal_taps() > 1; }
+    [[nodiscard]] TapCriticals taps(float slope) const
+    {
+        return {lookup_.layers, lookup_.map_depths, rule_with(slope)};
+    }
+    /// @param biases  Ascending.
+    [[nodiscard]] std::vector<ErrorAmounts> amounts(const SlopeCurve& curve,
+                                                    std::span<const float> biases) const;
+    /// What is fitted, whatever the lookup.
+    [[nodiscard]] CurveResult describe_map() const;
+    [[nodiscard]] CurveResult describe(const SlopeCurve& curve, float profile_bias);
     /// Causes and gaps at the job's bias.
     void explain(const scene::LookupLayers& own, Diagnosis& diagnosis);
     /// Errors by distance, angle and object, at the job's bias.

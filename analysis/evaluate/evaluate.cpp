@@ -225,10 +225,10 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
         return;
     }
     evaluation.has_map = true;
-    comparison.diagnosis =
-        diagnose(comparison.job, comparison.view,
-                 {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup},
-                 recorded_renderers(subject, truth));
+    comparison.diagnosis = diagnose(comparison.job, comparison.view,
+                                    {subject.mesh, comparison.receivers, comparison.truth,
+                                     comparison.lookup, comparison.view.bias.constant},
+                                    recorded_renderers(subject, truth));
     if (const auto& biases = comparison.diagnosis->biases) {
         evaluation.contradicted_pixels = count_contradicted(comparison, *biases);
     }
@@ -381,12 +381,12 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.truth_method = "exact for all positions that round to P";
     result.environment = {subject.file.renderer, "another renderer", truth.embree, truth.gnomon};
     Evaluation& evaluation = result.evaluation.emplace(make_evaluation(subject, checked));
-    result.metrics = measure(result.truth, result.lookup,
-                             subject.file.says("lookup.filter")
-                                 ? scene::promises(result.job.lookup.filter).equal_taps()
-                                 : 0);
+    const int taps = subject.file.says("lookup.filter")
+                         ? scene::promises(result.job.lookup.filter).equal_taps()
+                         : 0;
+    result.metrics = measure(result.truth, result.lookup, taps);
     evaluation.by_object = errors_by_object(result.truth.pixel_class, result.lookup,
-                                            result.receivers.triangle, subject.mesh);
+                                            result.receivers.triangle, subject.mesh, taps);
     find_all_causes(subject, truth, result, evaluation);
     if (!result.diagnosis) {
         find_some_causes(subject, result, evaluation);

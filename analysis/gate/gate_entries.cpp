@@ -48,9 +48,17 @@ std::optional<double> GateEntry::metric(const std::string& name) const
     if (const auto found = metrics.find(name); found != metrics.end()) {
         return found->second;
     }
-    if (name == wrong_pixels_metric && metrics.contains("false_shadow") &&
-        metrics.contains("false_lit")) {
-        return metrics.at("false_shadow") + metrics.at("false_lit");
+    struct Sum {
+        std::string_view name;
+        const char* one;
+        const char* other;
+    };
+    for (const Sum& sum : {Sum{wrong_pixels_metric, "false_shadow", "false_lit"},
+                           Sum{error_amount_metric, "shadow_amount", "light_amount"},
+                           Sum{scored_pixels_metric, "pixels.lit", "pixels.blocked"}}) {
+        if (name == sum.name && metrics.contains(sum.one) && metrics.contains(sum.other)) {
+            return metrics.at(sum.one) + metrics.at(sum.other);
+        }
     }
     const auto gap_pixels = metrics.find(std::string{gap_pixels_metric});
     const bool has_no_gap = gap_pixels != metrics.end() && gap_pixels->second == 0;

@@ -52,7 +52,8 @@ double allowed_change(const GateRule& rule, double before, const GateEntry& now)
 /// How far a metric may be worse as the price of other pixels that became right.
 double traded_change(const GateRule& rule, const GateEntry& before, const GateEntry& now)
 {
-    const std::string name{wrong_pixels_metric};
+    const bool is_amount = rule.metric == "shadow_amount" || rule.metric == "light_amount";
+    const std::string name{is_amount ? error_amount_metric : wrong_pixels_metric};
     const auto was = before.metric(name);
     const auto is = now.metric(name);
     if (!rule.trade_off || !was || !is) {
@@ -182,7 +183,10 @@ private:
 
     void add(GateFinding finding, GateReason reason, const std::optional<double>& limit)
     {
-        finding.reason = reason;
+        const bool is_about_scored = rule_->metric == scored_pixels_metric;
+        finding.reason = is_about_scored && reason != GateReason::not_available
+                             ? GateReason::nothing_tested
+                             : reason;
         finding.limit = limit;
         outcome_->findings.push_back(std::move(finding));
     }
@@ -245,6 +249,20 @@ void tidy_improvements(GateOutcome& outcome)
               all.end());
 }
 
+/// Where no pixel is scored rates have no value: that follows, and is not said again.
+void drop_what_follows(GateOutcome& outcome)
+{
+    std::set<std::size_t> unscored;
+    for (const GateFinding& finding : outcome.findings) {
+        if (finding.reason == GateReason::nothing_tested && finding.now == 0.0) {
+            unscored.insert(finding.entry);
+        }
+    }
+    std::erase_if(outcome.findings, [&](const GateFinding& finding) {
+        return finding.reason == GateReason::not_available && unscored.contains(finding.entry);
+    });
+}
+
 } // namespace
 
 Severity severity_of(const GateFinding& finding, std::span<const GateRule> rules)
@@ -287,6 +305,7 @@ GateOutcome judge_run(const GateEntries& baseline, const GateEntries& run,
     for (std::size_t i = 0; i < rules.size(); ++i) {
         apply_rule(outcome, baseline, run, rules[i], {outcome, rules[i], i, ask_new_pixels});
     }
+    drop_what_follows(outcome);
     std::stable_sort(outcome.findings.begin(), outcome.findings.end(),
                      [&](const GateFinding& a, const GateFinding& b) {
                          return finding_rank(a, rules) < finding_rank(b, rules);

@@ -18,8 +18,9 @@ enum class GateReason : std::uint8_t {
     above_max,
     below_min,
     worse_than_baseline,
-    traded_off,    ///< worse than the baseline, by no more than the rule's trade-off: a warning
-    not_available, ///< a value that it takes to judge does not exist
+    nothing_tested, ///< so few pixels are scored that all else would pass
+    traded_off,     ///< worse than the baseline, by no more than the rule's trade-off: a warning
+    not_available,  ///< a value that it takes to judge does not exist
 };
 
 /// A rule that a configuration does not keep to.

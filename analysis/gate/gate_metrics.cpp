@@ -1,9 +1,10 @@
 #include "analysis/gate/gate_metrics.hpp"
 
+#include "analysis/part_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -12,11 +13,21 @@ namespace gnomon::analysis {
 namespace {
 
 constexpr std::string_view curve_point_prefix = "bias_curve.at(";
-constexpr std::array<GateMetric, 5> curve_columns{{{"false_shadow", true, Worse::up},
-                                                   {"false_lit", true, Worse::up},
-                                                   {"false_shadow_rate", false, Worse::up},
-                                                   {"false_lit_rate", false, Worse::up},
-                                                   {"error_rate", false, Worse::up}}};
+/// What is counted at each point of a curve, and its rates.
+const std::vector<GateMetric>& curve_columns()
+{
+    static const std::vector<GateMetric> columns = [] {
+        std::vector<GateMetric> all;
+        for (const PartQuantity& quantity : part_errors()) {
+            all.push_back({quantity.name, true, Worse::up, quantity.type == MetricType::count});
+        }
+        for (const PartRate& rate : part_rates()) {
+            all.push_back({rate.name, false, Worse::up});
+        }
+        return all;
+    }();
+    return columns;
+}
 
 } // namespace
 
@@ -26,7 +37,8 @@ const std::vector<GateMetric>& result_metrics()
         std::vector<GateMetric> all;
         for (const MetricDescription& metric : metric_descriptions()) {
             if (metric.worse) {
-                all.push_back({metric.name, metric.unit == "px", *metric.worse});
+                all.push_back({metric.name, metric.unit == "px", *metric.worse,
+                               metric.type == MetricType::count});
             }
         }
         return all;
@@ -38,14 +50,28 @@ const std::vector<GateMetric>& gate_metrics()
 {
     static const std::vector<GateMetric> metrics = [] {
         std::vector<GateMetric> all = result_metrics();
-        all.push_back({wrong_pixels_metric, true, Worse::up});
-        all.push_back({new_pixels_metric, true, Worse::up});
+        all.push_back({wrong_pixels_metric, true, Worse::up, true});
+        all.push_back({error_amount_metric, true, Worse::up});
+        all.push_back({scored_pixels_metric, true, Worse::down, true});
+        all.push_back({new_pixels_metric, true, Worse::up, true});
         all.push_back({"map_error_m.min", false, Worse::down});
         all.push_back({"map_error_m.max", false, Worse::up});
         all.push_back({"map_error_m.largest", false, Worse::up});
         return all;
     }();
     return metrics;
+}
+
+const std::vector<std::string>& curve_point_columns()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const GateMetric& column : curve_columns()) {
+            all.emplace_back(column.name);
+        }
+        return all;
+    }();
+    return names;
 }
 
 std::string CurvePointMetric::name() const
@@ -62,8 +88,8 @@ std::optional<CurvePointMetric> curve_point_metric(std::string_view text)
     const auto bias =
         number_in(text.substr(curve_point_prefix.size(), end - curve_point_prefix.size()));
     const std::string_view column = text.substr(end + 2);
-    const bool is_column = std::any_of(curve_columns.begin(), curve_columns.end(),
-                                       [&](const GateMetric& one) { return one.name == column; });
+    const bool is_column = std::ranges::any_of(
+        curve_columns(), [&](const GateMetric& one) { return one.name == column; });
     return bias && is_column ? std::optional{CurvePointMetric{*bias, std::string{column}}}
                              : std::nullopt;
 }
@@ -74,7 +100,7 @@ const GateMetric* find_gate_metric(std::string_view name)
         return [wanted](const GateMetric& metric) { return metric.name == wanted; };
     };
     if (const auto point = curve_point_metric(name)) {
-        return std::find_if(curve_columns.begin(), curve_columns.end(), has(point->column));
+        return &*std::ranges::find_if(curve_columns(), has(point->column));
     }
     const auto& metrics = gate_metrics();
     const auto found = std::find_if(metrics.begin(), metrics.end(), has(name));

@@ -12,8 +12,9 @@ namespace gnomon::analysis {
 /// A number that a rule may be about (docs/gate.md).
 struct GateMetric {
     std::string_view name;
-    bool is_pixel_count = false;
-    Worse worse = Worse::up; ///< unless a rule says otherwise
+    bool is_pixel_count = false; ///< of pixels, or an amount of them
+    Worse worse = Worse::up;     ///< unless a rule says otherwise
+    bool is_whole = false;       ///< its values are integers
 };
 
 /// Those of the metric table that have a worse side, in their order: columns of results.csv.
@@ -27,6 +28,10 @@ struct GateMetric {
 
 /// False shadow and false lit.
 inline constexpr std::string_view wrong_pixels_metric = "wrong_pixels";
+/// Both amounts of error.
+inline constexpr std::string_view error_amount_metric = "error_amount";
+/// Lit and blocked pixels.
+inline constexpr std::string_view scored_pixels_metric = "scored_pixels";
 /// Pixels that are wrong now and were right in the baseline.
 inline constexpr std::string_view new_pixels_metric = "new_pixels";
 
@@ -37,6 +42,8 @@ struct CurvePointMetric {
 
     [[nodiscard]] std::string name() const;
 };
+/// The columns that such a metric may be of.
+[[nodiscard]] const std::vector<std::string>& curve_point_columns();
 /// @return  Empty if the text is none.
 [[nodiscard]] std::optional<CurvePointMetric> curve_point_metric(std::string_view text);
 

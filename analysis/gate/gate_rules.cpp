@@ -1,11 +1,14 @@
 #include "analysis/gate/gate_rules.hpp"
 
 #include "analysis/cause.hpp"
+#include "scene/pixel_class.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -14,6 +17,10 @@ namespace {
 constexpr double changed_job_share = 1e-5;
 constexpr double changed_job_gap = 0.05;
 constexpr double changed_job_trade_off = 0.1;
+constexpr double changed_job_mean = 1e-4;
+constexpr double changed_job_scored = 0.1;
+/// A shadow that comes back has a filter's soft border, which is an amount of both kinds.
+constexpr double changed_job_amount_trade_off = 0.5;
 constexpr double any_trade_off = std::numeric_limits<double>::infinity();
 
 bool is_same_value(std::string_view wanted, std::string_view value)
@@ -88,6 +95,28 @@ void add_gap_rules(std::vector<GateRule>& rules, std::string_view metric)
     rules.push_back(std::move(changed));
 }
 
+/// The mean goes down where one amount falls by more than the other grows.
+void add_mean_rules(std::vector<GateRule>& rules)
+{
+    GateRule unchanged = optional_rule("mean_abs_error", JobState::unchanged);
+    unchanged.abs = 0;
+    rules.push_back(std::move(unchanged));
+    GateRule changed = optional_rule("mean_abs_error", JobState::changed);
+    changed.abs = changed_job_mean;
+    rules.push_back(std::move(changed));
+}
+
+/// The same job has the same truth.
+void add_class_rules(std::vector<GateRule>& rules)
+{
+    for (const std::string_view name : scene::pixel_class_names) {
+        GateRule rule = optional_rule(fmt::format("pixels.{}", name), JobState::unchanged);
+        rule.allow_pixels = 0;
+        rule.worse = Worse::both;
+        rules.push_back(std::move(rule));
+    }
+}
+
 } // namespace
 
 bool is_meant(const GateRule& rule, const GateEntry& now, bool unchanged)
@@ -134,6 +163,10 @@ std::vector<GateRule> default_gate_rules()
     std::vector<GateRule> rules;
     add_count_rules(rules, "false_shadow", changed_job_trade_off);
     add_count_rules(rules, "false_lit", changed_job_trade_off);
+    add_count_rules(rules, "shadow_amount", changed_job_amount_trade_off);
+    add_count_rules(rules, "light_amount", changed_job_amount_trade_off);
+    add_mean_rules(rules);
+    add_class_rules(rules);
     for (std::size_t i = 1; i < cause_names.size(); ++i) { // the first is "none"
         add_count_rules(rules, fmt::format("causes.{}", cause_names[i]), any_trade_off);
     }
@@ -147,7 +180,19 @@ std::vector<GateRule> default_gate_rules()
     GateRule mismatch = optional_rule("unmatched_kinds.mismatch", JobState::any);
     mismatch.max = 0;
     rules.push_back(std::move(mismatch));
+    std::ranges::move(tested_rules(), std::back_inserter(rules));
     return rules;
+}
+
+std::vector<GateRule> tested_rules()
+{
+    GateRule some = optional_rule(scored_pixels_metric, JobState::any);
+    some.worse = Worse::down;
+    some.min = 1;
+    GateRule most = optional_rule(scored_pixels_metric, JobState::changed);
+    most.worse = Worse::down;
+    most.rel = changed_job_scored;
+    return {std::move(some), std::move(most)};
 }
 
 } // namespace gnomon::analysis

@@ -65,7 +65,14 @@ struct GateRule {
 /// become wrong are a warning. So are, then, counts that grow by at most a tenth of what all wrong
 /// pixels fell by, and causes and labels that grow while those do not: pixels that stay wrong have
 /// another cause where the one before it is mended.
+/// Amounts are held as the counts are, and while the job is unchanged the classes must stay. The
+/// rules of `tested_rules` are among them.
 [[nodiscard]] std::vector<GateRule> default_gate_rules();
+
+/// That something is tested: a run without scored pixels breaks no other rule, nor, where the job
+/// changed, one that scores less than nine tenths of what the baseline does. They hold beside any
+/// rules that are not about `scored_pixels` themselves.
+[[nodiscard]] std::vector<GateRule> tested_rules();
 
 /// The filters that a rule is judged by in one configuration: its own, or one for each object or
 /// band that both know.

@@ -20,7 +20,7 @@ class TapCriticals {
 public:
     /// @param lookup      with its texels.
     /// @param map_depths  As shaders see them, top left first.
-    /// All must outlive this.
+    /// Both must outlive this.
     TapCriticals(const scene::LookupLayers& lookup, const scene::Image<float>& map_depths,
                  const LookupRule& rule)
         : lookup_{lookup},
@@ -30,6 +30,7 @@ public:
     {
     }
 
+    [[nodiscard]] std::size_t taps_each() const { return taps_each_; }
     /// Calls `visit(pixel, criticals)` for the pixels in [first, last) that `wants(pixel)`, with
     /// the critical biases of the pixel's K² taps, in the order of the footprint. Those that the
     /// policy decides have its critical bias.
@@ -81,7 +82,7 @@ private:
 
     const scene::LookupLayers& lookup_;
     StoredTaps taps_;
-    const LookupRule& rule_;
+    LookupRule rule_;
     std::size_t taps_each_;
 };
 

@@ -18,7 +18,7 @@
 namespace gnomon::analysis {
 
 /// Counts up when results of the same job change their meaning: part of every id.
-inline constexpr int result_schema = 1;
+inline constexpr int result_schema = 2;
 
 /// A configuration of a sweep: one row of its results, known before anything is computed.
 struct Configuration {
@@ -62,6 +62,14 @@ struct DistanceProfile {
     std::vector<ErrorBin> bins;
 };
 
+/// A point of a bias curve: all scored pixels at one bias.
+struct CurveSample {
+    float bias = 0; ///< depth units
+    PartCounts counts;
+
+    friend bool operator==(const CurveSample&, const CurveSample&) = default;
+};
+
 /// What the configurations that differ in nothing but the constant bias have in common.
 struct CurveResult {
     std::string id;               ///< `Configuration::curve`
@@ -71,7 +79,7 @@ struct CurveResult {
     /// Empty for `hardware`, which has no curve.
     std::optional<BestBiases> best;
     std::optional<BiasBounds> bounds;
-    std::vector<CurvePoint> points; ///< `sample_curve`
+    std::vector<CurveSample> points; ///< at its `sample_biases`
     std::vector<DistanceProfile> by_distance;
     std::optional<BiasVerification> verification; ///< empty: not asked for, or without a curve
 };

@@ -292,9 +292,7 @@ private:
         if (hooks_.keep_pixels) {
             hooks_.keep_pixels(row.ordinal, comparison);
         }
-        FinishedCurve finished =
-            finish_compared(comparison, task_.id, row.ordinal,
-                            own_constant_bias(task_.job, comparison.view.frustum));
+        FinishedCurve finished = finish_compared(comparison, task_.id, row.ordinal);
         if (comparison.held && comparison.held->differences > 0) {
             finished.curve.verification = BiasVerification{{*comparison.held}};
         }
@@ -319,7 +317,8 @@ private:
         comparison.receivers = subject->receivers;
         comparison.truth = subject->truth;
         comparison.lookup = renderers().look_up(comparison.job, comparison.view);
-        measure_comparison(comparison, renderers());
+        measure_comparison(comparison, renderers(),
+                           own_constant_bias(task_.job, comparison.view.frustum));
         return comparison;
     }
 

@@ -1,6 +1,7 @@
 #include "reports/gate/baseline_checks.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
+#include "analysis/part_table.hpp"
 
 #include <fmt/format.h>
 
@@ -89,29 +90,25 @@ std::string contradicted_sum(const GateEntry& entry)
                    sum_of(entry, names_of("labels.", analysis::label_names)));
 }
 
-/// Rates are the quotients of two counts, written so that they read back exactly.
+/// Rates are quotients of sums, written so that they read back exactly.
 std::string contradicted_rate(const GateEntry& entry)
 {
-    struct Rate {
-        const char* name;
-        Names part;
-        Names whole;
-    };
-    static const std::array<Rate, 3> rates{
-        {{"false_shadow_rate", {"false_shadow"}, {"pixels.lit"}},
-         {"false_lit_rate", {"false_lit"}, {"pixels.blocked"}},
-         {"error_rate", {"false_shadow", "false_lit"}, {"pixels.lit", "pixels.blocked"}}}};
-    for (const Rate& rate : rates) {
-        const auto part = sum_of(entry, rate.part);
-        const auto whole = sum_of(entry, rate.whole);
+    for (const analysis::PartRate& rate : analysis::part_rates()) {
+        const auto part = sum_of(entry, {rate.errors.begin(), rate.errors.end()});
+        Names pixels;
+        for (const std::string_view kind : rate.pixels) {
+            pixels.push_back(fmt::format("pixels.{}", kind));
+        }
+        const auto whole = sum_of(entry, pixels);
         if (!part || !whole) {
             continue;
         }
         if (*part > *whole) {
             return fmt::format("{} are wrong of {}", *part, *whole);
         }
-        std::string differs = unequal(rate.name, entry.metric(rate.name), "its counts give",
-                                      *whole > 0 ? std::optional{*part / *whole} : std::nullopt);
+        std::string differs =
+            unequal(rate.name, entry.metric(std::string{rate.name}), "its counts give",
+                    *whole > 0 ? std::optional{*part / *whole} : std::nullopt);
         if (!differs.empty()) {
             return differs;
         }

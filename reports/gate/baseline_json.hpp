@@ -8,7 +8,7 @@
 namespace gnomon::reports {
 
 /// The layout of baselines (docs/gate.md).
-inline constexpr int baseline_schema = 1;
+inline constexpr int baseline_schema = 2;
 /// A baseline is no longer than this.
 inline constexpr std::uint64_t most_baseline_bytes = std::uint64_t{64} << 20U;
 

@@ -253,7 +253,7 @@ private:
     [[nodiscard]] double read_number(const Json& json, const analysis::GateMetric& metric,
                                      const std::string& place) const
     {
-        const bool is_integer = metric.is_pixel_count || metric.name == "map_bytes";
+        const bool is_integer = metric.is_whole;
         if (!json.is_number() || (is_integer && !json.is_number_unsigned())) {
             fail(place, is_integer ? "is no count" : "is no number");
         }

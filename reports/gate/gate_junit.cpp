@@ -126,6 +126,27 @@ std::string property_element(std::string_view name, std::string_view value)
     return fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, xml_text(value));
 }
 
+std::string document(const std::vector<JunitCase>& all, std::string_view properties,
+                     std::string_view notes)
+{
+    std::string cases;
+    std::size_t failures = 0;
+    std::size_t errors = 0;
+    for (const JunitCase& one : all) {
+        cases += case_element(one);
+        failures += one.element == "failure" ? 1U : 0U;
+        errors += one.element == "error" ? 1U : 0U;
+    }
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
+        "  <testsuite id=\"0\" package=\"gnomon\" name=\"gate\" tests=\"{}\" failures=\"{}\" "
+        "errors=\"{}\" time=\"0\" timestamp=\"1970-01-01T00:00:00\" hostname=\"localhost\">\n"
+        "    <properties>\n{}    </properties>\n{}"
+        "    <system-out>{}</system-out>\n    <system-err></system-err>\n"
+        "  </testsuite>\n</testsuites>\n",
+        all.size(), failures, errors, properties, cases, xml_text(notes));
+}
+
 } // namespace
 
 std::string xml_text(std::string_view text)
@@ -150,27 +171,19 @@ std::string xml_text(std::string_view text)
 
 std::string gate_junit(const GateReport& report)
 {
-    std::string cases;
-    std::size_t tests = 0;
-    std::size_t failures = 0;
-    std::size_t errors = 0;
-    for (const JunitCase& one : junit_cases(report)) {
-        cases += case_element(one);
-        ++tests;
-        failures += one.element == "failure" ? 1U : 0U;
-        errors += one.element == "error" ? 1U : 0U;
-    }
-    return fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
-        "  <testsuite id=\"0\" package=\"gnomon\" name=\"gate\" tests=\"{}\" failures=\"{}\" "
-        "errors=\"{}\" time=\"0\" timestamp=\"1970-01-01T00:00:00\" hostname=\"localhost\">\n"
-        "    <properties>\n{}{}{}    </properties>\n{}"
-        "    <system-out>{}</system-out>\n    <system-err></system-err>\n"
-        "  </testsuite>\n</testsuites>\n",
-        tests, failures, errors, property_element("baseline", report.baseline_file.string()),
-        property_element("baseline renderer", renderer_text(report.baseline.environment)),
-        property_element("run renderer", renderer_text(report.run.results.environment)), cases,
-        xml_text(junit_notes(report)));
+    return document(
+        junit_cases(report),
+        property_element("baseline", report.baseline_file.string()) +
+            property_element("baseline renderer", renderer_text(report.baseline.environment)) +
+            property_element("run renderer", renderer_text(report.run.results.environment)),
+        junit_notes(report));
+}
+
+std::string gate_junit_refusal(std::string_view baseline_file, std::string_view problem)
+{
+    const std::string text{problem};
+    return document({{"the run can be compared", "error", "not_comparable", text, text}},
+                    property_element("baseline", baseline_file), text);
 }
 
 } // namespace gnomon::reports

@@ -19,4 +19,9 @@ namespace gnomon::reports {
 /// Source: Ant's format, as in https://github.com/windyroad/JUnit-Schema.
 [[nodiscard]] std::string gate_junit(const GateReport& report);
 
+/// The same of a run that cannot be compared with its baseline: one test case, in error.
+/// @param problem  one line.
+[[nodiscard]] std::string gate_junit_refusal(std::string_view baseline_file,
+                                             std::string_view problem);
+
 } // namespace gnomon::reports

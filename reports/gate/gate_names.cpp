@@ -13,15 +13,15 @@ namespace gnomon::reports {
 
 namespace {
 
-bool is_count(std::string_view name)
+bool is_whole(std::string_view name)
 {
     const analysis::GateMetric* const metric = analysis::find_gate_metric(name);
-    return metric != nullptr && (metric->is_pixel_count || name == "map_bytes");
+    return metric != nullptr && metric->is_whole;
 }
 
 std::string number_text(std::string_view metric, double value)
 {
-    return is_count(metric) ? grouped(static_cast<std::uint64_t>(value))
+    return is_whole(metric) ? grouped(static_cast<std::uint64_t>(value))
                             : fmt::format("{:.6g}", value);
 }
 
@@ -106,7 +106,7 @@ std::string change_text(std::string_view metric, const std::optional<double>& be
 
 Json metric_json(std::string_view metric, const std::optional<double>& value)
 {
-    if (value && is_count(metric)) {
+    if (value && is_whole(metric)) {
         return Json(static_cast<std::uint64_t>(*value));
     }
     return number_or_null(value);
@@ -133,6 +133,8 @@ std::string_view reason_code(analysis::GateReason reason)
         return "below_min";
     case analysis::GateReason::worse_than_baseline:
         return "worse_than_baseline";
+    case analysis::GateReason::nothing_tested:
+        return "nothing_tested";
     case analysis::GateReason::traded_off:
         return "traded_off";
     case analysis::GateReason::not_available:

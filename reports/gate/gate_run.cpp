@@ -11,6 +11,7 @@
 #include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,9 +67,9 @@ public:
           find_errors_{run.database(), "SELECT min(\"map_error_m.min\"), max(\"map_error_m.max\")"
                                        " FROM error_vs_z WHERE curve = ?"},
           find_point_{run.database(),
-                      "SELECT false_shadow, false_lit, false_shadow_rate, false_lit_rate,"
-                      " error_rate FROM bias_curves WHERE curve = ?1 ORDER BY bias > ?2,"
-                      " CASE WHEN bias > ?2 THEN bias ELSE -bias END LIMIT 1"}
+                      fmt::format("SELECT {} FROM bias_curves WHERE curve = ?1 ORDER BY bias > ?2,"
+                                  " CASE WHEN bias > ?2 THEN bias ELSE -bias END LIMIT 1",
+                                  fmt::join(analysis::curve_point_columns(), ", "))}
     {
     }
 
@@ -110,8 +111,7 @@ private:
 
     void add_points(std::map<std::string, double>& metrics, const std::string& curve)
     {
-        static const std::vector<std::string> columns{
-            "false_shadow", "false_lit", "false_shadow_rate", "false_lit_rate", "error_rate"};
+        const auto& columns = analysis::curve_point_columns();
         for (const analysis::CurvePointMetric& point : *points_) {
             const auto column = std::find(columns.begin(), columns.end(), point.column);
             const auto place = static_cast<int>(column - columns.begin());

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace gnomon::reports {
@@ -43,6 +44,12 @@ std::string verdict_sentence(const GateReport& report)
     return line;
 }
 
+/// The pixels that must be scored: `min`, or what the baseline's may fall to.
+double least_scored(const analysis::GateRule& rule, const analysis::GateFinding& finding)
+{
+    return rule.min.value_or(std::ceil(finding.before.value_or(0) - finding.limit.value_or(0)));
+}
+
 std::string broken_limit_text(const GateReport& report, const analysis::GateFinding& finding)
 {
     const std::string limit = metric_text(report.rules[finding.rule].metric, finding.limit);
@@ -53,6 +60,10 @@ std::string broken_limit_text(const GateReport& report, const analysis::GateFind
         return fmt::format("min {}", limit);
     case analysis::GateReason::worse_than_baseline:
         return fmt::format("{} allowed", limit);
+    case analysis::GateReason::nothing_tested:
+        return fmt::format("nothing is tested: at least {} needed",
+                           metric_text(report.rules[finding.rule].metric,
+                                       least_scored(report.rules[finding.rule], finding)));
     case analysis::GateReason::traded_off:
         return fmt::format("{} allowed, traded for fewer wrong pixels", limit);
     case analysis::GateReason::not_available:

@@ -50,7 +50,8 @@ std::string count_cells(const ResultRow& row)
            number_cell(percent(row.number("false_shadow_rate"))) +
            number_cell(grouped(row.count("false_lit"))) +
            number_cell(percent(row.number("false_lit_rate"))) +
-           number_cell(percent(row.number("error_rate")));
+           number_cell(percent(row.number("error_rate"))) +
+           number_cell(percent(row.number("mean_abs_error")));
 }
 
 /// "" for one configuration, else its settings.
@@ -61,10 +62,10 @@ std::string row_name(const OverviewRow& row)
 
 std::string headline_table(const RunOverview& overview)
 {
-    std::string html = table_head(
-        overview.rows.size() > 1 ? "Lowest error rates, and the highest"
-                                 : "Errors among the scored pixels",
-        {"configuration", "false shadow", "of lit", "false lit", "of blocked", "error rate"});
+    std::string html = table_head(overview.rows.size() > 1 ? "Lowest error rates, and the highest"
+                                                           : "Errors among the scored pixels",
+                                  {"configuration", "false shadow", "of lit", "false lit",
+                                   "of blocked", "error rate", "mean error"});
     for (const OverviewRow& row : overview.rows) {
         const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
         html += fmt::format("<tr{}>{}{}</tr>\n", is_highest ? " class=\"highest\"" : "",
@@ -193,8 +194,9 @@ std::string objects_table(const Json& detail)
     };
     std::stable_sort(objects.begin(), objects.end(),
                      [&](const Json* a, const Json* b) { return wrong(a) > wrong(b); });
-    std::string html = table_head("By object, most errors first",
-                                  {"object", "false shadow", "of lit", "false lit", "of blocked"});
+    std::string html =
+        table_head("By object, most errors first",
+                   {"object", "false shadow", "of lit", "false lit", "of blocked", "mean error"});
     for (std::size_t i = 0; i < std::min(objects.size(), most_objects); ++i) {
         const Json& object = *objects[i];
         const auto name = object.find("object");
@@ -204,7 +206,8 @@ std::string objects_table(const Json& detail)
                 number_cell(grouped(member(object, "false_shadow"))) +
                 number_cell(percent(rate(object, "false_shadow_rate"))) +
                 number_cell(grouped(member(object, "false_lit"))) +
-                number_cell(percent(rate(object, "false_lit_rate"))) + "</tr>\n";
+                number_cell(percent(rate(object, "false_lit_rate"))) +
+                number_cell(percent(rate(object, "mean_abs_error"))) + "</tr>\n";
     }
     html += table_end;
     if (objects.size() > most_objects) {

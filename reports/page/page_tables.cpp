@@ -1,6 +1,10 @@
 #include "reports/page/page_tables.hpp"
 
+#include "reports/run/run_columns.hpp"
 #include "reports/run/run_csv.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -149,25 +153,38 @@ void read_rows(Statement& rows, std::vector<ColumnReader>& columns)
     }
 }
 
+std::string point_query()
+{
+    std::vector<std::string> names;
+    for (const auto& column : point_columns()) {
+        names.push_back(column.name);
+    }
+    return fmt::format("SELECT {} FROM curve_points WHERE curve ="
+                       " (SELECT number FROM curves WHERE id = ?) ORDER BY point",
+                       fmt::join(names, ", "));
+}
+
 /// Points of a curve, of which every n-th is kept.
 class PointReader {
 public:
     PointReader(const sqlite::Database& database, std::size_t stride)
-        : find_{database, "SELECT bias, false_shadow, false_lit FROM curve_points WHERE curve ="
-                          " (SELECT number FROM curves WHERE id = ?) ORDER BY point"},
-          stride_{stride}
+        : find_{database, point_query()},
+          stride_{stride},
+          values_(point_columns().size())
     {
     }
 
     void read(const std::string& curve)
     {
-        first_.push_back(static_cast<std::uint32_t>(bias_.size()));
+        const std::size_t before = points();
+        first_.push_back(static_cast<std::uint32_t>(before));
         find_.bind(1, std::string_view{curve});
         std::size_t index = 0;
-        std::array<double, 3> last{};
+        std::vector<double> last(values_.size());
         while (find_.step()) {
-            last = {number_in(find_.value(0)), number_in(find_.value(1)),
-                    number_in(find_.value(2))};
+            for (std::size_t i = 0; i < last.size(); ++i) {
+                last[i] = number_in(find_.value(static_cast<int>(i)));
+            }
             if (index++ % stride_ == 0) {
                 keep(last);
             }
@@ -175,34 +192,45 @@ public:
         if (index > 0 && (index - 1) % stride_ != 0) {
             keep(last);
         }
-        count_.push_back(static_cast<std::uint32_t>(bias_.size()) - first_.back());
+        count_.push_back(static_cast<std::uint32_t>(points() - before));
     }
 
-    void pack_into(PackedBlocks& blocks, Json& columns, Json& points) const
+    void pack_into(PackedBlocks& blocks, Json& columns, Json& points_json) const
     {
         columns.push_back(named("first_point", blocks.add(pack(std::span{first_}))));
         columns.push_back(named("points", blocks.add(pack(std::span{count_}))));
-        points["count"] = bias_.size();
-        points["columns"] = {named("bias", blocks.add(pack(std::span{bias_}))),
-                             named("false_shadow", blocks.add(pack(std::span{false_shadow_}))),
-                             named("false_lit", blocks.add(pack(std::span{false_lit_})))};
+        points_json["count"] = points();
+        points_json["columns"] = Json::array();
+        for (std::size_t i = 0; i < values_.size(); ++i) {
+            const auto& column = point_columns()[i];
+            points_json["columns"].push_back(named(
+                column.name, blocks.add(column.is_integer() ? packed_as<std::uint32_t>(values_[i])
+                                                            : packed_as<float>(values_[i]))));
+        }
     }
 
 private:
-    void keep(const std::array<double, 3>& point)
+    [[nodiscard]] std::size_t points() const { return values_.front().size(); }
+    template <typename Number>
+    static PackedArray packed_as(const std::vector<double>& values)
     {
-        bias_.push_back(static_cast<float>(point[0]));
-        false_shadow_.push_back(static_cast<std::uint32_t>(point[1]));
-        false_lit_.push_back(static_cast<std::uint32_t>(point[2]));
+        std::vector<Number> numbers(values.size());
+        std::ranges::transform(values, numbers.begin(),
+                               [](double value) { return static_cast<Number>(value); });
+        return pack(std::span{numbers});
+    }
+    void keep(const std::vector<double>& point)
+    {
+        for (std::size_t i = 0; i < point.size(); ++i) {
+            values_[i].push_back(point[i]);
+        }
     }
 
     Statement find_;
     std::size_t stride_;
     std::vector<std::uint32_t> first_;
     std::vector<std::uint32_t> count_;
-    std::vector<float> bias_;
-    std::vector<std::uint32_t> false_shadow_;
-    std::vector<std::uint32_t> false_lit_;
+    std::vector<std::vector<double>> values_; ///< by column
 };
 
 } // namespace

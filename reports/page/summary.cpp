@@ -26,15 +26,16 @@ std::string table(const RunOverview& overview)
 {
     std::string text =
         "| configuration | false shadow | of lit | false lit | of blocked | error rate "
-        "|\n|---|---:|---:|---:|---:|---:|\n";
+        "| mean error |\n|---|---:|---:|---:|---:|---:|---:|\n";
     for (const OverviewRow& row : overview.rows) {
         const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
         text += fmt::format(
-            "| {}{} | {} | {} | {} | {} | {} |\n", is_highest ? "highest: " : "",
+            "| {}{} | {} | {} | {} | {} | {} | {} |\n", is_highest ? "highest: " : "",
             row.settings.empty() ? "this shadow map" : markdown_text(row.settings),
             grouped(row.result.count("false_shadow")),
             percent(row.result.number("false_shadow_rate")), grouped(row.result.count("false_lit")),
-            percent(row.result.number("false_lit_rate")), percent(row.result.number("error_rate")));
+            percent(row.result.number("false_lit_rate")), percent(row.result.number("error_rate")),
+            percent(row.result.number("mean_abs_error")));
     }
     return text + "\n";
 }

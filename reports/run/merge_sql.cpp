@@ -48,7 +48,9 @@ Names result_names()
 
 Names point_names()
 {
-    return {"point", "bias", "false_shadow", "false_lit"};
+    Names names{"point"};
+    append_names(names, point_columns());
+    return names;
 }
 
 Names bin_names()

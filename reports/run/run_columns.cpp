@@ -1,6 +1,7 @@
 #include "reports/run/run_columns.hpp"
 
 #include "analysis/metric_table.hpp"
+#include "analysis/part_table.hpp"
 #include "reports/run/error_parts_json.hpp"
 #include "scene/job_keys.hpp"
 #include "scene/job_toml.hpp"
@@ -23,6 +24,7 @@ namespace {
 
 using analysis::ConfigurationResult;
 using analysis::CurveResult;
+using analysis::CurveSample;
 using analysis::ErrorBin;
 using analysis::Quantiles;
 using sqlite::Value;
@@ -205,19 +207,34 @@ const CurveColumns& bias_curve_columns()
     return columns;
 }
 
+const std::vector<RunColumn<CurveSample>>& point_columns()
+{
+    static const std::vector<RunColumn<CurveSample>> columns = [] {
+        std::vector<RunColumn<CurveSample>> all{
+            {"bias", real_type, [](const CurveSample& at) { return Value{double{at.bias}}; }}};
+        for (const analysis::PartQuantity& quantity : analysis::part_errors()) {
+            all.push_back({std::string{quantity.name}, type_of(quantity.type),
+                           [value = quantity.value](const CurveSample& at) {
+                               return cell(value(at.counts));
+                           }});
+        }
+        return all;
+    }();
+    return columns;
+}
+
 const std::vector<RunColumn<ErrorBin>>& bin_columns()
 {
     static const std::vector<RunColumn<ErrorBin>> columns = [] {
         std::vector<RunColumn<ErrorBin>> all{
             {"lower_m", real_type, [](const ErrorBin& bin) { return number(bin.lower); }},
-            {"upper_m", real_type, [](const ErrorBin& bin) { return number(bin.upper); }},
-            {"lit", integer_type, [](const ErrorBin& bin) { return count(bin.counts.lit); }},
-            {"blocked", integer_type,
-             [](const ErrorBin& bin) { return count(bin.counts.blocked); }},
-            {"false_shadow", integer_type,
-             [](const ErrorBin& bin) { return count(bin.counts.false_shadow); }},
-            {"false_lit", integer_type,
-             [](const ErrorBin& bin) { return count(bin.counts.false_lit); }}};
+            {"upper_m", real_type, [](const ErrorBin& bin) { return number(bin.upper); }}};
+        for (const analysis::PartQuantity& quantity : analysis::part_quantities()) {
+            all.push_back({std::string{quantity.name}, type_of(quantity.type),
+                           [value = quantity.value](const ErrorBin& bin) {
+                               return cell(value(bin.counts));
+                           }});
+        }
         add_quantile_columns(all, "needed_bias", &ErrorBin::needed_bias);
         add_quantile_columns(all, "map_error_m", &ErrorBin::map_error_m);
         all.push_back(

@@ -17,6 +17,8 @@ struct RunColumn {
     std::string name;      ///< in the database and in the CSV file
     std::string_view type; ///< of SQLite
     std::function<sqlite::Value(const Source&)> value;
+
+    [[nodiscard]] bool is_integer() const { return type == "INTEGER"; }
 };
 
 /// A job's key as a column.
@@ -40,6 +42,8 @@ struct JobColumn {
 /// Of the database alone: no CSV file has them.
 [[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& part_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& bias_curve_columns();
+/// Points of bias curves, and bins of light distance.
+[[nodiscard]] const std::vector<RunColumn<analysis::CurveSample>>& point_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::ErrorBin>>& bin_columns();
 
 /// A job's value as a cell: numbers as numbers, texts without their quotes, the rest as it stands.

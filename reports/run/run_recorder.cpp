@@ -5,6 +5,7 @@
 #include "scene/pixel_class.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <stdexcept>
 #include <string_view>
@@ -49,13 +50,12 @@ std::string configuration_update()
                        assignments(result_columns()), assignments(part_columns()));
 }
 
-std::string bin_insertion()
+/// A row of a table: so many values of its own, and its columns.
+template <typename Columns>
+std::string insertion(std::string_view table, std::size_t own, const Columns& columns)
 {
-    std::string values;
-    for (std::size_t i = 0; i < bin_columns().size(); ++i) {
-        values += ", ?";
-    }
-    return fmt::format("INSERT INTO curve_bins VALUES (?, ?, ?, ?, ?{})", values);
+    std::vector<std::string_view> values(own + columns.size(), "?");
+    return fmt::format("INSERT INTO {} VALUES ({})", table, fmt::join(values, ", "));
 }
 
 /// Binds a source's columns from parameter `first` on; returns the next parameter.
@@ -87,11 +87,11 @@ RunRecorder::RunRecorder(const Database& database)
       find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
       update_curve_{database, curve_update()},
       delete_points_{database, "DELETE FROM curve_points WHERE curve = ?"},
-      insert_point_{database, "INSERT INTO curve_points VALUES (?, ?, ?, ?, ?)"},
+      insert_point_{database, insertion("curve_points", 2, point_columns())},
       find_job_bias_{database, "SELECT job_bias FROM plan WHERE ordinal = ?"},
       delete_bins_{database, "DELETE FROM curve_bins WHERE curve = ?1 AND (job_bias IN ('', ?2) OR"
                              " (SELECT environment FROM curves WHERE number = ?1) <> ?3)"},
-      insert_bin_{database, bin_insertion()},
+      insert_bin_{database, insertion("curve_bins", 5, bin_columns())},
       delete_verification_{database, "DELETE FROM verifications WHERE curve = ?1 AND"
                                      " (SELECT environment FROM curves WHERE number = ?1) <> ?2"},
       insert_verification_{database, "INSERT OR REPLACE INTO verifications VALUES (?, ?, ?, ?)"},
@@ -137,13 +137,10 @@ void RunRecorder::write_points(const CurveResult& curve, std::int64_t number)
 {
     delete_points_.bind(1, number).run();
     std::int64_t point = 0;
-    for (const analysis::CurvePoint& at : curve.points) {
-        insert_point_.bind(1, number)
-            .bind(2, point++)
-            .bind(3, double{at.bias})
-            .bind(4, static_cast<std::int64_t>(at.errors.false_shadow))
-            .bind(5, static_cast<std::int64_t>(at.errors.false_lit))
-            .run();
+    for (const analysis::CurveSample& at : curve.points) {
+        insert_point_.bind(1, number).bind(2, point++);
+        bind_columns(insert_point_, 3, point_columns(), at);
+        insert_point_.run();
     }
 }
 

@@ -1,5 +1,6 @@
 #include "reports/run/run_schema.hpp"
 
+#include "analysis/part_table.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -44,10 +46,12 @@ constexpr const char* plan_table = "CREATE TABLE plan (ordinal INTEGER PRIMARY K
                                    " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL,"
                                    " job_bias TEXT NOT NULL)";
 
-constexpr const char* points_table =
-    "CREATE TABLE curve_points (curve INTEGER NOT NULL REFERENCES curves, point INTEGER,"
-    " bias REAL, false_shadow INTEGER, false_lit INTEGER, PRIMARY KEY (curve, point))"
-    " WITHOUT ROWID";
+std::string points_table()
+{
+    return fmt::format("CREATE TABLE curve_points (curve INTEGER NOT NULL REFERENCES curves,"
+                       " point INTEGER{}, PRIMARY KEY (curve, point)) WITHOUT ROWID",
+                       definitions(point_columns()));
+}
 
 constexpr const char* verifications_table =
     "CREATE TABLE verifications (curve INTEGER PRIMARY KEY REFERENCES curves,"
@@ -98,14 +102,27 @@ std::string results_view()
     return fmt::format("CREATE VIEW results AS SELECT {} FROM {}", columns, results_tables());
 }
 
-/// The three rates of counts, as columns; NULL where there is nothing to divide by.
-std::string rates(std::string_view counts, std::string_view pixels)
+/// The sum of columns of a table.
+std::string sum_of(std::span<const std::string_view> names, std::string_view table)
 {
-    return fmt::format("CAST({0}.false_shadow AS REAL) / nullif({1}.lit, 0) AS false_shadow_rate,"
-                       " CAST({0}.false_lit AS REAL) / nullif({1}.blocked, 0) AS false_lit_rate,"
-                       " CAST({0}.false_shadow + {0}.false_lit AS REAL)"
-                       " / nullif({1}.lit + {1}.blocked, 0) AS error_rate",
-                       counts, pixels);
+    std::string sum;
+    for (const std::string_view name : names) {
+        sum += fmt::format("{}{}.{}", sum.empty() ? "" : " + ", table, name);
+    }
+    return sum;
+}
+
+/// All rates as columns, each after a comma; NULL where there is nothing to divide by.
+/// @param errors  the table of what is wrong.
+/// @param pixels  that of what there is.
+std::string rates(std::string_view errors, std::string_view pixels)
+{
+    std::string columns;
+    for (const analysis::PartRate& rate : analysis::part_rates()) {
+        columns += fmt::format(", CAST({} AS REAL) / nullif({}, 0) AS {}",
+                               sum_of(rate.errors, errors), sum_of(rate.pixels, pixels), rate.name);
+    }
+    return columns;
 }
 
 } // namespace
@@ -151,7 +168,7 @@ std::string error_vs_z_columns()
         const bool is_count = depths.empty() && column.name.find('.') == std::string::npos;
         (is_count ? counts : depths) += fmt::format(", b.{}", sql_name(column.name));
     }
-    return fmt::format("v.id AS curve, b.\"at\" AS \"at\", b.bias AS bias{}, {}{}"
+    return fmt::format("v.id AS curve, b.\"at\" AS \"at\", b.bias AS bias{}{}{}"
                        " FROM curve_bins b JOIN curves v ON v.number = b.curve",
                        counts, rates("b", "b"), depths);
 }
@@ -160,10 +177,13 @@ namespace {
 
 std::string bias_curves_view()
 {
-    return fmt::format("CREATE VIEW bias_curves AS SELECT v.id AS curve, b.bias AS bias,"
-                       " b.false_shadow AS false_shadow, b.false_lit AS false_lit, {}"
+    std::string columns;
+    for (const auto& column : point_columns()) {
+        columns += fmt::format(", b.{0} AS {0}", sql_name(column.name));
+    }
+    return fmt::format("CREATE VIEW bias_curves AS SELECT v.id AS curve{}{}"
                        " FROM curve_points b JOIN curves v ON v.number = b.curve",
-                       rates("b", "v"));
+                       columns, rates("b", "v"));
 }
 
 std::vector<std::string> schema_statements()
@@ -173,7 +193,7 @@ std::vector<std::string> schema_statements()
             curves_table(),
             configurations_table(),
             plan_table,
-            points_table,
+            points_table(),
             bins_table(),
             verifications_table,
             part_view(),
@@ -218,8 +238,9 @@ void require_run_schema(const Database& database)
     }
     const auto version = database.integer("PRAGMA user_version");
     if (version != run_schema) {
-        refuse_database(database,
-                        fmt::format("its schema is {}, this Gnomon's is {}", version, run_schema));
+        refuse_database(database, fmt::format("its schema is {}, this Gnomon's is {}; compute it "
+                                              "anew",
+                                              version, run_schema));
     }
     // A key or a result that came or went makes other columns.
     for (const std::string& statement : schema_statements()) {

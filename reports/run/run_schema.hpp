@@ -10,7 +10,7 @@
 namespace gnomon::reports {
 
 /// Of the database's tables and of the CSV files' columns.
-inline constexpr int run_schema = 1;
+inline constexpr int run_schema = 2;
 
 /// The database of a run, in its folder.
 [[nodiscard]] std::filesystem::path results_path(const std::filesystem::path& folder);

@@ -301,7 +301,7 @@ void Database::require_sound() const
 
 void Database::fail_as_damaged(std::string_view what) const
 {
-    throw scene::InputError(
+    throw DamagedDatabase(
         scene::one_line(fmt::format("{}: is damaged, or no database of results ({}): bring back a "
                                     "copy, or name another folder",
                                     path_.string(), what)));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/error.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -18,6 +20,11 @@ using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
 
 /// A value that lives as long as the statement is not stepped or reset.
 using ValueView = std::variant<std::monostate, std::int64_t, double, std::string_view>;
+
+/// A file that is no database, or not a whole one.
+class DamagedDatabase : public scene::InputError {
+    using InputError::InputError;
+};
 
 class Database;
 

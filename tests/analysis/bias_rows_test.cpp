@@ -3,7 +3,6 @@
 #include "analysis/bias_rows.hpp"
 
 #include "analysis/bias_order.hpp"
-#include "analysis/lookup/stored_taps.hpp"
 #include "analysis/metrics.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
@@ -22,7 +21,6 @@
 namespace gnomon::analysis {
 namespace {
 
-using scene::Filter;
 using scene::infinity;
 using scene::Outside;
 using scene::PixelClass;
@@ -142,9 +140,6 @@ TEST(BiasRows, OfNoBiasAreNone)
 {
     const Subject subject{{2, 1}};
     EXPECT_THAT(subject.rows({}), IsEmpty());
-    const scene::Image<float> map{{1, 1}};
-    EXPECT_THAT(count_wrong_taps(subject.classes, subject.deciding, map, {Filter::pcf3}, {}),
-                IsEmpty());
     EXPECT_THAT(find_gaps_at({}, {}), IsEmpty());
 }
 
@@ -203,13 +198,9 @@ TEST(BiasRows, AgreeWithCountingEachBiasByItself)
 TEST(BiasRows, RejectBiasesThatDoNotAscend)
 {
     const Subject subject{{1, 1}};
-    const scene::Image<float> map{{1, 1}};
     for (const std::vector<float>& biases :
          {std::vector<float>{1.0F, 0.5F}, {0.5F, 0.5F}, {-0.0F, 0.0F}}) {
         EXPECT_THROW((void)subject.rows(biases), std::invalid_argument);
-        EXPECT_THROW(
-            (void)count_wrong_taps(subject.classes, subject.deciding, map, {Filter::pcf3}, biases),
-            std::invalid_argument);
         EXPECT_THROW((void)find_gaps_at({}, biases), std::invalid_argument);
     }
 }
@@ -234,120 +225,6 @@ TEST(BiasRows, RejectImagesOfDifferentSizes)
     EXPECT_THROW((void)count_rows({subject.classes, subject.deciding, critical, other.causes, {}},
                                   curve, biases),
                  std::invalid_argument);
-}
-
-/// A pcfK lookup of some pixels in a small map.
-struct Taps {
-    scene::Image<PixelClass> classes;
-    scene::LookupLayers lookup;
-    scene::Image<float> map;
-    LookupRule rule;
-};
-
-/// Lit taps of a pixel, counted as the shader does.
-int count_lit_taps(const Taps& taps, std::size_t pixel, float bias)
-{
-    const scene::LookupSample& sample = taps.lookup.samples[pixel];
-    const LookupRule& rule = taps.rule;
-    const int radius = scene::filter_width_texels(rule.filter) / 2;
-    const int side = taps.map.size().width_px;
-    const float r = sample.receiver_depth;
-    const float whole = bias + rule.slope * sample.tan_theta;
-    const bool is_beyond_far = rule.reversed ? r < 0.0F : r > 1.0F;
-    int lit = 0;
-    for (int y = -radius; y <= radius; ++y) {
-        for (int x = -radius; x <= radius; ++x) {
-            const int column = static_cast<int>(std::floor(taps.lookup.texels[pixel].x)) + x;
-            const int row = static_cast<int>(std::floor(taps.lookup.texels[pixel].y)) + y;
-            const bool is_outside = column < 0 || row < 0 || column >= side || row >= side;
-            if (rule.outside != Outside::clamp && (is_outside || is_beyond_far)) {
-                lit += rule.outside == Outside::lit ? 1 : 0;
-                continue;
-            }
-            const float d =
-                taps.map(std::clamp(column, 0, side - 1), side - 1 - std::clamp(row, 0, side - 1));
-            lit += (rule.reversed ? r + whole >= d : r - whole <= d) ? 1 : 0;
-        }
-    }
-    return lit;
-}
-
-Taps random_taps(std::mt19937& random)
-{
-    constexpr std::array<Filter, 4> filters{Filter::pcf3, Filter::pcf5, Filter::pcf7, Filter::pcf9};
-    constexpr std::array<float, 3> slopes{0.0F, 0.0625F, -0.1F};
-    const int side = 1 + static_cast<int>(random() % 12);
-    const scene::ImageSize size{1 + static_cast<int>(random() % 4),
-                                1 + static_cast<int>(random() % 4)};
-    Taps taps{scene::Image<PixelClass>{size},
-              {scene::Image<scene::LookupSample>{size}, scene::Image<scene::Vec2f>{size}},
-              scene::Image<float>{{side, side}},
-              {filters.at(random() % 4), static_cast<Outside>(random() % 3), random() % 2 == 0,
-               slopes.at(random() % 3)}};
-    for (std::size_t i = 0; i < taps.map.pixel_count(); ++i) {
-        taps.map[i] = random_depth(random);
-    }
-    std::uniform_real_distribution<float> coordinate{-6.0F, static_cast<float>(side) + 6.0F};
-    constexpr std::array<PixelClass, 3> classes{PixelClass::lit, PixelClass::blocked,
-                                                PixelClass::attached};
-    for (std::size_t i = 0; i < taps.classes.pixel_count(); ++i) {
-        taps.classes[i] = classes.at(random() % 3);
-        taps.lookup.texels[i] = {coordinate(random), coordinate(random)};
-        const bool is_outside = random() % 6 == 0 && taps.rule.outside != Outside::clamp;
-        taps.lookup.samples[i] = {random_depth(random) + (is_outside ? 1.0F : 0.0F), 0.5F,
-                                  static_cast<float>(random() % 3) * 0.5F, 0};
-    }
-    return taps;
-}
-
-TEST(WrongTaps, AreTheTapsThatDisagreeWithTheTruth)
-{
-    Taps taps{scene::Image<PixelClass>{{2, 1}},
-              {scene::Image<scene::LookupSample>{{2, 1}, {0.75F, 0.25F, 0, 0}},
-               scene::Image<scene::Vec2f>{{2, 1}, {1.5F, 1.5F}}},
-              scene::Image<float>{{3, 3}, 0.25F},
-              {Filter::pcf3}};
-    taps.classes[0] = PixelClass::lit;
-    taps.classes[1] = PixelClass::blocked;
-    taps.map(2, 0) = 0.75F;
-    // Without bias one tap of nine is lit: eight errors of the lit pixel, one of the blocked one.
-    const std::vector<float> biases{0.0F, previous_bias(0.5F), 0.5F};
-    EXPECT_THAT(count_wrong_taps(taps.classes, taps.lookup, taps.map, taps.rule, biases),
-                ElementsAre(9, 9, 9));
-    taps.classes[1] = PixelClass::attached;
-    EXPECT_THAT(count_wrong_taps(taps.classes, taps.lookup, taps.map, taps.rule, biases),
-                ElementsAre(8, 8, 0));
-}
-
-TEST(WrongTaps, AgreeWithCountingEachBiasByItself)
-{
-    std::mt19937 random{32};
-    for (int round = 0; round < 1000; ++round) {
-        const Taps taps = random_taps(random);
-        std::vector<float> criticals;
-        for (int i = 0; i < 6; ++i) {
-            criticals.push_back(random_depth(random) - random_depth(random));
-        }
-        const auto biases = random_biases(random, criticals);
-        const auto wrong = count_wrong_taps(taps.classes, taps.lookup, taps.map, taps.rule, biases);
-        ASSERT_EQ(wrong.size(), biases.size());
-        const int all = scene::promises(taps.rule.filter).equal_taps();
-        for (std::size_t i = 0; i < biases.size(); ++i) {
-            std::uint64_t expected = 0;
-            for (std::size_t pixel = 0; pixel < taps.classes.pixel_count(); ++pixel) {
-                const int lit = count_lit_taps(taps, pixel, biases[i]);
-                const PixelClass truth = taps.classes[pixel];
-                expected += truth == PixelClass::lit       ? static_cast<unsigned>(all - lit)
-                            : truth == PixelClass::blocked ? static_cast<unsigned>(lit)
-                                                           : 0U;
-            }
-            ASSERT_EQ(wrong[i], expected)
-                << "round " << round << ", bias " << biases[i] << ", "
-                << scene::filter_name(taps.rule.filter) << ", "
-                << scene::outside_name(taps.rule.outside) << ", slope " << taps.rule.slope
-                << (taps.rule.reversed ? ", reversed" : "");
-        }
-    }
 }
 
 } // namespace

@@ -185,7 +185,7 @@ inline const std::vector<scene::CaseLayer> two_cameras{
 
 inline std::string result_text(const Comparison& comparison)
 {
-    return text_of(finish_compared(comparison, "", 0, 0).rows.front().result);
+    return text_of(finish_compared(comparison, "", 0).rows.front().result);
 }
 
 /// Every row is what a comparison of its own gives.

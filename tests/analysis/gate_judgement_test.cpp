@@ -313,6 +313,51 @@ TEST(DefaultGateRules, LetAnImprovementHaveItsPrice)
               GateVerdict::regression);
 }
 
+TEST(DefaultGateRules, HoldAmountsAsTheyHoldCounts)
+{
+    EXPECT_EQ(judged_change({{"shadow_amount", 10}, {"pixels.total", 100'000}},
+                            {{"shadow_amount", 11.5}, {"pixels.total", 100'000}})
+                  .first,
+              GateVerdict::regression);
+    // Traded off by what both amounts fell by: no count changed.
+    const auto [passes, warnings] = judged_change({{"shadow_amount", 1000}, {"light_amount", 0}},
+                                                  {{"shadow_amount", 0}, {"light_amount", 90}});
+    EXPECT_EQ(passes, GateVerdict::pass);
+    EXPECT_EQ(warnings, std::vector<GateReason>{GateReason::traded_off});
+    EXPECT_EQ(judged_change({{"mean_abs_error", 0.1}}, {{"mean_abs_error", 0.1002}}).first,
+              GateVerdict::regression);
+    EXPECT_EQ(judged_change({{"mean_abs_error", 0.1}}, {{"mean_abs_error", 0.10009}}).first,
+              GateVerdict::pass);
+}
+
+TEST(DefaultGateRules, FailWhereNothingIsTested)
+{
+    const auto scored = [](double lit, double blocked) {
+        return std::map<std::string, double>{{"pixels.lit", lit}, {"pixels.blocked", blocked}};
+    };
+    using Reasons = std::vector<GateReason>;
+    EXPECT_EQ(judged_change(scored(500, 500), scored(900, 0)).second, Reasons{});
+    const auto [verdict, reasons] = judged_change(scored(500, 500), scored(0, 899));
+    EXPECT_EQ(verdict, GateVerdict::regression);
+    EXPECT_EQ(reasons, Reasons{GateReason::nothing_tested});
+    EXPECT_EQ(judged_change(scored(0, 0), scored(0, 0)).second,
+              Reasons{GateReason::nothing_tested});
+}
+
+TEST(DefaultGateRules, HoldTheClassesOfAnUnchangedJob)
+{
+    const std::vector<GateRule> rules = default_gate_rules();
+    const auto run = [](double lit) {
+        return gate_entries({gate_entry("1", {{"pixels.lit", lit}, {"pixels.blocked", 5}})});
+    };
+    const auto verdict = [&](double lit) {
+        return gate_verdict(judge_run(run(10), run(lit), rules), rules, true);
+    };
+    EXPECT_EQ(verdict(10), GateVerdict::pass);
+    EXPECT_EQ(verdict(9), GateVerdict::regression);
+    EXPECT_EQ(verdict(11), GateVerdict::regression);
+}
+
 TEST(DefaultGateRules, LetPixelsThatStayWrongChangeTheirCause)
 {
     const std::map<std::string, double> before{{"false_shadow", 1000},

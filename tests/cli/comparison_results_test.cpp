@@ -83,7 +83,7 @@ TEST(Comparison, OfScannedMeshesOnGroundCountsEveryPixel)
 TEST(ComparisonJson, HasEveryNameOfTheSchema)
 {
     const Json result = compare(small({"--builtin", "sphere-cube"}));
-    EXPECT_EQ(result.at("schema"), 1);
+    EXPECT_EQ(result.at("schema"), 2);
     const std::map<std::string, std::vector<std::string>> groups{
         {"pixels",
          {"total", "background", "unmatched", "attached", "out_of_light", "indeterminate", "lit",

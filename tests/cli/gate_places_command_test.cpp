@@ -231,7 +231,7 @@ TEST(GateRules, JudgePointsOfTheCurve)
     expect_done(folder.save("run", rules));
     expect_done(folder.gate("run", rules));
     record_example(folder.at("worse"), run,
-                   [](auto&, auto& curves) { ++curves[0].curve.points[0].errors.false_shadow; });
+                   [](auto&, auto& curves) { ++curves[0].curve.points[0].counts.false_shadow; });
     EXPECT_THAT(folder.gate("worse", rules).out,
                 HasSubstr("bias_curve.at(1e-06).false_shadow         1,000        1,001"));
 }

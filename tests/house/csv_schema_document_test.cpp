@@ -69,8 +69,8 @@ TEST(CsvSchemaDocument, SpeaksOfTheSchemaThatIsWritten)
 {
     const TemporaryFolder folder;
     ExampleRun{1, 1}.compute(folder.path());
-    EXPECT_EQ(read_csv(folder / "results.csv").rows.at(0).at("schema"), "1");
-    EXPECT_NE(read_text(GNOMON_CSV_SCHEMA_DOCUMENT).find("a `schema`, which is 1"),
+    EXPECT_EQ(read_csv(folder / "results.csv").rows.at(0).at("schema"), "2");
+    EXPECT_NE(read_text(GNOMON_CSV_SCHEMA_DOCUMENT).find("a `schema`, which is 2"),
               std::string::npos);
 }
 

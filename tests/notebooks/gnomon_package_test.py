@@ -180,8 +180,8 @@ class BadInput(unittest.TestCase):
         self.refuse(gnomon.load_run, self.altered_run(lambda text: ""), "cannot be read as CSV")
         self.refuse(gnomon.load_run, self.altered_run(lambda text: text.replace("schema,", "s,", 1)),
                     "no column schema")
-        self.refuse(gnomon.load_run, self.altered_run(lambda text: text.replace("\n1,", "\n9,", 1)),
-                    "schema 9, this package reads 1")
+        self.refuse(gnomon.load_run, self.altered_run(lambda text: text.replace("\n2,", "\n9,", 1)),
+                    "schema 9, this package reads 1 and 2")
 
     def test_in_images_is_one_line(self):
         (image,) = (folder / "view" / "pixels").glob("*.exr")

@@ -126,8 +126,8 @@ TEST(Baseline, RefusesWhatWasEditedWrongly)
         return json["configurations"][0];
     };
     const std::vector<Edit> edits{
-        {"schema: is not 1", [](BaselineTree& json) { json["schema"] = 2; }},
-        {"schema: is not 1", [](BaselineTree& json) { json["schema"] = "1"; }},
+        {"schema: is not 2", [](BaselineTree& json) { json["schema"] = 1; }},
+        {"schema: is not 2", [](BaselineTree& json) { json["schema"] = "2"; }},
         {"lacks \"axes\"", [](BaselineTree& json) { json.erase("axes"); }},
         {"the file.more: the key is unknown", [](BaselineTree& json) { json["more"] = 1; }},
         {"environment.embree: is no text",
@@ -180,7 +180,7 @@ TEST(Baseline, RefusesHostileTexts)
     };
     EXPECT_THAT(baseline_refusal(with("\"false_lit\":", "\"false_lit\": 1, \"false_lit\":")),
                 HasSubstr("false_lit: the key stands twice"));
-    EXPECT_THAT(baseline_refusal(with("\"schema\": 1", "\"schema\": 1, \"schema\": 1")),
+    EXPECT_THAT(baseline_refusal(with("\"schema\": 2", "\"schema\": 2, \"schema\": 2")),
                 HasSubstr("schema: the key stands twice"));
     EXPECT_THAT(baseline_refusal(with("\"error_rate\": ", "\"error_rate\": NaN, \"x\": ")),
                 HasSubstr("not JSON"));

@@ -60,7 +60,7 @@ TEST(ComparisonJson, GivesTheMeasuredNumbers)
     const analysis::Comparison& comparison = example().comparison;
     const analysis::Metrics& metrics = comparison.metrics;
     const json object = parsed(comparison);
-    EXPECT_EQ(object["schema"], 1);
+    EXPECT_EQ(object["schema"], 2);
     for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
         EXPECT_EQ(object["pixels"][std::string{scene::pixel_class_names[i]}],
                   metrics.pixels.by_class[i]);

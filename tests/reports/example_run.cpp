@@ -30,18 +30,19 @@ analysis::Quantiles quantiles(float scale)
 analysis::ConfigurationResult example_result(std::uint64_t ordinal)
 {
     analysis::ConfigurationResult result;
-    analysis::Metrics& metrics = result.metrics;
-    metrics.pixels.total = 921'600;
-    metrics.pixels.by_class = {300'000, 30, 22'000, 61'570, 0, 380'000, 158'000};
-    metrics.pixels.by_reason = {921'570, 30, 0, 0, 0, 0, 0};
-    metrics.false_shadow = 1000 + ordinal % 997;
-    metrics.false_lit = ordinal % 13;
-    metrics.false_shadow_rate = static_cast<double>(metrics.false_shadow) / 380'000;
-    metrics.false_lit_rate = static_cast<double>(metrics.false_lit) / 158'000;
-    metrics.error_rate = static_cast<double>(metrics.false_shadow + metrics.false_lit) / 538'000;
-    metrics.mean_abs_error = metrics.error_rate;
-    result.causes = analysis::CauseCounts{{0, 1, 2, metrics.false_shadow - 3, metrics.false_lit},
-                                          {0, metrics.false_shadow, metrics.false_lit, 0, 0, 0}};
+    analysis::ClassCounts pixels;
+    pixels.total = 921'600;
+    pixels.by_class = {300'000, 30, 22'000, 61'570, 0, 380'000, 158'000};
+    pixels.by_reason = {921'570, 30, 0, 0, 0, 0, 0};
+    const std::uint64_t false_shadow = 1000 + ordinal % 997;
+    const std::uint64_t false_lit = ordinal % 13;
+    result.metrics = analysis::make_metrics(
+        pixels, {false_shadow,
+                 false_lit,
+                 {static_cast<double>(false_shadow), static_cast<double>(false_lit), 0, 0}});
+    result.causes =
+        analysis::CauseCounts{{0, 1, 2, result.metrics.false_shadow - 3, result.metrics.false_lit},
+                              {0, result.metrics.false_shadow, result.metrics.false_lit, 0, 0, 0}};
     if (ordinal % 2 == 0) {
         result.peter_panning.metres = quantiles(0.01F);
         result.peter_panning.texels = quantiles(3);
@@ -60,7 +61,9 @@ std::vector<analysis::ErrorBin> bins(std::uint64_t number)
     for (std::uint64_t i = 0; i < 32; ++i) {
         const auto lower = static_cast<double>(i) / 3;
         analysis::ErrorBin bin{
-            lower, static_cast<double>(i + 1) / 3, {1000 * i, 77, 10 * i, number % 7}};
+            lower,
+            static_cast<double>(i + 1) / 3,
+            {1000 * i, 77, 10 * i, number % 7, 10.5 * static_cast<double>(i), 0.5}};
         bin.needed_bias = quantiles(1e-4F);
         result.push_back(bin);
     }
@@ -78,7 +81,10 @@ analysis::CurveResult curve_result(std::uint64_t number)
     curve.bounds = analysis::BiasBounds{
         limits(0, 1), {limits(0.0001, 2), limits(0.001, 3), limits(0.01, 4)}, number % 2 == 0};
     for (std::uint64_t i = 0; i < 100; ++i) {
-        curve.points.push_back({bias_of(10 * i), {1000 - 10 * i, number + i}});
+        const std::uint64_t shadow = 1000 - 10 * i;
+        curve.points.push_back({bias_of(10 * i),
+                                {2000, 1000, shadow, number + i, static_cast<double>(shadow) + 0.25,
+                                 static_cast<double>(number + i) / 3}});
     }
     curve.by_distance = {{analysis::DistanceProfile::At::job_bias, 0, bins(number)},
                          {analysis::DistanceProfile::At::best_bias, 0.0015F, bins(number + 1)}};

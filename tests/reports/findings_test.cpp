@@ -20,9 +20,11 @@ analysis::Comparison comparison_of(std::uint64_t false_shadow, std::uint64_t fal
     analysis::Metrics& metrics = comparison.metrics;
     metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::lit)] = 100;
     metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::blocked)] = 100;
-    metrics.false_shadow = false_shadow;
-    metrics.false_lit = false_lit;
-    metrics.error_rate = static_cast<double>(false_shadow + false_lit) / 200;
+    metrics =
+        make_metrics(metrics.pixels,
+                     {false_shadow,
+                      false_lit,
+                      {static_cast<double>(false_shadow), static_cast<double>(false_lit), 0, 0}});
 
     scene::Image<float> critical{{200, 1}, -0.5F};
     scene::Image<scene::PixelClass> classes{{200, 1}, scene::PixelClass::lit};
@@ -62,6 +64,26 @@ TEST(Findings, AreSilentWithoutADiagnosis)
 TEST(Findings, SayThatAllIsRight)
 {
     EXPECT_THAT(findings(comparison_of(0, 0)), ElementsAre("All 200 scored pixels are right."));
+}
+
+TEST(Findings, DoNotCallRightWhatIsWrongByLessThanHalf)
+{
+    analysis::Comparison comparison = comparison_of(0, 0);
+    comparison.metrics = make_metrics(comparison.metrics.pixels, {0, 0, {39.8, 0, 100, 0}});
+    EXPECT_THAT(
+        findings(comparison),
+        ElementsAre("No scored pixel is wrong by more than one half, yet verdicts are off by "
+                    "19.9 % on average: 100 of 200 pixels are partly wrong, by 39.8 pixels "
+                    "of false shadow and 0 of false light in all."));
+}
+
+TEST(Findings, AddTheAmountToTheCounts)
+{
+    analysis::Comparison comparison = comparison_of(20, 0);
+    comparison.metrics = make_metrics(comparison.metrics.pixels, {20, 0, {50, 0, 80, 0}});
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+    EXPECT_THAT(findings(comparison).front(),
+                HasSubstr(" By amount verdicts are off by 25.0 % on average."));
 }
 
 TEST(Findings, NameWhatAcneNeedsAndWhatTheBestBiasGives)

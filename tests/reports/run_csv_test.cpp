@@ -37,6 +37,9 @@ Comparison example_comparison()
     metrics.false_shadow_rate = 41.0 / 403;
     metrics.false_lit_rate = 43.0 / 307;
     metrics.error_rate = 84.0 / 710;
+    metrics.amounts = {45.5, 47.25, 51, 0.125};
+    metrics.shadow_amount_rate = 45.5 / 403;
+    metrics.light_amount_rate = 47.25 / 307;
     metrics.mean_abs_error = 1.0 / 7;
 
     const scene::ImageSize size{3, 1};
@@ -141,7 +144,7 @@ void expect_as_in_json(const Comparison& comparison)
             EXPECT_EQ(cell, value.dump()) << column;
         }
     }
-    EXPECT_EQ(compared, 8 + 6 + 6 + 9 + 7 + 6 + 13U);
+    EXPECT_EQ(compared, 8 + 6 + 12 + 9 + 7 + 6 + 13U);
 }
 
 TEST(ResultsCsv, HoldsWhatCompareJsonPrints)
@@ -171,7 +174,7 @@ TEST(ResultsCsv, HoldsTheJobAsItsFileWouldButWithoutQuotes)
     const ExampleRun example{1, 2};
     example.compute(folder.path());
     const auto row = read_csv(folder / "results.csv").rows.at(1);
-    EXPECT_EQ(row.at("schema"), "1");
+    EXPECT_EQ(row.at("schema"), "2");
     EXPECT_EQ(row.at("ordinal"), "1");
     EXPECT_EQ(row.at("case"), "noon");
     EXPECT_EQ(row.at("status"), "done");
@@ -273,7 +276,7 @@ TEST(BiasCurvesCsv, HasThePointsOfEachCurveInOrder)
     example.compute(folder.path());
     const CsvTable table = read_csv(folder / "bias_curves.csv");
     ASSERT_EQ(table.rows.size(), 200U);
-    const analysis::CurvePoint point = example.curve(1).curve.points[4];
+    const analysis::CurveSample point = example.curve(1).curve.points[4];
     const auto& row = table.rows.at(104);
     EXPECT_EQ(row.at("curve"), example.configurations()[3].curve);
     EXPECT_EQ(std::stod(row.at("bias")), double{point.bias});
@@ -282,6 +285,9 @@ TEST(BiasCurvesCsv, HasThePointsOfEachCurveInOrder)
     EXPECT_EQ(std::stod(row.at("false_shadow_rate")), 960.0 / 380'000);
     EXPECT_EQ(std::stod(row.at("false_lit_rate")), 5.0 / 158'000);
     EXPECT_EQ(std::stod(row.at("error_rate")), 965.0 / 538'000);
+    EXPECT_EQ(std::stod(row.at("shadow_amount")), 960.25);
+    EXPECT_EQ(std::stod(row.at("light_amount")), 5.0 / 3);
+    EXPECT_EQ(std::stod(row.at("mean_abs_error")), (960.25 + 5.0 / 3) / 538'000);
 }
 
 TEST(RunCsv, IsTheSameEveryTime)

@@ -302,7 +302,7 @@ TEST(RunDurability, RefusesAnotherSchema)
     const TemporaryFolder folder;
     durable_run.compute(folder.path());
     run_sql(folder / "results.sqlite", "PRAGMA user_version = 99");
-    expect_refused(folder.path(), "its schema is 99, this Gnomon's is 1");
+    expect_refused(folder.path(), "its schema is 99, this Gnomon's is 2");
 }
 
 TEST(RunDurability, RefusesOtherColumns)

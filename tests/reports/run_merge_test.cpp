@@ -197,7 +197,7 @@ TEST(Merge, RefusesResultsThatDiffer)
         }),
         AllOf(HasSubstr("curve " + configurations[2].curve), HasSubstr("another map_near_m")));
     EXPECT_THAT(refusal_of_changed([](analysis::FinishedCurve& curve) {
-                    curve.curve.points.back().errors.false_lit = 0;
+                    curve.curve.points.back().counts.false_lit = 0;
                 }),
                 HasSubstr("another bias curve"));
     EXPECT_THAT(refusal_of_changed([](analysis::FinishedCurve& curve) {

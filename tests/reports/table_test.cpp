@@ -25,12 +25,7 @@ analysis::Comparison with_counts()
     metrics.pixels.by_reason[static_cast<std::size_t>(ClassReason::snap)] = 120;
     metrics.pixels.by_reason[static_cast<std::size_t>(ClassReason::tie)] = 3;
     metrics.pixels.by_reason[static_cast<std::size_t>(ClassReason::vertex)] = 7;
-    metrics.false_shadow = 5'000;
-    metrics.false_lit = 2'047;
-    metrics.false_shadow_rate = 0.01;
-    metrics.false_lit_rate = 0.1;
-    metrics.error_rate = 7'047 / 520'470.0;
-    metrics.mean_abs_error = 7'047 / 520'470.0;
+    metrics = make_metrics(metrics.pixels, {5'000, 2'047, {5'000, 2'047, 0, 0}});
     return comparison;
 }
 
@@ -50,8 +45,21 @@ TEST(ComparisonTable, AlignsCountsRatesAndDenominators)
                 HasSubstr("error                  pixels       rate\n"
                           "false shadow            5,000     1.00 %  of 500,000 lit\n"
                           "false lit               2,047     10.0 %  of 20,470 blocked\n"
-                          "both                    7,047     1.35 %  of 520,470 scored\n"
-                          "mean |error|                      1.35 %  verdict against truth\n"));
+                          "both                    7,047     1.35 %  of 520,470 scored\n\n"));
+}
+
+TEST(ComparisonTable, AddsAmountsWhereVerdictsAreFractions)
+{
+    analysis::Comparison comparison = with_counts();
+    comparison.metrics =
+        make_metrics(comparison.metrics.pixels, {5'000, 2'047, {7'500.4, 12.34, 9'000, 0}});
+    EXPECT_THAT(comparison_table(comparison),
+                HasSubstr("amount                 pixels       rate\n"
+                          "false shadow            7,500     1.50 %  dark where lit\n"
+                          "false light              12.3   0.0603 %  lit where blocked\n"
+                          "both                    7,513     1.44 %  mean |verdict - truth|\n"
+                          "partial                 9,000             right by side, wrong by "
+                          "amount\n"));
 }
 
 TEST(ComparisonTable, NamesSceneSettingsAndEnvironment)

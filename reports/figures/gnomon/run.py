@@ -7,7 +7,7 @@ from .csv_table import read_table
 from .errors import InputError
 from .layers import load_layers
 
-SCHEMA = 1
+SCHEMAS = (1, 2)  # the first lacks the amounts
 
 
 class Run:
@@ -84,10 +84,10 @@ def load_run(folder, columns=None):
                          columns=columns)
     if "map_near_m" not in results:
         raise InputError(f"{path}: no column map_near_m; see docs/csv_schema.md")
-    foreign = results[results["schema"] != SCHEMA]
+    foreign = results[~results["schema"].isin(SCHEMAS)]
     if len(foreign):
         raise InputError(
-            f"{path}: schema {foreign['schema'].iloc[0]:g}, this package reads {SCHEMA}; take the"
+            f"{path}: schema {foreign['schema'].iloc[0]:g}, this package reads 1 and 2; take the"
             " package of the Gnomon that wrote it"
         )
     return Run(folder, results)

@@ -13,6 +13,7 @@ function objectTable(objects) {
     rateColumn("of its lit"),
     countColumn("false lit"),
     rateColumn("of its blocked"),
+    rateColumn("mean error"),
   ];
   const wrong = (object) => object.false_shadow + object.false_lit;
   const seen = objects.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
@@ -27,6 +28,7 @@ function objectTable(objects) {
       object.false_shadow_rate,
       object.false_lit,
       object.false_lit_rate,
+      object.mean_abs_error,
     ]),
   );
 }
