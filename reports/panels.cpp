@@ -135,7 +135,12 @@ public:
     {
         gl_ += colour(shade, verdict);
         truth_ += colour(shade, true_fraction(pixel_class));
-        ++marks_[static_cast<std::size_t>(mark_of(pixel_class, verdict))];
+        const Mark mark = mark_of(pixel_class, verdict);
+        ++marks_[static_cast<std::size_t>(mark)];
+        if (mark == Mark::none && scene::is_scored(pixel_class)) {
+            (pixel_class == PixelClass::lit ? shadow_ : light_) +=
+                std::abs(verdict - true_fraction(pixel_class));
+        }
         ++pixels_;
     }
 
@@ -150,7 +155,7 @@ public:
         const Vec3f mean = truth_ / static_cast<float>(pixels_);
         // A little of the tint goes too, so that only marks are coloured.
         const Vec3f grey{glm::dot(mean, Vec3f{0.2126F, 0.7152F, 0.0722F})};
-        return encode_srgb(glm::mix(glm::mix(mean, grey, 0.5F), Vec3f{1}, fade));
+        return tinted(encode_srgb(glm::mix(glm::mix(mean, grey, 0.5F), Vec3f{1}, fade)));
     }
 
 private:
@@ -171,8 +176,22 @@ private:
         return count(Mark::indeterminate) > 0 ? Mark::indeterminate : Mark::none;
     }
 
+    /// As far towards the mark's colour as the pixels, all on the right side of one half, are off.
+    [[nodiscard]] Rgb tinted(const Rgb& faded) const
+    {
+        const Rgb mark = mark_colour(light_ >= shadow_ ? Mark::false_lit : Mark::false_shadow);
+        const float share = std::max(light_, shadow_) / static_cast<float>(pixels_);
+        const auto mixed = [&](std::uint8_t from, std::uint8_t to) {
+            return static_cast<std::uint8_t>(
+                std::lround(std::lerp(static_cast<float>(from), static_cast<float>(to), share)));
+        };
+        return {mixed(faded.r, mark.r), mixed(faded.g, mark.g), mixed(faded.b, mark.b)};
+    }
+
     Vec3f gl_{0};
     Vec3f truth_{0};
+    float shadow_ = 0; ///< by how much lit pixels without a mark are off
+    float light_ = 0;  ///< and blocked ones
     std::array<std::uint32_t, 5> marks_{};
     std::uint32_t pixels_ = 0;
 };

@@ -27,7 +27,8 @@ struct Panels {
 ///
 /// Shading is averaged over the pixels that a panel pixel covers; marks are not: a panel pixel
 /// shows the more frequent kind of error if it covers any error, else any other mark, so that no
-/// error vanishes.
+/// error vanishes. Where there is none, verdicts that are off by less than one half tint it, by as
+/// much as they are off.
 /// @param size  Of each panel; at least 1 px each way.
 [[nodiscard]] Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size);
 

@@ -6,7 +6,15 @@ import { deflateSync } from "node:zlib";
 import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
-  ["blocks.js", "columns.js", "numbers.js", "filter_language.js", "sweep_data.js", "scales.js"],
+  [
+    "blocks.js",
+    "columns.js",
+    "curve_amounts.js",
+    "numbers.js",
+    "filter_language.js",
+    "sweep_data.js",
+    "scales.js",
+  ],
   [
     "BlockReader",
     "Table",
@@ -20,6 +28,7 @@ const page = loadScripts(
     "paretoFront",
     "thinnedRows",
     "symlogLayout",
+    "CurveAmounts",
     "noIndex",
     "arrayOfType",
   ],
@@ -266,5 +275,25 @@ describe("A symmetric logarithmic axis", () => {
 
   it("has ticks within its ends, 0 among them", () => {
     assert.deepEqual(page.symlogLayout(0.01).ticks(-1, 1), [-1, -0.1, -0.01, 0, 0.01, 0.1, 1]);
+  });
+});
+
+describe("Amounts along a curve", () => {
+  const amounts = new page.CurveAmounts(
+    Float32Array.of(0, 0.25, 0.75),
+    Float32Array.of(8, 4, 0),
+    Float32Array.of(0, 0, 2),
+  );
+
+  it("are the stored ones at stored biases", () => {
+    assert.deepEqual({ ...amounts.at(0) }, { shadow: 8, light: 0, isStored: true });
+    assert.deepEqual({ ...amounts.at(0.25) }, { shadow: 4, light: 0, isStored: true });
+    assert.deepEqual({ ...amounts.at(0.75) }, { shadow: 0, light: 2, isStored: true });
+  });
+
+  it("lie between two of them, and stay beyond", () => {
+    assert.deepEqual({ ...amounts.at(0.5) }, { shadow: 2, light: 1, isStored: false });
+    assert.deepEqual({ ...amounts.at(-1) }, { shadow: 8, light: 0, isStored: false });
+    assert.deepEqual({ ...amounts.at(2) }, { shadow: 0, light: 2, isStored: false });
   });
 });

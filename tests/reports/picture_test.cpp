@@ -96,6 +96,24 @@ analysis::Comparison with_one_error(int error_x, int error_y)
     return comparison;
 }
 
+TEST(DrawPanels, TintsWhatIsPartlyWrong)
+{
+    analysis::Comparison comparison = with_one_error(0, 0);
+    comparison.truth.pixel_class(0, 0) = PixelClass::lit;
+    const ImageSize size = comparison.view.image;
+    const Rgb right = draw_panels(comparison, size).errors(40, 30);
+    comparison.lookup.samples(40, 30).verdict = 0.75F;
+    const Rgb partly = draw_panels(comparison, size).errors(40, 30);
+    // A quarter of the way to vermilion, each channel rounded.
+    const Rgb mark = mark_colour(Mark::false_shadow);
+    EXPECT_NEAR(partly.r, 0.75 * right.r + 0.25 * mark.r, 0.5);
+    EXPECT_NEAR(partly.g, 0.75 * right.g + 0.25 * mark.g, 0.5);
+    EXPECT_NEAR(partly.b, 0.75 * right.b + 0.25 * mark.b, 0.5);
+    // What is wrong by more has the whole colour.
+    comparison.lookup.samples(40, 30).verdict = 0.25F;
+    EXPECT_EQ(draw_panels(comparison, size).errors(40, 30), mark);
+}
+
 TEST(DrawPanels, NeverLosesAnErrorWhenScalingDown)
 {
     // 96x64 into 37x23: neither factor is whole.

@@ -63,6 +63,7 @@ class BiasSlider {
       text: "Type a number that a float32 can hold, such as 0.0012 or -3e-5.",
     });
     this.counts = element("p", { class: "bias-counts", role: "status", "aria-live": "polite" });
+    this.amounts = element("p", { class: "bias-amounts", hidden: true });
     this.lengths = element("p", { class: "hint" });
     this.root = this.layOut();
   }
@@ -77,6 +78,7 @@ class BiasSlider {
       element("div", { class: "buttons" }, ...goals),
       this.problem,
       this.counts,
+      this.amounts,
       this.lengths,
     );
   }
@@ -121,6 +123,22 @@ class BiasSlider {
     this.onBias(this.bias);
   }
 
+  /** By how much verdicts are off, where that is not told by how many are wrong. */
+  showAmounts() {
+    const { amounts, detail } = this.image;
+    this.amounts.hidden = amounts === null;
+    if (amounts === null) {
+      return;
+    }
+    const { shadow, light, isStored } = amounts.at(this.bias);
+    const { lit, blocked } = detail.pixels;
+    const about = isStored ? "" : "about ";
+    this.amounts.textContent =
+      `By amount: ${about}${grouped(Math.round(shadow))} pixels of false shadow, ` +
+      `${percent(rate(shadow, lit))} of lit; ${about}${grouped(Math.round(light))} of false light, ` +
+      `${percent(rate(light, blocked))} of blocked.`;
+  }
+
   showCounts() {
     const { image } = this;
     const { falseShadow, falseLit } = image.countsAt(this.bias);
@@ -139,6 +157,7 @@ class BiasSlider {
       element("span", { class: "visually-hidden", text: "; " }),
       part("false lit", "false_lit", falseLit, blocked, "blocked"),
     );
+    this.showAmounts();
     this.lengths.textContent = `A bias of ${shortestFloat32(this.bias)} is ${biasLengths(image, this.bias)}.`;
   }
 }

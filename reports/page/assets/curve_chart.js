@@ -30,14 +30,23 @@ class CurveChart {
    */
   constructor(host, image, scale) {
     const { lit, blocked } = image.detail.pixels;
-    const points = { falseShadow: [], falseLit: [] };
+    const points = { falseShadow: [], falseLit: [], shadow: [], light: [] };
     const step = Math.ceil((scale.highestPosition - scale.lowestPosition) / curveSamples);
     for (let position = scale.lowestPosition; position <= scale.highestPosition; position += step) {
       const bias = scale.biasAt(position);
       const counts = image.countsAt(bias);
       points.falseShadow.push([bias, rate(counts.falseShadow, lit)]);
       points.falseLit.push([bias, rate(counts.falseLit, blocked)]);
+      if (image.amounts !== null) {
+        const amounts = image.amounts.at(bias);
+        points.shadow.push([bias, rate(amounts.shadow, lit)]);
+        points.light.push([bias, rate(amounts.light, blocked)]);
+      }
     }
+    const byAmount = [
+      { name: "amount of false shadow", colour: okabeIto.orange, points: points.shadow },
+      { name: "amount of false light", colour: okabeIto.sky, points: points.light, dash: [6, 3] },
+    ];
     this.chart = new PageChart(host, {
       title: "Wrong pixels at every constant bias",
       summary: `False shadow falls and false lit rises with the bias; fewest errors, ${grouped(image.detail.bias_curve.best_errors)} pixels, at the best bias.`,
@@ -57,6 +66,7 @@ class CurveChart {
           points: points.falseLit,
           dash: [6, 3],
         },
+        ...(image.amounts === null ? [] : byAmount),
       ],
     });
   }

@@ -21,6 +21,8 @@ class PixelImage {
       derive: stored.derive,
     });
     this.deriveLayers();
+    /** @type {?CurveAmounts}  of the image's curve, where verdicts are fractions */
+    this.amounts = null;
     this.counts = this.hasCurve ? new BiasCounts(layers.class, layers.critical_bias) : null;
   }
 

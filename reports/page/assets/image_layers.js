@@ -148,6 +148,26 @@ const verdictScale = {
   unit: "lit share",
 };
 
+/** How far a verdict is off: below 0 it lacks light, above it has too much. */
+const amountScale = {
+  layout: linearLayout(),
+  low: -1,
+  high: 1,
+  stops: [errorColours.falseShadow, "#EDEDED", errorColours.falseLit],
+  unit: "verdict minus truth",
+};
+
+/**
+ * Verdict minus truth of the scored pixels, NaN elsewhere; (pixels).
+ * @return {?Float32Array}  undefined where every verdict is 0 or 1: the errors say it
+ */
+function verdictErrors({ class: classes, verdict }) {
+  if (verdict.every((value) => value === 0 || value === 1)) {
+    return undefined;
+  }
+  return verdict.map((value, i) => (isScored(classes[i]) ? value - (classes[i] === classLit ? 1 : 0) : NaN));
+}
+
 /** What each layer of numbers is; its values are undefined where the image lacks them. */
 function numberLayerSpecs({ layers, frustum, filter }) {
   return [
@@ -174,6 +194,14 @@ function numberLayerSpecs({ layers, frustum, filter }) {
       note: "of the receiver",
       scale: distanceScale(frustum),
       ends: { low: "the map’s near plane", high: "far plane" },
+    },
+    {
+      id: "amount",
+      values: verdictErrors(layers),
+      title: "Amount of error",
+      note: jobBiasNote,
+      scale: amountScale,
+      ends: { low: "dark where lit", high: "lit where blocked" },
     },
     {
       id: "verdict",

@@ -55,6 +55,9 @@ class ReportPage {
     const curveId = this.table.has("curve") ? (await this.table.column("curve")).at(row) : null;
     const [job, best] = await Promise.all(["job_bias", "best_bias"].map((at) => this.bins.of(curveId, at)));
     const image = stored === undefined ? null : await loadImage(stored, this.reader);
+    if (image !== null) {
+      image.amounts = await loadCurveAmounts(this.data.curves, this.reader, curveId);
+    }
     if (this.shown !== row) {
       return;
     }
