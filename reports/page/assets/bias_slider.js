@@ -125,13 +125,13 @@ class BiasSlider {
 
   /** By how much verdicts are off, where that is not told by how many are wrong. */
   showAmounts() {
-    const { amounts, detail } = this.image;
-    this.amounts.hidden = amounts === null;
-    if (amounts === null) {
+    const { image } = this;
+    this.amounts.hidden = image.amounts === null;
+    if (image.amounts === null) {
       return;
     }
-    const { shadow, light, isStored } = amounts.at(this.bias);
-    const { lit, blocked } = detail.pixels;
+    const { shadow, light, isStored } = image.amountsAt(this.bias);
+    const { lit, blocked } = image.detail.pixels;
     const about = isStored ? "" : "about ";
     this.amounts.textContent =
       `By amount: ${about}${grouped(Math.round(shadow))} pixels of false shadow, ` +

@@ -38,7 +38,7 @@ class CurveChart {
       points.falseShadow.push([bias, rate(counts.falseShadow, lit)]);
       points.falseLit.push([bias, rate(counts.falseLit, blocked)]);
       if (image.amounts !== null) {
-        const amounts = image.amounts.at(bias);
+        const amounts = image.amountsAt(bias);
         points.shadow.push([bias, rate(amounts.shadow, lit)]);
         points.light.push([bias, rate(amounts.light, blocked)]);
       }

@@ -62,6 +62,12 @@ class PixelImage {
       : verdict[index] >= 0.5;
   }
 
+  /** By how much verdicts are off at a bias, where there are fractions: `amounts` must be known. */
+  amountsAt(bias) {
+    const { shadow_amount: shadow, light_amount: light } = this.detail;
+    return bias === this.jobBias ? { shadow, light, isStored: true } : this.amounts.at(bias);
+  }
+
   /** Wrong pixels at a bias; of an image without a curve, at the job's. */
   countsAt(bias) {
     if (this.counts !== null) {
