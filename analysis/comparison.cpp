@@ -73,12 +73,12 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers, floa
     require_size("lookup", comparison.lookup.samples, view.image);
     require_size("truth", comparison.truth.pixel_class, view.image);
     require_size("witness", comparison.truth.witness, view.image);
-    comparison.metrics = measure(comparison.truth, comparison.lookup,
-                                 scene::promises(comparison.job.lookup.filter).equal_taps());
+    const int taps = scene::promises(comparison.job.lookup.filter).equal_taps();
+    comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
     if (renderers.make_exact_light) {
         comparison.diagnosis = diagnose(comparison.job, view,
                                         {*comparison.triangles, comparison.receivers,
-                                         comparison.truth, comparison.lookup, profile_bias},
+                                         comparison.truth, comparison.lookup, profile_bias, taps},
                                         renderers);
         if (const auto& biases = comparison.diagnosis->biases) {
             comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,

@@ -1,7 +1,7 @@
 #include "analysis/tune_search.hpp"
-#include "analysis/lookup/deciding_samples.hpp"
 
 #include "analysis/bias_reruns.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "cli/baseline_command.hpp"
 
+#include "analysis/gate/gate_entries.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/gate_update.hpp"
 #include "cli/standard_output.hpp"
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +44,17 @@ void save_baseline(const BaselineOptions& options)
                       reports::masks_text(results)));
 }
 
+/// Reads a baseline; where it is missing, says so and ends the program with exit status 3.
+analysis::GateEntries baseline_or_end(const std::filesystem::path& file)
+{
+    try {
+        return reports::read_baseline(file);
+    } catch (const reports::BaselineMissing& error) {
+        fmt::print(stderr, "gnomon: {}\n", error.what());
+        throw CLI::RuntimeError{exit_codes::other_environment};
+    }
+}
+
 void list_baseline(const BaselineOptions& options)
 {
     print(reports::baseline_table(baseline_or_end(options.file)));
@@ -55,20 +68,6 @@ void compare_with_baseline(const BaselineOptions& options)
 }
 
 } // namespace
-
-analysis::GateEntries baseline_or_end(const std::filesystem::path& file, Masks masks)
-{
-    try {
-        analysis::GateEntries baseline = reports::read_baseline(file);
-        if (masks == Masks::required) {
-            reports::require_masks(file, baseline);
-        }
-        return baseline;
-    } catch (const reports::BaselineMissing& error) {
-        fmt::print(stderr, "gnomon: {}\n", error.what());
-        throw CLI::RuntimeError{exit_codes::other_environment};
-    }
-}
 
 void add_baseline_command(CLI::App& program)
 {

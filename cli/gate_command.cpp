@@ -108,7 +108,9 @@ std::vector<analysis::GateRule> rules_of(const GateOptions& options)
     }
     std::vector<analysis::GateRule> rules = reports::read_gate_rules(options.rules);
     const bool judges_scored = std::ranges::any_of(rules, [](const analysis::GateRule& rule) {
-        return rule.metric == analysis::scored_pixels_metric;
+        return rule.metric == analysis::scored_pixels_metric && rule.where.empty() &&
+               rule.job != analysis::JobState::unchanged &&
+               rule.severity == analysis::Severity::fail && (rule.min || rule.judges_change());
     });
     if (!judges_scored) {
         std::ranges::move(analysis::tested_rules(), std::back_inserter(rules));
@@ -177,8 +179,9 @@ void add_gate_command(CLI::App& program)
     command
         ->add_option("--baseline", options->baseline, "FILE, as `gnomon baseline save` writes it")
         ->required();
-    command->add_option("--rules", options->rules,
-                        "FILE of rules (docs/gate.md); default: no more wrong pixels than before");
+    command->add_option(
+        "--rules", options->rules,
+        "FILE of rules (docs/gate.md); default: no error may grow, in number or amount");
     command->add_flag("--allow-environment", options->allows_environment,
                       "Compare with a baseline of another renderer, too");
     command->add_option("--pictures", options->pictures,
@@ -204,7 +207,7 @@ void add_gate_command(CLI::App& program)
     command->footer(
         "Exit status: 0 pass; 1 regression; 2 there is no run in RUN, or a baseline, mask "
         "or rule is bad; 3 there is no baseline, a mask of it is missing, or it is of "
-        "another environment; 5 results are missing.\n\nExamples:\n"
+        "another environment; 4 the run cannot be read; 5 results are missing.\n\nExamples:\n"
         "  gnomon gate run --baseline baseline.json\n"
         "  gnomon gate run --baseline baseline.json --rules gate.toml --json\n"
         "  gnomon gate run --baseline baseline.json --github --junit gate.xml\n"

@@ -31,8 +31,14 @@ std::string grouped(std::uint64_t count)
 
 std::string grouped_amount(double pixels)
 {
-    return pixels < 1000 ? fmt::format("{:.3g}", pixels)
-                         : grouped(static_cast<std::uint64_t>(std::llround(pixels)));
+    if (pixels >= 99.95) {
+        return grouped(static_cast<std::uint64_t>(std::llround(pixels)));
+    }
+    if (pixels > 0 && pixels < 0.0005) {
+        return "<0.001";
+    }
+    const int decimals = pixels >= 9.995 ? 1 : (pixels >= 0.9995 ? 2 : 3);
+    return pixels == 0 ? "0" : fmt::format("{:.{}f}", pixels, decimals);
 }
 
 std::string percent(std::optional<double> fraction)

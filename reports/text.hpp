@@ -10,8 +10,8 @@ namespace gnomon::reports {
 /// A count with its thousands grouped: "1,048,578".
 [[nodiscard]] std::string grouped(std::uint64_t count);
 
-/// An amount of pixels: grouped and whole from 1000 on, else with three significant digits:
-/// "367,864", "12.4".
+/// An amount of pixels: whole and grouped from 100 on, else with as many decimals as make three
+/// digits, at most three: "367,864", "12.4", "0.003"; what is smaller "<0.001".
 [[nodiscard]] std::string grouped_amount(double pixels);
 
 /// A fraction in percent with three significant digits, at most four decimals: "1.23 %"; what is

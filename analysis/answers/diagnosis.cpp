@@ -16,7 +16,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
                                                             job, view, renderers),
                           observe_lookup(job, view, layers.lookup, renderers)};
-    return std::move(answers).diagnose(layers.lookup, layers.profile_bias);
+    return std::move(answers).diagnose(layers.lookup, layers.profile_bias, layers.verdict_taps);
 }
 
 } // namespace gnomon::analysis

@@ -40,6 +40,9 @@ struct ComparedLayers {
     const scene::LookupLayers& lookup;
     /// Beside its own bias, which errors by distance are asked of the curve (`CurveQuestion`).
     float profile_bias = 0;
+    /// What the verdicts are multiples of, as `AmountSum` has it; 0: another renderer's, any
+    /// fractions.
+    int verdict_taps = 0;
 };
 
 /// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and

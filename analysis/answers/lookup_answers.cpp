@@ -1,8 +1,8 @@
 #include "analysis/answers/lookup_answers.hpp"
-#include "analysis/lookup/deciding_samples.hpp"
 
 #include "analysis/bias_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/tune.hpp"
 
@@ -202,19 +202,20 @@ FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
     return finished;
 }
 
-void LookupAnswers::break_down(const scene::LookupLayers& own, Diagnosis& diagnosis) const
+void LookupAnswers::break_down(const scene::LookupLayers& own, int verdict_taps,
+                               Diagnosis& diagnosis) const
 {
     const scene::Image<float> no_criticals{diagnosis.biases ? scene::ImageSize{0, 0}
                                                             : classes().size(),
                                            std::numeric_limits<float>::quiet_NaN()};
     const BreakdownInputs inputs{classes(), own,
                                  diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
-                                 diagnosis.map_error_m, rule_.promises().equal_taps()};
+                                 diagnosis.map_error_m, verdict_taps};
     diagnosis.by_distance = errors_by_bin(exact_->distances(), inputs);
     add_envelopes(diagnosis.by_distance, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
     diagnosis.by_angle = errors_by_bin(bin_by_angle(classes(), own), inputs);
     diagnosis.by_object = errors_by_object(classes(), own, exact_->receivers().receivers().triangle,
-                                           exact_->triangles(), rule_.promises().equal_taps());
+                                           exact_->triangles(), verdict_taps);
 }
 
 void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis)
@@ -227,7 +228,8 @@ void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis
     diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
 }
 
-Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_bias) &&
+Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_bias,
+                                  int verdict_taps) &&
 {
     Diagnosis diagnosis;
     explain(own, diagnosis);
@@ -245,7 +247,7 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
     diagnosis.pixels = std::move(causes_);
     diagnosis.zeta_m = exact_->zeta_m();
     diagnosis.map_error_m = map_error_m_;
-    break_down(own, diagnosis);
+    break_down(own, verdict_taps, diagnosis);
     if (!diagnosis.biases) {
         diagnosis.curve = describe_map();
         diagnosis.curve.by_distance.push_back(

@@ -48,7 +48,9 @@ public:
     /// do. Takes along what it tells: the last question.
     /// @param own           verdicts of the job's bias.
     /// @param profile_bias  as in `CurveQuestion`.
-    [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own, float profile_bias) &&;
+    /// @param verdict_taps  as in `ComparedLayers`.
+    [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own, float profile_bias,
+                                     int verdict_taps) &&;
 
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;
@@ -84,7 +86,7 @@ private:
     /// Causes and gaps at the job's bias.
     void explain(const scene::LookupLayers& own, Diagnosis& diagnosis);
     /// Errors by distance, angle and object, at the job's bias.
-    void break_down(const scene::LookupLayers& own, Diagnosis& diagnosis) const;
+    void break_down(const scene::LookupLayers& own, int verdict_taps, Diagnosis& diagnosis) const;
 
     std::shared_ptr<ExactLightCache> exact_;
     ObservedLookup lookup_;

@@ -160,6 +160,22 @@ scene::LookupLayers lookup_of(const scene::CaseLayers& layers)
     return lookup;
 }
 
+/// What the mask's values are multiples of, as its filter promises: each by a float32's rounding.
+/// 0 where they are not, or the filter is not known: a mask is the renderer's own.
+int taps_of_mask(const Case& subject)
+{
+    constexpr double rounding = 0x1p-20; // of a float32 below 1, times at most 81 taps
+    if (!subject.file.says("lookup.filter")) {
+        return 0;
+    }
+    const int taps = scene::promises(job_of(subject).lookup.filter).equal_taps();
+    const bool are_multiples = std::ranges::all_of(subject.layers.mask, [&](float lit) {
+        const double share = double{lit} * taps;
+        return std::isnan(lit) || std::abs(share - std::nearbyint(share)) <= rounding;
+    });
+    return are_multiples ? taps : 0;
+}
+
 /// GL's part in a diagnosis, answered by what the case recorded.
 Renderers recorded_renderers(const Case& subject, const CaseTruth& truth)
 {
@@ -225,10 +241,11 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
         return;
     }
     evaluation.has_map = true;
-    comparison.diagnosis = diagnose(comparison.job, comparison.view,
-                                    {subject.mesh, comparison.receivers, comparison.truth,
-                                     comparison.lookup, comparison.view.bias.constant},
-                                    recorded_renderers(subject, truth));
+    comparison.diagnosis =
+        diagnose(comparison.job, comparison.view,
+                 {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup,
+                  comparison.view.bias.constant, taps_of_mask(subject)},
+                 recorded_renderers(subject, truth));
     if (const auto& biases = comparison.diagnosis->biases) {
         evaluation.contradicted_pixels = count_contradicted(comparison, *biases);
     }
@@ -381,9 +398,7 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.truth_method = "exact for all positions that round to P";
     result.environment = {subject.file.renderer, "another renderer", truth.embree, truth.gnomon};
     Evaluation& evaluation = result.evaluation.emplace(make_evaluation(subject, checked));
-    const int taps = subject.file.says("lookup.filter")
-                         ? scene::promises(result.job.lookup.filter).equal_taps()
-                         : 0;
+    const int taps = taps_of_mask(subject);
     result.metrics = measure(result.truth, result.lookup, taps);
     evaluation.by_object = errors_by_object(result.truth.pixel_class, result.lookup,
                                             result.receivers.triangle, subject.mesh, taps);

@@ -52,8 +52,7 @@ double allowed_change(const GateRule& rule, double before, const GateEntry& now)
 /// How far a metric may be worse as the price of other pixels that became right.
 double traded_change(const GateRule& rule, const GateEntry& before, const GateEntry& now)
 {
-    const bool is_amount = rule.metric == "shadow_amount" || rule.metric == "light_amount";
-    const std::string name{is_amount ? error_amount_metric : wrong_pixels_metric};
+    const std::string name{is_amount(rule.metric) ? error_amount_metric : wrong_pixels_metric};
     const auto was = before.metric(name);
     const auto is = now.metric(name);
     if (!rule.trade_off || !was || !is) {
@@ -175,7 +174,8 @@ private:
             const bool is_traded = worse <= traded_change(*rule_, before, now);
             add(std::move(finding),
                 is_traded ? GateReason::traded_off : GateReason::worse_than_baseline, allowed);
-        } else if (worse < 0 && finding.filter.takes_all()) {
+        } else if (worse < 0 && finding.filter.takes_all() &&
+                   rule_->metric != scored_pixels_metric) {
             outcome_->improvements.push_back(
                 {finding.entry, rule_->metric, *finding.before, value});
         }
@@ -183,10 +183,11 @@ private:
 
     void add(GateFinding finding, GateReason reason, const std::optional<double>& limit)
     {
-        const bool is_about_scored = rule_->metric == scored_pixels_metric;
-        finding.reason = is_about_scored && reason != GateReason::not_available
-                             ? GateReason::nothing_tested
-                             : reason;
+        const bool is_fewer =
+            reason == GateReason::below_min ||
+            (reason == GateReason::worse_than_baseline && finding.now < finding.before);
+        finding.reason =
+            rule_->metric == scored_pixels_metric && is_fewer ? GateReason::nothing_tested : reason;
         finding.limit = limit;
         outcome_->findings.push_back(std::move(finding));
     }
@@ -249,17 +250,27 @@ void tidy_improvements(GateOutcome& outcome)
               all.end());
 }
 
-/// Where no pixel is scored rates have no value: that follows, and is not said again.
-void drop_what_follows(GateOutcome& outcome)
+/// Where a rule fails as nothing is tested, nothing became better; and where no pixel is scored at
+/// all, rates have no value: that follows, and is not said again.
+void drop_what_follows(GateOutcome& outcome, std::span<const GateRule> rules)
 {
+    std::set<std::size_t> untested;
     std::set<std::size_t> unscored;
     for (const GateFinding& finding : outcome.findings) {
-        if (finding.reason == GateReason::nothing_tested && finding.now == 0.0) {
-            unscored.insert(finding.entry);
+        if (finding.reason == GateReason::nothing_tested &&
+            severity_of(finding, rules) == Severity::fail) {
+            untested.insert(finding.entry);
+            if (finding.now == 0.0) {
+                unscored.insert(finding.entry);
+            }
         }
     }
     std::erase_if(outcome.findings, [&](const GateFinding& finding) {
-        return finding.reason == GateReason::not_available && unscored.contains(finding.entry);
+        return finding.reason == GateReason::not_available &&
+               rules[finding.rule].metric != new_pixels_metric && unscored.contains(finding.entry);
+    });
+    std::erase_if(outcome.improvements, [&](const GateImprovement& improvement) {
+        return untested.contains(improvement.entry);
     });
 }
 
@@ -305,7 +316,7 @@ GateOutcome judge_run(const GateEntries& baseline, const GateEntries& run,
     for (std::size_t i = 0; i < rules.size(); ++i) {
         apply_rule(outcome, baseline, run, rules[i], {outcome, rules[i], i, ask_new_pixels});
     }
-    drop_what_follows(outcome);
+    drop_what_follows(outcome, rules);
     std::stable_sort(outcome.findings.begin(), outcome.findings.end(),
                      [&](const GateFinding& a, const GateFinding& b) {
                          return finding_rank(a, rules) < finding_rank(b, rules);

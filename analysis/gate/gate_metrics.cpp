@@ -107,6 +107,12 @@ const GateMetric* find_gate_metric(std::string_view name)
     return found == metrics.end() ? nullptr : &*found;
 }
 
+bool is_amount(std::string_view metric)
+{
+    return metric == error_amount_metric || metric == "mean_abs_error" || metric == "unassigned" ||
+           metric.starts_with("shadow_amount") || metric.starts_with("light_amount");
+}
+
 bool is_gap_length(std::string_view name)
 {
     return name.starts_with("peter_panning_gap_") && name != gap_pixels_metric;

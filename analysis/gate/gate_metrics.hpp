@@ -30,6 +30,8 @@ struct GateMetric {
 inline constexpr std::string_view wrong_pixels_metric = "wrong_pixels";
 /// Both amounts of error.
 inline constexpr std::string_view error_amount_metric = "error_amount";
+/// Whether a metric is an amount of error, or a rate of one.
+[[nodiscard]] bool is_amount(std::string_view metric);
 /// Lit and blocked pixels.
 inline constexpr std::string_view scored_pixels_metric = "scored_pixels";
 /// Pixels that are wrong now and were right in the baseline.

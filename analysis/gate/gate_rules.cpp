@@ -186,7 +186,8 @@ std::vector<GateRule> default_gate_rules()
 
 std::vector<GateRule> tested_rules()
 {
-    GateRule some = optional_rule(scored_pixels_metric, JobState::any);
+    GateRule some = optional_rule(scored_pixels_metric, JobState::changed);
+    some.id = "some scored_pixels, changed job";
     some.worse = Worse::down;
     some.min = 1;
     GateRule most = optional_rule(scored_pixels_metric, JobState::changed);

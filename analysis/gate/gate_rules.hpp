@@ -69,9 +69,9 @@ struct GateRule {
 /// rules of `tested_rules` are among them.
 [[nodiscard]] std::vector<GateRule> default_gate_rules();
 
-/// That something is tested: a run without scored pixels breaks no other rule, nor, where the job
-/// changed, one that scores less than nine tenths of what the baseline does. They hold beside any
-/// rules that are not about `scored_pixels` themselves.
+/// That something is tested where the job changed: a run without scored pixels breaks no other
+/// rule, nor does one that scores less than nine tenths of what the baseline does. They hold beside
+/// a file's rules, too, but for one that says by itself how few `scored_pixels` fail.
 [[nodiscard]] std::vector<GateRule> tested_rules();
 
 /// The filters that a rule is judged by in one configuration: its own, or one for each object or

@@ -23,6 +23,17 @@ std::string rules_text(std::size_t count, std::string_view what)
     return fmt::format("{} {}", counted(count, "rule"), what);
 }
 
+/// How many pixels must be scored: `min`, or what the baseline's may fall to.
+std::string nothing_tested_text(const analysis::GateRule& rule,
+                                const analysis::GateFinding& finding)
+{
+    const bool is_below_min = rule.min && finding.limit == rule.min;
+    const double least = is_below_min
+                             ? *rule.min
+                             : std::ceil(finding.before.value_or(0) - finding.limit.value_or(0));
+    return fmt::format("nothing is tested: at least {} needed", metric_text(rule.metric, least));
+}
+
 } // namespace
 
 std::string verdict_sentence(const GateReport& report)
@@ -44,12 +55,6 @@ std::string verdict_sentence(const GateReport& report)
     return line;
 }
 
-/// The pixels that must be scored: `min`, or what the baseline's may fall to.
-double least_scored(const analysis::GateRule& rule, const analysis::GateFinding& finding)
-{
-    return rule.min.value_or(std::ceil(finding.before.value_or(0) - finding.limit.value_or(0)));
-}
-
 std::string broken_limit_text(const GateReport& report, const analysis::GateFinding& finding)
 {
     const std::string limit = metric_text(report.rules[finding.rule].metric, finding.limit);
@@ -61,11 +66,12 @@ std::string broken_limit_text(const GateReport& report, const analysis::GateFind
     case analysis::GateReason::worse_than_baseline:
         return fmt::format("{} allowed", limit);
     case analysis::GateReason::nothing_tested:
-        return fmt::format("nothing is tested: at least {} needed",
-                           metric_text(report.rules[finding.rule].metric,
-                                       least_scored(report.rules[finding.rule], finding)));
+        return nothing_tested_text(report.rules[finding.rule], finding);
     case analysis::GateReason::traded_off:
-        return fmt::format("{} allowed, traded for fewer wrong pixels", limit);
+        return fmt::format("{} allowed, traded for {}", limit,
+                           analysis::is_amount(report.rules[finding.rule].metric)
+                               ? "less error by amount"
+                               : "fewer wrong pixels");
     case analysis::GateReason::not_available:
         break;
     }

@@ -342,6 +342,41 @@ TEST(DefaultGateRules, FailWhereNothingIsTested)
     EXPECT_EQ(reasons, Reasons{GateReason::nothing_tested});
     EXPECT_EQ(judged_change(scored(0, 0), scored(0, 0)).second,
               Reasons{GateReason::nothing_tested});
+    // More is no improvement, and what nobody saw none either.
+    const std::vector<GateRule> rules = default_gate_rules();
+    const auto improvements = [&](std::map<std::string, double> now) {
+        return judge_run(gate_entries({gate_entry("1",
+                                                  {{"pixels.lit", 10},
+                                                   {"pixels.blocked", 0},
+                                                   {"false_shadow", 5},
+                                                   {"false_lit", 0}},
+                                                  {{"bias.slope", "0"}})}),
+                         gate_entries({gate_entry("1", std::move(now), {{"bias.slope", "1"}})}),
+                         rules)
+            .improvements.size();
+    };
+    EXPECT_EQ(
+        improvements(
+            {{"pixels.lit", 20}, {"pixels.blocked", 0}, {"false_shadow", 5}, {"false_lit", 0}}),
+        0U);
+    EXPECT_EQ(
+        improvements(
+            {{"pixels.lit", 0}, {"pixels.blocked", 0}, {"false_shadow", 0}, {"false_lit", 0}}),
+        0U);
+}
+
+TEST(GateRuleOfScoredPixels, MayLimitThemFromAboveToo)
+{
+    GateRule rule;
+    rule.id = "not too many";
+    rule.metric = scored_pixels_metric;
+    rule.max = 5;
+    const std::vector<GateRule> rules{rule};
+    const GateEntries run =
+        gate_entries({gate_entry("1", {{"pixels.lit", 6}, {"pixels.blocked", 0}})});
+    const GateOutcome outcome = judge_run(run, run, rules);
+    ASSERT_EQ(outcome.findings.size(), 1U);
+    EXPECT_EQ(outcome.findings[0].reason, GateReason::above_max);
 }
 
 TEST(DefaultGateRules, HoldTheClassesOfAnUnchangedJob)

@@ -12,6 +12,20 @@
 namespace gnomon::reports {
 namespace {
 
+TEST(GroupedAmount, HasThreeDigitsOrMoreAndNoExponent)
+{
+    EXPECT_EQ(grouped_amount(0), "0");
+    EXPECT_EQ(grouped_amount(0.0004), "<0.001");
+    EXPECT_EQ(grouped_amount(0.0012), "0.001");
+    EXPECT_EQ(grouped_amount(0.25), "0.250");
+    EXPECT_EQ(grouped_amount(1.0 / 3 + 1), "1.33");
+    EXPECT_EQ(grouped_amount(9.996), "10.0");
+    EXPECT_EQ(grouped_amount(12.34), "12.3");
+    EXPECT_EQ(grouped_amount(99.96), "100");
+    EXPECT_EQ(grouped_amount(999.6), "1,000");
+    EXPECT_EQ(grouped_amount(367'863.6), "367,864");
+}
+
 TEST(Grouped, SeparatesThousands)
 {
     EXPECT_EQ(grouped(0), "0");

@@ -57,6 +57,8 @@ async function loadCurveAmounts(stored, reader, id) {
   const [biases, shadow, light, falseShadow, falseLit] = await Promise.all(
     names.map(async (name) => (await points.column(name)).values.subarray(first, end)),
   );
-  const areCounts = shadow.every((value, i) => value === falseShadow[i] && light[i] === falseLit[i]);
+  // Amounts are float32 here, counts are whole.
+  const isCount = (amount, count) => amount === Math.fround(count);
+  const areCounts = shadow.every((_, i) => isCount(shadow[i], falseShadow[i]) && isCount(light[i], falseLit[i]));
   return areCounts ? null : new CurveAmounts(biases, shadow, light);
 }
