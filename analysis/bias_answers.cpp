@@ -1,7 +1,5 @@
 #include "analysis/bias_answers.hpp"
 
-#include "analysis/pixel_runs.hpp"
-
 #include <cmath>
 #include <utility>
 
@@ -32,18 +30,6 @@ void answer_slopes(const BiasQuestion& question, BiasAnswers& answers)
 }
 
 } // namespace
-
-scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& classes,
-                                      const scene::Image<PixelCause>& pixels)
-{
-    scene::Image<std::uint8_t> flags{classes.size()};
-    for_each_run(flags.pixel_count(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i != last; ++i) {
-            flags[i] = is_acne_if_shadowed(pixels[i], classes[i]) ? 1 : 0;
-        }
-    });
-    return flags;
-}
 
 BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own)
 {

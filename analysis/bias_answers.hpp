@@ -3,7 +3,7 @@
 #include "analysis/bias_curve.hpp"
 #include "analysis/bias_limits.hpp"
 #include "analysis/bias_units.hpp"
-#include "analysis/causes.hpp"
+#include "analysis/chain/pixel_causes.hpp"
 #include "analysis/slope_curves.hpp"
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
@@ -38,10 +38,6 @@ struct BiasQuestion {
     SlopeInputs curves;
     const scene::Image<float>& zeta_m; ///< light distance of the receivers [m]
 };
-
-/// 1 where a lit pixel is acne if it is shadowed.
-[[nodiscard]] scene::Image<std::uint8_t> acne_flags(const scene::Image<scene::PixelClass>& classes,
-                                                    const scene::Image<PixelCause>& pixels);
 
 /// @param own  the curve of the job's own slope.
 /// @throws std::invalid_argument  if the images differ in size.

@@ -77,27 +77,6 @@ private:
     std::vector<std::size_t> window_;
 };
 
-/// Critical biases of the lit pixels that are acne where they are shadowed, ascending.
-std::vector<float> acne_criticals(const scene::Image<float>& criticals,
-                                  const scene::Image<PixelClass>& classes,
-                                  const scene::Image<std::uint8_t>& acne_if_shadowed)
-{
-    std::vector<float> acne;
-    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
-        if (classes[i] == PixelClass::lit && acne_if_shadowed[i] != 0) {
-            acne.push_back(criticals[i]);
-        }
-    }
-    radix_sort(acne);
-    return acne;
-}
-
-/// Smallest bias with at most `allowed` of the ascending critical biases above it.
-float smallest_leaving(const std::vector<float>& criticals, std::uint64_t allowed)
-{
-    return criticals.size() <= allowed ? -infinity : criticals[criticals.size() - 1 - allowed];
-}
-
 /// Largest bias with at most `allowed` of the ascending critical biases at or below it.
 float largest_keeping(std::span<const float> criticals, std::uint64_t allowed)
 {
@@ -159,31 +138,34 @@ private:
     std::vector<float> found_;
 };
 
-void require_same_sizes(scene::ImageSize criticals, scene::ImageSize classes, scene::ImageSize acne)
+void require_same_sizes(scene::ImageSize criticals, scene::ImageSize classes)
 {
-    if (criticals != classes || criticals != acne) {
+    if (criticals != classes) {
         throw std::invalid_argument(fmt::format(
-            "find_bias_bounds: the images differ in size: criticals {}x{}, classes {}x{}, "
-            "acne_if_shadowed {}x{}",
-            criticals.width_px, criticals.height_px, classes.width_px, classes.height_px,
-            acne.width_px, acne.height_px));
+            "find_bias_bounds: the images differ in size: criticals {}x{}, classes {}x{}",
+            criticals.width_px, criticals.height_px, classes.width_px, classes.height_px));
     }
+}
+
+void set_acne_free(BiasLimits& limits, const AcneFree& acne_free)
+{
+    limits.acne_free = acne_free.by_tap;
+    limits.acne_free_count = acne_free.by_count;
 }
 
 } // namespace
 
 bool BiasLimits::cross() const
 {
-    return acne_free == infinity || panning_free == -infinity || acne_free > panning_free;
+    return acne_free_count == infinity || panning_free == -infinity ||
+           acne_free_count > panning_free;
 }
 
 BiasBounds find_bias_bounds(const BiasCurve& curve, const scene::Image<float>& criticals,
-                            const scene::Image<PixelClass>& classes,
-                            const scene::Image<std::uint8_t>& acne_if_shadowed,
+                            const scene::Image<PixelClass>& classes, const FindAcneFree& acne_free,
                             const ForgiveGaps& forgive)
 {
-    require_same_sizes(criticals.size(), classes.size(), acne_if_shadowed.size());
-    const std::vector<float> acne = acne_criticals(criticals, classes, acne_if_shadowed);
+    require_same_sizes(criticals.size(), classes.size());
     const std::vector<float>& all = curve.blocked();
     AscendingBlocked blocked{criticals, classes, all};
     const std::uint64_t scored = curve.scored();
@@ -191,7 +173,12 @@ BiasBounds find_bias_bounds(const BiasCurve& curve, const scene::Image<float>& c
 
     BiasBounds bounds;
     const auto beyond_zero = std::lower_bound(all.begin(), all.end(), above_zero);
-    bounds.strict.acne_free = smallest_leaving(acne, 0);
+    std::vector<std::uint64_t> allowed{0};
+    for (const std::uint64_t one_in : allowed_one_in) {
+        allowed.push_back(scored / one_in);
+    }
+    const std::vector<AcneFree> acne = acne_free(allowed);
+    set_acne_free(bounds.strict, acne[0]);
     bounds.strict.panning_free = largest_keeping(all, 0);
     bounds.strict.panning_free_beyond_zero = largest_keeping({beyond_zero, all.end()}, 0);
 
@@ -202,8 +189,8 @@ BiasBounds find_bias_bounds(const BiasCurve& curve, const scene::Image<float>& c
     for (std::size_t i = 0; i < allowed_one_in.size(); ++i) {
         BiasLimits& limits = bounds.allowances[i];
         limits.allowance = 1.0 / static_cast<double>(allowed_one_in[i]);
-        limits.allowed_pixels = scored / allowed_one_in[i];
-        limits.acne_free = smallest_leaving(acne, limits.allowed_pixels);
+        limits.allowed_pixels = allowed[i + 1];
+        set_acne_free(limits, acne[i + 1]);
         limits.panning_free = largest_keeping(from_start, limits.allowed_pixels);
         limits.panning_free_beyond_zero = largest_keeping(from_zero, limits.allowed_pixels);
     }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "analysis/amounts.hpp"
 #include "analysis/bias_curve.hpp"
-#include "analysis/cause.hpp"
-#include "analysis/causes.hpp"
+#include "analysis/chain/cause.hpp"
+#include "analysis/chain/pixel_causes.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/tap_criticals.hpp"
 #include "scene/image.hpp"
 #include "scene/layers.hpp"
 
@@ -14,17 +16,20 @@
 
 namespace gnomon::analysis {
 
-/// Each wrong pixel's cause and label with one constant bias, and how many there are of each.
+/// Each wrong or partial pixel's cause and label with one constant bias, how many there are of each
+/// that are wrong, and the amounts of all.
 struct CauseLayers {
     scene::Image<Cause> cause;
     scene::Image<Label> label;
     CauseCounts counts;
+    CauseAmounts amounts;
 };
 
-/// Wrong pixels by cause and label with one constant bias.
+/// Wrong pixels, and amounts of error, by cause and label with one constant bias.
 struct BiasRow {
     ErrorCounts errors;
     CauseCounts causes;
+    CauseAmounts amounts;
 };
 
 /// What rows are counted from; images of one size.
@@ -32,20 +37,25 @@ struct BiasRowInputs {
     const scene::Image<scene::PixelClass>& classes;
     const scene::LookupLayers& deciding;      ///< from `deciding_samples`
     const scene::Image<float>& critical_bias; ///< with the rule's slope; or `criticals_of_verdicts`
-    const scene::Image<PixelCause>& causes;
+    const PixelCauses& causes;
     LookupRule rule;
+    const TapCriticals* taps = nullptr; ///< with the rule's slope; nullptr where one texel is read
+    /// Whether `deciding` has the verdicts, and `critical_bias` no more than they say: of one bias.
+    bool verdicts_are_given = false;
 };
 
-/// The counts at each bias, from one pass over the pixels: those that GL's own run with that bias
-/// would give.
-/// @param curve   Of the inputs' critical biases and classes.
-/// @param biases  Ascending, 0 or normal.
+/// The counts and amounts at each bias, from one pass over the pixels: those that GL's own run with
+/// that bias would give.
+/// @param curve    Of the inputs' critical biases and classes.
+/// @param amounts  Of all errors, at each bias.
+/// @param biases   Ascending, 0 or normal.
 /// @throws std::invalid_argument  if the images differ in size, the biases do not ascend, or one is
 ///                                neither 0 nor normal.
 [[nodiscard]] std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& curve,
+                                              std::span<const ErrorAmounts> amounts,
                                               std::span<const float> biases);
 
-/// The wrong pixels of one bias, one by one.
+/// The wrong and partial pixels of one bias, one by one.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] CauseLayers classify_errors(const BiasRowInputs& inputs, float bias);
 

@@ -1,7 +1,7 @@
 #include "analysis/error_parts.hpp"
 
+#include "analysis/chain/error_segments.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "analysis/wrong_biases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -235,23 +235,21 @@ std::vector<std::vector<ErrorPart>> count_parts(const PartMap& map, const BiasRo
     for (std::size_t begin = 0; begin < biases.size() && !map.parts.empty();
          begin += biases_per_pass) {
         const auto some = biases.subspan(begin, std::min(biases_per_pass, biases.size() - begin));
-        const WrongBiases wrong{inputs, some};
+        const ErrorSegments segments{inputs, some};
         const PartChanges none{map.parts.size(), some.size()};
         tbb::enumerable_thread_specific<PartChanges> sums{none};
+        const auto has_part = [&](std::size_t pixel) { return map.part[pixel] != PartMap::none; };
         for_each_run(map.part.pixel_count(), [&](std::size_t first, std::size_t last) {
             PartChanges& sum = sums.local();
-            for (std::size_t i = first; i != last; ++i) {
-                const std::uint16_t part = map.part[i];
-                if (part == PartMap::none) {
-                    continue;
-                }
-                const bool is_false_lit = inputs.classes[i] == PixelClass::blocked;
-                const auto add = [&](std::size_t from, std::size_t to, Cause cause, Label label) {
-                    sum.add(part, wrong_kind(is_false_lit, cause, label), from, to);
-                };
-                wrong.visit_unbiased(i, add);
-                wrong.visit_biased(i, add);
-            }
+            segments.visit(
+                first, last, has_part, [&](std::size_t pixel, const ErrorSegment& segment) {
+                    if (segment.is_wrong) {
+                        const bool is_false_lit = inputs.classes[pixel] == PixelClass::blocked;
+                        sum.add(map.part[pixel],
+                                wrong_kind(is_false_lit, segment.cause, segment.label),
+                                segment.first, segment.last);
+                    }
+                });
         });
         PartChanges total = none;
         for (const PartChanges& sum : sums) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/bias_rows.hpp"
-#include "analysis/cause.hpp"
+#include "analysis/chain/cause.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_class.hpp"
 #include "scene/triangles.hpp"

@@ -72,7 +72,8 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
     for_each_run(seen.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             const scene::TexelHit& hit = hits.hit(seen[i]);
-            const float stored = inputs.stored_depth(seen[i].pixel, hits.texel(seen[i]));
+            const float stored =
+                inputs.stored_depth(inputs.unbiased, seen[i].pixel, hits.texel(seen[i]));
             // The farthest depth stands for nothing, unless what is seen rounds to it.
             const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
                                                              depth_step(format, farthest);

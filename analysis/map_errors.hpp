@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/causes.hpp"
+#include "analysis/chain/cause_inputs.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "scene/image.hpp"
 #include "scene/job.hpp"

@@ -169,6 +169,46 @@ void add_causes(ConfigurationMetrics& metrics)
                        "wrong pixels by [name](causes.md#the-names)", &CauseCounts::by_label);
 }
 
+/// The first name, "none", is left out.
+template <std::size_t size>
+void add_amounts_by_name(ConfigurationMetrics& metrics, std::string_view group,
+                         const std::array<std::string_view, size>& names,
+                         const std::string& meaning,
+                         std::array<double, size> CauseAmounts::*amounts)
+{
+    for (std::size_t i = 1; i < size; ++i) {
+        metrics.push_back(
+            {measured(fmt::format("{}.{}", group, names.at(i)), "px", i == 1 ? meaning : ""),
+             [i, amounts](const ConfigurationResult& result) {
+                 return result.causes ? MetricValue{(result.amounts.*amounts).at(i)} : none;
+             }});
+    }
+}
+
+void add_cause_amounts(ConfigurationMetrics& metrics)
+{
+    add_amounts_by_name(metrics, "cause_amounts", cause_names,
+                        "amounts of wrong and partial pixels by [cause](causes.md)",
+                        &CauseAmounts::by_cause);
+    add_amounts_by_name(metrics, "label_amounts", label_names,
+                        "amounts of wrong and partial pixels by [name](causes.md#the-names)",
+                        &CauseAmounts::by_label);
+    const auto add = [&](MetricDescription metric, auto value) {
+        metrics.push_back({std::move(metric), [value](const ConfigurationResult& result) {
+                               return result.causes ? MetricValue{value(result.amounts)} : none;
+                           }});
+    };
+    add(titled(measured("softening", "px",
+                        "the part of the amounts that a kernel softens borders by on purpose: "
+                        "`edge` by `filter`"),
+               "softening [pixels]"),
+        [](const CauseAmounts& amounts) { return amounts.softening(); });
+    add(measured("shadow_softening", "px", "the same of `shadow_amount`"),
+        [](const CauseAmounts& amounts) { return amounts.shadow_softening; });
+    add(measured("light_softening", "px", "the same of `light_amount`"),
+        [](const CauseAmounts& amounts) { return amounts.light_softening; });
+}
+
 void add_gaps(ConfigurationMetrics& metrics)
 {
     for (const auto& [unit, lengths] : {std::pair{"m", &Gaps::metres}, {"texels", &Gaps::texels}}) {
@@ -186,14 +226,13 @@ void add_gaps(ConfigurationMetrics& metrics)
                  }});
         }
     }
-    metrics.push_back(
-        {pixel_count("peter_panning_gap_pixels",
-                     "pixels that have a gap: those of `labels.peter_panning` whose shadow the "
-                     "bias detached"),
-         [](const ConfigurationResult& result) {
-             const auto& gaps = result.peter_panning.metres;
-             return result.causes ? MetricValue{gaps ? std::uint64_t{gaps->count} : 0} : none;
-         }});
+    metrics.push_back({pixel_count("peter_panning_gap_pixels",
+                                   "pixels that have a gap: those of `labels.peter_panning`"),
+                       [](const ConfigurationResult& result) {
+                           const auto& gaps = result.peter_panning.metres;
+                           return result.causes ? MetricValue{gaps ? std::uint64_t{gaps->count} : 0}
+                                                : none;
+                       }});
 }
 
 void add_best(CurveMetrics& metrics)
@@ -218,11 +257,11 @@ void add_best(CurveMetrics& metrics)
          }});
 }
 
-/// Finds the limits that three metrics are about.
+/// Finds the limits that four metrics are about.
 using FindLimits = std::function<const BiasLimits&(const BiasBounds&)>;
 
 void add_limits(CurveMetrics& metrics, const std::string& prefix,
-                const std::array<const char*, 3>& meanings, const FindLimits& find)
+                const std::array<const char*, 4>& meanings, const FindLimits& find)
 {
     const auto add = [&](const char* name, const char* meaning, Worse worse,
                          float BiasLimits::*member) {
@@ -232,15 +271,16 @@ void add_limits(CurveMetrics& metrics, const std::string& prefix,
                            }});
     };
     add("acne_free", meanings[0], Worse::up, &BiasLimits::acne_free);
-    add("panning_free", meanings[1], Worse::down, &BiasLimits::panning_free);
-    add("panning_free_beyond_zero", meanings[2], Worse::down,
+    add("acne_free_count", meanings[1], Worse::up, &BiasLimits::acne_free_count);
+    add("panning_free", meanings[2], Worse::down, &BiasLimits::panning_free);
+    add("panning_free_beyond_zero", meanings[3], Worse::down,
         &BiasLimits::panning_free_beyond_zero);
 }
 
 void add_allowances(CurveMetrics& metrics)
 {
     static constexpr std::array<const char*, 3> meanings{
-        "0.0001: the same three with that share of the scored pixels allowed to be wrong", "0.001",
+        "0.0001: the same four with that share of the scored pixels allowed to be wrong", "0.001",
         "0.01"};
     for (std::size_t i = 0; i < meanings.size(); ++i) {
         const std::string prefix = fmt::format("bias_curve.allowances.{}.", i);
@@ -250,7 +290,7 @@ void add_allowances(CurveMetrics& metrics)
                  return curve.bounds ? MetricValue{curve.bounds->allowances.at(i).allowance} : none;
              }});
         add_limits(
-            metrics, prefix, {"", "", ""},
+            metrics, prefix, {"", "", "", ""},
             [i](const BiasBounds& bounds) -> const BiasLimits& { return bounds.allowances.at(i); });
     }
 }
@@ -277,6 +317,7 @@ ConfigurationMetrics describe_configuration_metrics()
     add_reasons(all);
     add_errors(all);
     add_causes(all);
+    add_cause_amounts(all);
     add_gaps(all);
     return all;
 }
@@ -286,7 +327,8 @@ CurveMetrics describe_curve_metrics()
     CurveMetrics all;
     add_best(all);
     add_limits(all, "bias_curve.",
-               {"the smallest bias without acne",
+               {"the smallest bias with which no tap of a lit pixel is shadowed by its own sheet",
+                "the smallest bias with which no pixel is called acne: by side of one half",
                 "the largest bias below every blocked pixel's critical bias",
                 "the same without the pixels that are false lit without any bias"},
                [](const BiasBounds& bounds) -> const BiasLimits& { return bounds.strict; });

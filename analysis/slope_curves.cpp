@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -41,8 +43,17 @@ SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
     scene::Image<float> criticals = critical_biases(inputs.samples, rule);
     BiasCurve curve{criticals, inputs.classes};
     const BestBiases best = find_best_biases(curve);
+    std::optional<TapCriticals> taps;
+    if (inputs.lookup != nullptr) {
+        taps.emplace(*inputs.lookup, *inputs.map_depths, rule);
+    }
+    const auto acne_free = [&](std::span<const std::uint64_t> allowed_pixels) {
+        return find_acne_free({inputs.classes, criticals, inputs.causes, taps ? &*taps : nullptr,
+                               rule.promises().has_fractions()},
+                              allowed_pixels);
+    };
     const BiasBounds bounds =
-        find_bias_bounds(curve, criticals, inputs.classes, inputs.acne_if_shadowed, inputs.forgive);
+        find_bias_bounds(curve, criticals, inputs.classes, acne_free, inputs.forgive);
     return {slope, std::move(criticals), std::move(curve), best, bounds};
 }
 

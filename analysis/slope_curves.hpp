@@ -41,8 +41,11 @@ struct SlopeInputs {
     const scene::LookupLayers& samples; ///< from `deciding_samples`: no bias enters them
     LookupRule rule;                    ///< its slope is not read
     const scene::Image<scene::PixelClass>& classes;
-    const scene::Image<std::uint8_t>& acne_if_shadowed; ///< the same for every slope
-    ForgiveGaps forgive;                                ///< may be empty
+    const PixelCauses& causes; ///< the same for every slope
+    ForgiveGaps forgive;       ///< may be empty
+    /// The lookup with its texels and the map, where several texels are read; else nullptr.
+    const scene::LookupLayers* lookup = nullptr;
+    const scene::Image<float>* map_depths = nullptr;
 };
 
 /// The curve of one slope factor.

@@ -1,4 +1,5 @@
-#include "analysis/causes.hpp"
+#include "analysis/chain/blocked_causes.hpp"
+#include "analysis/chain/lit_causes.hpp"
 #include "cli/renderers.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job_file.hpp"
@@ -7,12 +8,25 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 /// The causes of all pixels for all biases against the exact truth of the same pixels, side by side
 /// in every iteration; hierarchies are built before.
 namespace gnomon::benchmarks {
 namespace {
+
+/// The blocked pixels that are lit without bias.
+scene::Image<std::uint8_t> false_lit(const scene::TruthLayers& truth,
+                                     const scene::LookupLayers& unbiased)
+{
+    scene::Image<std::uint8_t> pixels{truth.pixel_class.size()};
+    for (std::size_t i = 0; i < pixels.pixel_count(); ++i) {
+        pixels[i] = truth.pixel_class[i] == scene::PixelClass::blocked &&
+                    scene::is_lit(unbiased.samples[i].verdict);
+    }
+    return pixels;
+}
 
 void causes_against_truth(benchmark::State& state)
 {
@@ -39,10 +53,18 @@ void causes_against_truth(benchmark::State& state)
         const scene::Image<float> no_depths;
         const double now_s = seconds_of([&] {
             const auto light = renderers.make_exact_light(job, view, receivers);
-            benchmark::DoNotOptimize(
-                analysis::find_causes({job.lookup, job.shadow_map.resolution_texels,
-                                       view.frustum.reversed, truth, unbiased, no_depths, *light})
-                    .data());
+            const analysis::CauseInputs inputs{job.lookup,
+                                               job.shadow_map.resolution_texels,
+                                               view.frustum.reversed,
+                                               truth,
+                                               unbiased,
+                                               unbiased,
+                                               no_depths,
+                                               *light};
+            analysis::PixelCauses causes{scene::Image<analysis::PixelCause>{view.image}, {}};
+            find_lit_causes(inputs, causes);
+            find_blocked_causes(inputs, false_lit(truth, unbiased), causes);
+            benchmark::DoNotOptimize(causes.pixels.data());
         });
         causes_s = std::min(causes_s, now_s);
         state.SetIterationTime(now_s);

@@ -123,6 +123,11 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
         {"map_depth", float32, [&](std::size_t i) { return bits(samples[i].map_depth); }},
         {"tan_theta", float32, [&](std::size_t i) { return bits(samples[i].tan_theta); }},
     };
+    const auto& texels = comparison.lookup.texels;
+    if (!texels.empty()) { // another renderer's mask has none
+        channels.push_back({"texel.X", float32, [&](std::size_t i) { return bits(texels[i].x); }});
+        channels.push_back({"texel.Y", float32, [&](std::size_t i) { return bits(texels[i].y); }});
+    }
     add_surface(channels, surface);
     if (comparison.diagnosis) {
         add_diagnosis(channels, *comparison.diagnosis, classes);

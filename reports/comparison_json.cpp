@@ -75,7 +75,8 @@ Json scene_object(const analysis::SceneSummary& scene)
             {"objects", scene.objects},
             {"dropped_triangles", scene.dropped_triangles},
             {"ignored_primitives", scene.ignored_primitives},
-            {"hash", scene.hash}};
+            {"hash", scene.hash},
+            {"notes", Json::array()}};
 }
 
 Json frustum_object(const scene::LightFrustum& frustum, int resolution_texels)

@@ -37,6 +37,7 @@ Json interval(const analysis::BiasInterval& interval)
 void add_limits(Json& json, const analysis::BiasLimits& limits)
 {
     json["acne_free"] = finite_or_null(limits.acne_free);
+    json["acne_free_count"] = finite_or_null(limits.acne_free_count);
     json["panning_free"] = finite_or_null(limits.panning_free);
     json["panning_free_beyond_zero"] = finite_or_null(limits.panning_free_beyond_zero);
 }
@@ -63,6 +64,8 @@ void add_bias_curve(Json& json, const std::optional<analysis::BiasAnswers>& answ
     curve.bounds = answers->bounds;
     add_metrics(json, analysis::curve_metrics(), curve);
     add_pareto_front(json["bias_curve"], answers->curve);
+    json["bias_curve"]["amount_ordinate"] = "exact";
+    json["bias_curve"]["recommended"] = nullptr;
 }
 
 Json slope_answers(const analysis::BiasAnswers& answers)
@@ -166,10 +169,12 @@ Json advice(const std::vector<analysis::Advice>& changes)
 
 void add_diagnosis(Json& json, const analysis::Comparison& comparison)
 {
+    json["remedies"] = nullptr;
     const auto& diagnosis = comparison.diagnosis;
     if (!diagnosis) {
         for (const char* const name :
-             {"causes", "labels", "bias_curve", "bias_source", "bias_reruns", "verification",
+             {"causes", "labels", "cause_amounts", "label_amounts", "cause_arithmetic",
+              "precision_kinds", "bias_curve", "bias_source", "bias_reruns", "verification",
               "slope_curves", "by_light_distance_m", "by_receiver_angle_rad", "by_object",
               "findings", "advice"}) {
             json[name] = nullptr;
@@ -179,6 +184,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
         }
         return;
     }
+    json["cause_arithmetic"] = "exact";
     add_bias_curve(json, diagnosis->biases);
     json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     json["bias_reruns"] = comparison.reruns.empty() ? Json(nullptr) : reruns(comparison.reruns);

@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -19,20 +21,36 @@ namespace gnomon::reports {
 
 namespace {
 
+std::string shown_name(std::string_view name)
+{
+    std::string shown{name};
+    std::ranges::replace(shown, '_', '-');
+    return shown;
+}
+
 /// Wrong pixels by name; the first name, "none", is left out.
-template <typename Names, typename Counts>
-std::string named_counts(std::string_view head, const Names& names, const Counts& counts,
-                         std::uint64_t wrong)
+std::string named_counts(std::string_view head, std::span<const std::string_view> names,
+                         std::span<const std::uint64_t> counts, std::uint64_t wrong)
 {
     std::string text = count_line(head, "pixels", "of wrong", "");
     for (std::size_t i = 1; i < names.size(); ++i) {
-        std::string name{names[i]};
-        std::ranges::replace(name, '_', '-');
         std::optional<double> share;
         if (wrong > 0) {
             share = static_cast<double>(counts[i]) / static_cast<double>(wrong);
         }
-        text += count_line(name, grouped(counts[i]), percent(share), "");
+        text += count_line(shown_name(names[i]), grouped(counts[i]), percent(share), "");
+    }
+    return text;
+}
+
+/// The same where verdicts are fractions: by how much they are off beside how many are wrong.
+std::string named_amounts(std::string_view head, std::span<const std::string_view> names,
+                          std::span<const std::uint64_t> counts, std::span<const double> amounts)
+{
+    std::string text = count_line(head, "wrong", "amount", "");
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        text +=
+            count_line(shown_name(names[i]), grouped(counts[i]), grouped_amount(amounts[i]), "");
     }
     return text;
 }
@@ -45,9 +63,19 @@ std::string causes(const analysis::Comparison& comparison)
     const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
     const std::uint64_t wrong = comparison.metrics.false_shadow + comparison.metrics.false_lit;
     std::string text = "\n";
-    text += named_counts("cause", analysis::cause_names, diagnosis.causes.counts.by_cause, wrong);
-    text += "\n";
-    text += named_counts("called", analysis::label_names, diagnosis.causes.counts.by_label, wrong);
+    const analysis::CauseCounts& counts = diagnosis.causes.counts;
+    const analysis::CauseAmounts& amounts = diagnosis.causes.amounts;
+    if (analysis::has_fractions(comparison.metrics)) {
+        text += named_amounts("cause", analysis::cause_names, counts.by_cause, amounts.by_cause);
+        text += "\n";
+        text += named_amounts("called", analysis::label_names, counts.by_label, amounts.by_label);
+        text += setting_line("", fmt::format("softened borders (edge by filter): {} px",
+                                             grouped_amount(amounts.softening())));
+    } else {
+        text += named_counts("cause", analysis::cause_names, counts.by_cause, wrong);
+        text += "\n";
+        text += named_counts("called", analysis::label_names, counts.by_label, wrong);
+    }
     const auto& [gap, gap_texels] = diagnosis.peter_panning;
     if (gap && gap_texels) {
         text += setting_line(

@@ -31,6 +31,8 @@ std::string_view words(Label label)
         return "ragged or displaced shadow edges";
     case Label::overshadow:
         return "shadows where there are none";
+    case Label::bleed:
+        return "light that the method alone lets through";
     case Label::none:
         break;
     }
@@ -48,6 +50,8 @@ std::string_view words(Cause cause)
         return "the map's resolution";
     case Cause::coverage:
         return "what the map does not cover";
+    case Cause::filter:
+        return "the filter's footprint";
     case Cause::none:
         break;
     }
@@ -66,6 +70,8 @@ std::string_view to_try(Cause cause)
     case Cause::coverage:
         return "For coverage, look at near, far, the frustum and culling: the light's camera "
                "misses casters";
+    case Cause::filter:
+        return "For the filter, try a smaller kernel, or more texels under it";
     case Cause::bias:
     case Cause::none:
         break;
@@ -90,33 +96,66 @@ std::string share(std::uint64_t part, std::uint64_t whole)
     return percent < 1 ? "under 1 %" : fmt::format("{:.0f} %", percent);
 }
 
+/// "82 %": the same of amounts.
+std::string share(double part, double whole)
+{
+    const double percent = 100.0 * part / whole;
+    return percent < 1 ? "under 1 %" : fmt::format("{:.0f} %", percent);
+}
+
+/// What most of the amount of error is, beside what a kernel softens on purpose; empty where there
+/// is none.
+std::string most_of_amount(const analysis::Metrics& metrics, const analysis::CauseAmounts& amounts)
+{
+    const double all = metrics.amounts.total();
+    if (all == 0) {
+        return "";
+    }
+    const double softening = amounts.softening();
+    analysis::CauseAmounts others = amounts;
+    others.by_label[static_cast<std::size_t>(Label::edge)] -= softening;
+    const auto label = most<Label>(others.by_label);
+    std::vector<std::string> parts;
+    if (others.of(label) > 0) {
+        parts.push_back(fmt::format("{} is {}", share(others.of(label), all), words(label)));
+    }
+    if (softening > 0) {
+        parts.push_back(
+            fmt::format("{} is borders that the kernel softens on purpose", share(softening, all)));
+    }
+    return parts.empty() ? "" : fmt::format(" Of the amount, {}.", fmt::join(parts, ", and "));
+}
+
 /// No verdict is on the wrong side of one half, and yet they are not right.
-std::string none_is_wrong_but(const analysis::Metrics& metrics)
+std::string none_is_wrong_but(const analysis::Metrics& metrics,
+                              const analysis::CauseAmounts& amounts)
 {
     return fmt::format("No scored pixel is wrong by more than one half, yet verdicts are off by {} "
                        "on average: {} of {} pixels are partly wrong, by {} pixels of false shadow "
-                       "and {} of false light in all.",
+                       "and {} of false light in all.{}",
                        percent(metrics.mean_abs_error), grouped(metrics.amounts.partial),
                        grouped(metrics.pixels.scored()), grouped_amount(metrics.amounts.shadow),
-                       grouped_amount(metrics.amounts.light));
+                       grouped_amount(metrics.amounts.light), most_of_amount(metrics, amounts));
 }
 
 /// What verdicts that are fractions add to the counts; empty where none are.
-std::string by_amount(const analysis::Metrics& metrics)
+std::string by_amount(const analysis::Metrics& metrics, const analysis::CauseAmounts& amounts)
 {
-    return has_fractions(metrics) ? fmt::format(" By amount verdicts are off by {} on average.",
-                                                percent(metrics.mean_abs_error))
-                                  : "";
+    return has_fractions(metrics)
+               ? fmt::format(" By amount verdicts are off by {} on average.{}",
+                             percent(metrics.mean_abs_error), most_of_amount(metrics, amounts))
+               : "";
 }
 
-std::string what_is_wrong(const analysis::Metrics& metrics, const analysis::CauseCounts& counts)
+std::string what_is_wrong(const analysis::Metrics& metrics, const analysis::CauseLayers& causes)
 {
+    const analysis::CauseCounts& counts = causes.counts;
     const std::uint64_t wrong = metrics.false_shadow + metrics.false_lit;
     if (metrics.pixels.scored() == 0) {
         return "No pixel is scored: nothing that the camera sees faces the light.";
     }
     if (wrong == 0) {
-        return has_fractions(metrics) ? none_is_wrong_but(metrics)
+        return has_fractions(metrics) ? none_is_wrong_but(metrics, causes.amounts)
                                       : fmt::format("All {} scored pixels are right.",
                                                     grouped(metrics.pixels.scored()));
     }
@@ -125,7 +164,8 @@ std::string what_is_wrong(const analysis::Metrics& metrics, const analysis::Caus
     return fmt::format("{} of the scored pixels are wrong: {} of the errors are {}, and {} are due "
                        "to {}.{}",
                        percent(metrics.error_rate), share(counts.of(label), wrong), words(label),
-                       share(counts.of(cause), wrong), words(cause), by_amount(metrics));
+                       share(counts.of(cause), wrong), words(cause),
+                       by_amount(metrics, causes.amounts));
 }
 
 /// "4.0 times"
@@ -137,17 +177,17 @@ std::string times(double ratio)
 /// Why no constant bias serves, where none does.
 std::string why_none_serves(const analysis::BiasLimits& limits)
 {
-    if (!std::isfinite(limits.acne_free)) {
+    if (!std::isfinite(limits.acne_free_count)) {
         return "No constant bias frees this map of acne.";
     }
     if (limits.panning_free < 0) {
         return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
                            "least {:.3g}, and even 0 leaves more false light.",
-                           limits.acne_free);
+                           limits.acne_free_count);
     }
     return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
                        "least {:.3g}, and false light allows at most {:.3g}.",
-                       limits.acne_free, limits.panning_free);
+                       limits.acne_free_count, limits.panning_free);
 }
 
 /// How the job's bias stands to what acne needs and panning allows.
@@ -169,7 +209,7 @@ std::string against_limits(float bias, const analysis::BiasBounds& bounds)
     }
     if (std::isfinite(needed) && needed > 0 && bias < needed) {
         return fmt::format("Against acne the constant bias should be at least {:.3g} (for at most "
-                           "0.1 % of wrong pixels); it is {:.3g}.",
+                           "0.1 % of the pixels, by amount); it is {:.3g}.",
                            needed, bias);
     }
     return "";
@@ -268,10 +308,10 @@ std::vector<std::string> errors_in_words(const analysis::Comparison& comparison)
     if (!comparison.diagnosis) {
         return {};
     }
-    const analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
-    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, counts)};
+    const analysis::CauseLayers& causes = comparison.diagnosis->causes;
+    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, causes)};
     if (comparison.metrics.false_shadow + comparison.metrics.false_lit > 0) {
-        const std::string hint = what_to_try(comparison.view.bias, counts);
+        const std::string hint = what_to_try(comparison.view.bias, causes.counts);
         append(sentences, hint.empty() ? hint : hint + ".");
     }
     return sentences;
@@ -280,14 +320,17 @@ std::vector<std::string> errors_in_words(const analysis::Comparison& comparison)
 std::vector<std::string> findings(const analysis::Comparison& comparison)
 {
     const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
-    if (!comparison.diagnosis || now == 0) {
+    if (!comparison.diagnosis || (now == 0 && !has_fractions(comparison.metrics))) {
         return errors_in_words(comparison);
     }
     const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
     const analysis::CauseCounts& counts = diagnosis.causes.counts;
-    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, counts)};
+    std::vector<std::string> sentences{what_is_wrong(comparison.metrics, diagnosis.causes)};
     if (diagnosis.biases) {
         append(sentences, against_limits(comparison.view.bias.constant, diagnosis.biases->bounds));
+    }
+    if (now == 0) {
+        return sentences;
     }
     const auto change = best_change(comparison, diagnosis);
     const bool helps = change && change->errors.total() < now;

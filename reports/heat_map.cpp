@@ -1,6 +1,6 @@
 #include "reports/heat_map.hpp"
 
-#include "analysis/cause.hpp"
+#include "analysis/chain/cause.hpp"
 #include "reports/description.hpp"
 #include "reports/images/image_encoding.hpp"
 #include "reports/output_file.hpp"
@@ -46,14 +46,19 @@ constexpr std::array<Rgb, 9> diverging{{{0x08, 0x30, 0x6B},
                                         {0x7A, 0x2E, 0x00}}};
 
 // Okabe and Ito's, by the values of causes and labels; the same in pages and figures.
-constexpr std::array<Rgb, 5> cause_colours{
-    {no_error, {0xE6, 0x9F, 0x00}, {0x00, 0x9E, 0x73}, {0x56, 0xB4, 0xE9}, {0xCC, 0x79, 0xA7}}};
-constexpr std::array<Rgb, 6> label_colours{{no_error,
+constexpr std::array<Rgb, 6> cause_colours{{no_error,
+                                            {0xE6, 0x9F, 0x00},
+                                            {0x00, 0x9E, 0x73},
+                                            {0x56, 0xB4, 0xE9},
+                                            {0xCC, 0x79, 0xA7},
+                                            {0x00, 0x72, 0xB2}}};
+constexpr std::array<Rgb, 7> label_colours{{no_error,
                                             {0xD5, 0x5E, 0x00},
                                             {0x00, 0x72, 0xB2},
                                             {0x56, 0xB4, 0xE9},
                                             {0x00, 0x9E, 0x73},
-                                            {0xE6, 0x9F, 0x00}}};
+                                            {0xE6, 0x9F, 0x00},
+                                            {0xCC, 0x79, 0xA7}}};
 
 /// How a quantity becomes a colour.
 struct ColourScale {

@@ -35,6 +35,11 @@ struct FilterPromises {
         return width * width;
     }
     [[nodiscard]] constexpr bool has_one_tap() const { return width_texels == 1; }
+    /// Whether a verdict can lie between 0 and 1.
+    [[nodiscard]] constexpr bool has_fractions() const
+    {
+        return !has_one_tap() && compares == Compares::each_tap;
+    }
     /// Whether taps lie around the point looked up, and not about the texel that holds it.
     [[nodiscard]] constexpr bool interpolates() const { return weights != Weights::equal; }
     /// Whether each verdict follows from one depth that the lookup returns.

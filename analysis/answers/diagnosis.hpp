@@ -3,7 +3,6 @@
 #include "analysis/bias_answers.hpp"
 #include "analysis/bias_rows.hpp"
 #include "analysis/breakdown.hpp"
-#include "analysis/causes.hpp"
 #include "analysis/error_parts.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/renderers.hpp"
@@ -18,7 +17,6 @@ namespace gnomon::analysis {
 
 /// Why pixels are wrong, at the job's bias and at every other.
 struct Diagnosis {
-    scene::Image<PixelCause> pixels; ///< whatever the bias
     scene::Image<float> zeta_m;      ///< light distance of the scored receivers [m], else NaN
     scene::Image<float> map_error_m; ///< `map_depth_errors_m`
     CauseLayers causes;              ///< at the job's

@@ -1,6 +1,7 @@
 #include "analysis/answers/exact_light_cache.hpp"
 
-#include "analysis/own_sheets.hpp"
+#include "analysis/chain/blocked_causes.hpp"
+#include "analysis/chain/lit_causes.hpp"
 
 #include <cmath>
 #include <utility>
@@ -22,7 +23,6 @@ ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
       remembers_causes_{receivers_->use().by_many_maps &&
                         scene::promises(job.lookup.filter).has_one_tap()},
       causes_{size_if(remembers_causes_)},
-      detaches_{size_if(remembers_causes_), not_asked},
       pixel_gaps_{size_if(receivers_->use().by_many_maps), unknown_gap}
 {
 }
@@ -46,9 +46,16 @@ CauseInputs ExactLightCache::with_known_hits(CauseInputs inputs)
     return inputs;
 }
 
-scene::Image<PixelCause> ExactLightCache::causes(const CauseInputs& inputs)
+void ExactLightCache::find_lit(const CauseInputs& inputs, PixelCauses& causes)
 {
-    return find_causes(with_known_hits(inputs), remembers_causes_ ? &causes_ : nullptr);
+    find_lit_causes(with_known_hits(inputs), causes, remembers_causes_ ? &causes_ : nullptr);
+}
+
+void ExactLightCache::find_blocked(const CauseInputs& inputs,
+                                   const scene::Image<std::uint8_t>& wanted, PixelCauses& causes)
+{
+    find_blocked_causes(with_known_hits(inputs), wanted, causes,
+                        remembers_causes_ ? &causes_ : nullptr);
 }
 
 const CentreHits& ExactLightCache::centre_hits(const CauseInputs& inputs)
@@ -60,31 +67,6 @@ const CentreHits& ExactLightCache::centre_hits(const CauseInputs& inputs)
         });
     }
     return *centre_hits_;
-}
-
-std::vector<std::size_t> ExactLightCache::detached(const CauseInputs& inputs,
-                                                   std::span<const std::size_t> pixels)
-{
-    if (!remembers_causes_) {
-        return detached_pixels(with_known_hits(inputs), pixels);
-    }
-    std::vector<std::size_t> asked;
-    for (const std::size_t pixel : pixels) {
-        if (detaches_[pixel] == not_asked) {
-            detaches_[pixel] = 0;
-            asked.push_back(pixel);
-        }
-    }
-    for (const std::size_t pixel : detached_pixels(with_known_hits(inputs), asked)) {
-        detaches_[pixel] = 1;
-    }
-    std::vector<std::size_t> detached;
-    for (const std::size_t pixel : pixels) {
-        if (detaches_[pixel] == 1) {
-            detached.push_back(pixel);
-        }
-    }
-    return detached;
 }
 
 std::vector<PixelGap> ExactLightCache::find_gaps(std::span<const std::size_t> pixels)

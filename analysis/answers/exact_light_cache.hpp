@@ -1,7 +1,9 @@
 #pragma once
 
 #include "analysis/answers/judged_receivers.hpp"
-#include "analysis/causes.hpp"
+#include "analysis/chain/cause_inputs.hpp"
+#include "analysis/chain/cause_memory.hpp"
+#include "analysis/chain/pixel_causes.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/receiver_geometry.hpp"
@@ -44,16 +46,16 @@ public:
     /// The gaps of these blocked pixels, in the order of the pixels.
     [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels);
 
-    [[nodiscard]] scene::Image<PixelCause> causes(const CauseInputs& inputs);
+    /// `find_lit_causes`, with what is known of other formats.
+    void find_lit(const CauseInputs& inputs, PixelCauses& causes);
+    /// `find_blocked_causes`, the same.
+    void find_blocked(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
+                      PixelCauses& causes);
     [[nodiscard]] const CentreHits& centre_hits(const CauseInputs& inputs);
     /// Lets go of `centre_hits`; they are traced again if they are asked for.
     void forget_texels() { centre_hits_.reset(); }
-    /// Of these blocked pixels those whose shadow a bias detaches (`detached_pixels`).
-    [[nodiscard]] std::vector<std::size_t> detached(const CauseInputs& inputs,
-                                                    std::span<const std::size_t> pixels);
 
 private:
-    static constexpr std::uint8_t not_asked = 2;
     static constexpr PixelGap unknown_gap{std::numeric_limits<float>::quiet_NaN(), 0};
 
     /// The image's size where `is_kept`, else that of an image without pixels.
@@ -76,8 +78,7 @@ private:
     /// Only with a single tap what is found does not depend on the stored depths.
     bool remembers_causes_;
     CauseMemory causes_;
-    scene::Image<std::uint8_t> detaches_; ///< 1 yes, 0 no, or `not_asked`
-    scene::Image<PixelGap> pixel_gaps_;   ///< or `unknown_gap`; empty: not remembered
+    scene::Image<PixelGap> pixel_gaps_; ///< or `unknown_gap`; empty: not remembered
 };
 
 } // namespace gnomon::analysis

@@ -8,9 +8,10 @@ namespace gnomon::analysis {
 
 ConfigurationResult result_of(const Comparison& comparison)
 {
-    ConfigurationResult result{comparison.metrics, std::nullopt, {}};
+    ConfigurationResult result{comparison.metrics, std::nullopt, {}, {}};
     if (comparison.diagnosis) {
         result.causes = comparison.diagnosis->causes.counts;
+        result.amounts = comparison.diagnosis->causes.amounts;
         result.peter_panning = comparison.diagnosis->peter_panning;
         result.parts = comparison.diagnosis->parts;
     }

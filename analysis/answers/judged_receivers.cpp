@@ -1,7 +1,5 @@
 #include "analysis/answers/judged_receivers.hpp"
 
-#include "analysis/own_sheets.hpp"
-
 namespace gnomon::analysis {
 
 JudgedReceivers::JudgedReceivers(const scene::ReceiverLayers& receivers,

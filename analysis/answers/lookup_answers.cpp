@@ -4,6 +4,7 @@
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/map_errors.hpp"
+#include "analysis/pixel_runs.hpp"
 #include "analysis/tune.hpp"
 
 #include <algorithm>
@@ -51,10 +52,13 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
       lookup_{std::move(lookup)},
       rule_{lookup_rule(lookup_.job, lookup_.view)},
       own_deciding_{make_deciding()},
-      causes_{find_causes()},
+      causes_{no_causes()},
+      knows_blocked_{classes().size()},
       map_error_m_{map_depth_errors_m(cause_inputs(), exact_->centre_hits(cause_inputs()),
                                       lookup_.view.frustum, lookup_.job.shadow_map.depth_format)}
 {
+    remove_bias();
+    find_lit_causes(false);
 }
 
 scene::LookupLayers LookupAnswers::make_deciding() const
@@ -65,29 +69,105 @@ scene::LookupLayers LookupAnswers::make_deciding() const
                : scene::LookupLayers{};
 }
 
-scene::Image<PixelCause> LookupAnswers::find_causes()
+PixelCauses LookupAnswers::no_causes() const
 {
-    if (lookup_.unbiased.samples.empty()) {
-        set_verdicts(lookup_.layers, critical_biases(0), 0);
+    return {scene::Image<PixelCause>{classes().size()},
+            scene::Image<FilterCause>{has_texels() ? classes().size() : scene::ImageSize{0, 0}}};
+}
+
+void LookupAnswers::remove_bias()
+{
+    if (!lookup_.unbiased.samples.empty()) {
+        return;
     }
-    return exact_->causes(cause_inputs());
+    if (!has_taps()) {
+        set_verdicts(lookup_.layers, critical_biases(0), 0);
+        return;
+    }
+    const std::array<float, 1> no_bias{0.0F};
+    const auto lit_taps = count_lit_taps(classes(), taps(0), no_bias).front();
+    const auto all = static_cast<float>(rule_.promises().tap_count());
+    for_each_run(lit_taps.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            lookup_.layers.samples[i].verdict = static_cast<float>(lit_taps[i]) / all;
+        }
+    });
+}
+
+void LookupAnswers::require_lit_causes(float smallest_bias, float slope)
+{
+    const bool below_zero = (smallest_bias < 0 || slope < 0) && has_texels();
+    if (below_zero != knows_lit_below_zero_) {
+        find_lit_causes(below_zero);
+    }
+}
+
+void LookupAnswers::find_lit_causes(bool below_zero)
+{
+    CauseInputs inputs = cause_inputs();
+    inputs.asks_below_zero = below_zero;
+    knows_lit_below_zero_ = below_zero;
+    exact_->find_lit(inputs, causes_);
+}
+
+void LookupAnswers::find_blocked_causes(scene::Image<std::uint8_t> reached)
+{
+    for_each_run(reached.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            reached[i] &= static_cast<std::uint8_t>(knows_blocked_[i] == 0);
+            knows_blocked_[i] |= reached[i];
+        }
+    });
+    exact_->find_blocked(cause_inputs(), reached, causes_);
+}
+
+scene::Image<std::uint8_t> LookupAnswers::reached_by(const SlopeCurve& curve,
+                                                     float largest_bias) const
+{
+    scene::Image<std::uint8_t> reached{classes().size()};
+    const auto is_asked = [&](std::size_t pixel) {
+        return classes()[pixel] == PixelClass::blocked && knows_blocked_[pixel] == 0;
+    };
+    const TapCriticals taps_of_slope = taps(curve.slope);
+    for_each_run(reached.pixel_count(), [&](std::size_t first, std::size_t last) {
+        if (has_taps()) {
+            taps_of_slope.visit(
+                first, last, is_asked, [&](std::size_t pixel, std::span<const float> criticals) {
+                    reached[pixel] = std::ranges::min(criticals) <= largest_bias ? 1 : 0;
+                });
+            return;
+        }
+        for (std::size_t i = first; i != last; ++i) {
+            reached[i] = is_asked(i) && curve.critical_bias[i] <= largest_bias ? 1 : 0;
+        }
+    });
+    return reached;
 }
 
 CauseInputs LookupAnswers::cause_inputs() const
 {
+    const scene::LookupLayers& unbiased =
+        lookup_.unbiased.samples.empty() ? lookup_.layers : lookup_.unbiased;
     return {lookup_.job.lookup,
             lookup_.job.shadow_map.resolution_texels,
             lookup_.view.frustum.reversed,
             exact_->receivers().truth(),
-            lookup_.unbiased.samples.empty() ? lookup_.layers : lookup_.unbiased,
+            lookup_.view.bias.normal_texels == 0 ? unbiased : lookup_.layers,
+            unbiased,
             lookup_.map_depths,
             exact_->light()};
 }
 
-SlopeInputs LookupAnswers::curves(const scene::Image<std::uint8_t>& acne)
+SlopeInputs LookupAnswers::curves()
 {
-    return {deciding(), rule_, classes(), acne,
-            forgive_footprints(exact_->gaps(), exact_->light(), exact_->geometry())};
+    require_lit_causes(0, 0);
+    SlopeInputs inputs{deciding(), rule_, classes(), causes_,
+                       forgive_footprints(exact_->gaps(), exact_->light(), exact_->geometry())};
+    if (has_texels()) {
+        inputs.lookup = &lookup_.layers;
+        inputs.map_depths = &lookup_.map_depths;
+    }
+    return inputs;
 }
 
 std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& critical,
@@ -95,12 +175,11 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
 {
     std::vector<std::size_t> panning;
     for (std::size_t i = 0; i < critical.pixel_count(); ++i) {
-        if (classes()[i] == PixelClass::blocked && causes_[i].unbiased == Cause::none &&
+        if (classes()[i] == PixelClass::blocked && causes_.pixels[i].if_wrong == Cause::none &&
             critical[i] <= largest_bias) {
             panning.push_back(i);
         }
     }
-    panning = exact_->detached(cause_inputs(), panning);
     const auto lengths = exact_->pixel_gaps(panning);
     std::vector<PanningGap> gaps;
     gaps.reserve(panning.size());
@@ -131,11 +210,18 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
     if (biases.empty()) {
         return;
     }
-    const BiasRowInputs inputs{classes(), deciding(), curve.critical_bias, causes_,
-                               rule_with(curve.slope)};
-    const auto counts = count_rows(inputs, curve.curve, biases);
-    const auto parts = count_parts(exact_->parts(), inputs, biases);
+    require_lit_causes(biases.front(), curve.slope);
+    find_blocked_causes(reached_by(curve, biases.back()));
+    const TapCriticals taps_of_slope = taps(curve.slope);
+    const BiasRowInputs inputs{classes(),
+                               deciding(),
+                               curve.critical_bias,
+                               causes_,
+                               rule_with(curve.slope),
+                               has_texels() ? &taps_of_slope : nullptr};
     const auto errors_by = amounts(curve, biases);
+    const auto counts = count_rows(inputs, curve.curve, errors_by, biases);
+    const auto parts = count_parts(exact_->parts(), inputs, biases);
     const auto gaps = find_gaps_at(panning_gaps(curve.critical_bias, biases.back()), biases);
     for (const CurveQuestion::Row& row : question.rows) {
         const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
@@ -145,7 +231,7 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
             {row.ordinal,
              {make_metrics(exact_->receivers().classes(),
                            {errors.false_shadow, errors.false_lit, errors_by[i]}),
-              counts[i].causes, gaps[i], parts[i]}});
+              counts[i].causes, counts[i].amounts, gaps[i], parts[i]}});
     }
 }
 
@@ -194,7 +280,7 @@ scene::Image<float> LookupAnswers::critical_biases(float slope) const
 
 FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
 {
-    const SlopeCurve curve = slope_curve(curves(acne_flags(classes(), causes_)), question.slope);
+    const SlopeCurve curve = slope_curve(curves(), question.slope);
     FinishedCurve finished;
     finished.curve = describe(curve, question.job_bias);
     finished.curve.id = question.id;
@@ -222,7 +308,16 @@ void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis
 {
     const std::array<float, 1> bias{lookup_.view.bias.constant};
     const scene::Image<float> verdicts = criticals_of_verdicts(own);
-    const BiasRowInputs inputs{classes(), own, verdicts, causes_, rule_};
+    scene::Image<std::uint8_t> reached{classes().size()};
+    for (std::size_t i = 0; i < reached.pixel_count(); ++i) {
+        reached[i] =
+            classes()[i] == PixelClass::blocked && double{own.samples[i].verdict} > partial_above;
+    }
+    find_blocked_causes(std::move(reached));
+    require_lit_causes(bias.front(), rule_.slope);
+    const TapCriticals own_taps = taps(rule_.slope);
+    const BiasRowInputs inputs{
+        classes(), own, verdicts, causes_, rule_, has_texels() ? &own_taps : nullptr, true};
     diagnosis.causes = classify_errors(inputs, bias.front());
     diagnosis.parts = count_parts(exact_->parts(), inputs, bias).front();
     diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
@@ -237,14 +332,12 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
     lookup_.unbiased = {};
     exact_->forget_texels();
     if (rule_.promises().has_curve()) {
-        const auto acne = acne_flags(classes(), causes_);
-        const SlopeInputs inputs = curves(acne);
+        const SlopeInputs inputs = curves();
         SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
         diagnosis.curve = describe(curve, profile_bias);
         diagnosis.biases =
             answer_biases({lookup_.job, lookup_.view, inputs, exact_->zeta_m()}, std::move(curve));
     }
-    diagnosis.pixels = std::move(causes_);
     diagnosis.zeta_m = exact_->zeta_m();
     diagnosis.map_error_m = map_error_m_;
     break_down(own, verdict_taps, diagnosis);

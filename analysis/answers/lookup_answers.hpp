@@ -4,7 +4,8 @@
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/bias_rows.hpp"
-#include "analysis/causes.hpp"
+#include "analysis/chain/cause_inputs.hpp"
+#include "analysis/chain/pixel_causes.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/slope_curves.hpp"
 #include "analysis/sweep/curve_question.hpp"
@@ -12,6 +13,7 @@
 #include "scene/job.hpp"
 #include "scene/layers.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -55,7 +57,17 @@ public:
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;
     [[nodiscard]] scene::LookupLayers make_deciding() const;
-    [[nodiscard]] scene::Image<PixelCause> find_causes();
+    [[nodiscard]] PixelCauses no_causes() const;
+    /// Makes the lookup one without bias, where it is not moved.
+    void remove_bias();
+    /// Finds them anew where what is known is of other biases: below 0, or not.
+    void require_lit_causes(float smallest_bias, float slope);
+    /// @param below_zero  Whether biases below 0 are asked about.
+    void find_lit_causes(bool below_zero);
+    /// @param reached  1 for blocked pixels that are wrong or partial with some bias asked about.
+    void find_blocked_causes(scene::Image<std::uint8_t> reached);
+    [[nodiscard]] scene::Image<std::uint8_t> reached_by(const SlopeCurve& curve,
+                                                        float largest_bias) const;
     [[nodiscard]] const scene::LookupLayers& deciding() const
     {
         return own_deciding_.samples.empty() ? lookup_.layers : own_deciding_;
@@ -65,7 +77,7 @@ private:
         return exact_->receivers().truth().pixel_class;
     }
     /// What curves are made of.
-    [[nodiscard]] SlopeInputs curves(const scene::Image<std::uint8_t>& acne);
+    [[nodiscard]] SlopeInputs curves();
     [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
                                                        float largest_bias);
     void add_rows(const CurveQuestion& question, const SlopeCurve& curve, FinishedCurve& finished);
@@ -73,6 +85,8 @@ private:
     [[nodiscard]] LookupRule rule_with(float slope) const;
     /// Whether verdicts are made of several comparisons, so that amounts are not counts.
     [[nodiscard]] bool has_taps() const { return rule_.promises().equal_taps() > 1; }
+    /// Whether several texels are read.
+    [[nodiscard]] bool has_texels() const { return !rule_.promises().has_one_tap(); }
     [[nodiscard]] TapCriticals taps(float slope) const
     {
         return {lookup_.layers, lookup_.map_depths, rule_with(slope)};
@@ -92,7 +106,9 @@ private:
     ObservedLookup lookup_;
     LookupRule rule_;
     scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return
-    scene::Image<PixelCause> causes_;
+    PixelCauses causes_;
+    bool knows_lit_below_zero_ = false;
+    scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel was found
     scene::Image<float> map_error_m_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/breakdown.hpp"
-#include "analysis/cause.hpp"
+#include "analysis/chain/cause.hpp"
 #include "analysis/quantiles.hpp"
 #include "scene/image.hpp"
 #include "scene/vec.hpp"

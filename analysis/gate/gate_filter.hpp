@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/cause.hpp"
+#include "analysis/chain/cause.hpp"
 #include "analysis/error_parts.hpp"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #include "analysis/gate/gate_rules.hpp"
 
-#include "analysis/cause.hpp"
+#include "analysis/chain/cause.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #include "analysis/lookup/exact_lookup.hpp"
 
+#include "analysis/amounts.hpp"
 #include "scene/infinity.hpp"
 
 #include <tbb/parallel_for.h>
@@ -26,10 +27,12 @@ struct Key {
 class ExactLookup {
 public:
     ExactLookup(const LookupRule& rule, const TracedLookups& lookups,
-                const scene::ExactLight& light)
+                const scene::ExactLight& light, LitShare share, std::span<const TapSet> always_lit)
         : rule_{rule},
           lookups_{lookups},
           light_{light},
+          share_{share},
+          always_lit_{always_lit},
           clamps_{rule.outside == Outside::clamp}
     {
     }
@@ -46,11 +49,22 @@ public:
         if (promised.interpolates()) {
             return weighted();
         }
-        return promised.has_one_tap() ? light_.critical_biases(all_taps(), clamps_)
-                                      : median_of_taps();
+        return promised.has_one_tap() ? all_taps() : tap_of_rank();
+    }
+
+    [[nodiscard]] std::vector<float> find(std::span<const std::size_t> taps) const
+    {
+        std::vector<NearestQuery> queries(lookups_.size());
+        tbb::parallel_for(std::size_t{0}, lookups_.size(),
+                          [&](std::size_t i) { queries[i] = query(i, taps[i]); });
+        return light_.critical_biases(queries, clamps_);
     }
 
 private:
+    [[nodiscard]] bool is_always_lit(std::size_t lookup, std::size_t tap) const
+    {
+        return !always_lit_.empty() && always_lit_[lookup][tap];
+    }
     [[nodiscard]] NearestQuery query(std::size_t lookup, std::size_t tap) const
     {
         return {lookups_.pixel(lookup), exact_tap(lookup, tap)};
@@ -78,34 +92,52 @@ private:
         return light_.critical_biases(queries, clamps_);
     }
 
-    /// Hardware: each tap is compared; the verdict is lit when half of the weight is.
+    /// Hardware: each tap is compared; the verdict is lit when enough of the weight is.
     [[nodiscard]] std::vector<float> weighted() const
     {
-        const std::vector<float> critical = light_.critical_biases(all_taps(), clamps_);
+        const std::vector<float> critical = all_taps();
         const std::size_t each = lookups_.taps_of(0).size();
         std::vector<float> result(lookups_.size());
         for (std::size_t i = 0; i < result.size(); ++i) {
             result[i] =
-                half_weight(lookups_.taps_of(i), std::span{critical}.subspan(i * each, each));
+                weight_lit(lookups_.taps_of(i), std::span{critical}.subspan(i * each, each));
         }
         return result;
     }
 
-    /// A query for each tap of each lookup.
-    [[nodiscard]] std::vector<NearestQuery> all_taps() const
+    /// The critical bias of each tap of each lookup.
+    [[nodiscard]] std::vector<float> all_taps() const
     {
         std::vector<NearestQuery> queries(lookups_.tap_count());
+        const std::size_t each = lookups_.taps_of(0).size();
         tbb::parallel_for(std::size_t{0}, lookups_.size(), [&](std::size_t i) {
-            const std::size_t each = lookups_.taps_of(i).size();
             for (std::size_t t = 0; t < each; ++t) {
                 queries[i * each + t] = query(i, t);
             }
         });
-        return queries;
+        std::vector<float> critical = light_.critical_biases(queries, clamps_);
+        for (std::size_t i = 0; i < critical.size() && !always_lit_.empty(); ++i) {
+            critical[i] = is_always_lit(i / each, i % each) ? -infinity : critical[i];
+        }
+        return critical;
     }
 
-    /// The smallest of the taps' critical biases with which taps of half the weight are lit.
-    static float half_weight(std::span<const Tap> taps, std::span<const float> critical)
+    /// Whether so much of the weight, of 1, is enough.
+    [[nodiscard]] bool is_enough(double lit) const
+    {
+        switch (share_) {
+        case LitShare::any:
+            return lit > partial_above;
+        case LitShare::half:
+            return lit >= 0.5;
+        case LitShare::full:
+            return lit >= 1 - partial_above;
+        }
+        return false;
+    }
+
+    /// The smallest of the taps' critical biases with which taps of enough weight are lit.
+    [[nodiscard]] float weight_lit(std::span<const Tap> taps, std::span<const float> critical) const
     {
         std::vector<std::pair<float, double>> order;
         for (std::size_t t = 0; t < taps.size(); ++t) {
@@ -115,16 +147,31 @@ private:
         double lit = 0;
         for (const auto& [bias, weight] : order) {
             lit += weight;
-            if (lit >= 0.5) {
+            if (is_enough(lit)) {
                 return bias;
             }
         }
         return infinity; // not reached: the weights' sum is 1
     }
 
-    /// pcf: the ⌈K²/2⌉-th smallest of the taps' critical biases. It belongs to the tap of that rank
-    /// by depth, so that only taps which may be that one have to be asked.
-    [[nodiscard]] std::vector<float> median_of_taps() const
+    /// The place among K² equal taps, in the order of critical biases, of the one that decides.
+    [[nodiscard]] std::size_t rank() const
+    {
+        const std::size_t each = lookups_.taps_of(0).size();
+        switch (share_) {
+        case LitShare::any:
+            return 0; // one of at most 81 taps is more than 1/256
+        case LitShare::half:
+            return deciding_rank(each);
+        case LitShare::full:
+            return each - 1;
+        }
+        return 0;
+    }
+
+    /// pcf: the critical bias of the tap of that rank by depth, so that only taps which may be that
+    /// one have to be asked.
+    [[nodiscard]] std::vector<float> tap_of_rank() const
     {
         std::vector<float> result(lookups_.size());
         std::vector<NearestQuery> queries;
@@ -132,13 +179,16 @@ private:
         std::vector<Key> keys(lookups_.taps_of(0).size());
         std::vector<double> ends(keys.size());
         for (std::size_t i = 0; i < result.size(); ++i) {
-            std::ranges::transform(lookups_.hits_of(i), keys.begin(),
-                                   [&](const scene::TexelHit* hit) { return key(hit); });
-            const Key median{middle_of(keys, &Key::low, ends), middle_of(keys, &Key::high, ends)};
-            if (median.low == median.high && std::isinf(median.low)) {
-                result[i] = static_cast<float>(median.low);
+            for (std::size_t t = 0; t < keys.size(); ++t) {
+                keys[t] = is_always_lit(i, t) ? Key{-double{infinity}, -double{infinity}}
+                                              : key(lookups_.hits_of(i)[t]);
+            }
+            const Key decides{end_of_rank(keys, &Key::low, ends),
+                              end_of_rank(keys, &Key::high, ends)};
+            if (decides.low == decides.high && std::isinf(decides.low)) {
+                result[i] = static_cast<float>(decides.low);
             } else {
-                ranks.push_back(ask_around(i, keys, median, queries));
+                ranks.push_back(ask_around(i, keys, decides, queries));
             }
         }
         std::vector<float> critical = light_.critical_biases(queries, clamps_);
@@ -152,15 +202,15 @@ private:
         return result;
     }
 
-    /// The keys' ends of middle rank.
+    /// The keys' ends of the deciding rank.
     /// @param ends  of the same size; overwritten.
-    [[nodiscard]] static double middle_of(const std::vector<Key>& keys, double Key::*end,
-                                          std::vector<double>& ends)
+    [[nodiscard]] double end_of_rank(const std::vector<Key>& keys, double Key::*end,
+                                     std::vector<double>& ends) const
     {
         std::ranges::transform(keys, ends.begin(), end);
-        const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(deciding_rank(keys.size()));
-        std::ranges::nth_element(ends, middle);
-        return *middle;
+        const auto place = ends.begin() + static_cast<std::ptrdiff_t>(rank());
+        std::ranges::nth_element(ends, place);
+        return *place;
     }
 
     /// Which of the queries [first, first + count) answers for a lookup: the one of this rank.
@@ -171,21 +221,21 @@ private:
         std::size_t count;
     };
 
-    /// Adds queries for the taps that may have the middle rank.
-    /// @param median  what the key of middle rank lies between.
+    /// Adds queries for the taps that may have the deciding rank.
+    /// @param decides  what the key of that rank lies between.
     [[nodiscard]] Rank ask_around(std::size_t lookup, const std::vector<Key>& keys,
-                                  const Key& median, std::vector<NearestQuery>& queries) const
+                                  const Key& decides, std::vector<NearestQuery>& queries) const
     {
-        Rank rank{lookup, deciding_rank(keys.size()), queries.size(), 0};
+        Rank asked{lookup, rank(), queries.size(), 0};
         for (std::size_t t = 0; t < keys.size(); ++t) {
-            if (keys[t].high < median.low) {
-                --rank.rank;
-            } else if (keys[t].low <= median.high) {
+            if (keys[t].high < decides.low) {
+                --asked.rank;
+            } else if (keys[t].low <= decides.high) {
                 queries.push_back(query(lookup, t));
-                ++rank.count;
+                ++asked.count;
             }
         }
-        return rank;
+        return asked;
     }
 
     /// Orders taps as their critical biases: those lit by the smallest bias first.
@@ -204,6 +254,8 @@ private:
     const LookupRule& rule_;
     const TracedLookups& lookups_;
     const scene::ExactLight& light_;
+    LitShare share_;
+    std::span<const TapSet> always_lit_;
     bool clamps_;
 };
 
@@ -234,9 +286,17 @@ TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light,
 }
 
 std::vector<float> exact_critical_biases(const LookupRule& rule, const TracedLookups& lookups,
-                                         const scene::ExactLight& light)
+                                         const scene::ExactLight& light, LitShare share,
+                                         std::span<const TapSet> always_lit)
 {
-    return ExactLookup{rule, lookups, light}.find();
+    return ExactLookup{rule, lookups, light, share, always_lit}.find();
+}
+
+std::vector<float> exact_tap_biases(const LookupRule& rule, const TracedLookups& lookups,
+                                    const scene::ExactLight& light,
+                                    std::span<const std::size_t> taps)
+{
+    return ExactLookup{rule, lookups, light, LitShare::half, {}}.find(taps);
 }
 
 } // namespace gnomon::analysis

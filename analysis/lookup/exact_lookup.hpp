@@ -48,10 +48,29 @@ private:
     std::vector<const scene::TexelHit*> hits_;
 };
 
-/// V2: for each receiver the smallest bias with which exact depths at the lookup's taps are lit
-/// (DESIGN §4); −∞ or +∞ where policy taps decide.
+/// How much of a lookup's weight is lit.
+enum class LitShare {
+    any,  ///< more than 1/256
+    half, ///< at least one half
+    full, ///< all but at most 1/256
+};
+
+/// V2: for each receiver the smallest bias with which exact depths at the lookup's taps are lit to
+/// this share (DESIGN §4); −∞ or +∞ where policy taps decide. A lookup with one comparison is lit
+/// or not.
+/// @param always_lit  Taps that count as lit whatever the bias, by lookup; may be empty. Not read
+///                    where depths are interpolated.
 [[nodiscard]] std::vector<float> exact_critical_biases(const LookupRule& rule,
                                                        const TracedLookups& lookups,
-                                                       const scene::ExactLight& light);
+                                                       const scene::ExactLight& light,
+                                                       LitShare share,
+                                                       std::span<const TapSet> always_lit = {});
+
+/// V2n: the same of one tap each.
+/// @param taps  its place in the footprint, by lookup.
+[[nodiscard]] std::vector<float> exact_tap_biases(const LookupRule& rule,
+                                                  const TracedLookups& lookups,
+                                                  const scene::ExactLight& light,
+                                                  std::span<const std::size_t> taps);
 
 } // namespace gnomon::analysis

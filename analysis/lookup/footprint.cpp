@@ -63,6 +63,16 @@ Tap Footprint::tap_at(Texel texel, double weight) const
     return {texel, is_on_map(texel, resolution_), weight};
 }
 
+std::size_t Footprint::centre_tap(const Vec2f& point) const
+{
+    const Texel first = first_tap(point);
+    const auto place = [&](float x, int lowest) {
+        return static_cast<std::size_t>(
+            std::clamp(texel_coordinate(x, resolution_) - lowest, 0, width_ - 1));
+    };
+    return place(point.y, first.y) * static_cast<std::size_t>(width_) + place(point.x, first.x);
+}
+
 std::optional<Texel> Footprint::first_if_on_map(const Vec2f& point) const
 {
     const Texel first = first_tap(point);

@@ -5,6 +5,7 @@
 #include "scene/vec.hpp"
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -17,6 +18,9 @@ struct Tap {
     bool is_inside = true; ///< else there is no texel: the policy decides
     double weight = 1;     ///< exact: sums of a lookup's weights do not round
 };
+
+/// Some of a lookup's taps, in the order of its footprint.
+using TapSet = std::bitset<scene::most_taps>;
 
 /// Which texels a filter reads around a point of the map, exactly as the lookup does.
 class Footprint {
@@ -60,6 +64,9 @@ public:
     {
         return static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
     }
+
+    /// Which tap reads the texel that contains the point, or would, were it on the map.
+    [[nodiscard]] std::size_t centre_tap(const scene::Vec2f& point) const;
 
     /// The lower left tap's texel where all taps are on the map: the others are the square from it.
     [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::Vec2f& point) const;

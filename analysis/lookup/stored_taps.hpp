@@ -10,15 +10,16 @@
 
 namespace gnomon::analysis {
 
-/// The stored depths that a pcfK lookup reads, as raster_gl/shaders/lookup.frag does.
+/// The stored depths that a lookup reads, as raster_gl/shaders/lookup.frag does.
 class StoredTaps {
 public:
     /// @param map_depths  As shaders see them, top left first, square; must outlive this.
     StoredTaps(const scene::Image<float>& map_depths, const LookupRule& rule);
 
-    /// Writes the K × K depths to `out`; a tap outside the map has the rule's `outside_depth`.
+    /// Writes the depths of the footprint to `out`; a tap outside the map has the rule's
+    /// `outside_depth`.
     /// @param texel  uv · resolution of the lookup.
-    /// @param out    At least K² long.
+    /// @param out    As long as there are taps.
     /// @return  What was written; empty where the policy decides for all taps: beyond far, or
     ///          behind a spot.
     [[nodiscard]] std::span<float> gather(const scene::LookupSample& sample, scene::Vec2f texel,

@@ -14,8 +14,8 @@
 
 namespace gnomon::analysis {
 
-/// The taps of pcfK lookups, each with its own critical bias: at a bias, those whose critical bias
-/// is not above it are lit.
+/// The taps of lookups, each compared by itself, with its own critical bias: at a bias, those whose
+/// critical bias is not above it are lit.
 class TapCriticals {
 public:
     /// @param lookup      with its texels.
@@ -26,13 +26,20 @@ public:
         : lookup_{lookup},
           taps_{map_depths, rule},
           rule_{rule},
+          footprint_{{rule.filter, rule.outside}, map_depths.size().width_px},
           taps_each_{rule.promises().tap_count()}
     {
     }
 
     [[nodiscard]] std::size_t taps_each() const { return taps_each_; }
+    /// Writes the weights of the pixel's taps, in the order of the footprint.
+    void weights(std::size_t pixel, std::span<double> out) const
+    {
+        auto next = out.begin();
+        footprint_.visit_taps(lookup_.texels[pixel], [&](const Tap& tap) { *next++ = tap.weight; });
+    }
     /// Calls `visit(pixel, criticals)` for the pixels in [first, last) that `wants(pixel)`, with
-    /// the critical biases of the pixel's K² taps, in the order of the footprint. Those that the
+    /// the critical biases of the pixel's taps, in the order of the footprint. Those that the
     /// policy decides have its critical bias.
     template <typename Wants, typename Visit>
     void visit(std::size_t first, std::size_t last, const Wants& wants, const Visit& visit) const
@@ -83,6 +90,7 @@ private:
     const scene::LookupLayers& lookup_;
     StoredTaps taps_;
     LookupRule rule_;
+    Footprint footprint_;
     std::size_t taps_each_;
 };
 

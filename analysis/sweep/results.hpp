@@ -4,7 +4,7 @@
 #include "analysis/bias_limits.hpp"
 #include "analysis/bias_verification.hpp"
 #include "analysis/breakdown.hpp"
-#include "analysis/cause.hpp"
+#include "analysis/chain/cause.hpp"
 #include "analysis/error_parts.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/metrics.hpp"
@@ -43,6 +43,7 @@ struct Configuration {
 struct ConfigurationResult {
     Metrics metrics;
     std::optional<CauseCounts> causes; ///< empty: not asked for (float truth)
+    CauseAmounts amounts;              ///< of the same
     Gaps peter_panning;
     /// By object and light distance, sorted so; empty: not known, or too many.
     std::vector<ErrorPart> parts = {};

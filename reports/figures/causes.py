@@ -10,12 +10,12 @@ import style
 TITLE = "Why pixels are wrong"
 MOST_CONFIGURATIONS = 12
 MOST_BARS = 16
-LABELS = ("acne", "peter_panning", "leak", "edge", "overshadow")
+LABELS = ("acne", "peter_panning", "leak", "edge", "overshadow", "bleed")
 
 
 @dataclass(frozen=True)
 class Tables:
-    """Percent of the scored pixels by cause, (4, bars), and what the bars are.
+    """Percent of the scored pixels by cause, (5, bars), and what the bars are.
 
     `axis` is what they differ in, None where each is a configuration; `labels` are the wrong
     pixels' names by count, of a single configuration.
@@ -70,7 +70,7 @@ def draw(tables):
         _draw_configurations(axes, tables)
     else:
         _draw_axis(axes, tables)
-    style.add_legend(figure, ncol=4)
+    style.add_legend(figure, ncol=len(style.CAUSES))
     return figure
 
 

@@ -21,7 +21,7 @@ GREY = "#777777"
 # The same in every figure, picture and page.
 FALSE_SHADOW = VERMILION
 FALSE_LIT = BLUE
-CAUSES = {"bias": ORANGE, "precision": GREEN, "resolution": SKY, "coverage": PURPLE}
+CAUSES = {"bias": ORANGE, "precision": GREEN, "resolution": SKY, "coverage": PURPLE, "filter": BLUE}
 
 WIDTH_IN = 8.0
 PNG_DPI = 150

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -90,6 +92,35 @@ std::string contradicted_sum(const GateEntry& entry)
                    sum_of(entry, names_of("labels.", analysis::label_names)));
 }
 
+/// Amounts are sums of fractions, which round: by no more than 10^-9 of the pixels.
+std::string contradicted_amount(const GateEntry& entry)
+{
+    const auto all = sum_of(entry, {"shadow_amount", "light_amount"});
+    const auto unassigned = entry.metric("unassigned");
+    const double allowed = 1e-9 * std::max(1.0, entry.metric("pixels.total").value_or(0));
+    const auto differs = [&](std::string_view what, const std::optional<double>& a,
+                             std::string_view other, const std::optional<double>& b) {
+        return a && b && std::abs(*a - *b) > allowed ? unequal(what, a, other, b) : std::string{};
+    };
+    const auto with_unassigned = [&](std::string_view prefix, const auto& names) {
+        const auto sum = sum_of(entry, names_of(prefix, names));
+        return sum && unassigned ? std::optional{*sum + *unassigned} : std::nullopt;
+    };
+    constexpr std::string_view amounts = "shadow_amount + light_amount";
+    std::string causes = differs(amounts, all, "all cause_amounts and unassigned sum to",
+                                 with_unassigned("cause_amounts.", analysis::cause_names));
+    if (!causes.empty()) {
+        return causes;
+    }
+    std::string labels = differs(amounts, all, "all label_amounts and unassigned sum to",
+                                 with_unassigned("label_amounts.", analysis::label_names));
+    if (!labels.empty()) {
+        return labels;
+    }
+    return differs("softening", entry.metric("softening"), "its two sides sum to",
+                   sum_of(entry, {"shadow_softening", "light_softening"}));
+}
+
 /// Rates are quotients of sums, written so that they read back exactly.
 std::string contradicted_rate(const GateEntry& entry)
 {
@@ -150,8 +181,8 @@ std::string contradicted_parts(const GateEntry& entry)
 
 std::string find_contradiction(const GateEntry& entry)
 {
-    for (const auto check :
-         {contradicted_total, contradicted_sum, contradicted_rate, contradicted_parts}) {
+    for (const auto check : {contradicted_total, contradicted_sum, contradicted_amount,
+                             contradicted_rate, contradicted_parts}) {
         std::string found = check(entry);
         if (!found.empty()) {
             return found;

@@ -20,7 +20,8 @@ using PixelClass::lit;
 BiasBounds bounds_of(const std::vector<CurvePixel>& pixels, const ForgiveGaps& forgive = nullptr)
 {
     const CurveImages images{pixels};
-    return find_bias_bounds(images.curve(), images.criticals, images.classes, images.acne, forgive);
+    return find_bias_bounds(images.curve(), images.criticals, images.classes, images.acne_free(),
+                            forgive);
 }
 
 TEST(BiasBounds, LieAtTheLastAcneAndBelowTheFirstPanning)
@@ -185,13 +186,15 @@ TEST(BiasBounds, RejectImagesAndAnswersThatDoNotFit)
 {
     const CurveImages images{{{lit, 0.5F, true}, {blocked, 0.75F}}};
     const BiasCurve curve = images.curve();
-    EXPECT_THROW((void)find_bias_bounds(curve, images.criticals, images.classes, {}, nullptr),
+    EXPECT_THROW((void)find_bias_bounds(curve, images.criticals, scene::Image<PixelClass>{{1, 1}},
+                                        images.acne_free(), nullptr),
                  std::invalid_argument);
     const ForgiveGaps mute = [](std::span<const std::size_t>) {
         return std::vector<std::uint8_t>{};
     };
-    EXPECT_THROW((void)find_bias_bounds(curve, images.criticals, images.classes, images.acne, mute),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        (void)find_bias_bounds(curve, images.criticals, images.classes, images.acne_free(), mute),
+        std::invalid_argument);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "analysis/bias_rows.hpp"
 
+#include "analysis/amount_rows.hpp"
 #include "analysis/bias_order.hpp"
 #include "analysis/metrics.hpp"
 #include "random_biases.hpp"
@@ -35,19 +36,21 @@ const float nan = std::nanf("");
 struct Subject {
     scene::Image<PixelClass> classes;
     scene::LookupLayers deciding;
-    scene::Image<PixelCause> causes;
+    PixelCauses causes;
     LookupRule rule;
 
     explicit Subject(scene::ImageSize size)
         : classes{size},
           deciding{scene::Image<scene::LookupSample>{size}, scene::Image<scene::Vec2f>{size}},
-          causes{size}
+          causes{scene::Image<PixelCause>{size}, {}}
     {
     }
     [[nodiscard]] std::vector<BiasRow> rows(const std::vector<float>& biases) const
     {
         const auto critical = critical_biases(deciding, rule);
-        return count_rows({classes, deciding, critical, causes, rule}, {critical, classes}, biases);
+        const BiasCurve curve{critical, classes};
+        return count_rows({classes, deciding, critical, causes, rule}, curve,
+                          sum_amounts(curve, biases), biases);
     }
 };
 
@@ -55,11 +58,11 @@ struct Subject {
 /// @param bias  constant and slope bias together, as the lookup adds them.
 Cause cause_of(const PixelCause& pixel, PixelClass truth, float bias)
 {
-    if (pixel.unbiased == Cause::none) {
+    if (pixel.if_wrong == Cause::none) {
         return Cause::bias;
     }
     return truth == PixelClass::lit && bias >= pixel.exact_critical_bias ? Cause::precision
-                                                                         : pixel.unbiased;
+                                                                         : pixel.if_wrong;
 }
 
 /// Counts one bias by the definition: verdict, cause and label of every pixel.
@@ -79,9 +82,13 @@ BiasRow count_row(const Subject& subject, float bias)
             continue;
         }
         ++(is_lit ? row.errors.false_lit : row.errors.false_shadow);
-        const Cause cause = cause_of(subject.causes[i], truth, whole);
+        const PixelCause& why = subject.causes.pixels[i];
+        const Cause cause = cause_of(why, truth, whole);
+        const double own = why.sees ? 1 : 0;
+        const Label label = truth == PixelClass::lit ? label_of_lit(cause, {own, 1 - own})
+                                                     : label_of_blocked(cause, why.sees);
         ++row.causes.by_cause[static_cast<std::size_t>(cause)];
-        ++row.causes.by_label[static_cast<std::size_t>(label_of(subject.causes[i], truth, cause))];
+        ++row.causes.by_label[static_cast<std::size_t>(label)];
     }
     return row;
 }
@@ -102,7 +109,7 @@ TEST(BiasRows, CountAPixelOnEitherSideOfItsCriticalBias)
     // r − b <= d from b = 0.5 on; the difference is exact there.
     subject.classes[0] = PixelClass::lit;
     subject.deciding.samples[0] = {0.75F, 0.25F, 0, 0};
-    subject.causes[0] = {Cause::resolution, true, 0.125F};
+    subject.causes.pixels[0] = {Cause::resolution, Cause::resolution, true, 0.125F};
     subject.classes[1] = PixelClass::blocked;
     subject.deciding.samples[1] = {0.75F, 0.25F, 0, 0};
     const std::vector<float> biases{0.0F, 0.125F, previous_bias(0.5F), 0.5F, 1.0F};
@@ -123,7 +130,7 @@ TEST(BiasRows, CountPolicyPixelsAtEveryBias)
     subject.classes[1] = PixelClass::blocked;
     for (std::size_t i = 0; i < 2; ++i) {
         subject.deciding.samples[i] = {0.5F, nan, 0, 0};
-        subject.causes[i] = {Cause::coverage, false, infinity};
+        subject.causes.pixels[i] = {Cause::coverage, Cause::coverage, false, infinity};
     }
     const std::vector<float> biases{bias_of_rank(-largest_bias_rank), -1, 0, 1,
                                     bias_of_rank(largest_bias_rank)};
@@ -146,9 +153,8 @@ TEST(BiasRows, OfNoBiasAreNone)
 Subject random_subject(std::mt19937& random)
 {
     Subject subject{{1 + static_cast<int>(random() % 9), 1 + static_cast<int>(random() % 7)}};
-    constexpr std::array<Filter, 2> filters{Filter::nearest, Filter::linear};
     constexpr std::array<float, 4> slopes{0.0F, 0.0F, 0.0625F, -0.1F};
-    subject.rule = {filters.at(random() % 2), static_cast<Outside>(random() % 3), random() % 2 == 0,
+    subject.rule = {scene::Filter::nearest, static_cast<Outside>(random() % 3), random() % 2 == 0,
                     slopes.at(random() % 4)};
     constexpr std::array<PixelClass, 4> classes{PixelClass::lit, PixelClass::blocked,
                                                 PixelClass::attached, PixelClass::background};
@@ -168,8 +174,9 @@ Subject random_subject(std::mt19937& random)
         const bool is_blocked = subject.classes[i] == PixelClass::blocked;
         const std::array<float, 5> exact{-infinity, infinity, 0.0F, random_depth(random),
                                          -random_depth(random)};
-        subject.causes[i] = {causes.at(random() % (is_blocked ? 4 : 3)), random() % 2 == 0,
-                             exact.at(random() % 5)};
+        const Cause cause = causes.at(random() % (is_blocked ? 4 : 3));
+        const bool sees = random() % 2 == 0;
+        subject.causes.pixels[i] = {cause, cause, sees, exact.at(random() % 5)};
     }
     return subject;
 }
@@ -181,7 +188,7 @@ TEST(BiasRows, AgreeWithCountingEachBiasByItself)
         const Subject subject = random_subject(random);
         const auto critical = critical_biases(subject.deciding, subject.rule);
         std::vector<float> criticals{critical.begin(), critical.end()};
-        for (const PixelCause& cause : subject.causes) {
+        for (const PixelCause& cause : subject.causes.pixels) {
             criticals.push_back(cause.exact_critical_bias);
         }
         const auto biases = random_biases(random, criticals);
@@ -213,17 +220,17 @@ TEST(BiasRows, RejectImagesOfDifferentSizes)
     const scene::Image<float> turned{{1, 2}};
     const BiasCurve curve{critical, subject.classes};
     const std::vector<float> biases{0.0F};
-    EXPECT_THROW((void)count_rows({other.classes, subject.deciding, critical, subject.causes, {}},
-                                  curve, biases),
+    const auto amounts = sum_amounts(curve, biases);
+    const auto count = [&](const BiasRowInputs& inputs) {
+        return count_rows(inputs, curve, amounts, biases);
+    };
+    EXPECT_THROW((void)count({other.classes, subject.deciding, critical, subject.causes, {}}),
                  std::invalid_argument);
-    EXPECT_THROW((void)count_rows({subject.classes, other.deciding, critical, subject.causes, {}},
-                                  curve, biases),
+    EXPECT_THROW((void)count({subject.classes, other.deciding, critical, subject.causes, {}}),
                  std::invalid_argument);
-    EXPECT_THROW((void)count_rows({subject.classes, subject.deciding, turned, subject.causes, {}},
-                                  curve, biases),
+    EXPECT_THROW((void)count({subject.classes, subject.deciding, turned, subject.causes, {}}),
                  std::invalid_argument);
-    EXPECT_THROW((void)count_rows({subject.classes, subject.deciding, critical, other.causes, {}},
-                                  curve, biases),
+    EXPECT_THROW((void)count({subject.classes, subject.deciding, critical, other.causes, {}}),
                  std::invalid_argument);
 }
 

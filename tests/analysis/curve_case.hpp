@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/acne_free.hpp"
 #include "analysis/bias_curve.hpp"
 #include "analysis/bias_order.hpp"
 
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -22,19 +24,25 @@ struct CurvePixel {
 struct CurveImages {
     scene::Image<float> criticals;
     scene::Image<scene::PixelClass> classes;
-    scene::Image<std::uint8_t> acne;
+    PixelCauses causes;
 
     explicit CurveImages(const std::vector<CurvePixel>& pixels)
     {
         const scene::ImageSize size{static_cast<int>(pixels.size()), 1};
         criticals = scene::Image<float>{size};
         classes = scene::Image<scene::PixelClass>{size};
-        acne = scene::Image<std::uint8_t>{size};
+        causes.pixels = scene::Image<PixelCause>{size};
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             criticals[i] = pixels[i].critical;
             classes[i] = pixels[i].pixel_class;
-            acne[i] = pixels[i].is_acne ? 1 : 0;
+            causes.pixels[i] = {Cause::resolution, Cause::resolution, pixels[i].is_acne};
         }
+    }
+    [[nodiscard]] FindAcneFree acne_free() const
+    {
+        return [this](std::span<const std::uint64_t> allowed) {
+            return find_acne_free({classes, criticals, causes}, allowed);
+        };
     }
     [[nodiscard]] BiasCurve curve() const { return {criticals, classes}; }
 };

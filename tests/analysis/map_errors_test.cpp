@@ -50,6 +50,7 @@ struct FourPixels {
                                  false,
                                  truth,
                                  lookup,
+                                 lookup,
                                  no_depths,
                                  light};
         return map_depth_errors_m(inputs, CentreHits{inputs}, orthographic_frustum(),

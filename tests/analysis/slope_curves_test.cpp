@@ -21,7 +21,8 @@ struct Ground {
     static constexpr scene::ImageSize size{1000, 1};
     scene::LookupLayers samples{scene::Image<scene::LookupSample>{size}};
     scene::Image<PixelClass> classes{size, PixelClass::lit};
-    scene::Image<std::uint8_t> acne{size, 1};
+    PixelCauses causes{scene::Image<PixelCause>{size, {Cause::resolution, Cause::resolution, true}},
+                       {}};
 
     Ground()
     {
@@ -37,7 +38,7 @@ struct Ground {
             }
         }
     }
-    [[nodiscard]] SlopeInputs inputs() const { return {samples, {}, classes, acne, nullptr}; }
+    [[nodiscard]] SlopeInputs inputs() const { return {samples, {}, classes, causes, nullptr}; }
 };
 
 TEST(DefaultSlopes, SurroundTheNeedOfAPlane)

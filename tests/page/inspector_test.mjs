@@ -18,8 +18,8 @@ import {
 
 const seed = 20261122;
 const classes = ["background", "unmatched", "attached", "out of light", "indeterminate", "lit", "blocked"];
-const causes = ["none", "bias", "precision", "resolution", "coverage"];
-const labels = ["right", "acne", "peter panning", "leak", "edge", "overshadow"];
+const causes = ["none", "bias", "precision", "resolution", "coverage", "filter"];
+const labels = ["right", "acne", "peter panning", "leak", "edge", "overshadow", "bleed"];
 const jobs = {
   spot: sized(96, 64, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128"),
   pcf: sized(

@@ -96,7 +96,7 @@ TEST(ComparisonJson, NamesSceneAndMethod)
     EXPECT_EQ(object["scene"]["hash"], scene::content_hash(example().file.scene));
     EXPECT_THAT(names(object["scene"]),
                 UnorderedElementsAre("name", "triangles", "objects", "dropped_triangles",
-                                     "ignored_primitives", "hash"));
+                                     "ignored_primitives", "hash", "notes"));
     EXPECT_EQ(object["truth_method"], "exact");
 }
 

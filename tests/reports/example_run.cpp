@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,6 +44,8 @@ analysis::ConfigurationResult example_result(std::uint64_t ordinal)
     result.causes =
         analysis::CauseCounts{{0, 1, 2, result.metrics.false_shadow - 3, result.metrics.false_lit},
                               {0, result.metrics.false_shadow, result.metrics.false_lit, 0, 0, 0}};
+    std::ranges::copy(result.causes->by_cause, result.amounts.by_cause.begin());
+    std::ranges::copy(result.causes->by_label, result.amounts.by_label.begin());
     if (ordinal % 2 == 0) {
         result.peter_panning.metres = quantiles(0.01F);
         result.peter_panning.texels = quantiles(3);
@@ -52,7 +55,8 @@ analysis::ConfigurationResult example_result(std::uint64_t ordinal)
 
 analysis::BiasLimits limits(double allowance, float scale)
 {
-    return {allowance, 5, 0.001F * scale, std::numeric_limits<float>::infinity(), 0.3F * scale};
+    return {allowance,   5, 0.001F * scale, 0.0005F * scale, std::numeric_limits<float>::infinity(),
+            0.3F * scale};
 }
 
 std::vector<analysis::ErrorBin> bins(std::uint64_t number)

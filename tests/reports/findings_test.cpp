@@ -35,10 +35,15 @@ analysis::Comparison comparison_of(std::uint64_t false_shadow, std::uint64_t fal
     critical[0] = 0.25F;
     analysis::BiasCurve curve{critical, classes};
     const analysis::BestBiases best = find_best_biases(curve);
-    const analysis::BiasBounds bounds =
-        find_bias_bounds(curve, critical, classes, scene::Image<std::uint8_t>{{200, 1}, 1}, {});
+    const analysis::PixelCauses acne{
+        scene::Image<analysis::PixelCause>{
+            {200, 1}, {analysis::Cause::resolution, analysis::Cause::resolution, true}},
+        {}};
+    const auto acne_free = [&](std::span<const std::uint64_t> allowed) {
+        return analysis::find_acne_free({classes, critical, acne}, allowed);
+    };
+    const analysis::BiasBounds bounds = find_bias_bounds(curve, critical, classes, acne_free, {});
     comparison.diagnosis = analysis::Diagnosis{
-        .pixels = {},
         .causes = {},
         .peter_panning = {},
         .biases = analysis::BiasAnswers{critical, std::move(curve), best, bounds, {}, {}, 0},
@@ -74,7 +79,22 @@ TEST(Findings, DoNotCallRightWhatIsWrongByLessThanHalf)
         findings(comparison),
         ElementsAre("No scored pixel is wrong by more than one half, yet verdicts are off by "
                     "19.9 % on average: 100 of 200 pixels are partly wrong, by 39.8 pixels "
-                    "of false shadow and 0 of false light in all."));
+                    "of false shadow and 0 of false light in all.",
+                    "Against acne the constant bias should be at least 0.25 (for at most 0.1 % of "
+                    "the pixels, by amount); it is 0."));
+}
+
+TEST(Findings, SayWhatMostOfTheAmountIs)
+{
+    analysis::Comparison comparison = comparison_of(0, 0);
+    comparison.metrics = make_metrics(comparison.metrics.pixels, {0, 0, {40, 0, 100, 0}});
+    analysis::CauseAmounts& amounts = comparison.diagnosis->causes.amounts;
+    amounts.by_label[static_cast<std::size_t>(analysis::Label::acne)] = 10;
+    amounts.by_label[static_cast<std::size_t>(analysis::Label::edge)] = 30;
+    amounts.shadow_softening = 25;
+    EXPECT_THAT(findings(comparison)[0],
+                testing::EndsWith(" Of the amount, 25 % is acne, and 62 % is borders that the "
+                                  "kernel softens on purpose."));
 }
 
 TEST(Findings, AddTheAmountToTheCounts)

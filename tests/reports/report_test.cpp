@@ -228,7 +228,6 @@ analysis::Comparison with_critical_biases()
     const scene::Image<float> zeros{classes.size()};
     analysis::BiasCurve curve{criticals, classes};
     comparison.diagnosis = analysis::Diagnosis{
-        .pixels = {},
         .zeta_m = zeros,
         .map_error_m = zeros,
         .causes = {scene::Image<analysis::Cause>{classes.size()},

@@ -55,7 +55,6 @@ Comparison example_comparison()
     const analysis::BiasBounds bounds{
         limits(0, 1), {limits(0.0001, 2), limits(0.001, 3), limits(0.01, 5)}, true};
     comparison.diagnosis = analysis::Diagnosis{
-        .pixels = {},
         .causes = {{}, {}, {{0, 21, 22, 23, 24}, {0, 31, 32, 33, 34, 35}}},
         .peter_panning = {analysis::Quantiles{9, 0.01F, 0.02F, 0.03F, 0.04F},
                           analysis::Quantiles{9, 1.1F, 1.2F, 1.3F, 1.4F}},
@@ -144,7 +143,7 @@ void expect_as_in_json(const Comparison& comparison)
             EXPECT_EQ(cell, value.dump()) << column;
         }
     }
-    EXPECT_EQ(compared, 8 + 6 + 12 + 9 + 7 + 6 + 13U);
+    EXPECT_EQ(compared, 8 + 6 + 12 + 11 + 14 + 7 + 7 + 16U);
 }
 
 TEST(ResultsCsv, HoldsWhatCompareJsonPrints)

@@ -24,6 +24,7 @@ const causeColours = {
   precision: okabeIto.green,
   resolution: okabeIto.sky,
   coverage: okabeIto.purple,
+  filter: okabeIto.blue,
 };
 const labelColours = {
   acne: okabeIto.vermilion,
@@ -31,6 +32,7 @@ const labelColours = {
   leak: okabeIto.sky,
   edge: okabeIto.green,
   overshadow: okabeIto.orange,
+  bleed: okabeIto.purple,
 };
 const classColours = {
   background: "#E4E9F0",

@@ -1,8 +1,8 @@
 // Names of the values of the layers class, cause and label; docs/aov.md.
 
 const classNames = ["background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked"];
-const causeNames = ["none", "bias", "precision", "resolution", "coverage"];
-const labelNames = ["right", "acne", "peter_panning", "leak", "edge", "overshadow"];
+const causeNames = ["none", "bias", "precision", "resolution", "coverage", "filter"];
+const labelNames = ["right", "acne", "peter_panning", "leak", "edge", "overshadow", "bleed"];
 const classLit = 5;
 const classBlocked = 6;
 const noTriangle = 0xffffffff;
