@@ -6,8 +6,6 @@
 
 namespace gnomon::analysis {
 
-namespace {
-
 std::vector<float> rerun_list()
 {
     std::vector<float> biases{0.0F};
@@ -16,8 +14,6 @@ std::vector<float> rerun_list()
     }
     return biases;
 }
-
-} // namespace
 
 std::vector<BiasRerun> rerun_biases(const scene::Job& job, const scene::View& view,
                                     const scene::TruthLayers& truth, const Renderers& renderers)
@@ -32,7 +28,8 @@ std::vector<BiasRerun> rerun_biases(const scene::Job& job, const scene::View& vi
                           {metrics.false_shadow, metrics.false_lit},
                           metrics.false_shadow_rate,
                           metrics.false_lit_rate,
-                          metrics.error_rate});
+                          metrics.error_rate,
+                          metrics.amounts});
     }
     return reruns;
 }

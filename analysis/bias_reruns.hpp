@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/amounts.hpp"
 #include "analysis/bias_curve.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/job.hpp"
@@ -17,10 +18,13 @@ struct BiasRerun {
     std::optional<double> false_shadow_rate; ///< empty: no scored lit pixel
     std::optional<double> false_lit_rate;    ///< empty: no scored blocked pixel
     std::optional<double> error_rate;        ///< empty: no scored pixel
+    ErrorAmounts amounts;
 };
 
-/// Looks the receivers up again with each constant bias of a fixed list: 0, and four a decade from
-/// 1e-6 to 1.
+/// The constant biases to run GL again with: 0, and four a decade from 1e-6 to 1.
+[[nodiscard]] std::vector<float> rerun_list();
+
+/// Looks the receivers up again with each constant bias of the `rerun_list`.
 ///
 /// The map must be the one drawn last. Afterwards GL's last lookup is that of the largest bias.
 /// @param view  the slope and normal offset of its bias are kept.

@@ -47,6 +47,11 @@ struct Advice {
         keys; ///< what changes, as the job file writes it: "bias.constant = 0.002"
     ErrorCounts errors;
     std::optional<double> error_rate; ///< empty: no scored pixel
+    ErrorAmounts amounts;
+    double softening = 0; ///< the part of the amounts that a kernel softens borders by [px]
+
+    /// By how much verdicts are wrong beside what a kernel softens on purpose [px].
+    [[nodiscard]] double error_amount() const { return amounts.total() - softening; }
 };
 
 /// One configuration's result: everything that reports show.

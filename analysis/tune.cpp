@@ -118,7 +118,8 @@ public:
                             limits_.max_resolution_texels));
         }
         const View view = scene::resolve_view(job_, file_.scene, file_.defaults);
-        truth_ = renderers_.find_truth(view, renderers_.draw_receivers(view));
+        receivers_ = renderers_.draw_receivers(view);
+        truth_ = renderers_.find_truth(view, receivers_);
         require_scored_pixels();
         TuneResult result;
         for (const scene::ShadowMapSettings& map : tried) {
@@ -154,7 +155,7 @@ private:
         for (const double normal_texels : normal_offsets(job_)) {
             job.bias.normal_texels = normal_texels;
             view = scene::resolve_view(job, file_.scene, file_.defaults);
-            const BiasSearch search{job, view, truth_, renderers_};
+            const BiasSearch search{job, view, {file_.scene, receivers_, truth_}, renderers_};
             for (const double slope : slopes(job_, view, map.resolution_texels)) {
                 consider(search, {.map = map, .slope = slope, .normal_texels = normal_texels},
                          result);
@@ -182,6 +183,7 @@ private:
     const Renderers& renderers_;
     const TuneLimits& limits_;
     const std::function<void(const TunedSetting&)>& progress_;
+    scene::ReceiverLayers receivers_;
     scene::TruthLayers truth_;
 };
 
@@ -198,8 +200,11 @@ bool is_better(const TunedSetting& a, const TunedSetting& b)
     if (a.meets_limits != b.meets_limits) {
         return a.meets_limits;
     }
-    return std::tuple{a.errors.total(), map_bytes(a.map), -a.interval.width()} <
-           std::tuple{b.errors.total(), map_bytes(b.map), -b.interval.width()};
+    const auto order = [](const TunedSetting& setting) {
+        return std::tuple{setting.error_amount(), setting.errors.total(), map_bytes(setting.map),
+                          -setting.interval.width()};
+    };
+    return order(a) < order(b);
 }
 
 Job tuned_job(const Job& job, const TunedSetting& setting)

@@ -25,6 +25,8 @@ struct TuneOptions {
     SessionOptions session;
     std::string max_false_shadow = "0.1%";
     std::string max_false_lit = "0.5%";
+    std::string max_false_shadow_count = "100%";
+    std::string max_false_lit_count = "100%";
     int max_resolution = 4096;
     bool json = false;
 };
@@ -48,15 +50,18 @@ void report_progress(const analysis::TunedSetting& setting)
 {
     fmt::print(stderr, "gnomon tune: {} {}, slope {:.4g}, offset {:.3g}: {} errors{}\n",
                setting.map.resolution_texels, scene::depth_format_name(setting.map.depth_format),
-               setting.slope, setting.normal_texels, reports::grouped(setting.errors.total()),
+               setting.slope, setting.normal_texels,
+               reports::grouped_amount(setting.error_amount()),
                setting.meets_limits ? ", meets the limits" : "");
 }
 
 void tune(const TuneOptions& options)
 {
-    const analysis::TuneLimits limits{read_rate("--max-false-shadow", options.max_false_shadow),
-                                      read_rate("--max-false-lit", options.max_false_lit),
-                                      options.max_resolution};
+    const analysis::TuneLimits limits{
+        read_rate("--max-false-shadow", options.max_false_shadow),
+        read_rate("--max-false-lit", options.max_false_lit),
+        read_rate("--max-false-shadow-count", options.max_false_shadow_count),
+        read_rate("--max-false-lit-count", options.max_false_lit_count), options.max_resolution};
     const scene::Job job = read_job(options.job).job;
     const ComparisonSession session{job, options.session};
     const analysis::TuneResult result =
@@ -77,11 +82,20 @@ void add_tune_command(CLI::App& program)
     add_job_options(*command, options->job);
     command
         ->add_option("--max-false-shadow", options->max_false_shadow,
-                     "Largest share of the lit pixels that may be shadowed")
+                     "Largest amount of shadow on lit pixels, as a share of them, without what a "
+                     "filter softens on purpose")
         ->capture_default_str();
     command
         ->add_option("--max-false-lit", options->max_false_lit,
-                     "Largest share of the blocked pixels that may be lit")
+                     "Largest amount of light on blocked pixels, the same")
+        ->capture_default_str();
+    command
+        ->add_option("--max-false-shadow-count", options->max_false_shadow_count,
+                     "Largest share of the lit pixels whose verdict may be below one half")
+        ->capture_default_str();
+    command
+        ->add_option("--max-false-lit-count", options->max_false_lit_count,
+                     "Largest share of the blocked pixels whose verdict may be one half or more")
         ->capture_default_str();
     command->add_option("--max-resolution", options->max_resolution, "Largest map [texels]")
         ->check(CLI::Range(1, 16384))

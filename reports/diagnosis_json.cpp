@@ -130,7 +130,9 @@ Json reruns(const std::vector<analysis::BiasRerun>& reruns)
                         {"false_lit", rerun.errors.false_lit},
                         {"false_shadow_rate", number_or_null(rerun.false_shadow_rate)},
                         {"false_lit_rate", number_or_null(rerun.false_lit_rate)},
-                        {"error_rate", number_or_null(rerun.error_rate)}});
+                        {"error_rate", number_or_null(rerun.error_rate)},
+                        {"shadow_amount", rerun.amounts.shadow},
+                        {"light_amount", rerun.amounts.light}});
     }
     return json;
 }
@@ -160,7 +162,10 @@ Json advice(const std::vector<analysis::Advice>& changes)
         json.push_back({{"keys", change.keys},
                         {"false_shadow", change.errors.false_shadow},
                         {"false_lit", change.errors.false_lit},
-                        {"error_rate", number_or_null(change.error_rate)}});
+                        {"error_rate", number_or_null(change.error_rate)},
+                        {"shadow_amount", change.amounts.shadow},
+                        {"light_amount", change.amounts.light},
+                        {"softening", change.softening}});
     }
     return json;
 }

@@ -93,6 +93,16 @@ std::string limit(float bias, std::string_view none)
     return std::isfinite(bias) ? fmt::format("{:.4g}", bias) : std::string{none};
 }
 
+/// "0.0024 (by count 0.0008)": where taps tell them apart.
+std::string acne_limit(const analysis::BiasLimits& limits)
+{
+    std::string text = limit(limits.acne_free, "-");
+    if (limits.acne_free != limits.acne_free_count) {
+        text += fmt::format(" (by count {})", limit(limits.acne_free_count, "-"));
+    }
+    return text;
+}
+
 /// "17 reruns of GL: 0 of 39,168 verdicts differ"
 std::string verification(const analysis::Comparison& comparison)
 {
@@ -118,11 +128,9 @@ std::string constant_bias(const analysis::Comparison& comparison)
                                                       limit(answers.best.interval.lo, "any"),
                                                       limit(answers.best.interval.hi, "any")));
     text += setting_line("", fmt::format("no acne from {}, no peter-panning up to {}",
-                                         limit(strict.acne_free, "-"),
-                                         limit(strict.panning_free, "-")));
+                                         acne_limit(strict), limit(strict.panning_free, "-")));
     text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
-                                         limit(lenient.acne_free, "-"),
-                                         limit(lenient.panning_free, "-")));
+                                         acne_limit(lenient), limit(lenient.panning_free, "-")));
     return text + verification(comparison);
 }
 
@@ -132,14 +140,22 @@ std::string advice(const analysis::Comparison& comparison)
     if (comparison.advice.empty()) {
         return "";
     }
-    const std::uint64_t now = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    const analysis::Metrics& metrics = comparison.metrics;
+    const std::uint64_t now = metrics.false_shadow + metrics.false_lit;
+    const bool is_soft = analysis::has_fractions(metrics);
     std::string text = "\n";
-    text += count_line("measured with", "errors", "rate", "");
-    text +=
-        count_line("the job as it is", grouped(now), percent(comparison.metrics.error_rate), "");
+    text += count_line("measured with", "errors", is_soft ? "amount" : "rate",
+                       is_soft ? "amount: px, without softened borders" : "");
+    const auto line = [&](std::string_view head, std::uint64_t errors, double amount,
+                          const std::optional<double>& rate, const std::string& note) {
+        text += count_line(head, grouped(errors), is_soft ? grouped_amount(amount) : percent(rate),
+                           note);
+    };
+    const double softening = comparison.diagnosis->causes.amounts.softening();
+    line("the job as it is", now, metrics.amounts.total() - softening, metrics.error_rate, "");
     for (const analysis::Advice& change : comparison.advice) {
-        text += count_line("", grouped(change.errors.total()), percent(change.error_rate),
-                           fmt::format("{}", fmt::join(change.keys, ", ")));
+        line("", change.errors.total(), change.error_amount(), change.error_rate,
+             fmt::format("{}", fmt::join(change.keys, ", ")));
     }
     return text;
 }

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <string_view>
 
 namespace gnomon::reports {
 
@@ -218,60 +221,106 @@ std::string against_limits(float bias, const analysis::BiasBounds& bounds)
 /// The biases that are worth recommending.
 constexpr analysis::BiasInterval usable_biases{0.0F, 1.0F};
 
-/// The change with the fewest errors, of those that were measured.
+/// The change with the least errors, of those that were measured.
 struct Change {
     std::string beginning; ///< of its sentence: what was measured
     std::string keys;
-    analysis::ErrorCounts errors;
+    double errors = 0; ///< pixels; where verdicts are fractions, the amount of error
+    double now = 0;    ///< the job's own, of the same kind
+    /// What is left out of that amount, or is not; empty: they are counts.
+    std::string_view amount = {};
 };
 
+constexpr std::string_view with_softening = "softened borders included";
+constexpr std::string_view without_softening = "without softened borders";
+
 /// What the best constant bias would do: the curve knows it exactly.
-Change best_bias(const analysis::BiasAnswers& answers)
+Change best_bias(const analysis::BiasAnswers& answers, const analysis::Metrics& now)
 {
     const analysis::BestBiases best = find_best_biases(answers.curve, usable_biases);
     return {"With slope and offset as they are",
-            fmt::format("bias.constant = {}", best.recommended()), best.errors};
+            fmt::format("bias.constant = {}", best.recommended()),
+            static_cast<double>(best.errors.total()),
+            static_cast<double>(now.false_shadow + now.false_lit)};
+}
+
+/// The same where verdicts are fractions: of the curve's points.
+Change least_amount(const std::vector<analysis::CurveSample>& points, const analysis::Metrics& now)
+{
+    const auto amount = [](const analysis::CurveSample& point) {
+        const bool is_usable = point.bias >= usable_biases.lo && point.bias <= usable_biases.hi;
+        return is_usable ? point.counts.shadow_amount + point.counts.light_amount
+                         : std::numeric_limits<double>::infinity();
+    };
+    const auto best = std::ranges::min_element(points, {}, amount);
+    return {"With slope and offset as they are", fmt::format("bias.constant = {}", best->bias),
+            amount(*best), now.amounts.total(), with_softening};
 }
 
 /// Of the biases that GL was run again with.
-Change best_rerun(const std::vector<analysis::BiasRerun>& reruns)
+Change best_rerun(const std::vector<analysis::BiasRerun>& reruns, const analysis::Metrics& now)
 {
     const auto best = std::ranges::min_element(
-        reruns, {}, [](const auto& rerun) { return rerun.errors.total(); });
+        reruns, {}, [](const auto& rerun) { return rerun.amounts.total(); });
     return {fmt::format("The driver's own filter has no bias curve, so GL was run again with {} "
                         "constant biases: of those",
                         reruns.size()),
-            fmt::format("bias.constant = {}", best->bias), best->errors};
+            fmt::format("bias.constant = {}", best->bias), best->amounts.total(),
+            now.amounts.total(), with_softening};
 }
 
-Change best_advice(const std::vector<analysis::Advice>& advice)
+Change best_advice(const analysis::Comparison& comparison, const analysis::Diagnosis& diagnosis)
 {
+    const std::string beginning =
+        fmt::format("Of {} measured", counted(comparison.advice.size(), "change"));
+    const auto keys = [](const analysis::Advice& advice) {
+        return fmt::format("{}", fmt::join(advice.keys, ", "));
+    };
+    const analysis::Metrics& now = comparison.metrics;
+    if (has_fractions(now)) {
+        const auto best =
+            std::ranges::min_element(comparison.advice, {}, &analysis::Advice::error_amount);
+        return {beginning, keys(*best), best->error_amount(),
+                now.amounts.total() - diagnosis.causes.amounts.softening(), without_softening};
+    }
     const auto best = std::ranges::min_element(
-        advice, {}, [](const auto& change) { return change.errors.total(); });
-    return {fmt::format("Of {} measured", counted(advice.size(), "change")),
-            fmt::format("{}", fmt::join(best->keys, ", ")), best->errors};
+        comparison.advice, {}, [](const auto& change) { return change.errors.total(); });
+    return {beginning, keys(*best), static_cast<double>(best->errors.total()),
+            static_cast<double>(now.false_shadow + now.false_lit)};
 }
 
 /// The best change that is known; nothing where a diagnosis has no such answers.
 std::optional<Change> best_change(const analysis::Comparison& comparison,
                                   const analysis::Diagnosis& diagnosis)
 {
+    const analysis::Metrics& now = comparison.metrics;
     if (!comparison.advice.empty()) {
-        return best_advice(comparison.advice);
+        return best_advice(comparison, diagnosis);
     }
     if (diagnosis.biases) {
-        return best_bias(*diagnosis.biases);
+        return has_fractions(now) && !diagnosis.curve.points.empty()
+                   ? least_amount(diagnosis.curve.points, now)
+                   : best_bias(*diagnosis.biases, now);
     }
-    return comparison.reruns.empty() ? std::nullopt : std::optional{best_rerun(comparison.reruns)};
+    return comparison.reruns.empty() ? std::nullopt
+                                     : std::optional{best_rerun(comparison.reruns, now)};
 }
 
-std::string in_words(const Change& change, std::uint64_t now)
+std::string in_words(const Change& change)
 {
-    if (change.errors.total() >= now) {
-        return fmt::format("{}, none has fewer errors.", change.beginning);
+    const bool is_better = change.errors < change.now;
+    if (!change.amount.empty()) {
+        return is_better
+                   ? fmt::format("{}, {} is the least wrong by amount: {} px in place of {}, {}.",
+                                 change.beginning, change.keys, grouped_amount(change.errors),
+                                 grouped_amount(change.now), change.amount)
+                   : fmt::format("{}, none is less wrong by amount.", change.beginning);
     }
-    return fmt::format("{}, {} has the fewest errors: {} in place of {}.", change.beginning,
-                       change.keys, grouped(change.errors.total()), grouped(now));
+    return is_better
+               ? fmt::format("{}, {} has the fewest errors: {} in place of {}.", change.beginning,
+                             change.keys, grouped(static_cast<std::uint64_t>(change.errors)),
+                             grouped(static_cast<std::uint64_t>(change.now)))
+               : fmt::format("{}, none has fewer errors.", change.beginning);
 }
 
 /// Slope and normal offset are biases too, which no constant one makes up for.
@@ -329,13 +378,13 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     if (diagnosis.biases) {
         append(sentences, against_limits(comparison.view.bias.constant, diagnosis.biases->bounds));
     }
+    const auto change = best_change(comparison, diagnosis);
+    const bool helps = change && change->errors < change->now;
+    if (change && (helps || sentences.size() < 2)) {
+        append(sentences, in_words(*change));
+    }
     if (now == 0) {
         return sentences;
-    }
-    const auto change = best_change(comparison, diagnosis);
-    const bool helps = change && change->errors.total() < now;
-    if (change && (helps || sentences.size() < 2)) {
-        append(sentences, in_words(*change, now));
     }
     const std::string hint = what_to_try(comparison.view.bias, counts);
     if (sentences.size() < 3 && comparison.advice.empty() && !hint.empty()) {

@@ -5,6 +5,7 @@
 #include "reports/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <tuple>
@@ -42,6 +43,10 @@ Json setting_json(const TunedSetting& setting)
             {"false_shadow_rate", number_or_null(setting.false_shadow_rate)},
             {"false_lit_rate", number_or_null(setting.false_lit_rate)},
             {"error_rate", number_or_null(setting.error_rate)},
+            {"shadow_amount", setting.amounts.shadow},
+            {"light_amount", setting.amounts.light},
+            {"shadow_softening", setting.shadow_softening},
+            {"light_softening", setting.light_softening},
             {"best_interval", {setting.interval.lo, setting.interval.hi}},
             {"meets_limits", setting.meets_limits}};
 }
@@ -88,33 +93,62 @@ std::string table(const TuneResult& result)
                                    "map", "near, far", "memory", "constant", "slope", "offset",
                                    "false shadow", "false lit", "errors", "limits");
     for (const TunedSetting* setting : best_of_each_map(result)) {
-        text +=
-            fmt::format("{:<14}{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
-                        fmt::format("{} {}", setting->map.resolution_texels,
-                                    scene::depth_format_name(setting->map.depth_format)),
-                        range(setting->map.frustum), mebibytes(analysis::map_bytes(setting->map)),
-                        setting->constant, setting->slope, setting->normal_texels,
-                        percent(setting->false_shadow_rate), percent(setting->false_lit_rate),
-                        grouped(setting->errors.total()), setting->meets_limits ? "met" : "-");
+        text += fmt::format("{:<14}{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
+                            fmt::format("{} {}", setting->map.resolution_texels,
+                                        scene::depth_format_name(setting->map.depth_format)),
+                            range(setting->map.frustum),
+                            mebibytes(analysis::map_bytes(setting->map)), setting->constant,
+                            setting->slope, setting->normal_texels, percent(setting->shadow_rate),
+                            percent(setting->light_rate), grouped_amount(setting->error_amount()),
+                            setting->meets_limits ? "met" : "-");
     }
     return text;
 }
 
+/// "; by count false lit at most 1 %": of the limits that are some.
+std::string counts_asked(const TuneLimits& limits)
+{
+    std::vector<std::string> asked;
+    if (limits.max_false_shadow_rate < 1) {
+        asked.push_back(
+            fmt::format("false shadow at most {}", percent(limits.max_false_shadow_rate)));
+    }
+    if (limits.max_false_lit_rate < 1) {
+        asked.push_back(fmt::format("false lit at most {}", percent(limits.max_false_lit_rate)));
+    }
+    return asked.empty() ? "" : fmt::format("; by count {}", fmt::join(asked, ", "));
+}
+
 std::string verdict(const TuneResult& result, const TuneLimits& limits)
 {
-    const std::string asked =
-        fmt::format("false shadow at most {} of the lit pixels, false lit at most {} of the "
-                    "blocked ones",
-                    percent(limits.max_false_shadow_rate), percent(limits.max_false_lit_rate));
+    const std::string asked = fmt::format(
+        "false shadow at most {} of the lit pixels, false lit at most {} of the blocked ones{}",
+        percent(limits.max_shadow_amount_rate), percent(limits.max_light_amount_rate),
+        counts_asked(limits));
     if (result.meets_limits) {
         return fmt::format(
             "The smallest of these maps that meets the limits ({}); its keys, in place "
             "of the job's own:\n",
             asked);
     }
-    return fmt::format("No setting up to {0}x{0} meets the limits ({1}); the one with the fewest "
-                       "errors; its keys, in place of the job's own:\n",
+    return fmt::format("No setting up to {0}x{0} meets the limits ({1}); the one that is least "
+                       "wrong; its keys, in place of the job's own:\n",
                        limits.max_resolution_texels, asked);
+}
+
+/// What verdicts that are fractions add; empty where none are.
+std::string measured_amounts(const TuneResult& result)
+{
+    const analysis::Metrics& measured = result.measured.metrics;
+    if (!has_fractions(measured)) {
+        return "";
+    }
+    const TunedSetting& best = result.best();
+    return fmt::format(
+        "By amount: {} px of false shadow ({} of them softened borders), {} px of "
+        "false light ({}).\n",
+        grouped_amount(measured.amounts.shadow), grouped_amount(best.shadow_softening),
+        grouped_amount(measured.amounts.light), grouped_amount(best.light_softening));
 }
 
 } // namespace
@@ -140,7 +174,8 @@ std::string tune_text(const TuneResult& result, const TuneLimits& limits)
 {
     const analysis::Metrics& measured = result.measured.metrics;
     std::string text = fmt::format(
-        "{} settings considered; of each map the best bias, slope and normal offset [texels]:\n\n",
+        "{} settings considered; of each map the best bias, slope and normal offset [texels], "
+        "and its errors by amount [px], without what the filter softens on purpose:\n\n",
         grouped(result.considered.size()));
     text += table(result);
     text += "\n";
@@ -150,6 +185,7 @@ std::string tune_text(const TuneResult& result, const TuneLimits& limits)
     text += fmt::format("\nMeasured with it: {} false shadow ({}), {} false lit ({}).\n",
                         grouped(measured.false_shadow), percent(measured.false_shadow_rate),
                         grouped(measured.false_lit), percent(measured.false_lit_rate));
+    text += measured_amounts(result);
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }
@@ -162,7 +198,9 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
     Json json{{"schema", 1},
               {"meets_limits", result.meets_limits},
               {"limits",
-               {{"max_false_shadow_rate", limits.max_false_shadow_rate},
+               {{"max_shadow_amount_rate", limits.max_shadow_amount_rate},
+                {"max_light_amount_rate", limits.max_light_amount_rate},
+                {"max_false_shadow_rate", limits.max_false_shadow_rate},
                 {"max_false_lit_rate", limits.max_false_lit_rate},
                 {"max_resolution", limits.max_resolution_texels}}},
               {"recommended", setting_json(result.best())},
@@ -172,7 +210,9 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
                 {"false_lit", measured.false_lit},
                 {"false_shadow_rate", number_or_null(measured.false_shadow_rate)},
                 {"false_lit_rate", number_or_null(measured.false_lit_rate)},
-                {"error_rate", number_or_null(measured.error_rate)}}},
+                {"error_rate", number_or_null(measured.error_rate)},
+                {"shadow_amount", measured.amounts.shadow},
+                {"light_amount", measured.amounts.light}}},
               {"why", errors_in_words(result.measured)}};
     json["considered"] = Json::array();
     for (const TunedSetting& setting : result.considered) {

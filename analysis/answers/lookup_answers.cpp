@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -26,6 +27,22 @@ std::vector<float> ascending_biases(const CurveQuestion& question)
         biases.push_back(row.bias);
     }
     std::sort(biases.begin(), biases.end());
+    biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
+    return biases;
+}
+
+/// The biases that a curve is drawn at; beyond the last pixel's side of one half up to where the
+/// last tap's acne ends.
+std::vector<float> samples_of(const SlopeCurve& curve)
+{
+    constexpr int beyond = 32;
+    std::vector<float> biases = sample_biases(curve.curve);
+    const double last{biases.back()};
+    const double end{curve.bounds.strict.acne_free};
+    for (int i = 1; i <= beyond && std::isfinite(end) && last > 0 && end > last; ++i) {
+        biases.push_back(
+            static_cast<float>(last * std::pow(end / last, static_cast<double>(i) / beyond)));
+    }
     biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
     return biases;
 }
@@ -121,24 +138,24 @@ void LookupAnswers::find_blocked_causes(scene::Image<std::uint8_t> reached)
     exact_->find_blocked(cause_inputs(), reached, causes_);
 }
 
-scene::Image<std::uint8_t> LookupAnswers::reached_by(const SlopeCurve& curve,
+scene::Image<std::uint8_t> LookupAnswers::reached_by(const scene::Image<float>& criticals,
+                                                     const TapCriticals& taps,
                                                      float largest_bias) const
 {
     scene::Image<std::uint8_t> reached{classes().size()};
     const auto is_asked = [&](std::size_t pixel) {
         return classes()[pixel] == PixelClass::blocked && knows_blocked_[pixel] == 0;
     };
-    const TapCriticals taps_of_slope = taps(curve.slope);
     for_each_run(reached.pixel_count(), [&](std::size_t first, std::size_t last) {
         if (has_taps()) {
-            taps_of_slope.visit(
-                first, last, is_asked, [&](std::size_t pixel, std::span<const float> criticals) {
-                    reached[pixel] = std::ranges::min(criticals) <= largest_bias ? 1 : 0;
-                });
+            taps.visit(first, last, is_asked,
+                       [&](std::size_t pixel, std::span<const float> of_taps) {
+                           reached[pixel] = std::ranges::min(of_taps) <= largest_bias ? 1 : 0;
+                       });
             return;
         }
         for (std::size_t i = first; i != last; ++i) {
-            reached[i] = is_asked(i) && curve.critical_bias[i] <= largest_bias ? 1 : 0;
+            reached[i] = is_asked(i) && criticals[i] <= largest_bias ? 1 : 0;
         }
     });
     return reached;
@@ -211,8 +228,8 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
         return;
     }
     require_lit_causes(biases.front(), curve.slope);
-    find_blocked_causes(reached_by(curve, biases.back()));
     const TapCriticals taps_of_slope = taps(curve.slope);
+    find_blocked_causes(reached_by(curve.critical_bias, taps_of_slope, biases.back()));
     const BiasRowInputs inputs{classes(),
                                deciding(),
                                curve.critical_bias,
@@ -250,7 +267,7 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     CurveResult result = describe_map();
     result.best = curve.best;
     result.bounds = curve.bounds;
-    const std::vector<float> samples = sample_biases(curve.curve);
+    const std::vector<float> samples = samples_of(curve);
     const auto errors_by = amounts(curve, samples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const ErrorCounts errors = curve.curve.at(samples[i]);
@@ -304,23 +321,60 @@ void LookupAnswers::break_down(const scene::LookupLayers& own, int verdict_taps,
                                            exact_->triangles(), verdict_taps);
 }
 
-void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis)
+CauseLayers LookupAnswers::causes_of(const scene::LookupLayers& own, float constant, float slope)
 {
-    const std::array<float, 1> bias{lookup_.view.bias.constant};
-    const scene::Image<float> verdicts = criticals_of_verdicts(own);
     scene::Image<std::uint8_t> reached{classes().size()};
     for (std::size_t i = 0; i < reached.pixel_count(); ++i) {
         reached[i] =
             classes()[i] == PixelClass::blocked && double{own.samples[i].verdict} > partial_above;
     }
     find_blocked_causes(std::move(reached));
-    require_lit_causes(bias.front(), rule_.slope);
+    require_lit_causes(constant, slope);
+    const TapCriticals taps_of_slope = taps(slope);
+    return classify_errors({classes(), own, criticals_of_verdicts(own), causes_, rule_with(slope),
+                            has_texels() ? &taps_of_slope : nullptr, true},
+                           constant);
+}
+
+void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis)
+{
+    const std::array<float, 1> bias{lookup_.view.bias.constant};
+    const scene::Image<float> verdicts = criticals_of_verdicts(own);
+    diagnosis.causes = causes_of(own, bias.front(), rule_.slope);
     const TapCriticals own_taps = taps(rule_.slope);
     const BiasRowInputs inputs{
         classes(), own, verdicts, causes_, rule_, has_texels() ? &own_taps : nullptr, true};
-    diagnosis.causes = classify_errors(inputs, bias.front());
     diagnosis.parts = count_parts(exact_->parts(), inputs, bias).front();
     diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
+}
+
+std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<const float> biases)
+{
+    scene::Image<float> criticals = critical_biases(slope);
+    const BiasCurve curve{criticals, classes()};
+    const auto errors_by = amounts_at(slope, biases);
+    require_lit_causes(biases.front(), slope);
+    const TapCriticals taps_of_slope = taps(slope);
+    find_blocked_causes(reached_by(criticals, taps_of_slope, biases.back()));
+    const auto rows = count_rows({classes(), deciding(), criticals, causes_, rule_with(slope),
+                                  has_texels() ? &taps_of_slope : nullptr},
+                                 curve, errors_by, biases);
+    std::vector<MeasuredBias> measured;
+    for (std::size_t i = 0; i < biases.size(); ++i) {
+        const ErrorCounts& errors = rows[i].errors;
+        measured.push_back({biases[i],
+                            make_metrics(exact_->receivers().classes(),
+                                         {errors.false_shadow, errors.false_lit, errors_by[i]}),
+                            rows[i].amounts});
+    }
+    return measured;
+}
+
+std::vector<ErrorAmounts> LookupAnswers::amounts_at(float slope,
+                                                    std::span<const float> biases) const
+{
+    return has_taps() ? sum_amounts(classes(), taps(slope), biases)
+                      : sum_amounts(BiasCurve{critical_biases(slope), classes()}, biases);
 }
 
 Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_bias,

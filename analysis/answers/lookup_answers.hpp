@@ -29,6 +29,13 @@ struct ObservedLookup {
     scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
 };
 
+/// What one constant bias gives.
+struct MeasuredBias {
+    float bias = 0; ///< depth units
+    Metrics metrics;
+    CauseAmounts amounts;
+};
+
 /// Observes what must be known of a lookup beside its layers. Asks `look_up` and `read_map_depths`,
 /// which must still answer for the job's receivers and map.
 [[nodiscard]] ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
@@ -46,6 +53,16 @@ public:
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question);
     /// The critical bias of each pixel; for its argument see `CurveQuestion`. Not for `hardware`.
     [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
+    /// What is measured with each of several constant biases, of one slope. Not for `hardware`.
+    /// @param biases  Ascending, 0 or normal.
+    [[nodiscard]] std::vector<MeasuredBias> measure_biases(float slope,
+                                                           std::span<const float> biases);
+    /// All amounts of error at those biases: the same without asking for causes.
+    [[nodiscard]] std::vector<ErrorAmounts> amounts_at(float slope,
+                                                       std::span<const float> biases) const;
+    /// Causes and labels of the same lookup's verdicts with another constant and slope bias.
+    [[nodiscard]] CauseLayers causes_of(const scene::LookupLayers& own, float constant,
+                                        float slope);
     /// Why the pixels of the same lookup with the job's bias are wrong, and what other biases would
     /// do. Takes along what it tells: the last question.
     /// @param own           verdicts of the job's bias.
@@ -66,7 +83,8 @@ private:
     void find_lit_causes(bool below_zero);
     /// @param reached  1 for blocked pixels that are wrong or partial with some bias asked about.
     void find_blocked_causes(scene::Image<std::uint8_t> reached);
-    [[nodiscard]] scene::Image<std::uint8_t> reached_by(const SlopeCurve& curve,
+    [[nodiscard]] scene::Image<std::uint8_t> reached_by(const scene::Image<float>& criticals,
+                                                        const TapCriticals& taps,
                                                         float largest_bias) const;
     [[nodiscard]] const scene::LookupLayers& deciding() const
     {

@@ -40,20 +40,23 @@ void expect_promise_kept(const scene::Job& job, const TuneLimits& limits, int gr
     const std::string label = job.scene.builtin + job.scene.file.string();
     EXPECT_EQ(result.measured.metrics.false_shadow, best.errors.false_shadow) << label;
     EXPECT_EQ(result.measured.metrics.false_lit, best.errors.false_lit) << label;
+    EXPECT_EQ(result.measured.metrics.amounts, best.amounts) << label;
+    EXPECT_EQ(result.measured.diagnosis->causes.amounts.shadow_softening, best.shadow_softening)
+        << label;
+    EXPECT_EQ(result.measured.diagnosis->causes.amounts.light_softening, best.light_softening)
+        << label;
     if (result.meets_limits) {
-        EXPECT_TRUE(
-            is_within(result.measured.metrics.false_shadow_rate, limits.max_false_shadow_rate))
-            << label;
-        EXPECT_TRUE(is_within(result.measured.metrics.false_lit_rate, limits.max_false_lit_rate))
-            << label;
+        EXPECT_TRUE(is_within(best.shadow_rate, limits.max_shadow_amount_rate)) << label;
+        EXPECT_TRUE(is_within(best.light_rate, limits.max_light_amount_rate)) << label;
     }
     scene::Job other = analysis::tuned_job(job, best);
     const auto biases = grid_around(best.constant);
     for (std::size_t i = 0; i < biases.size(); i += static_cast<std::size_t>(grid_step)) {
         other.bias.constant = double{biases[i]};
         const auto metrics = compared.without_diagnosis(other).metrics;
-        const bool meets = is_within(metrics.false_shadow_rate, limits.max_false_shadow_rate) &&
-                           is_within(metrics.false_lit_rate, limits.max_false_lit_rate);
+        // No softening: a filter of one comparison.
+        const bool meets = is_within(metrics.shadow_amount_rate, limits.max_shadow_amount_rate) &&
+                           is_within(metrics.light_amount_rate, limits.max_light_amount_rate);
         if (meets || !result.meets_limits) {
             EXPECT_GE(metrics.false_shadow + metrics.false_lit, best.errors.total())
                 << label << ", bias " << biases[i];
@@ -69,9 +72,35 @@ scene::Job small_job(const std::string& builtin)
 TEST(Tune, GlMeasuresWhatItPromisesAndNoBiasNearbyIsBetter)
 {
     GNOMON_REQUIRE_GL();
-    expect_promise_kept(small_job("wall"), {0.01, 0.01, 1024}, 8);
-    expect_promise_kept(small_job("yard"), {0.01, 0.05, 512}, 8);
-    expect_promise_kept(small_job("sphere-plane"), {1e-6, 1e-6, 256}, 8);
+    expect_promise_kept(small_job("wall"), {0.01, 0.01, 1, 1, 1024}, 8);
+    expect_promise_kept(small_job("yard"), {0.01, 0.05, 1, 1, 512}, 8);
+    expect_promise_kept(small_job("sphere-plane"), {1e-6, 1e-6, 1, 1, 256}, 8);
+}
+
+/// What is promised of a filter whose verdicts are fractions is what GL measures.
+void expect_fractions_kept(const char* filter)
+{
+    const scene::Job job = scene::builtin_job("sphere-plane", {{"image.width", "320"},
+                                                               {"image.height", "180"},
+                                                               {"lookup.filter", filter}})
+                               .job;
+    const Compared compared{job};
+    const auto result =
+        analysis::tune(job, compared.file(), compared.renderers(), {0.001, 0.01, 1, 1, 512}, {});
+    const analysis::TunedSetting& best = result.best();
+    const analysis::CauseAmounts& amounts = result.measured.diagnosis->causes.amounts;
+    EXPECT_EQ(result.measured.metrics.amounts, best.amounts) << filter;
+    EXPECT_GT(best.shadow_softening + best.light_softening, 0) << filter;
+    EXPECT_EQ(amounts.shadow_softening, best.shadow_softening) << filter;
+    EXPECT_EQ(amounts.light_softening, best.light_softening) << filter;
+    EXPECT_LT(best.error_amount(), best.amounts.total()) << filter;
+}
+
+TEST(Tune, KnowsWhatAFilterSoftensOnPurpose)
+{
+    GNOMON_REQUIRE_GL();
+    expect_fractions_kept("pcf3");
+    expect_fractions_kept("hardware");
 }
 
 TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
@@ -80,7 +109,7 @@ TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
     const scene::Job job = small_job("sphere-plane");
     const Compared compared{job};
     const auto result =
-        analysis::tune(job, compared.file(), compared.renderers(), {0.5, 0.5, 4096}, {});
+        analysis::tune(job, compared.file(), compared.renderers(), {0.5, 0.5, 1, 1, 4096}, {});
     ASSERT_TRUE(result.meets_limits);
     EXPECT_EQ(result.best().map.resolution_texels, 256);
     EXPECT_EQ(analysis::map_bytes(result.best().map), 256U * 256 * 2);
@@ -94,7 +123,7 @@ TEST(LongTune, PromisesAreKeptOnEveryBuiltin)
 {
     GNOMON_REQUIRE_GL();
     for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
-        expect_promise_kept(small_job(builtin.name), {0.01, 0.02, 2048}, 1);
+        expect_promise_kept(small_job(builtin.name), {0.01, 0.02, 1, 1, 2048}, 1);
     }
 }
 
@@ -112,7 +141,7 @@ TEST(LongTune, PromisesAreKeptOnSharedScenes)
         job.scene.ground = true;
         job.camera.reset();
         job.light = {};
-        expect_promise_kept(job, {0.01, 0.02, 2048}, 1);
+        expect_promise_kept(job, {0.01, 0.02, 1, 1, 2048}, 1);
     }
 }
 

@@ -26,6 +26,10 @@ TEST(TuneCommand, PrintsAFragmentWithWhichCompareMeasuresWhatWasPromised)
     ASSERT_EQ(ending.exit_code, 0) << ending.err;
     const Json result = Json::parse(ending.out);
     EXPECT_TRUE(result.at("meets_limits").get<bool>());
+    for (const char* const name : {"shadow_amount", "light_amount"}) { // nearest: counts
+        const char* const count = name[0] == 's' ? "false_shadow" : "false_lit";
+        EXPECT_EQ(result.at("recommended").at(name), result.at("recommended").at(count));
+    }
     EXPECT_LE(result.at("measured").at("false_shadow_rate").get<double>(), 0.05);
     EXPECT_LE(result.at("measured").at("false_lit_rate").get<double>(), 0.05);
     EXPECT_NE(ending.err.find("gnomon tune: 256 d16"), std::string::npos) << ending.err;
@@ -41,6 +45,35 @@ TEST(TuneCommand, PrintsAFragmentWithWhichCompareMeasuresWhatWasPromised)
         EXPECT_EQ(measured.at(name), result.at("measured").at(name)) << name;
         EXPECT_EQ(measured.at(name), result.at("recommended").at(name)) << name;
     }
+}
+
+TEST(TuneCommand, RecommendsNoFilterThatShadowsItselfByLessThanHalf)
+{
+    // By count every bias of the first is right that leaves less than half of the taps shadowed.
+    const Ending ending =
+        tune({"--builtin", "tilted-plane", "--set", "scene.tilted-plane.angle_deg=60", "--set",
+              "lookup.filter=pcf5", "--max-resolution", "256", "--json"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    const Json result = Json::parse(ending.out);
+    EXPECT_EQ(result.at("recommended").at("shadow_amount"), 0);
+    EXPECT_EQ(result.at("measured").at("shadow_amount"), 0);
+    EXPECT_GT(result.at("recommended").at("bias.constant").get<double>(), 0);
+}
+
+TEST(TuneCommand, LimitsCountsBesideAmounts)
+{
+    const std::vector<std::string> amounts_alone{
+        "--builtin", "sphere-plane",       "--set", "lookup.filter=pcf3", "--max-resolution",
+        "256",       "--max-false-shadow", "50%",   "--max-false-lit",    "50%"};
+    EXPECT_EQ(tune(amounts_alone).exit_code, 0);
+    auto counts_too = amounts_alone;
+    counts_too.insert(counts_too.end(),
+                      {"--max-false-shadow-count", "0", "--max-false-lit-count", "0"});
+    const Ending ending = tune(counts_too);
+    EXPECT_EQ(ending.exit_code, 1) << ending.err;
+    EXPECT_NE(ending.out.find("; by count false shadow at most 0 %, false lit at most 0 %"),
+              std::string::npos)
+        << ending.out;
 }
 
 TEST(TuneCommand, EndsWithOneWhereNoSettingMeetsTheLimits)

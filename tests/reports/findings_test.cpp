@@ -157,8 +157,9 @@ TEST(Findings, NameTheBestOfTheMeasuredChangesAndPromiseNoOther)
     const auto without = findings(comparison);
     ASSERT_EQ(without.size(), 2U);
     EXPECT_THAT(without[1], HasSubstr("--advise measures it"));
-    comparison.advice = {{{"shadow_map.resolution = 2048"}, {9, 0}, 0.045},
-                         {{"shadow_map.cull = \"none\"", "bias.constant = 0.5"}, {2, 1}, 0.015}};
+    comparison.advice = {
+        {{"shadow_map.resolution = 2048"}, {9, 0}, 0.045, {9, 0, 0, 0}},
+        {{"shadow_map.cull = \"none\"", "bias.constant = 0.5"}, {2, 1}, 0.015, {2, 1, 0, 0}}};
     const auto with = findings(comparison);
     ASSERT_EQ(with.size(), 2U);
     EXPECT_EQ(with[1], "Of 2 changes measured, shadow_map.cull = \"none\", bias.constant = 0.5 "
@@ -166,6 +167,31 @@ TEST(Findings, NameTheBestOfTheMeasuredChangesAndPromiseNoOther)
     comparison.advice.pop_back();
     comparison.advice[0].errors = {11, 0};
     EXPECT_EQ(findings(comparison)[1], "Of 1 change measured, none has fewer errors.");
+}
+
+TEST(Findings, ChooseByAmountWhereVerdictsAreFractions)
+{
+    analysis::Comparison comparison = comparison_of(10, 0);
+    set_causes(comparison, analysis::Cause::filter, analysis::Label::edge);
+    comparison.metrics = make_metrics(comparison.metrics.pixels, {10, 0, {30, 0, 40, 0}});
+    comparison.diagnosis->causes.amounts.shadow_softening = 12;
+    comparison.advice = {{{"bias.constant = 0.5"}, {1, 0}, 0.005, {20, 8, 30, 0}, 14},
+                         {{"bias.constant = 0.25"}, {4, 0}, 0.02, {20, 0, 30, 0}, 13}};
+    EXPECT_THAT(
+        findings(comparison),
+        testing::Contains("Of 2 changes measured, bias.constant = 0.25 is the least wrong "
+                          "by amount: 7.00 px in place of 18.0, without softened borders."));
+    comparison.advice.clear();
+    for (const auto& [bias, amount] : {std::pair{-0.5F, 1.0}, {0.125F, 25.0}, {0.5F, 28.0}}) {
+        analysis::CurveSample sample{bias, {}};
+        sample.counts.shadow_amount = amount;
+        comparison.diagnosis->curve.points.push_back(sample);
+    }
+    EXPECT_THAT(
+        findings(comparison),
+        testing::Contains("With slope and offset as they are, bias.constant = 0.125 is the "
+                          "least wrong by amount: 25.0 px in place of 30.0, softened borders "
+                          "included."));
 }
 
 TEST(ErrorsInWords, RecommendNoOtherBias)
