@@ -115,6 +115,35 @@ Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
     return comparison;
 }
 
+namespace {
+
+/// Draws the job's map again with floats, if there is something to ask of it, and then as it was.
+PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Renderers& renderers)
+{
+    const auto pixels =
+        wrong_by_precision(comparison.diagnosis->causes.cause, comparison.truth, comparison.lookup);
+    if (pixels.empty()) {
+        return {};
+    }
+    const scene::Job& job = comparison.job;
+    scene::Job floats = job;
+    floats.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+    scene::View unbiased = comparison.view;
+    unbiased.bias = {};
+    renderers.draw_shadow_map(floats, unbiased);
+    const scene::LookupLayers lookup = renderers.look_up(floats, unbiased);
+    const bool has_one_tap = scene::promises(job.lookup.filter).has_one_tap();
+    const auto depths = has_one_tap ? scene::Image<float>{} : renderers.read_map_depths();
+    renderers.draw_shadow_map(job, comparison.view);
+    const auto light = renderers.make_exact_light(floats, comparison.view, comparison.receivers);
+    return find_precision_kinds({job.lookup, job.shadow_map.resolution_texels,
+                                 comparison.view.frustum.reversed, comparison.truth,
+                                 comparison.lookup, lookup, depths, *light},
+                                pixels, comparison.view.bias);
+}
+
+} // namespace
+
 Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
 {
     double scene_seconds = 0;
@@ -135,6 +164,10 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     if (result.diagnosis && !result.diagnosis->biases) {
         result.reruns = timed(seconds.analysis,
                               [&] { return rerun_biases(job, view, result.truth, renderers); });
+    }
+    if (result.diagnosis) {
+        result.precision_kinds =
+            timed(seconds.analysis, [&] { return measure_precision_kinds(result, renderers); });
     }
     return result;
 }

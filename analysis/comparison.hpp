@@ -3,6 +3,7 @@
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/bias_reruns.hpp"
 #include "analysis/bias_verification.hpp"
+#include "analysis/chain/precision_kinds.hpp"
 #include "analysis/evaluate/evaluation.hpp"
 #include "analysis/metrics.hpp"
 #include "analysis/renderers.hpp"
@@ -72,6 +73,8 @@ struct Comparison {
     std::optional<BiasVerification::Rerun> held;
     /// Empty: not asked for, or nothing to verify (`hardware`).
     std::optional<BiasVerification> verification;
+    /// Of the wrong pixels of cause `precision`; empty: not asked for.
+    std::optional<PrecisionKinds> precision_kinds;
     std::vector<Advice> advice;                        ///< empty: not asked for
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
 

@@ -45,6 +45,9 @@ std::string outcome_text(const fs::path& out, const reports::ReportOutcome& outc
                             "--configuration ID)",
                             reports::grouped(outcome.images_left_out));
     }
+    if (!outcome.schema.empty()) {
+        text += fmt::format("\n  {}", outcome.schema);
+    }
     return text + "\n";
 }
 

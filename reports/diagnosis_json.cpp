@@ -68,6 +68,11 @@ void add_bias_curve(Json& json, const std::optional<analysis::BiasAnswers>& answ
     json["bias_curve"]["recommended"] = nullptr;
 }
 
+Json precision_kinds(const std::optional<analysis::PrecisionKinds>& kinds)
+{
+    return kinds ? Json{{"format", kinds->format}, {"transform", kinds->transform}} : Json(nullptr);
+}
+
 Json slope_answers(const analysis::BiasAnswers& answers)
 {
     Json json = Json::array();
@@ -190,6 +195,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
         return;
     }
     json["cause_arithmetic"] = "exact";
+    json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
     add_bias_curve(json, diagnosis->biases);
     json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     json["bias_reruns"] = comparison.reruns.empty() ? Json(nullptr) : reruns(comparison.reruns);

@@ -76,6 +76,11 @@ std::string causes(const analysis::Comparison& comparison)
         text += "\n";
         text += named_counts("called", analysis::label_names, counts.by_label, wrong);
     }
+    if (const auto& kinds = comparison.precision_kinds;
+        kinds && kinds->format + kinds->transform > 0) {
+        text += setting_line("", fmt::format("precision: {} by the format, {} by transforms",
+                                             grouped(kinds->format), grouped(kinds->transform)));
+    }
     const auto& [gap, gap_texels] = diagnosis.peter_panning;
     if (gap && gap_texels) {
         text += setting_line(

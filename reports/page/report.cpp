@@ -163,13 +163,15 @@ Json page_data(const RunReader& run, const RunOverview& overview,
 
 void write_report_csv(const std::filesystem::path& folder, const std::filesystem::path& out)
 {
-    const RunReader run{folder};
-    write_run_csv(sqlite::Database{results_path(folder), sqlite::Database::Access::read}, out);
+    const RunReader run{folder, RunStore::Access::read_older};
+    const sqlite::Database database{results_path(folder), sqlite::Database::Access::read};
+    prepare_reading(database);
+    write_run_csv(database, out);
 }
 
 ReportOutcome write_report(const ReportOptions& options)
 {
-    const RunReader run{options.folder};
+    const RunReader run{options.folder, RunStore::Access::read_older};
     const RunOverview overview = read_overview(run);
     const std::vector<KeptImage> kept = kept_images(run, overview, options);
     require_kept(kept, options);
@@ -178,6 +180,7 @@ ReportOutcome write_report(const ReportOptions& options)
         pictures.push_back(data_address(options.out / "figures" / figure.png));
     }
     ReportOutcome outcome;
+    outcome.schema = schema_text(run.schema());
     PackedBlocks blocks;
     const Json data = page_data(run, overview, kept, options, blocks, outcome);
     const std::string title = fmt::format(

@@ -29,6 +29,7 @@ struct ReportOutcome {
     std::size_t images = 0;            ///< configurations whose layers the page holds
     std::size_t images_left_out = 0;   ///< whose layers were kept but did not fit
     std::vector<std::string> problems; ///< of kept layers that are damaged: they are left out
+    std::string schema;                ///< what is to be said of an older run's; else empty
 };
 
 /// Writes the CSV files of a run into DIR, from which figures are drawn.

@@ -88,7 +88,11 @@ std::string completeness(const RunReader& run)
     if (outcome.planned > 0) {
         text += fmt::format(", {} not computed yet", grouped(outcome.planned));
     }
-    return text + ".";
+    text += ".";
+    if (const std::string schema = schema_text(run.schema()); !schema.empty()) {
+        text += fmt::format(" T{}.", schema.substr(1)); // a sentence's beginning
+    }
+    return text;
 }
 
 void add_extremes(std::vector<std::string>& sentences, const std::vector<OverviewRow>& rows)

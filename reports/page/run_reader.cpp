@@ -33,9 +33,9 @@ Value kept(const sqlite::ValueView& value)
 }
 
 /// Opens the database of a folder that is known to hold one.
-std::filesystem::path checked_path(const std::filesystem::path& folder)
+std::filesystem::path checked_path(const std::filesystem::path& folder, RunStore::Access access)
 {
-    (void)RunStore{folder, RunStore::Access::read};
+    (void)RunStore{folder, access};
     return results_path(folder);
 }
 
@@ -91,9 +91,10 @@ std::string ResultRow::text(std::string_view column) const
     return integer == nullptr ? std::string{} : cell_text(*integer);
 }
 
-RunReader::RunReader(const std::filesystem::path& folder)
+RunReader::RunReader(const std::filesystem::path& folder, RunStore::Access access)
     : folder_{folder},
-      database_{checked_path(folder), Database::Access::read},
+      database_{checked_path(folder, access), Database::Access::read},
+      schema_{prepare_reading(database_)},
       moment_{database_, sqlite::Transaction::Kind::read},
       description_{read_description(database_)},
       outcome_{read_outcome(database_)}

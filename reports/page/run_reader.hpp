@@ -40,10 +40,14 @@ private:
 /// Every function throws as `RunStore` does.
 class RunReader {
 public:
-    explicit RunReader(const std::filesystem::path& folder);
+    /// @param access  `read`, or `read_older` for what can do without the numbers that older runs
+    ///                lack.
+    explicit RunReader(const std::filesystem::path& folder,
+                       RunStore::Access access = RunStore::Access::read);
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     [[nodiscard]] const sqlite::Database& database() const { return database_; }
+    [[nodiscard]] const RunSchema& schema() const { return schema_; }
     [[nodiscard]] const RunDescription& description() const { return description_; }
     [[nodiscard]] const PlanOutcome& outcome() const { return outcome_; }
 
@@ -54,6 +58,7 @@ public:
 private:
     std::filesystem::path folder_;
     sqlite::Database database_;
+    RunSchema schema_;
     sqlite::Transaction moment_;
     RunDescription description_;
     PlanOutcome outcome_;

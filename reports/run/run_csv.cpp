@@ -168,6 +168,7 @@ class ResultsReader {
 public:
     explicit ResultsReader(const std::filesystem::path& path)
         : database_{path, Database::Access::read},
+          schema_{prepare_reading(database_)},
           rows_{database_, fmt::format("SELECT c.curve, c.status = 'done'{} FROM part p CROSS JOIN"
                                        " configurations c ON c.number = p.configuration"
                                        " WHERE ordinal >= ? AND ordinal < ? ORDER BY ordinal",
@@ -232,6 +233,7 @@ private:
     }
 
     Database database_;
+    RunSchema schema_; ///< whichever: the statements are those of the present one
     Statement rows_;
     Statement curve_;
     std::vector<ResultsSpan> spans_ = results_spans();
@@ -244,6 +246,7 @@ private:
 void write_results(const std::filesystem::path& results, const std::filesystem::path& path)
 {
     const Database database{results, Database::Access::read};
+    prepare_reading(database);
     constexpr std::int64_t rows_at_once = 512;
     constexpr std::size_t texts_at_once = 16;
     CsvFile file{path};

@@ -7,8 +7,11 @@
 #include "scene/sweep_space.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -186,20 +189,24 @@ std::string bias_curves_view()
                        columns, rates("b", "v"));
 }
 
+std::vector<std::string> table_statements()
+{
+    return {run_table,  environments_table, curves_table(), configurations_table(),
+            plan_table, points_table(),     bins_table(),   verifications_table};
+}
+
+std::vector<std::string> view_statements()
+{
+    return {part_view(), results_view(), "CREATE VIEW error_vs_z AS SELECT " + error_vs_z_columns(),
+            bias_curves_view()};
+}
+
 std::vector<std::string> schema_statements()
 {
-    return {run_table,
-            environments_table,
-            curves_table(),
-            configurations_table(),
-            plan_table,
-            points_table(),
-            bins_table(),
-            verifications_table,
-            part_view(),
-            results_view(),
-            "CREATE VIEW error_vs_z AS SELECT " + error_vs_z_columns(),
-            bias_curves_view()};
+    std::vector<std::string> all = table_statements();
+    const std::vector<std::string> views = view_statements();
+    all.insert(all.end(), views.begin(), views.end());
+    return all;
 }
 
 [[noreturn]] void refuse_database(const Database& database, std::string_view what)
@@ -225,6 +232,116 @@ void create_schema(const Database& database)
 }
 
 } // namespace
+
+namespace {
+
+constexpr std::int64_t oldest_readable = 1;
+
+/// "CREATE TABLE plan (…" as one of this connection alone.
+std::string made_temporary(const std::string& statement)
+{
+    constexpr std::string_view create = "CREATE ";
+    return fmt::format("{}TEMP {}", create, std::string_view{statement}.substr(create.size()));
+}
+
+std::vector<std::string> column_names(const Database& database, const std::string& table)
+{
+    std::vector<std::string> names;
+    Statement columns{database,
+                      fmt::format("SELECT name FROM pragma_table_info({})", sql_name(table))};
+    while (columns.step()) {
+        names.push_back(columns.text(0));
+    }
+    return names;
+}
+
+/// A column of the present schema, selected from an older table; empty: it has none.
+std::string older_expression(const std::string& column, const std::vector<std::string>& older)
+{
+    const auto has = [&](const std::string& name) {
+        return std::ranges::find(older, name) != older.end();
+    };
+    // Limits of acne were counts.
+    constexpr std::string_view acne_free = "acne_free";
+    constexpr std::string_view acne_free_count = "acne_free_count";
+    if (column.ends_with(acne_free_count) && !has(column)) {
+        const std::string counted =
+            column.substr(0, column.size() - acne_free_count.size()) + std::string{acne_free};
+        return has(counted) ? sql_name(counted) : std::string{};
+    }
+    if (column.ends_with(acne_free) && has(column)) {
+        return fmt::format("CASE WHEN \"lookup.filter\" IN ('nearest', 'linear') THEN {} END",
+                           sql_name(column));
+    }
+    return has(column) ? sql_name(column) : std::string{};
+}
+
+/// Shows an older table as one of the present schema.
+/// @param lacks  the columns that it has not are added.
+void show_older_table(const Database& database, const std::string& statement,
+                      std::vector<std::string>& lacks)
+{
+    constexpr std::string_view create = "CREATE TABLE ";
+    const std::string table =
+        statement.substr(create.size(), statement.find(' ', create.size()) - create.size());
+    const std::vector<std::string> older = column_names(database, table);
+    if (older.empty()) {
+        refuse_database(database, fmt::format("is a run of schema 1 without its {}", table));
+    }
+    database.run(made_temporary(statement)); // hides the older one until it is gone
+    const std::vector<std::string> present = column_names(database, table);
+    database.run(fmt::format("DROP TABLE temp.{}", table));
+    std::string columns;
+    for (const std::string& column : present) {
+        const std::string expression = older_expression(column, older);
+        columns += fmt::format("{}{} AS {}", columns.empty() ? "" : ", ",
+                               expression.empty() ? "NULL" : expression, sql_name(column));
+        if (expression.empty() && std::ranges::find(lacks, column) == lacks.end()) {
+            lacks.push_back(column);
+        }
+    }
+    database.run(fmt::format("CREATE TEMP VIEW {0} AS SELECT {1} FROM main.{0}", table, columns));
+}
+
+} // namespace
+
+RunSchema prepare_reading(const Database& database)
+{
+    const std::int64_t version = database.integer("PRAGMA user_version");
+    if (version < oldest_readable || version >= run_schema ||
+        database.integer("PRAGMA application_id") != application_id) {
+        require_run_schema(database);
+        return {};
+    }
+    RunSchema schema{version, {}};
+    for (const std::string& statement : table_statements()) {
+        show_older_table(database, statement, schema.lacks);
+    }
+    for (const std::string& statement : view_statements()) {
+        database.run(made_temporary(statement));
+    }
+    return schema;
+}
+
+std::string schema_text(const RunSchema& schema)
+{
+    if (schema.version == run_schema) {
+        return {};
+    }
+    constexpr std::size_t shown = 3;
+    const std::size_t named = std::min(schema.lacks.size(), shown);
+    const std::string others = schema.lacks.size() > named
+                                   ? fmt::format(" and {} others", schema.lacks.size() - named)
+                                   : std::string{};
+    return fmt::format(
+        "this run is of schema {}: an older Gnomon wrote it, which did not know {}{}, and "
+        "defined causes, names and gaps otherwise; computed anew into another folder "
+        "it has them",
+        schema.version,
+        fmt::join(schema.lacks.begin(), schema.lacks.begin() + static_cast<std::ptrdiff_t>(named),
+                  ", "),
+        others);
+}
 
 std::filesystem::path results_path(const std::filesystem::path& folder)
 {

@@ -39,6 +39,22 @@ struct ResultsColumn {
 /// @throws scene::InputError  if it is not a run's database, or one of another schema.
 void require_run_schema(const sqlite::Database& database);
 
+/// Which schema a run's database has, and what of this Gnomon's numbers that lacks.
+struct RunSchema {
+    std::int64_t version = run_schema;
+    std::vector<std::string> lacks; ///< columns of `results` and `bias_curves`, empty in every row
+};
+
+/// Readies a database for reading alone. One of schema 1 is shown, to this connection, as one of
+/// the present schema: what it lacks is NULL, and what was then called `acne_free` is
+/// `acne_free_count`, and `acne_free` too where a verdict is no mean of taps.
+/// @throws scene::InputError  if it is not a run's database, or one of any other schema.
+RunSchema prepare_reading(const sqlite::Database& database);
+
+/// "this run is of schema 1: …": what is to be said of a run of an older schema; empty for the
+/// present one.
+[[nodiscard]] std::string schema_text(const RunSchema& schema);
+
 /// Readies a database for writing, whether it is new, whole or left by a process that was killed;
 /// a new one gets its tables and views (docs/runs.md).
 /// @throws scene::InputError  as `require_run_schema` does, and if the database is damaged.

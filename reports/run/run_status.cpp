@@ -79,9 +79,9 @@ Json verification_json(const RunChecks& checks)
 
 RunStatus read_run_status(const std::filesystem::path& folder, std::uint64_t most)
 {
-    const RunStore store{folder, RunStore::Access::read};
+    const RunStore store{folder, RunStore::Access::read_older};
     RunStatus status{folder, store.description(), 0, 0, 0, store.retriable(), store.checks(), {},
-                     {}};
+                     {},     store.schema()};
     if (status.description.size == 0) {
         throw scene::InputError(fmt::format("{}: nothing was planned in it: run `gnomon sweep`",
                                             scene::one_line(folder.string())));
@@ -101,7 +101,7 @@ RunStatus read_run_status(const std::filesystem::path& folder, std::uint64_t mos
 std::string resuming_command(const RunStatus& status)
 {
     const RunDescription& description = status.description;
-    if (description.command.empty()) {
+    if (description.command.empty() || status.schema.version != run_schema) {
         return {};
     }
     std::string command =
@@ -132,6 +132,9 @@ std::string run_status_text(const RunStatus& status)
     if (!status.checks.are_passed()) {
         text += fmt::format("  {}\n", failed_checks_text(status.checks));
     }
+    if (const std::string schema = schema_text(status.schema); !schema.empty()) {
+        text += fmt::format("  {}\n", schema);
+    }
     text += row_lines("failed", status.failed_rows, status.failed);
     text += row_lines("missing", status.missing_rows, status.missing);
     const std::string command = resuming_command(status);
@@ -156,6 +159,8 @@ std::string run_status_json(const RunStatus& status)
                     {"retriable", status.retriable},
                     {"shard", fmt::format("{}/{}", shard.index, shard.count)},
                     {"sweep_size", description.size},
+                    {"run_schema", status.schema.version},
+                    {"lacks", status.schema.lacks},
                     {"axes", description.axes},
                     {"environment",
                      {{"gl_renderer", description.environment.gl_renderer},

@@ -20,6 +20,7 @@ struct RunStatus {
     RunChecks checks;
     std::vector<RunRow> failed_rows;  ///< the first of them
     std::vector<RunRow> missing_rows; ///< the first of those that the run knows of
+    RunSchema schema;
 
     [[nodiscard]] bool is_complete() const { return failed == 0 && missing == 0; }
 };

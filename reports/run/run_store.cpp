@@ -82,16 +82,19 @@ struct RunStore::Parts {
     Database database;
     std::optional<RunRecorder> kept_recorder; ///< its statements go before the database
     std::int64_t environment = 0;             ///< number of the plan's
+    RunSchema schema;
 };
 
 RunStore::RunStore(const std::filesystem::path& folder, Access access)
 {
-    if (access == Access::read) {
+    if (access != Access::write) {
         require_results(folder);
     }
     parts_ = std::make_unique<Parts>(folder, access);
     if (access == Access::write) {
         prepare_run(parts_->database);
+    } else if (access == Access::read_older) {
+        parts_->schema = prepare_reading(parts_->database);
     } else {
         require_run_schema(parts_->database);
     }
@@ -118,6 +121,11 @@ PlanOutcome RunStore::plan(const RunDescription& description, const ShowConfigur
     const PlanOutcome outcome = write_plan(parts_->database, description, show, environments);
     parts_->environment = environment_number(parts_->database);
     return outcome;
+}
+
+const RunSchema& RunStore::schema() const
+{
+    return parts_->schema;
 }
 
 bool RunStore::has_configurations() const

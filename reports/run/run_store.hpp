@@ -3,6 +3,7 @@
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
 #include "reports/run/run_checks.hpp"
+#include "reports/run/run_schema.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -86,7 +87,11 @@ enum class Environments : std::uint8_t { one, several };
 ///   scene::InputError        if the database turns out to be damaged.
 class RunStore {
 public:
-    enum class Access : std::uint8_t { read, write };
+    enum class Access : std::uint8_t {
+        read,
+        read_older, ///< runs of older schemas, too (`prepare_reading`)
+        write,
+    };
 
     /// Opens the run; with `write`, makes its database where there is none.
     /// @throws scene::InputError  if there is nothing to read, or the file is no database of
@@ -112,6 +117,9 @@ public:
     /// The same for a plan that does not fit into memory.
     PlanOutcome plan(const RunDescription& description, const ShowConfigurations& show,
                      Environments environments = Environments::one);
+
+    /// Which it has, where it was opened with `read_older`.
+    [[nodiscard]] const RunSchema& schema() const;
 
     /// Whether anything was ever planned here.
     [[nodiscard]] bool has_configurations() const;

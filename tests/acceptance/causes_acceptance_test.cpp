@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <numeric>
+#include <span>
+#include <utility>
 
 /// Scenes that bring about one cause or label, by construction.
 namespace gnomon::tests {
@@ -32,6 +35,34 @@ const analysis::CauseCounts& counts_of(const analysis::Comparison& result)
     return result.diagnosis->causes.counts;
 }
 
+double sum(std::span<const double> amounts)
+{
+    return std::accumulate(amounts.begin(), amounts.end(), 0.0);
+}
+
+void expect_amounts_explained(const analysis::Comparison& result, const std::string& label)
+{
+    const analysis::CauseAmounts& amounts = result.diagnosis->causes.amounts;
+    const analysis::ErrorAmounts& all = result.metrics.amounts;
+    // hardware's are rounded to 2^-32 of a pixel, once or twice each; the sums of doubles round.
+    const double allowed =
+        0x1p-31 * static_cast<double>(result.metrics.pixels.scored()) + 1e-12 * all.total();
+    EXPECT_NEAR(sum(amounts.by_cause) + all.unassigned, all.total(), allowed) << label;
+    EXPECT_NEAR(sum(amounts.by_label) + all.unassigned, all.total(), allowed) << label;
+    EXPECT_EQ(amounts.of(Cause::none), 0) << label;
+    EXPECT_EQ(amounts.of(Label::none), 0) << label;
+    EXPECT_LE(amounts.softening(), amounts.of(Cause::filter) + allowed) << label;
+    EXPECT_LE(amounts.shadow_softening, all.shadow) << label;
+    EXPECT_LE(amounts.light_softening, all.light) << label;
+    if (!scene::promises(result.job.lookup.filter).has_fractions()) {
+        EXPECT_EQ(amounts.softening(), 0) << label;
+        for (std::size_t i = 0; i < amounts.by_cause.size(); ++i) {
+            EXPECT_EQ(amounts.by_cause[i], static_cast<double>(counts_of(result).by_cause[i]))
+                << label;
+        }
+    }
+}
+
 void expect_all_explained(const analysis::Comparison& result, const std::string& label)
 {
     const analysis::CauseCounts& counts = counts_of(result);
@@ -48,6 +79,7 @@ void expect_all_explained(const analysis::Comparison& result, const std::string&
     EXPECT_EQ(labels, wrong) << label;
     EXPECT_EQ(counts.of(Cause::none), 0U) << label;
     EXPECT_EQ(counts.of(Label::none), 0U) << label;
+    expect_amounts_explained(result, label);
 }
 
 TEST(Room, LeaksOnlyWhereItsWallsAreThinnerThanTheBiasOrATexel)
@@ -138,6 +170,31 @@ TEST(Precision, IsTheCauseWhereTheBiasCoversTheTexelsSlopeButNotTheStep)
                                               {"bias.slope", "0.0002"},
                                               {"bias.constant", fmt::format("{}", 0.25 / 255)}});
     expect_share(terrain, Cause::precision, 0.95, "terrain");
+}
+
+TEST(Precision, IsTheFormatsOrTheTransforms)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* filter : {"nearest", "linear", "hardware", "pcf3"}) {
+        // Steps of 1/255 below a bias that covers the texels' slopes, not the steps.
+        const auto coarse = compared("terrain", {{"shadow_map.resolution", "4096"},
+                                                 {"shadow_map.depth_format", "u8"},
+                                                 {"lookup.filter", filter},
+                                                 {"bias.slope", "0.0002"},
+                                                 {"bias.constant", fmt::format("{}", 0.25 / 255)}});
+        EXPECT_GT(coarse.precision_kinds->format, 1000U) << filter;
+        EXPECT_LE(coarse.precision_kinds->transform, coarse.precision_kinds->format / 100)
+            << filter;
+        EXPECT_EQ(coarse.precision_kinds->format + coarse.precision_kinds->transform,
+                  counts_of(coarse).of(Cause::precision))
+            << filter;
+        // A map of floats is its own: nothing of it is the format's.
+        const auto floats =
+            compared("terrain", {{"shadow_map.depth_format", "d32f"}, {"lookup.filter", filter}});
+        EXPECT_EQ(floats.precision_kinds->format, 0U) << filter;
+        EXPECT_EQ(floats.precision_kinds->transform, counts_of(floats).of(Cause::precision))
+            << filter;
+    }
 }
 
 TEST(Resolution, IsTheCauseWhereTheBiasIsHalfOfWhatCoarseTexelsNeed)
@@ -261,15 +318,18 @@ TEST(Repair, OfCoverageIsTheWholeScene)
 void expect_every_combination_explained(const std::string& builtin, const Keys& size)
 {
     const Compared scene{job_of(builtin, size)};
-    for (const char* filter : {"nearest", "linear", "hardware", "pcf3"}) {
+    for (const char* filter : {"nearest", "linear", "hardware", "pcf3", "pcf5"}) {
         for (const char* outside : {"lit", "shadowed", "clamp"}) {
-            for (const char* cull : {"none", "front", "back"}) {
+            for (const auto& [cull, bias] :
+                 {std::pair{"none", "0"}, {"front", "0.0005"}, {"back", "0.02"}}) {
                 Keys keys = size;
                 keys.push_back({"lookup.filter", filter});
                 keys.push_back({"lookup.outside", outside});
                 keys.push_back({"shadow_map.cull", cull});
-                expect_all_explained(scene(job_of(builtin, keys)),
-                                     fmt::format("{} {} {} {}", builtin, filter, outside, cull));
+                keys.push_back({"bias.constant", bias});
+                expect_all_explained(
+                    scene(job_of(builtin, keys)),
+                    fmt::format("{} {} {} {} {}", builtin, filter, outside, cull, bias));
             }
         }
     }
