@@ -274,9 +274,10 @@ void add_compare_command(CLI::App& program)
     command->add_option("--depth-map", options->depth_map_path,
                         "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
     command
-        ->add_option("--heat-map", options->heat_maps,
-                     "NAME=FILE.png: a picture of needed-bias, depth-error, cause or label, with "
-                     "the same colours for the same values in every image; repeatable")
+        ->add_option(
+            "--heat-map", options->heat_maps,
+            "NAME=FILE.png: a picture of needed-bias, depth-error, amount, cause or label, "
+            "with the same colours for the same values in every image; repeatable")
         ->allow_extra_args(false);
     command->add_option("--out", options->folder,
                         "RUN, a folder for the result with all its layers, as of `gnomon sweep`");

@@ -28,9 +28,10 @@ constexpr Rgb heat_faint_ink{0x66, 0x66, 0x66};
 constexpr Rgb no_value{0xE9, 0xE9, 0xE7};
 constexpr Rgb no_error{0xFA, 0xFA, 0xF8};
 
-constexpr std::array<std::pair<std::string_view, HeatMap>, 4> kinds{
+constexpr std::array<std::pair<std::string_view, HeatMap>, 5> kinds{
     std::pair{"needed-bias", HeatMap::needed_bias},
     {"depth-error", HeatMap::depth_error},
+    {"amount", HeatMap::amount},
     {"cause", HeatMap::cause},
     {"label", HeatMap::label}};
 
@@ -73,6 +74,10 @@ ColourScale scale_of(HeatMap kind)
     if (kind == HeatMap::needed_bias) {
         return {"Bias that lit pixels need and shadowed ones allow", "texels", 0.01, 100};
     }
+    if (kind == HeatMap::amount) {
+        return {"By how much verdicts are wrong: too dark above 0, too bright below",
+                "truth minus verdict", 1, 1};
+    }
     return {"Depth error of the shadow map, stored minus exact", "m", 1e-6, 1};
 }
 
@@ -100,7 +105,8 @@ scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap ki
     if (kind == HeatMap::needed_bias) {
         if (!diagnosis.biases) {
             throw scene::InputError("--heat-map needed-bias: the filter hardware has no critical "
-                                    "biases: take depth-error, cause or label, or another filter");
+                                    "biases: take depth-error, amount, cause or label, or another "
+                                    "filter");
         }
         return diagnosis.biases->map.texels;
     }
@@ -110,7 +116,13 @@ scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap ki
     const auto& classes = comparison.truth.pixel_class;
     scene::Image<float> values{classes.size(), std::numeric_limits<float>::quiet_NaN()};
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (scene::is_scored(classes[i])) {
+        if (!scene::is_scored(classes[i])) {
+            continue;
+        }
+        if (kind == HeatMap::amount) {
+            const float truth = classes[i] == scene::PixelClass::lit ? 1.0F : 0.0F;
+            values[i] = truth - comparison.lookup.samples[i].verdict;
+        } else {
             values[i] = kind == HeatMap::cause ? static_cast<float>(diagnosis.causes.cause[i])
                                                : static_cast<float>(diagnosis.causes.label[i]);
         }

@@ -15,11 +15,12 @@ namespace gnomon::reports {
 enum class HeatMap : std::uint8_t {
     needed_bias, ///< that a lit pixel needs, or a blocked one allows [texels], from -100 to 100
     depth_error, ///< stored minus exact distance [m], from -1 to 1
+    amount,      ///< truth minus verdict: above 0 false shadow, below 0 false light
     cause,
     label,
 };
 
-/// "needed-bias", "depth-error", "cause", "label".
+/// "needed-bias", "depth-error", "amount", "cause", "label".
 [[nodiscard]] std::optional<HeatMap> heat_map_from_name(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> heat_map_names();
 

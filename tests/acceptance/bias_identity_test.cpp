@@ -53,7 +53,9 @@ const std::vector<Setting>& settings()
                                             {"shadow_map.half_extent", "3"},
                                             {"shadow_map.reversed", "true"},
                                             {"lookup.outside", "lit"}},
-                                           true}};
+                                           true},
+                                          {"yard", {{"lookup.outside", "shadowed"}}},
+                                          {"wall", {{"lookup.outside", "lit"}}}};
     return all;
 }
 
@@ -204,7 +206,7 @@ TEST_P(BiasIdentity, HoldsForGlsOwnRerunInEveryPixel)
 }
 
 INSTANTIATE_TEST_SUITE_P(ScenesAndFilters, BiasIdentity,
-                         testing::Combine(testing::Range<std::size_t>(0, 4),
+                         testing::Combine(testing::Range<std::size_t>(0, 6),
                                           testing::Values("nearest", "linear", "pcf3", "pcf5",
                                                           "pcf9")));
 
