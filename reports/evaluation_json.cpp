@@ -24,14 +24,13 @@ void add_bias_causes(Json& json, const analysis::BiasCauses& found)
 {
     json["causes"] = {{"bias", found.bias()},
                       {"precision", nullptr},
+                      {"filter", nullptr},
                       {"resolution", nullptr},
                       {"coverage", nullptr}};
     // What the map does not cover overshadows too.
-    json["labels"] = {{"acne", nullptr},
-                      {"peter_panning", found.peter_panning},
-                      {"leak", nullptr},
-                      {"edge", nullptr},
-                      {"overshadow", nullptr}};
+    json["labels"] = {{"acne", nullptr},  {"peter_panning", found.peter_panning},
+                      {"bleed", nullptr}, {"leak", nullptr},
+                      {"edge", nullptr},  {"overshadow", nullptr}};
 }
 
 Json cannot_know(const std::vector<analysis::CannotKnow>& all)

@@ -39,7 +39,8 @@ struct CannotKnow {
     std::string needs;
 };
 
-/// What r and d alone tell of the causes: which pixels are wrong by their bias.
+/// What r and d alone tell of the causes: which pixels are wrong by their bias. Those that without
+/// it only their own surface would shadow are among them, as that takes the texel.
 struct BiasCauses {
     scene::Image<Cause> cause; ///< `bias`, or `none` where it is right or not known
     scene::Image<Label> label; ///< `peter_panning` or `overshadow`, or `none`

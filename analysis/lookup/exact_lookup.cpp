@@ -54,10 +54,20 @@ public:
 
     [[nodiscard]] std::vector<float> find(std::span<const std::size_t> taps) const
     {
-        std::vector<NearestQuery> queries(lookups_.size());
-        tbb::parallel_for(std::size_t{0}, lookups_.size(),
-                          [&](std::size_t i) { queries[i] = query(i, taps[i]); });
-        return light_.critical_biases(queries, clamps_);
+        std::vector<float> critical(lookups_.size(), rule_.policy_critical_bias());
+        std::vector<NearestQuery> queries;
+        std::vector<std::size_t> asked;
+        for (std::size_t i = 0; i < critical.size(); ++i) {
+            if (lookups_.hits_of(i)[taps[i]] != nullptr || rule_.promises().interpolates()) {
+                queries.push_back(query(i, taps[i]));
+                asked.push_back(i);
+            }
+        }
+        const std::vector<float> found = light_.critical_biases(queries, clamps_);
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            critical[asked[i]] = found[i];
+        }
+        return critical;
     }
 
 private:

@@ -33,7 +33,11 @@ def read(run):
     """Every configuration of a small run; of a larger one the mean along the axis that matters most."""
     rows = run_settings.done(run)
     columns = [f"causes.{cause}" for cause in style.CAUSES]
-    rows = rows.dropna(subset=columns).reset_index(drop=True)
+    labels = [f"labels.{label}" for label in LABELS]
+    rows = rows.reindex(columns=list(dict.fromkeys([*rows.columns, *columns, *labels])))
+    rows = rows.dropna(subset=["causes.resolution"]).reset_index(drop=True)
+    # Runs of schema 1 counted neither the cause `filter` nor the label `bleed`.
+    rows = rows.fillna({name: 0 for name in (*columns, *labels)})
     if rows.empty:
         raise run_settings.DoesNotApply(f"{run.folder}: no causes")
     scored = (rows["pixels.lit"] + rows["pixels.blocked"]).to_numpy(dtype=float)

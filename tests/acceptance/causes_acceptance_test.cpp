@@ -244,7 +244,7 @@ TEST(Repair, OfABiasIsNone)
 {
     GNOMON_REQUIRE_GL();
     for (const char* builtin : {"wall", "columns", "yard"}) {
-        const scene::Job job = job_of(builtin, {});
+        const scene::Job job = job_of(builtin, {{"bias.constant", "0.02"}});
         const Compared scene{job};
         const auto before = scene(job);
         scene::Job without = job;

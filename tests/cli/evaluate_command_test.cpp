@@ -98,9 +98,16 @@ TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)
     folder.write();
     const CaseJson json = evaluated(folder);
     EXPECT_GT(own.at("causes").at("bias"), 100);
-    EXPECT_EQ(json.at("causes").at("bias"), own.at("causes").at("bias"));
-    EXPECT_EQ(json.at("labels").at("peter_panning"), own.at("labels").at("peter_panning"));
-    EXPECT_TRUE(json.at("causes").at("resolution").is_null());
+    // Without texels nobody knows that a pixel's own surface shadows it: a few more.
+    EXPECT_GE(json.at("causes").at("bias"), own.at("causes").at("bias"));
+    EXPECT_LE(json.at("causes").at("bias"), 1.05 * own.at("causes").at("bias").get<double>());
+    EXPECT_EQ(json.at("labels").at("peter_panning"), json.at("causes").at("bias"));
+    for (const char* cause : {"precision", "filter", "resolution", "coverage"}) {
+        EXPECT_TRUE(json.at("causes").at(cause).is_null()) << cause;
+    }
+    for (const char* label : {"acne", "bleed", "leak", "edge", "overshadow"}) {
+        EXPECT_TRUE(json.at("labels").at(label).is_null()) << label;
+    }
 }
 
 TEST(Evaluate, LeavesARunForReportGateAndBaseline)

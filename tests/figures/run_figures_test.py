@@ -1,8 +1,9 @@
 """Figures of runs as numbers: what is plotted against the stored CSV files, axes, words, which apply.
 
-The runs are a comparison of sphere-plane with a map of 64 texels (64 x 48 pixels) and a sweep of two
-resolutions, two filters and five biases (24 x 16 pixels). Their bias_curves.csv have every eighth and
-every fourth line, the sweep's error_vs_z.csv two of four curves.
+The runs, of schema 1 (without the cause `filter` and the label `bleed`), are a comparison of
+sphere-plane with a map of 64 texels (64 x 48 pixels) and a sweep of two resolutions, two filters and
+five biases (24 x 16 pixels). Their bias_curves.csv have every eighth and every fourth line, the
+sweep's error_vs_z.csv two of four curves.
 """
 
 import contextlib
@@ -208,13 +209,21 @@ class Causes(unittest.TestCase):
         above, below = causes.draw(causes.read(load("compare"))).axes
         for axes, names in ((above, [f"causes.{name}" for name in style.CAUSES]),
                             (below, [f"labels.{name}" for name in causes.LABELS])):
-            counts = [int(row[name]) for name in names]
+            counts = [int(row.get(name, 0)) for name in names]
             self.assertEqual([bar.get_width() for bar in axes.patches], counts)
             self.assertEqual([text.get_text() for text in axes.texts],
                              [f"{count:,}" for count in counts])
             self.assertEqual([label.get_text() for label in axes.get_yticklabels()],
                              [name.split(".")[1].replace("_", "-") for name in names])
         self.assertEqual(below.get_xlabel(), "wrong pixels")
+
+    def test_have_the_filter_and_what_bleeds_where_they_are_counted(self):
+        run = load("compare")
+        run.results["causes.filter"] = 7
+        run.results["labels.bleed"] = 3
+        above, below = causes.draw(causes.read(run)).axes
+        self.assertEqual(above.patches[list(style.CAUSES).index("filter")].get_width(), 7)
+        self.assertEqual(below.patches[causes.LABELS.index("bleed")].get_width(), 3)
 
     def test_of_a_sweep_are_means_along_the_axis_that_matters_most(self):
         (axes,) = causes.draw(causes.read(load("sweep"))).axes
@@ -224,8 +233,8 @@ class Causes(unittest.TestCase):
         bottom = numpy.zeros(5)
         for cause, bars in zip(style.CAUSES, axes.containers):
             expected = [statistics.mean(
-                100 * int(row[f"causes.{cause}"]) / (int(row["pixels.lit"])
-                                                     + int(row["pixels.blocked"]))
+                100 * int(row.get(f"causes.{cause}", 0)) / (int(row["pixels.lit"])
+                                                            + int(row["pixels.blocked"]))
                 for row in rows_of("sweep", "results", **{"bias.constant": bias}))
                 for bias in ("0", "0.001", "0.003", "0.01", "0.03")]
             # Sums of four quotients in another order: some ulp.
