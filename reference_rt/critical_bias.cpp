@@ -2,10 +2,10 @@
 
 #include "scene/infinity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
 namespace gnomon::reference_rt {
 
@@ -32,28 +32,70 @@ Bounded known_depth(const scene::ExactTap& tap)
 }
 
 /// What a bias must make up for: r − d, or reversed d − r.
-template <std::size_t n>
-Bounded bounded_excess(const Bounded& receiver, const std::array<scene::ExactTap, n>& taps,
-                       const std::array<double, n>& weights, bool is_reversed)
+Bounded directed(const Bounded& excess, bool is_reversed)
 {
-    Bounded excess = receiver;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Bounded depth = known_depth(taps[i]);
-        excess = excess - (weights[i] == 1 ? depth : Bounded{weights[i], 0} * depth);
-    }
     return is_reversed ? Bounded{-excess.value, excess.error} : excess;
 }
-/// The same in twice double's precision.
-template <std::size_t n>
-Wide sharp_excess(const DepthTerm& receiver, const std::array<DepthTerm, n>& taps,
-                  const std::array<double, n>& weights, bool is_reversed)
+Wide directed(const Wide& excess, bool is_reversed)
 {
-    Wide excess = receiver.sharp();
-    for (std::size_t i = 0; i < n; ++i) {
-        const Wide depth = taps[i].sharp();
-        excess = excess - (weights[i] == 1 ? depth : WideField::number(weights[i]) * depth);
-    }
     return is_reversed ? WideField::number(0) - excess : excess;
+}
+Fraction directed(const Fraction& excess, bool is_reversed)
+{
+    return is_reversed ? Fraction{Dyadic{} - excess.numerator, excess.denominator} : excess;
+}
+
+/// The precisions that are tried one after the other, and the weights in them.
+struct InDoubles {
+    static auto of(const BilinearWeights& weights) { return weights.bounded(); }
+};
+struct InTwiceDoubles {
+    static auto of(const BilinearWeights& weights) { return weights.sharp(); }
+};
+struct Exactly {
+    static auto of(const BilinearWeights& weights) { return weights.exact(); }
+};
+
+template <typename T, std::size_t n, typename Function>
+auto mapped(const std::array<T, n>& values, const Function& function)
+{
+    std::array<decltype(function(values[0])), n> results;
+    std::ranges::transform(values, results.begin(), function);
+    return results;
+}
+
+/// One tap counts for all.
+struct UnitWeight {};
+
+/// r − d
+template <typename Number>
+Number mean_excess(const Number& receiver, const std::array<Number, 1>& depths,
+                   const UnitWeight& /*weight*/)
+{
+    return receiver - depths[0];
+}
+/// r − Σ w·d = Σ w·(r − d), as the weights' sum is 1: what is uncertain of a weight counts for
+/// less.
+template <typename Number>
+Number mean_excess(const Number& receiver, const std::array<Number, 4>& depths,
+                   const std::array<Number, 4>& weights)
+{
+    Number excess = weights[0] * (receiver - depths[0]);
+    for (std::size_t i = 1; i < depths.size(); ++i) {
+        excess = excess + weights[i] * (receiver - depths[i]);
+    }
+    return excess;
+}
+/// The same; what is 0 is left out, as these numbers grow with each sum.
+Fraction mean_excess(const Fraction& receiver, const std::array<Fraction, 4>& depths,
+                     const std::array<Fraction, 4>& weights)
+{
+    Fraction excess = number(0);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        const Fraction term = weights[i] * (depths[i] - receiver);
+        excess = term.denominator.sign() == 0 || term.sign() != 0 ? excess - term : excess;
+    }
+    return excess;
 }
 
 /// The bias where the whole interval asks for the same.
@@ -81,22 +123,6 @@ std::optional<float> certain_bias(const Wide& excess)
         return next;
     }
     return beyond.is_certainly_negative() ? std::optional{bias} : std::nullopt;
-}
-
-/// The exact difference that a bias must make up for.
-Fraction exact_excess(const DepthTerm& receiver, std::span<const DepthTerm> taps,
-                      std::span<const double> weights, bool is_reversed)
-{
-    Fraction excess = receiver.exact();
-    for (std::size_t i = 0; i < taps.size(); ++i) {
-        Fraction tap = taps[i].exact();
-        tap.numerator = Dyadic{weights[i]} * tap.numerator;
-        excess = excess - tap;
-    }
-    if (is_reversed) {
-        excess.numerator = Dyadic{} - excess.numerator;
-    }
-    return excess;
 }
 
 float smallest_bias_of(const Fraction& excess)
@@ -151,20 +177,27 @@ DepthTerm DepthTerm::clamped() const
     return (depth - number(1)).sign() > 0 ? DepthTerm{1} : *this;
 }
 
-template <std::size_t n>
-float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
-                         const std::array<double, n>& weights) const
+float CriticalBias::find(const DepthTerm& receiver, const scene::ExactTap& tap) const
 {
-    const auto bias =
-        certain_bias(bounded_excess(receiver.bounded(), taps, weights, depth_.is_reversed()));
-    return bias ? *bias : find_exactly(receiver, taps, weights);
+    return find(receiver, std::array{tap}, [](auto /*precision*/) { return UnitWeight{}; });
 }
 
-template <std::size_t n>
-float CriticalBias::find_exactly(const DepthTerm& receiver,
-                                 const std::array<scene::ExactTap, n>& taps,
-                                 const std::array<double, n>& weights) const
+float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, 4>& taps,
+                         const BilinearWeights& weights) const
 {
+    return find(receiver, taps, [&](auto precision) { return precision.of(weights); });
+}
+
+template <std::size_t n, typename Weights>
+float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
+                         const Weights& weights) const
+{
+    const bool is_reversed = depth_.is_reversed();
+    const auto known = mapped(taps, known_depth);
+    const auto bounded = mean_excess(receiver.bounded(), known, weights(InDoubles{}));
+    if (const auto bias = certain_bias(directed(bounded, is_reversed))) {
+        return *bias;
+    }
     std::array<TapHit, n> hits;
     std::array<DepthTerm, n> terms;
     SignCounts counts;
@@ -176,19 +209,17 @@ float CriticalBias::find_exactly(const DepthTerm& receiver,
             tap.ray = CameraRay{rays_.ray(taps[i].texel)};
             tap.facet = Facet{taps[i].triangle, corners_of(triangles_, taps[i].triangle)};
             tap.hit = Receiver{tap.facet, tap.ray, counts};
-            terms[i] = DepthTerm{depth_, tap.hit, known_depth(taps[i])};
+            terms[i] = DepthTerm{depth_, tap.hit, known[i]};
         }
     }
-    const bool is_reversed = depth_.is_reversed();
-    if (const auto bias = certain_bias(sharp_excess(receiver, terms, weights, is_reversed))) {
+    const auto sharp_depths = mapped(terms, [](const DepthTerm& term) { return term.sharp(); });
+    const auto sharp = mean_excess(receiver.sharp(), sharp_depths, weights(InTwiceDoubles{}));
+    if (const auto bias = certain_bias(directed(sharp, is_reversed))) {
         return *bias;
     }
-    return smallest_bias_of(exact_excess(receiver, terms, weights, is_reversed));
+    const auto exact_depths = mapped(terms, [](const DepthTerm& term) { return term.exact(); });
+    const auto exact = mean_excess(receiver.exact(), exact_depths, weights(Exactly{}));
+    return smallest_bias_of(directed(exact, is_reversed));
 }
-
-template float CriticalBias::find(const DepthTerm&, const std::array<scene::ExactTap, 1>&,
-                                  const std::array<double, 1>&) const;
-template float CriticalBias::find(const DepthTerm&, const std::array<scene::ExactTap, 4>&,
-                                  const std::array<double, 4>&) const;
 
 } // namespace gnomon::reference_rt

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference_rt/bilinear_weights.hpp"
 #include "reference_rt/light_depth.hpp"
 #include "reference_rt/predicates.hpp"
 #include "reference_rt/texel_rays.hpp"
@@ -52,18 +53,18 @@ public:
     {
     }
 
-    /// The smallest B with r − B <= d (reversed: r + B >= d), d = Σ weight·depth of the taps;
-    /// infinite where the receiver lies in the light's camera plane.
-    template <std::size_t n>
-    [[nodiscard]] float find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
-                             const std::array<double, n>& weights) const;
+    /// The smallest B with r − B <= d (reversed: r + B >= d), d the depth of the tap; infinite
+    /// where the receiver lies in the light's camera plane.
+    [[nodiscard]] float find(const DepthTerm& receiver, const scene::ExactTap& tap) const;
+    /// The same with d = Σ weight·depth of the taps.
+    [[nodiscard]] float find(const DepthTerm& receiver, const std::array<scene::ExactTap, 4>& taps,
+                             const BilinearWeights& weights) const;
 
 private:
-    /// The same where the taps' bounds do not decide.
-    template <std::size_t n>
-    [[nodiscard]] float find_exactly(const DepthTerm& receiver,
-                                     const std::array<scene::ExactTap, n>& taps,
-                                     const std::array<double, n>& weights) const;
+    /// @param weights  The weights in a precision, which is its argument.
+    template <std::size_t n, typename Weights>
+    [[nodiscard]] float find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
+                             const Weights& weights) const;
 
     const scene::TriangleScene& triangles_;
     const TexelRays& rays_;

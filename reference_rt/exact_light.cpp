@@ -33,7 +33,7 @@ using scene::View;
 
 namespace {
 
-/// The taps of a query and their weights.
+/// The taps of a query.
 std::array<ExactTap, 1> taps_of(const NearestQuery& query)
 {
     return {query.tap};
@@ -41,14 +41,6 @@ std::array<ExactTap, 1> taps_of(const NearestQuery& query)
 const std::array<ExactTap, 4>& taps_of(const LinearQuery& query)
 {
     return query.taps;
-}
-std::array<double, 1> weights_of(const NearestQuery& /*query*/)
-{
-    return {1.0};
-}
-const std::array<double, 4>& weights_of(const LinearQuery& query)
-{
-    return query.weights;
 }
 
 /// P as it stands to the light; made again only as far as it changes.
@@ -295,10 +287,22 @@ private:
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
             check(queries[i]);
             point.move_to(queries[i].pixel);
-            biases[i] = critical.find(clamps ? point.term().clamped() : point.term(),
-                                      taps_of(queries[i]), weights_of(queries[i]));
+            biases[i] = bias_of(queries[i], critical, point,
+                                clamps ? point.term().clamped() : point.term());
         });
         return biases;
+    }
+    [[nodiscard]] float bias_of(const NearestQuery& query, const CriticalBias& critical,
+                                const LitPoint& /*point*/, const DepthTerm& receiver) const
+    {
+        return critical.find(receiver, query.tap);
+    }
+    [[nodiscard]] float bias_of(const LinearQuery& query, const CriticalBias& critical,
+                                const LitPoint& point, const DepthTerm& receiver) const
+    {
+        return critical.find(receiver, query.taps,
+                             BilinearWeights{depth_.rows(), point.receiver(), query.first,
+                                             rays_.resolution_texels()});
     }
 
     template <typename Query>

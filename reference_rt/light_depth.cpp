@@ -13,15 +13,6 @@ using scene::Vec4d;
 
 namespace {
 
-/// δ row·(P, 1)
-template <typename Field, typename Number>
-Number scaled_row(Field /*field*/, const Vec4d& row, const Ray& ray,
-                  const PlaneHit<Number, Number>& plane)
-{
-    const auto axis = vector<Field>(Vec3d{row});
-    return plane.delta * (dot(axis, vector<Field>(ray.origin)) + Field::number(row.w)) +
-           plane.nu * dot(axis, vector<Field>(ray.direction));
-}
 /// |δ| row·(P, 1)
 Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, Dyadic>& plane)
 {

@@ -32,6 +32,10 @@ struct Fraction {
         return {a.numerator * b.denominator - b.numerator * a.denominator,
                 a.denominator * b.denominator};
     }
+    friend Fraction operator*(const Fraction& a, const Fraction& b)
+    {
+        return {a.numerator * b.numerator, a.denominator * b.denominator};
+    }
 };
 
 /// The matrix depth that the float32 `light_clip_from_world` gives to a point H, with Z and W two

@@ -50,6 +50,16 @@ auto towards(const scene::Light& light, const scene::Vec3d& x)
                : decltype(negated(vector<Field>(x))){difference<Field>(light.position, x)};
 }
 
+/// δ row·(P, 1)
+template <typename Field, typename Number>
+Number scaled_row(Field /*field*/, const scene::Vec4d& row, const scene::Ray& ray,
+                  const PlaneHit<Number, Number>& plane)
+{
+    const auto axis = vector<Field>(scene::Vec3d{row});
+    return plane.delta * (dot(axis, vector<Field>(ray.origin)) + Field::number(row.w)) +
+           plane.nu * dot(axis, vector<Field>(ray.direction));
+}
+
 /// δ N·(P − o): its sign is that of N·(P − o) but for δ's.
 template <typename Field, typename Normal>
 auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const scene::Vec3d& o)

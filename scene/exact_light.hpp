@@ -60,11 +60,12 @@ struct NearestQuery {
     ExactTap tap;
 };
 
-/// One receiver before a depth interpolated between four taps: Σ weight·depth.
+/// One receiver before a depth interpolated between four taps, weighted by where the receiver
+/// exactly is between their centres, or at the nearest place between them.
 struct LinearQuery {
     std::size_t pixel = 0;
-    std::array<ExactTap, 4> taps;
-    std::array<double, 4> weights{}; ///< exact; >= 0
+    Texel first;                  ///< of the lower left tap, before any clamping
+    std::array<ExactTap, 4> taps; ///< row by row from there
 };
 
 /// A receiver, and the triangle seen at a texel.

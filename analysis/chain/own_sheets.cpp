@@ -8,10 +8,12 @@ TracedLookups trace_lookups(const CauseInputs& inputs, const scene::LookupLayers
                             std::span<const std::size_t> pixels)
 {
     const Footprint footprint{inputs.lookup, inputs.resolution_texels};
-    Lookups lookups{{pixels.begin(), pixels.end()}, {}, footprint.tap_count()};
+    Lookups lookups{{pixels.begin(), pixels.end()}, {}, footprint.tap_count(), {}};
     lookups.taps.reserve(pixels.size() * lookups.taps_each);
+    lookups.first_taps.reserve(pixels.size());
     for (const std::size_t pixel : pixels) {
         footprint.append_taps(layers.texels[pixel], lookups.taps);
+        lookups.first_taps.push_back(footprint.first_tap(layers.texels[pixel]));
     }
     return {std::move(lookups), inputs.light, inputs.known_hits};
 }

@@ -93,10 +93,9 @@ private:
         std::vector<LinearQuery> queries(lookups_.size());
         tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
             queries[i].pixel = lookups_.pixel(i);
-            const auto taps = lookups_.taps_of(i);
-            for (std::size_t t = 0; t < taps.size(); ++t) {
+            queries[i].first = lookups_.first_tap(i);
+            for (std::size_t t = 0; t < queries[i].taps.size(); ++t) {
                 queries[i].taps[t] = exact_tap(i, t);
-                queries[i].weights[t] = taps[t].weight;
             }
         });
         return light_.critical_biases(queries, clamps_);

@@ -16,6 +16,7 @@ struct Lookups {
     std::vector<std::size_t> pixels;
     std::vector<Tap> taps;
     std::size_t taps_each = 1;
+    std::vector<scene::Texel> first_taps; ///< of each the lower left tap, before any clamping
 
     [[nodiscard]] std::span<const Tap> taps_of(std::size_t i) const
     {
@@ -34,6 +35,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return lookups_.pixels.size(); }
     [[nodiscard]] std::size_t pixel(std::size_t i) const { return lookups_.pixels[i]; }
+    [[nodiscard]] scene::Texel first_tap(std::size_t i) const { return lookups_.first_taps[i]; }
     [[nodiscard]] std::span<const Tap> taps_of(std::size_t i) const { return lookups_.taps_of(i); }
     /// Of each tap of a lookup; null where there is no texel.
     [[nodiscard]] std::span<const scene::TexelHit* const> hits_of(std::size_t i) const

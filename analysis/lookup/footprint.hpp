@@ -65,6 +65,9 @@ public:
         return static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
     }
 
+    /// The texel of the lower left tap, before any clamping.
+    [[nodiscard]] scene::Texel first_tap(const scene::Vec2f& point) const;
+
     /// Which tap reads the texel that contains the point, or would, were it on the map.
     [[nodiscard]] std::size_t centre_tap(const scene::Vec2f& point) const;
 
@@ -79,8 +82,6 @@ public:
     [[nodiscard]] bool is_inside(const scene::Vec2f& point) const;
 
 private:
-    /// The lower left tap, before any clamping.
-    [[nodiscard]] scene::Texel first_tap(const scene::Vec2f& point) const;
     /// The parts of two neighbours' centres in a point between them, the lower one's first.
     [[nodiscard]] static std::array<double, 2> weights(float x);
     [[nodiscard]] Tap tap_at(scene::Texel texel, double weight) const;

@@ -40,6 +40,7 @@ struct OnePixel {
         unbiased.texels = scene::Image<scene::Vec2f>{{1, 1}, {4.5F, 4.5F}};
         lookup = unbiased;
         light.receiver_depths[0] = 0.5;
+        light.places[0] = unbiased.texels[0];
     }
 
     /// What the map without bias, and the job's lookup, say.
@@ -289,6 +290,7 @@ TEST(Causes, LinearComparesTheInterpolatedDepth)
     OnePixel pixel{PixelClass::lit};
     pixel.settings.filter = Filter::linear;
     pixel.unbiased.texels[0] = {4.75F, 4.5F}; // ¾ of texel (4, 4), ¼ of (5, 4)
+    pixel.light.places[0] = pixel.unbiased.texels[0];
     pixel.verdicts(0, 0).sees(4, 4, 0.5).sees(5, 4, 0.25);
     EXPECT_EQ(pixel.found().exact_critical_bias, 0.0625F);
 }
@@ -310,6 +312,7 @@ TEST(Causes, OutsideTheMapLinearTapsAreAsFarOrNearAsThePolicySays)
     OnePixel pixel{PixelClass::lit};
     pixel.settings = {Filter::linear, Outside::shadowed};
     pixel.unbiased.texels[0] = {0.25F, 4.5F}; // ¼ of its depth comes from outside: 0
+    pixel.light.places[0] = pixel.unbiased.texels[0];
     pixel.verdicts(0, 0).sees(0, 4, 0.5);
     EXPECT_EQ(pixel.found().exact_critical_bias, 0.125F);
     pixel.settings.outside = Outside::lit;
@@ -388,6 +391,7 @@ TEST(Causes, AFilterWithoutAShadowingTexelOvershadows)
     // Between two texels' exact depths it is shadowed; the centre's alone, and all stored ones,
     // not.
     pixel.unbiased.texels[0] = {4.75F, 4.5F};
+    pixel.light.places[0] = pixel.unbiased.texels[0];
     pixel.lookup.texels[0] = {4.75F, 4.5F};
     pixel.verdicts(0, 0).sees(4, 4, 0.5).sees(5, 4, 0.25);
     expect(pixel.classified(), Cause::filter, Label::overshadow);

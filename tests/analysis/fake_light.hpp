@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/exact_light.hpp"
+#include "scene/vec.hpp"
 
 #include <algorithm>
 #include <map>
@@ -15,6 +16,7 @@ class FakeLight final : public scene::ExactLight {
 public:
     std::map<std::pair<int, int>, scene::TexelHit> hits; ///< by (x, y); others see nothing
     std::map<std::size_t, double> receiver_depths;       ///< by pixel
+    std::map<std::size_t, scene::Vec2f> places;          ///< uv·resolution, by pixel
     std::set<std::size_t> crossed;                       ///< pixels
     std::set<std::pair<std::size_t, std::uint32_t>> own; ///< pixel and triangle
     std::map<std::size_t, scene::BlockerHit> blockers;   ///< by pixel
@@ -49,11 +51,13 @@ public:
                                                      bool clamps) const override
     {
         return answer<float>(queries, [&](const scene::LinearQuery& q) {
-            double interpolated = 0;
-            for (std::size_t i = 0; i < 4; ++i) {
-                interpolated += q.weights[i] * depth(q.taps[i]);
-            }
-            return static_cast<float>(receiver(q.pixel, clamps) - interpolated);
+            const scene::Vec2f place = places.at(q.pixel);
+            const double x = std::clamp(double{place.x} - 0.5 - q.first.x, 0.0, 1.0);
+            const double y = std::clamp(double{place.y} - 0.5 - q.first.y, 0.0, 1.0);
+            return static_cast<float>(
+                receiver(q.pixel, clamps) -
+                ((1 - y) * ((1 - x) * depth(q.taps[0]) + x * depth(q.taps[1])) +
+                 y * ((1 - x) * depth(q.taps[2]) + x * depth(q.taps[3]))));
         });
     }
 

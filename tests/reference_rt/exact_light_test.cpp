@@ -138,20 +138,55 @@ TEST(CriticalBiases, AreThoseOfRationalsForOneTap)
     });
 }
 
+/// uv·n of a pixel's point.
+std::array<Rational, 2> place_on_map(const LitScene& lit, std::size_t pixel)
+{
+    const ClipRows rows{lit.view.frustum};
+    const RationalVec point = lit.point(pixel);
+    const auto at = [&](const scene::Vec4d& row) {
+        return dot(RationalVec{scene::Vec3d{row}}, point) + Rational{row.w};
+    };
+    const auto along = [&](const scene::Vec4d& axis) {
+        return Rational{lit.resolution * (at(axis) / at(rows.w) + 1) / 2};
+    };
+    return {along(rows.x), along(rows.y)};
+}
+
+int floor_of(const Rational& x)
+{
+    const auto nearest = static_cast<int>(std::floor(static_cast<double>(x)));
+    return Rational{nearest} > x ? nearest - 1 : nearest;
+}
+
+/// How much each tap counts, exactly.
+std::array<Rational, 4> weights_at(const LitScene& lit, const LinearQuery& query)
+{
+    const auto place = place_on_map(lit, query.pixel);
+    const auto part = [](const Rational& x, int first) {
+        const Rational beyond = x - Rational{0.5} - first;
+        return beyond < 0 ? Rational{0} : beyond > 1 ? Rational{1} : beyond;
+    };
+    const Rational x = part(place[0], query.first.x);
+    const Rational y = part(place[1], query.first.y);
+    return {Rational{(1 - x) * (1 - y)}, Rational{x * (1 - y)}, Rational{(1 - x) * y},
+            Rational{x * y}};
+}
+
 TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
 {
     for_each_case([&](const LitScene& lit) {
         std::mt19937 random{8};
-        std::uniform_real_distribution<float> fraction{0, 1};
         const auto light = lit.exact_light();
         const auto texels = lit.all_texels();
         const auto hits = light->first_hits(texels, HitDetail::bounded);
         std::vector<LinearQuery> queries;
         for (const std::size_t pixel : lit.scored_pixels()) {
             LinearQuery query{pixel, {}, {}};
-            const double u = fraction(random);
-            const double v = fraction(random);
-            query.weights = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+            const auto place = place_on_map(lit, pixel);
+            // Now and then the point is not between the four, as where its uv was rounded.
+            query.first = {floor_of(place[0] - Rational{0.5}) + static_cast<int>(random() % 8 == 0),
+                           floor_of(place[1] - Rational{0.5}) -
+                               static_cast<int>(random() % 8 == 0)};
             for (ExactTap& tap : query.taps) {
                 const std::size_t texel = random() % texels.size();
                 tap = tap_of(texels[texel], hits[texel], random() % 2 == 0);
@@ -160,9 +195,10 @@ TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
         }
         const auto biases = light->critical_biases(std::span{queries}, false);
         for (std::size_t i = 0; i < queries.size(); ++i) {
+            const auto weights = weights_at(lit, queries[i]);
             Rational depth = 0;
             for (std::size_t k = 0; k < 4; ++k) {
-                depth += Rational{queries[i].weights[k]} * tap_depth(lit, queries[i].taps[k]);
+                depth += weights[k] * tap_depth(lit, queries[i].taps[k]);
             }
             EXPECT_EQ(biases[i], expected_bias(lit, queries[i].pixel, depth, false))
                 << "pixel " << queries[i].pixel;

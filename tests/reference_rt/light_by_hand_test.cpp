@@ -226,14 +226,18 @@ TEST(CriticalBiases, ClampTheReceiverAlone)
     EXPECT_EQ(high.bias(high.pixel_of(0), {{0, 0}, no_triangle, 0}, true), 0.0F);
 }
 
-TEST(CriticalBiases, InterpolateBetweenTaps)
+TEST(CriticalBiases, AreOfTheNearestTapFarBeyondThem)
 {
     const Noon noon{table_at(1)};
-    LinearQuery query{noon.pixel_of(0), {}, {0.25, 0.25, 0.375, 0.125}};
+    LinearQuery query{noon.pixel_of(0), {}, {}};
     query.taps = {ExactTap{over_half_half, table, 1}, ExactTap{{0, 0}, 0, 1},
-                  ExactTap{{3, 3}, 1, 1}, ExactTap{{0, 3}, no_triangle, 0.5F}};
-    // r − d = 0.25·0.25 + 0.125·0.25
-    EXPECT_EQ(noon.exact_light()->critical_biases(std::span{&query, 1}, false)[0], 0.09375F);
+                  ExactTap{{0, 3}, no_triangle, 0.5F}, ExactTap{{0, 3}, no_triangle, 0.625F}};
+    const std::array<float, 4> expected{0.25F, 0, 0.25F, 0.125F};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        query.first = {i % 2 == 0 ? 40 : -40, i < 2 ? 40 : -40};
+        EXPECT_EQ(noon.exact_light()->critical_biases(std::span{&query, 1}, false)[0], expected[i])
+            << "tap " << i;
+    }
 }
 
 TEST(SmallestBiasFrom, SkipsSubnormalNumbers)

@@ -1,0 +1,383 @@
+"""The cause chain and the labels of one pixel, by DESIGN section 4, over exact geometry.
+
+A `LightView` knows what every texel's ray sees. A `Lookup` is what GL's lookup of one pixel did. A `Pixel` brings
+them together, and `explain` gives the pixel's cause, label and amounts.
+"""
+
+from collections import Counter
+from fractions import Fraction
+from functools import cache
+from math import prod
+
+import numpy
+
+import exact_geometry as geometry
+
+LIT, BLOCKED = 1, 0
+BIAS, PRECISION, RESOLUTION, COVERAGE, FILTER = "bias", "precision", "resolution", "coverage", "filter"
+ACNE, PANNING, LEAK, EDGE, OVERSHADOW = "acne", "peter_panning", "leak", "edge", "overshadow"
+CAUSES = {BIAS: 1, PRECISION: 2, RESOLUTION: 3, COVERAGE: 4, FILTER: 5}
+LABELS = {ACNE: 1, PANNING: 2, LEAK: 3, EDGE: 4, OVERSHADOW: 5, "bleed": 6}
+FLOAT_HALF = numpy.float32(0.5)
+TOLERANCE = Fraction(1, 256)
+
+
+class LightView:
+    """The map's matrix, culling and texel rays, exactly."""
+
+    def __init__(self, mesh, light, rows, resolution, cull, is_reversed):
+        self.mesh = mesh
+        self.light = light
+        self.resolution = resolution
+        self.is_reversed = is_reversed
+        self.kept = [cull == "none" or light.faces_front(mesh, k) != (cull == "front")
+                     for k in range(len(mesh.corners))]
+        self.float_rows = rows
+        shift = geometry.shift_of(value for row in rows for value in row)
+        self.rows = [geometry.scaled(row, shift) for row in rows]
+        # A row's last value meets w, which is 2^shift of the world for its scaled coordinates.
+        self.rows = [(*row[:3], row[3] << mesh.shift) for row in self.rows]
+        self.look = cache(self._look)
+
+    def is_kept(self, triangle):
+        return self.kept[triangle]
+
+    def clip(self, point):
+        return tuple(sum(a * b for a, b in zip(row, point)) for row in self.rows)
+
+    def depth(self, point):
+        _, _, z, w = self.clip(point)
+        return Fraction(z, w) if self.is_reversed else Fraction(z + w, 2 * w)
+
+    def light_distance(self, point):
+        """What grows with the distance from the light's camera plane, affinely in the world."""
+        _, _, z, w = self.clip(point)
+        if self.light.position is not None:
+            return Fraction(w, point[3])
+        return Fraction(-z if self.is_reversed else z, point[3])
+
+    def texel_position(self, point):
+        """uv times the resolution, from the lower left."""
+        x, y, _, w = self.clip(point)
+        return tuple(Fraction((value + w) * self.resolution, 2 * w) for value in (x, y))
+
+    def _look(self, texel):
+        """What the ray of a texel of the map sees, as a TexelRay."""
+        origin, direction = texel_ray(self.float_rows, texel, self.resolution, self.light.position is None,
+                                      self.is_reversed)
+        direction = geometry.scaled(direction, geometry.shift_of(direction))
+        origin = self.mesh.point(origin) if self.light.position is None else self.light.position
+        ray = geometry.TexelRay(origin, direction)
+        geometry.trace(self.mesh, ray, self.is_kept, self.depth, only_forward=self.light.position is not None)
+        return ray
+
+    def seen_depth(self, texel):
+        ray = self.look(texel)
+        if ray.triangle is None:
+            return Fraction(0 if self.is_reversed else 1)
+        return ray.depth
+
+    def contains(self, texel):
+        return 0 <= texel[0] < self.resolution and 0 <= texel[1] < self.resolution
+
+
+def texel_ray(rows, texel, count, is_directional, is_reversed):
+    """The documented double operations for the ray of a texel centre: these bits are the ray."""
+    x_row, y_row, z_row, w_row = rows
+    u = (2 * texel[0] + 1 - count) / count
+    v = (2 * texel[1] + 1 - count) / count
+    a = [x - u * w for x, w in zip(x_row, w_row)]
+    b = [y - v * w for y, w in zip(y_row, w_row)]
+    direction = geometry.cross(a, b)
+    along = z_row if is_directional else w_row
+    growth = geometry.dot(along, direction)
+    if is_directional and is_reversed:
+        growth = -growth
+    origin = None
+    if is_directional:
+        near = [w - z if is_reversed else z + w for z, w in zip(z_row, w_row)]
+        b_near, near_a = geometry.cross(b, near), geometry.cross(near, a)
+        divisor = geometry.dot(a, b_near)
+        origin = tuple(-((a[3] * b_near[k] + b[3] * near_a[k]) + near[3] * direction[k]) / divisor
+                       for k in range(3))
+    return origin, direction if growth > 0 else tuple(-value for value in direction)
+
+
+class Lookup:
+    """What GL's lookup of a pixel gave: receiver depth, uv times resolution, the centre tap's depth."""
+
+    def __init__(self, settings, receiver_depth, x, y, map_depth):
+        self.settings = settings
+        self.x, self.y = x, y
+        self.map_depth = map_depth
+        r = numpy.float32(receiver_depth)
+        reverse = settings.is_reversed
+        self.is_at_far = bool(r <= 0 if reverse else r >= 1)
+        beyond = bool(r < 0 if reverse else r > 1)
+        self.is_beyond_far = beyond and settings.outside != "clamp"
+        self.depth = min(max(r, numpy.float32(0)), numpy.float32(1)) if settings.outside == "clamp" else r
+
+    def centre(self):
+        """The texel that contains uv times resolution; it may be outside the map."""
+        return (int(numpy.floor(self.x)), int(numpy.floor(self.y)))
+
+    def corner(self):
+        """The lower left texel of the footprint of linear."""
+        return tuple(int(numpy.floor(value - FLOAT_HALF)) for value in (self.x, self.y))
+
+    def footprint(self):
+        if self.settings.filter == "linear":
+            x, y = self.corner()
+            return [(x + i, y + j) for j in (0, 1) for i in (0, 1)]
+        x, y = self.centre()
+        half = self.settings.taps // 2
+        return [(x + i, y + j) for j in range(-half, half + 1) for i in range(-half, half + 1)]
+
+    def weight(self, texel):
+        """A texel's share of the footprint: 1 for a mean of taps, bilinear for linear."""
+        if self.settings.filter != "linear":
+            return Fraction(1)
+        shares = (1 - abs(Fraction(float(value - FLOAT_HALF)) - index)
+                  for value, index in zip((self.x, self.y), texel))
+        return prod(shares)
+
+    def ring(self):
+        """The footprint and the texels around it."""
+        taps = self.footprint()
+        return {(x + i, y + j) for x, y in taps for j in (-1, 0, 1) for i in (-1, 0, 1)}
+
+    def resolve(self, texel):
+        """The map's texel that is looked up, or None where the policy decides."""
+        n = self.settings.resolution
+        if self.settings.outside == "clamp":
+            return (min(max(texel[0], 0), n - 1), min(max(texel[1], 0), n - 1))
+        inside = 0 <= texel[0] < n and 0 <= texel[1] < n
+        return texel if inside and not self.is_beyond_far else None
+
+    def is_decided_by_policy(self):
+        """Whether the policy decides the whole lookup."""
+        return all(self.resolve(texel) is None for texel in self.footprint())
+
+
+class Settings:
+    """What of a job decides a lookup."""
+
+    def __init__(self, job):
+        self.resolution = job["shadow_map.resolution"]
+        self.filter = job["lookup.filter"]
+        self.taps = int(self.filter[3:]) if self.filter.startswith("pcf") else 1
+        self.outside = job["lookup.outside"]
+        self.is_reversed = job["shadow_map.reversed"]
+        self.policy_is_lit = self.outside == "lit"
+
+    def is_lit(self, receiver, stored):
+        return bool(receiver >= stored if self.is_reversed else receiver <= stored)
+
+    def biased_float(self, receiver, bias):
+        return numpy.float32(receiver + bias if self.is_reversed else receiver - bias)
+
+    def biased_exactly(self, receiver, bias):
+        return receiver + Fraction(float(bias)) if self.is_reversed else receiver - Fraction(float(bias))
+
+    def policy_depth(self):
+        """The depth that a texel outside has for linear."""
+        return 0 if self.policy_is_lit == self.is_reversed else 1
+
+
+class Pixel:
+    """A scored pixel: exact receiver, truth, GL's verdict, the job's lookup and that without a normal offset."""
+
+    def __init__(self, view, settings, stored, triangle, point, truth, verdict, lookups, bias):
+        self.view = view
+        self.settings = settings
+        self.stored = stored
+        self.triangle = triangle
+        self.point = point
+        self.truth = truth
+        self.verdict = verdict
+        self.job_lookup, self.lookup = lookups
+        self.bias = bias
+        self.sees_own_sheet = cache(self._sees_own_sheet)
+        self.exact_depth = view.depth(point)
+        if settings.outside == "clamp":
+            self.exact_depth = min(max(self.exact_depth, Fraction(0)), Fraction(1))
+
+    def _sees_own_sheet(self, texel):
+        """Whether the surface walked from P to the texel's centre enters what is seen there."""
+        if texel is None or not self.view.contains(texel):
+            return False
+        ray = self.view.look(texel)
+        return geometry.Walk(self.view.mesh, self.view.light, self.triangle, self.point, ray).reaches(ray.triangle)
+
+    def stored_depth(self, texel):
+        return self.stored[self.settings.resolution - 1 - texel[1], texel[0]]
+
+    def tap_is_lit_in_job(self, texel):
+        """A texel compared by itself in V0."""
+        looked_up = self.job_lookup.resolve(texel)
+        compared = self.settings.biased_float(self.job_lookup.depth, self.bias)
+        if looked_up is not None:
+            return self.settings.is_lit(compared, self.stored_depth(looked_up))
+        if self.settings.filter == "linear" and not self.job_lookup.is_decided_by_policy():
+            return self.settings.is_lit(compared, self.settings.policy_depth())
+        return self.settings.policy_is_lit
+
+    def shadowing_taps(self):
+        return [texel for texel in self.job_lookup.footprint() if not self.tap_is_lit_in_job(texel)]
+
+    def job_verdict(self):
+        """V0 again, from the stored depths; None where it interpolates, which GL does in its own way."""
+        if self.settings.filter == "linear":
+            if self.job_lookup.is_decided_by_policy():
+                return Fraction(self.settings.policy_is_lit)
+            compared = self.settings.biased_float(self.job_lookup.depth, self.bias)
+            return Fraction(self.settings.is_lit(compared, numpy.float32(self.job_lookup.map_depth)))
+        taps = self.job_lookup.footprint()
+        return 1 - Fraction(len(self.shadowing_taps()), len(taps))
+
+    def mean_of_taps(self, compare):
+        """A verdict without bias: the policy goes first, then a blocked pixel's own sheet, then the depths."""
+        lit = 0
+        taps = self.lookup.footprint()
+        for tap in taps:
+            texel = self.lookup.resolve(tap)
+            if texel is None:
+                lit += self.settings.policy_is_lit
+            else:
+                lit += (self.truth == BLOCKED and self.sees_own_sheet(texel)) or compare(texel)
+        return Fraction(lit, len(taps))
+
+    def compare_stored(self, texel):
+        return self.settings.is_lit(self.lookup.depth, self.stored_depth(texel))
+
+    def compare_exact(self, texel):
+        return self.settings.is_lit(self.exact_compared(), self.view.seen_depth(texel))
+
+    def exact_compared(self):
+        """The exact depth that V2 compares: a lit pixel keeps the job's bias."""
+        if self.truth == LIT:
+            return self.settings.biased_exactly(self.exact_depth, self.bias)
+        return self.exact_depth
+
+    def centre_sees_own_sheet(self):
+        return self.sees_own_sheet(self.lookup.resolve(self.lookup.centre()))
+
+    def stored_verdict(self):
+        """V1."""
+        if self.settings.filter != "linear":
+            return self.mean_of_taps(self.compare_stored)
+        if self.lookup.is_decided_by_policy():
+            return Fraction(self.settings.policy_is_lit)
+        return Fraction(self.settings.is_lit(self.lookup.depth, numpy.float32(self.lookup.map_depth)))
+
+    def exact_verdict(self):
+        """V2."""
+        if self.settings.filter != "linear":
+            return self.mean_of_taps(self.compare_exact)
+        if self.lookup.is_decided_by_policy():
+            return Fraction(self.settings.policy_is_lit)
+        return Fraction(self.settings.is_lit(self.exact_compared(), self.interpolated_depth()))
+
+    def interpolated_depth(self):
+        left, bottom = self.lookup.corner()
+        uv = self.view.texel_position(self.point)
+        x, y = (min(max(value - Fraction(1, 2) - base, Fraction(0)), Fraction(1))
+                for value, base in zip(uv, (left, bottom)))
+        total = Fraction(0)
+        for i, j, weight in ((0, 0, (1 - x) * (1 - y)), (1, 0, x * (1 - y)), (0, 1, (1 - x) * y), (1, 1, x * y)):
+            texel = self.lookup.resolve((left + i, bottom + j))
+            depth = self.settings.policy_depth() if texel is None else self.view.seen_depth(texel)
+            total += weight * depth
+        return total
+
+    def single_verdict(self):
+        """V2n."""
+        texel = self.lookup.resolve(self.lookup.centre())
+        if texel is None:
+            return Fraction(self.settings.policy_is_lit)
+        own = self.sees_own_sheet(texel)
+        if self.truth == BLOCKED:
+            return Fraction(own or self.compare_exact(texel))
+        cured = own and not any(self.sees_own_sheet(self.job_lookup.resolve(tap)) for tap in self.shadowing_taps())
+        return Fraction(cured or self.compare_exact(texel))
+
+    def fine_verdict(self):
+        """V3."""
+        outside = not self.view.contains(self.lookup.centre())
+        if self.settings.outside == "clamp":
+            if outside or self.lookup.is_at_far:
+                return self.single_verdict()
+        elif outside or self.lookup.is_beyond_far:
+            return Fraction(self.settings.policy_is_lit)
+        found, _ = geometry.crossings(self.view.mesh, self.triangle, self.point, self.view.light, self.view.is_kept)
+        depths = (self.view.depth(geometry.point_on_way(self.point, self.view.light, s)) for s, _ in found)
+        return Fraction(not any(0 <= depth <= 1 for depth in depths))
+
+    def is_wrong(self):
+        return (self.verdict >= Fraction(1, 2)) != bool(self.truth)
+
+    def is_partial(self):
+        return not self.is_wrong() and abs(self.verdict - self.truth) > TOLERANCE
+
+    def repairs(self, verdict):
+        if self.is_wrong():
+            return (verdict >= Fraction(1, 2)) == bool(self.truth)
+        return abs(verdict - self.truth) <= TOLERANCE
+
+    def repairs_by_map(self, verdict):
+        """A repair by V1 or V2: of a verdict that is not made of taps none by the pixel's own shadow."""
+        if self.settings.filter == "linear" and self.truth == BLOCKED and not self.lookup.is_decided_by_policy() \
+                and self.centre_sees_own_sheet():
+            return False
+        return self.repairs(verdict)
+
+    def cause(self):
+        if self.repairs_by_map(self.stored_verdict()):
+            return BIAS
+        if self.repairs_by_map(self.exact_verdict()):
+            return PRECISION
+        if self.settings.filter != "nearest" and self.repairs(self.single_verdict()):
+            return FILTER
+        return RESOLUTION if self.repairs(self.fine_verdict()) else COVERAGE
+
+    def map_lost_the_blocker(self):
+        """None of the texels in reach sees anything nearer than halfway to the blocker."""
+        found, _ = geometry.crossings(self.view.mesh, self.triangle, self.point, self.view.light, lambda _: True)
+        s, _ = max(found, key=lambda hit: (hit[0], -hit[1]))
+        blocker = geometry.point_on_way(self.point, self.view.light, s)
+        midpoint = (self.view.light_distance(self.point) + self.view.light_distance(blocker)) / 2
+        for texel in self.lookup.ring():
+            if not self.view.contains(texel) or self.sees_own_sheet(texel):
+                continue
+            ray = self.view.look(texel)
+            if ray.triangle is not None and self.view.light_distance(ray.point) < midpoint:
+                return False
+        return True
+
+    def label(self, cause):
+        if self.truth == BLOCKED:
+            if cause == BIAS:
+                return PANNING
+            lost = cause in (PRECISION, COVERAGE) or (cause == RESOLUTION and self.map_lost_the_blocker())
+            return LEAK if lost else EDGE
+        shadowing = self.shadowing_taps()
+        if cause in (BIAS, COVERAGE) or (cause == FILTER and not shadowing):
+            return OVERSHADOW
+        if not shadowing:
+            return EDGE
+        return ACNE if 2 * self.weight_of(self.own_taps(shadowing)) >= self.weight_of(shadowing) else EDGE
+
+    def weight_of(self, taps):
+        return sum((self.job_lookup.weight(tap) for tap in taps), Fraction(0))
+
+    def own_taps(self, taps):
+        return [tap for tap in taps if self.sees_own_sheet(self.job_lookup.resolve(tap))]
+
+    def label_amounts(self, cause, label):
+        """The pixel's amount by label: a lit pixel's is divided among its shadowing taps."""
+        amount = abs(self.verdict - self.truth)
+        if self.truth == BLOCKED or cause in (BIAS, COVERAGE) or self.settings.filter == "linear":
+            return Counter({label: amount})
+        shadowing = self.shadowing_taps()
+        own = Fraction(len(self.own_taps(shadowing)), len(shadowing))
+        return Counter({ACNE: amount * own, EDGE: amount * (1 - own)})
