@@ -2,49 +2,15 @@
 #include "compared.hpp"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <vector>
 
 /// The smallest acne-free bias of a plane has a closed form.
 namespace gnomon::tests {
 namespace {
-
-/// The plane's exact depth in [0, 1] at texel coordinates, linear in both.
-class PlaneDepth {
-public:
-    PlaneDepth(const analysis::Comparison& result, std::uint32_t triangle)
-    {
-        const auto& matrix = result.view.frustum.light_clip_from_world_exact;
-        const double texels = result.job.shadow_map.resolution_texels;
-        std::array<scene::Vec3d, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto clip =
-                matrix * scene::Vec4d{scene::Vec3d{result.triangles->corners(triangle)[i]}, 1.0};
-            corners[i] = {0.5 * (clip.x + 1) * texels, 0.5 * (clip.y + 1) * texels,
-                          0.5 * (clip.z + 1)};
-        }
-        origin_ = corners[0];
-        const auto normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        per_u_ = -normal.x / normal.z;
-        per_v_ = -normal.y / normal.z;
-    }
-
-    [[nodiscard]] double operator()(double u_texels, double v_texels) const
-    {
-        return origin_.z + per_u_ * (u_texels - origin_.x) + per_v_ * (v_texels - origin_.y);
-    }
-
-private:
-    scene::Vec3d origin_;
-    double per_u_ = 0;
-    double per_v_ = 0;
-};
 
 /// The most that nearest codes lie below the plane's depth, over the texels that lit pixels look
 /// up: half a code where depths of neighbouring texels fall evenly between codes, but less where
@@ -56,7 +22,7 @@ double largest_rounding(const analysis::Comparison& result)
         return 0x1p-25;
     }
     const double codes = std::ldexp(1.0, format.bits) - 1;
-    const PlaneDepth depth{result, 0};
+    const PlaneDepth depth{result};
     double largest = 0;
     for (std::size_t i = 0; i < result.truth.pixel_class.pixel_count(); ++i) {
         if (result.truth.pixel_class[i] == scene::PixelClass::lit) {

@@ -1,8 +1,11 @@
 #include "closed_form.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace gnomon::tests {
@@ -23,6 +26,21 @@ scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias)
                 {"shadow_map.roll_deg", fmt::format("{}", setting.roll_deg)},
                 {"bias.constant", fmt::format("{}", bias)}})
         .job;
+}
+
+PlaneDepth::PlaneDepth(const analysis::Comparison& result)
+{
+    const auto& matrix = result.view.frustum.light_clip_from_world_exact;
+    const double texels = result.job.shadow_map.resolution_texels;
+    std::array<scene::Vec3d, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto clip = matrix * scene::Vec4d{scene::Vec3d{result.triangles->corners(0)[i]}, 1.0};
+        corners[i] = {0.5 * (clip.x + 1) * texels, 0.5 * (clip.y + 1) * texels, 0.5 * (clip.z + 1)};
+    }
+    origin_ = corners[0];
+    const auto normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    per_u_ = -normal.x / normal.z;
+    per_v_ = -normal.y / normal.z;
 }
 
 double half_texel_slope(const TiltedPlaneSetting& setting, const scene::LightFrustum& frustum)

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "analysis/comparison.hpp"
 #include "scene/job.hpp"
 #include "scene/job_file.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace gnomon::tests {
@@ -18,6 +20,25 @@ struct TiltedPlaneSetting {
 
 [[nodiscard]] std::string text(const TiltedPlaneSetting& setting);
 [[nodiscard]] scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias);
+
+/// The exact depth in [0, 1] of a scene's first triangle at texel coordinates, linear in both,
+/// under a directional light.
+class PlaneDepth {
+public:
+    explicit PlaneDepth(const analysis::Comparison& result);
+
+    [[nodiscard]] double operator()(double u_texels, double v_texels) const
+    {
+        return origin_.z + per_u_ * (u_texels - origin_.x) + per_v_ * (v_texels - origin_.y);
+    }
+    /// |∂d/∂u| + |∂d/∂v|
+    [[nodiscard]] double per_texel() const { return std::abs(per_u_) + std::abs(per_v_); }
+
+private:
+    scene::Vec3d origin_;
+    double per_u_ = 0;
+    double per_v_ = 0;
+};
 
 /// ½(|∂d/∂u| + |∂d/∂v|) per texel: what a plane's depth varies around the centre of a texel.
 [[nodiscard]] double half_texel_slope(const TiltedPlaneSetting& setting,

@@ -1,0 +1,187 @@
+#include "analysis/lookup/tap_criticals.hpp"
+#include "closed_form.hpp"
+#include "compared.hpp"
+#include "scene/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+/// A plane's acne has a closed form for every filter, by amount and by count: receiver minus tap
+/// depth is g·(p − c), g the plane's depth per texel, p the receiver's place and c the tap's
+/// centre.
+namespace gnomon::tests {
+namespace {
+
+using scene::Filter;
+
+/// The step of float32 below 1, and what the roundings of r and d may add: a few times 2^-24.
+constexpr double rounding = 0x1p-25 + 4 * 0x1p-24;
+
+/// Pixels sample the phases of the texels, as many as there are lit pixels: a mean over them is off
+/// by the part of texels that the picture's border cuts.
+constexpr double phase_sampling = 0.005;
+
+scene::Job job_of(const TiltedPlaneSetting& setting, Filter filter, double bias)
+{
+    scene::Job job = tilted_plane_job(setting, bias);
+    job.lookup.filter = filter;
+    return job;
+}
+
+/// The larger and the smaller of |cos φ| and |sin φ|.
+struct Shares {
+    double larger;
+    double smaller;
+};
+Shares shares_of(const TiltedPlaneSetting& setting)
+{
+    const double roll_rad = setting.roll_deg * std::numbers::pi / 180;
+    const double cosine = std::abs(std::cos(roll_rad));
+    const double sine = std::abs(std::sin(roll_rad));
+    return {std::max(cosine, sine), std::min(cosine, sine)};
+}
+
+/// A lit pixel's mean amount where a constant bias is β times the plane's depth across the filter:
+/// the share of g·p above it, p even over a square of K texels.
+double mean_amount(const Shares& shares, double beta)
+{
+    const double c = shares.larger;
+    const double s = shares.smaller;
+    if (beta <= (c - s) / 2) {
+        return 0.5 - beta / c;
+    }
+    const double rest = std::max(0.0, (c + s) / 2 - beta);
+    return s == 0 ? 0 : rest * rest / (2 * c * s);
+}
+
+void expect_ends(const analysis::Comparison& result, const TiltedPlaneSetting& setting, int width)
+{
+    const double half = half_texel_slope(setting, result.view.frustum);
+    const auto& strict = result.diagnosis->biases->bounds.strict;
+    // Where the plane falls along both axes few pixels meet a texel's corner: the nearest misses it
+    // by a part of a texel, whatever the filter's width.
+    const double missed_of_a_texel = setting.roll_deg == 0 ? 0.001 : 0.005;
+    const auto expect = [&](double found, int texels, const char* name) {
+        const double closed = texels * half;
+        EXPECT_GE(found, closed - missed_of_a_texel * half - rounding) << name;
+        EXPECT_LE(found, closed * 1.001 + rounding) << name;
+    };
+    expect(double{strict.acne_free}, width, "acne_free");
+    expect(double{strict.acne_free_count}, 1, "acne_free_count");
+}
+
+void expect_amounts(const Compared& compared, const TiltedPlaneSetting& setting, Filter filter,
+                    double half)
+{
+    const Shares shares = shares_of(setting);
+    const double across =
+        scene::filter_width_texels(filter) * 2 * half / (shares.larger + shares.smaller);
+    for (const double beta : {0.0, 0.1, 0.25, 0.4, 0.6}) {
+        const auto at = compared.without_diagnosis(job_of(setting, filter, beta * across));
+        EXPECT_NEAR(at.metrics.shadow_amount_rate.value(), mean_amount(shares, beta),
+                    phase_sampling)
+            << "β = " << beta;
+    }
+}
+
+/// Every tap of every lit pixel.
+void expect_tap_criticals(const Compared& compared, const analysis::Comparison& result)
+{
+    const PlaneDepth depth{result};
+    const auto map = compared.renderers().read_map_depths();
+    const auto rule = analysis::lookup_rule(result.job, result.view);
+    const analysis::TapCriticals taps{result.lookup, map, rule};
+    const analysis::Footprint footprint{result.job.lookup, map.size().width_px};
+    double largest = 0;
+    taps.visit(
+        0, result.truth.pixel_class.pixel_count(),
+        [&](std::size_t i) { return result.truth.pixel_class[i] == scene::PixelClass::lit; },
+        [&](std::size_t i, std::span<const float> criticals) {
+            const scene::Vec2f at = result.lookup.texels[i];
+            std::size_t t = 0;
+            footprint.visit_taps(at, [&](const analysis::Tap& tap) {
+                const double here = depth(double{at.x}, double{at.y});
+                const double there = depth(tap.texel.x + 0.5, tap.texel.y + 0.5);
+                const double off = double{criticals[t++]} - (here - there);
+                largest = tap.is_inside ? std::max(largest, std::abs(off)) : largest;
+            });
+        });
+    // uv·res is a float32, so p is known to half its spacing along either axis.
+    const double place = 0x1p-24 * map.size().width_px * depth.per_texel();
+    EXPECT_LE(largest, rounding + place);
+}
+
+void expect_closed_forms(const TiltedPlaneSetting& setting, const Compared& compared)
+{
+    SCOPED_TRACE(text(setting));
+    for (const Filter filter : {Filter::pcf3, Filter::pcf5, Filter::pcf9}) {
+        SCOPED_TRACE(scene::filter_name(filter));
+        const auto result = compared(job_of(setting, filter, 0));
+        ASSERT_GE(result.metrics.pixels.of(scene::PixelClass::lit), 500000U);
+        expect_ends(result, setting, scene::filter_width_texels(filter));
+        expect_tap_criticals(compared, result);
+        expect_amounts(compared, setting, filter, half_texel_slope(setting, result.view.frustum));
+    }
+}
+
+/// Between texel centres the interpolated depth is the plane's own.
+void expect_linear_ends_at_rounding(const TiltedPlaneSetting& setting, const Compared& compared)
+{
+    SCOPED_TRACE(text(setting));
+    const auto result = compared(job_of(setting, Filter::linear, 0));
+    EXPECT_LE(double{result.diagnosis->biases->bounds.strict.acne_free}, 4 * rounding);
+}
+
+void expect_hardware(const TiltedPlaneSetting& setting, const Compared& compared)
+{
+    SCOPED_TRACE(text(setting));
+    const auto without = compared.without_diagnosis(job_of(setting, Filter::hardware, 0));
+    const double across = 2 * half_texel_slope(setting, without.view.frustum);
+    const auto amount_at = [&](double bias) {
+        return compared.without_diagnosis(job_of(setting, Filter::hardware, bias))
+            .metrics.shadow_amount_rate.value();
+    };
+    EXPECT_EQ(amount_at(1.001 * across + rounding), 0);
+    EXPECT_GT(amount_at(0.8 * across), 0);
+    for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+        if (setting.roll_deg == 0) {
+            // GL's weights have at least 8 bits of fraction.
+            EXPECT_NEAR(amount_at(part * across), (1 - part) * (1 - part) / 2,
+                        phase_sampling + 1.0 / 256)
+                << part;
+        }
+    }
+}
+
+void expect_all(const TiltedPlaneSetting& setting)
+{
+    const Compared compared{tilted_plane_job(setting, 0)};
+    expect_closed_forms(setting, compared);
+    expect_linear_ends_at_rounding(setting, compared);
+    expect_hardware(setting, compared);
+}
+
+TEST(FilterClosedForms, HoldForAPlaneUprightAndRolled)
+{
+    GNOMON_REQUIRE_GL();
+    expect_all({60, 512, "d32f", 0});
+    expect_all({35, 1024, "d32f", 30});
+}
+
+TEST(LongFilterClosedForms, HoldForAnglesRollsAndResolutions)
+{
+    GNOMON_REQUIRE_GL();
+    for (const int angle_deg : {10, 25, 40, 55, 70, 85}) {
+        for (const double roll_deg : {0.0, 15.0, 30.0, 45.0}) {
+            for (const int resolution : {512, 2048}) {
+                expect_all({angle_deg, resolution, "d32f", roll_deg});
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::tests
