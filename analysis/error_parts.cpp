@@ -22,19 +22,19 @@ using scene::PixelClass;
 namespace {
 
 constexpr std::size_t label_count = label_names.size();
-constexpr std::size_t wrong_kinds = 2 * cause_names.size() * label_count;
+constexpr std::size_t kind_count = 2 * cause_names.size() * label_count;
 
-std::size_t wrong_kind(bool is_false_lit, Cause cause, Label label)
+std::size_t kind_place(bool is_false_lit, Cause cause, Label label)
 {
     const std::size_t side = is_false_lit ? 1 : 0;
     return (side * cause_names.size() + static_cast<std::size_t>(cause)) * label_count +
            static_cast<std::size_t>(label);
 }
 
-WrongCount wrong_count(std::size_t kind, std::uint64_t pixels)
+KindOfError kind_at(std::size_t place)
 {
-    return {kind >= wrong_kinds / 2, static_cast<Cause>(kind / label_count % cause_names.size()),
-            static_cast<Label>(kind % label_count), pixels};
+    return {place >= kind_count / 2, static_cast<Cause>(place / label_count % cause_names.size()),
+            static_cast<Label>(place % label_count)};
 }
 
 void require_equal_sizes(std::string_view function, scene::ImageSize a, scene::ImageSize b)
@@ -113,25 +113,37 @@ int place_of_distance(float distance_m)
     return std::clamp(std::ilogb(distance_m), below, ZetaBand::last_octave) - below;
 }
 
-/// How the wrong pixels of each part and kind change from one bias to the next. Sums of integers:
-/// the same in whatever order.
+/// By how much the errors of a part and kind differ from one bias to the next.
+struct ErrorChange {
+    std::int64_t pixels = 0;
+    std::int64_t units = 0; ///< of `ErrorSegments`
+
+    friend ErrorChange operator+(ErrorChange a, ErrorChange b)
+    {
+        return {a.pixels + b.pixels, a.units + b.units};
+    }
+    friend ErrorChange operator-(ErrorChange a) { return {-a.pixels, -a.units}; }
+};
+
+/// How the errors of each part and kind change from one bias to the next. Sums of integers: the
+/// same in whatever order.
 class PartChanges {
 public:
     PartChanges(std::size_t parts, std::size_t biases)
         : stride_{biases + 1},
-          kinds_(parts * wrong_kinds)
+          kinds_(parts * kind_count)
     {
     }
 
-    /// Counts a pixel that is wrong at the biases [first, last).
-    void add(std::size_t part, std::size_t kind, std::size_t first, std::size_t last)
+    /// Adds a pixel's segment to a part.
+    void add(std::size_t part, bool is_false_lit, const ErrorSegment& segment)
     {
-        if (first < last) {
-            auto& changes = kinds_[part * wrong_kinds + kind];
-            changes.resize(stride_);
-            ++changes[first];
-            --changes[last];
-        }
+        const auto place = [&](Label label) {
+            return part * kind_count + kind_place(is_false_lit, segment.cause, label);
+        };
+        add(place(segment.label), segment, {segment.is_wrong ? 1 : 0, 0});
+        add(place(segment.rest_label), segment, {0, segment.rest});
+        add(place(Label::acne), segment, {0, segment.acne});
     }
 
     void add(const PartChanges& other)
@@ -146,23 +158,36 @@ public:
     }
 
     /// Adds to each bias's parts what is wrong of them.
-    void add_to(std::vector<std::vector<ErrorPart>>& rows) const
+    /// @param units  Of a whole pixel.
+    void add_to(std::vector<std::vector<ErrorPart>>& rows, std::int64_t units) const
     {
         for (std::size_t i = 0; i < kinds_.size(); ++i) {
-            std::int64_t pixels = 0;
+            ErrorChange sum;
             for (std::size_t bias = 0; bias < rows.size() && !kinds_[i].empty(); ++bias) {
-                pixels += kinds_[i][bias];
-                if (pixels > 0) {
-                    rows[bias][i / wrong_kinds].wrong.push_back(
-                        wrong_count(i % wrong_kinds, static_cast<std::uint64_t>(pixels)));
+                sum = sum + kinds_[i][bias];
+                if (sum.pixels > 0 || sum.units > 0) {
+                    KindOfError kind = kind_at(i % kind_count);
+                    kind.pixels = static_cast<std::uint64_t>(sum.pixels);
+                    kind.amount = static_cast<double>(sum.units) / static_cast<double>(units);
+                    rows[bias][i / kind_count].errors.push_back(kind);
                 }
             }
         }
     }
 
 private:
+    void add(std::size_t kind, const ErrorSegment& segment, ErrorChange change)
+    {
+        if (change.pixels != 0 || change.units != 0) {
+            auto& changes = kinds_[kind];
+            changes.resize(stride_);
+            changes[segment.first] = changes[segment.first] + change;
+            changes[segment.last] = changes[segment.last] + -change;
+        }
+    }
+
     std::size_t stride_;
-    std::vector<std::vector<std::int64_t>> kinds_; ///< by part and kind; empty: none is wrong
+    std::vector<std::vector<ErrorChange>> kinds_; ///< by part and kind; empty: there are none
 };
 
 } // namespace
@@ -243,12 +268,7 @@ std::vector<std::vector<ErrorPart>> count_parts(const PartMap& map, const BiasRo
             PartChanges& sum = sums.local();
             segments.visit(
                 first, last, has_part, [&](std::size_t pixel, const ErrorSegment& segment) {
-                    if (segment.is_wrong) {
-                        const bool is_false_lit = inputs.classes[pixel] == PixelClass::blocked;
-                        sum.add(map.part[pixel],
-                                wrong_kind(is_false_lit, segment.cause, segment.label),
-                                segment.first, segment.last);
-                    }
+                    sum.add(map.part[pixel], inputs.classes[pixel] == PixelClass::blocked, segment);
                 });
         });
         PartChanges total = none;
@@ -256,7 +276,7 @@ std::vector<std::vector<ErrorPart>> count_parts(const PartMap& map, const BiasRo
             total.add(sum);
         }
         std::vector<std::vector<ErrorPart>> counted(some.size(), map.parts);
-        total.add_to(counted);
+        total.add_to(counted, segments.units());
         rows.insert(rows.end(), counted.begin(), counted.end());
     }
     rows.resize(biases.size());

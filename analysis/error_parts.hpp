@@ -37,24 +37,25 @@ struct ZetaBand {
 /// @param zeta_m  Anything but NaN.
 [[nodiscard]] ZetaBand zeta_band_of(float zeta_m);
 
-/// Wrong pixels of one kind.
-struct WrongCount {
-    bool is_false_lit = false; ///< else false shadow
+/// Wrong and partial pixels of one kind.
+struct KindOfError {
+    bool is_false_lit = false; ///< of blocked pixels; else of lit ones
     Cause cause = Cause::none;
     Label label = Label::none;
-    std::uint64_t pixels = 0;
+    std::uint64_t pixels = 0; ///< that are wrong
+    double amount = 0;        ///< by which wrong and partial ones are off, the label's share [px]
 
-    friend bool operator==(const WrongCount&, const WrongCount&) = default;
+    friend bool operator==(const KindOfError&, const KindOfError&) = default;
 };
 
 /// Scored pixels of the objects of one name in one band of light distance, and how many of them
-/// are wrong.
+/// are wrong, by how much.
 struct ErrorPart {
     std::string object;
     ZetaBand band;
-    std::uint64_t lit = 0;         ///< truth lit
-    std::uint64_t blocked = 0;     ///< truth blocked
-    std::vector<WrongCount> wrong; ///< those that exist; by kind, cause and label
+    std::uint64_t lit = 0;           ///< truth lit
+    std::uint64_t blocked = 0;       ///< truth blocked
+    std::vector<KindOfError> errors; ///< those that exist; by side, cause and label
 
     friend bool operator==(const ErrorPart&, const ErrorPart&) = default;
 };
@@ -66,7 +67,7 @@ struct PartMap {
     static constexpr std::size_t most_parts = 512;
 
     scene::Image<std::uint16_t> part; ///< index into `parts`; `none` where nothing is scored
-    std::vector<ErrorPart> parts;     ///< by object and band, without wrong pixels; may be empty
+    std::vector<ErrorPart> parts;     ///< by object and band, without errors; may be empty
 };
 
 /// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
@@ -77,7 +78,7 @@ struct PartMap {
                                  const scene::Image<float>& zeta_m,
                                  const scene::TriangleScene& scene);
 
-/// The parts with their wrong pixels at each of several biases.
+/// The parts with their errors at each of several biases.
 /// @param biases  Ascending, 0 or normal.
 /// @throws std::invalid_argument  as `count_rows`.
 [[nodiscard]] std::vector<std::vector<ErrorPart>>

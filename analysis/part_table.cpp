@@ -13,24 +13,25 @@ constexpr std::array<std::string_view, 2> scored{"lit", "blocked"};
 constexpr std::array<std::string_view, 2> counts{"false_shadow", "false_lit"};
 constexpr std::array<std::string_view, 2> amounts{"shadow_amount", "light_amount"};
 
-double as_number(const MetricValue& value)
-{
-    const auto* const count = std::get_if<std::uint64_t>(&value);
-    return count != nullptr ? static_cast<double>(*count) : std::get<double>(value);
-}
-
 double sum_of(std::span<const std::string_view> names, const PartCounts& of)
 {
     double sum = 0;
     for (const PartQuantity& quantity : part_quantities()) {
         if (std::ranges::find(names, quantity.name) != names.end()) {
-            sum += as_number(quantity.value(of));
+            sum += quantity.number(of);
         }
     }
     return sum;
 }
 
 } // namespace
+
+double PartQuantity::number(const PartCounts& counts_of_part) const
+{
+    const MetricValue number = value(counts_of_part);
+    const auto* const count = std::get_if<std::uint64_t>(&number);
+    return count != nullptr ? static_cast<double>(*count) : std::get<double>(number);
+}
 
 std::span<const PartQuantity> part_quantities()
 {

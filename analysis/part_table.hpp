@@ -15,6 +15,8 @@ struct PartQuantity {
     std::string_view name;
     MetricType type; ///< `count` or `number`
     MetricValue (*value)(const PartCounts&);
+
+    [[nodiscard]] double number(const PartCounts& counts_of_part) const;
 };
 
 /// `lit` and `blocked`, then what is wrong of them.

@@ -1,31 +1,35 @@
 #include "analysis/gate/gate_filter.hpp"
 
-#include "analysis/ratio.hpp"
+#include "analysis/gate/gate_metrics.hpp"
+#include "analysis/part_table.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <string>
 
 namespace gnomon::analysis {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> pixel_metrics{
-    "false_shadow",   "false_lit",  "wrong_pixels", "false_shadow_rate",
-    "false_lit_rate", "error_rate", "pixels.lit",   "pixels.blocked"};
-
-/// Every kind of wrong pixel that exists. Source: docs/causes.md.
-constexpr std::array<WrongCount, 11> possible_kinds{{{false, Cause::bias, Label::overshadow},
-                                                     {false, Cause::coverage, Label::overshadow},
-                                                     {false, Cause::precision, Label::acne},
-                                                     {false, Cause::precision, Label::edge},
-                                                     {false, Cause::resolution, Label::acne},
-                                                     {false, Cause::resolution, Label::edge},
-                                                     {true, Cause::bias, Label::peter_panning},
-                                                     {true, Cause::precision, Label::leak},
-                                                     {true, Cause::coverage, Label::leak},
-                                                     {true, Cause::resolution, Label::edge},
-                                                     {true, Cause::resolution, Label::leak}}};
+/// Every kind of error that exists. Source: docs/causes.md.
+constexpr std::array<KindOfError, 16> possible_kinds{{{false, Cause::bias, Label::overshadow},
+                                                      {false, Cause::coverage, Label::overshadow},
+                                                      {false, Cause::precision, Label::acne},
+                                                      {false, Cause::precision, Label::edge},
+                                                      {false, Cause::filter, Label::acne},
+                                                      {false, Cause::filter, Label::edge},
+                                                      {false, Cause::filter, Label::overshadow},
+                                                      {false, Cause::resolution, Label::acne},
+                                                      {false, Cause::resolution, Label::edge},
+                                                      {true, Cause::bias, Label::peter_panning},
+                                                      {true, Cause::precision, Label::leak},
+                                                      {true, Cause::coverage, Label::leak},
+                                                      {true, Cause::filter, Label::edge},
+                                                      {true, Cause::filter, Label::bleed},
+                                                      {true, Cause::resolution, Label::edge},
+                                                      {true, Cause::resolution, Label::leak}}};
 
 /// Where the name stands among the others behind the prefix; 0, "none", if it does not.
 template <typename Names>
@@ -40,34 +44,44 @@ std::size_t code_in(std::string_view metric, std::string_view prefix, const Name
 
 std::size_t cause_code(std::string_view metric)
 {
-    return code_in(metric, "causes.", cause_names);
+    return std::max(code_in(metric, "causes.", cause_names),
+                    code_in(metric, "cause_amounts.", cause_names));
 }
 std::size_t label_code(std::string_view metric)
 {
-    return code_in(metric, "labels.", label_names);
+    return std::max(code_in(metric, "labels.", label_names),
+                    code_in(metric, "label_amounts.", label_names));
 }
 
-struct PixelSums {
-    std::uint64_t lit = 0;
-    std::uint64_t blocked = 0;
-    std::uint64_t false_shadow = 0;
-    std::uint64_t false_lit = 0;
-};
+/// Of all errors that the filter takes, whatever the side: their number, or their amount.
+bool is_of_both_sides(std::string_view metric)
+{
+    return metric == wrong_pixels_metric || metric == error_amount_metric ||
+           cause_code(metric) > 0 || label_code(metric) > 0;
+}
+
+/// A quantity's name as a metric: those of right pixels too are classes.
+std::string metric_name(const PartQuantity& quantity)
+{
+    const bool is_class = quantity.name == "lit" || quantity.name == "blocked";
+    return is_class ? fmt::format("pixels.{}", quantity.name) : std::string{quantity.name};
+}
 
 /// The pixels of the parts that the filter takes; empty if there is no such part.
-std::optional<PixelSums> sum_parts(const std::vector<ErrorPart>& parts, const PixelFilter& filter)
+std::optional<PartCounts> sum_parts(const std::vector<ErrorPart>& parts, const PixelFilter& filter)
 {
-    std::optional<PixelSums> sums;
+    std::optional<PartCounts> sums;
     for (const ErrorPart& part : parts) {
         if (!filter.has(part)) {
             continue;
         }
-        PixelSums& sum = sums ? *sums : sums.emplace();
+        PartCounts& sum = sums ? *sums : sums.emplace();
         sum.lit += part.lit;
         sum.blocked += part.blocked;
-        for (const WrongCount& wrong : part.wrong) {
-            if (filter.has(wrong)) {
-                (wrong.is_false_lit ? sum.false_lit : sum.false_shadow) += wrong.pixels;
+        for (const KindOfError& kind : part.errors) {
+            if (filter.has(kind)) {
+                (kind.is_false_lit ? sum.false_lit : sum.false_shadow) += kind.pixels;
+                (kind.is_false_lit ? sum.light_amount : sum.shadow_amount) += kind.amount;
             }
         }
     }
@@ -101,15 +115,26 @@ bool PixelFilter::has(const ErrorPart& part) const
     return (!object || *object == part.object) && (!bands || bands->has(part.band));
 }
 
-bool PixelFilter::has(const WrongCount& wrong) const
+bool PixelFilter::has(const KindOfError& kind) const
 {
-    return (!cause || *cause == wrong.cause) && (!label || *label == wrong.label);
+    return (!cause || *cause == kind.cause) && (!label || *label == kind.label);
 }
 
 bool is_of_pixels(std::string_view metric)
 {
-    return std::find(pixel_metrics.begin(), pixel_metrics.end(), metric) != pixel_metrics.end() ||
-           cause_code(metric) > 0 || label_code(metric) > 0;
+    const auto is_quantity = [&](const PartQuantity& one) { return metric_name(one) == metric; };
+    const auto is_rate = [&](const PartRate& one) { return one.name == metric; };
+    return is_of_both_sides(metric) || std::ranges::any_of(part_quantities(), is_quantity) ||
+           std::ranges::any_of(part_rates(), is_rate);
+}
+
+bool counts_side(std::string_view metric, bool is_false_lit)
+{
+    const bool is_of_lit =
+        metric.starts_with("false_shadow") || metric.starts_with("shadow_amount");
+    const bool is_of_blocked =
+        metric.starts_with("false_lit") || metric.starts_with("light_amount");
+    return is_false_lit ? !is_of_lit : !is_of_blocked;
 }
 
 std::optional<PixelFilter> counted_pixels(std::string_view metric, const PixelFilter& filter)
@@ -124,13 +149,8 @@ bool can_count(std::string_view metric, const PixelFilter& filter)
         return !filter.cause && !filter.label;
     }
     const auto meant = narrowed(filter, metric);
-    return meant &&
-           std::any_of(possible_kinds.begin(), possible_kinds.end(), [&](const WrongCount& kind) {
-               const bool is_meant =
-                   metric.starts_with("false_lit")
-                       ? kind.is_false_lit
-                       : !metric.starts_with("false_shadow") || !kind.is_false_lit;
-               return is_meant && meant->has(kind);
+    return meant && std::ranges::any_of(possible_kinds, [&](const KindOfError& kind) {
+               return counts_side(metric, kind.is_false_lit) && meant->has(kind);
            });
 }
 
@@ -145,23 +165,18 @@ std::optional<double> metric_of_pixels(const std::vector<ErrorPart>& parts, std:
     if (!meant) {
         return 0.0;
     }
-    const PixelSums& sum = *found;
-    const std::uint64_t wrong = sum.false_shadow + sum.false_lit;
-    if (metric == "false_shadow_rate") {
-        return ratio(sum.false_shadow, sum.lit);
+    for (const PartRate& rate : part_rates()) {
+        if (rate.name == metric) {
+            return rate_of(rate, *found);
+        }
     }
-    if (metric == "false_lit_rate") {
-        return ratio(sum.false_lit, sum.blocked);
+    for (const PartQuantity& quantity : part_quantities()) {
+        if (metric_name(quantity) == metric) {
+            return quantity.number(*found);
+        }
     }
-    if (metric == "error_rate") {
-        return ratio(wrong, sum.lit + sum.blocked);
-    }
-    const std::uint64_t count = metric == "false_shadow"     ? sum.false_shadow
-                                : metric == "false_lit"      ? sum.false_lit
-                                : metric == "pixels.lit"     ? sum.lit
-                                : metric == "pixels.blocked" ? sum.blocked
-                                                             : wrong;
-    return static_cast<double>(count);
+    return is_amount(metric) ? found->shadow_amount + found->light_amount
+                             : static_cast<double>(found->false_shadow + found->false_lit);
 }
 
 } // namespace gnomon::analysis

@@ -29,20 +29,23 @@ struct PixelFilter {
     [[nodiscard]] bool takes_all() const { return !object && !cause && !label && !bands; }
     /// Whether it is of a part, whatever is wrong there.
     [[nodiscard]] bool has(const ErrorPart& part) const;
-    [[nodiscard]] bool has(const WrongCount& wrong) const;
+    [[nodiscard]] bool has(const KindOfError& kind) const;
     friend bool operator==(const PixelFilter&, const PixelFilter&) = default;
 };
 
-/// Whether a metric can be counted of some pixels only: counts and rates of wrong pixels, causes
-/// and labels, `pixels.lit` and `pixels.blocked`.
+/// Whether a metric can be had of some pixels only: counts, amounts and rates of errors, causes and
+/// labels, `pixels.lit` and `pixels.blocked`.
 [[nodiscard]] bool is_of_pixels(std::string_view metric);
 
-/// The wrong pixels that a metric counts of those that the filter takes.
-/// @return  Empty if it counts no wrong pixels, or none can be such.
+/// The errors that a metric counts or adds up, of the pixels that the filter takes.
+/// @return  Empty if it is of no errors, or none can be such.
 [[nodiscard]] std::optional<PixelFilter> counted_pixels(std::string_view metric,
                                                         const PixelFilter& filter);
 
-/// Whether any wrong pixel can be of that metric and filter: acne, for one, is never false lit
+/// Whether a metric of errors is about those of that side.
+[[nodiscard]] bool counts_side(std::string_view metric, bool is_false_lit);
+
+/// Whether any error can be of that metric and filter: acne, for one, is never false lit
 /// (docs/causes.md). Metrics that count right pixels too take no cause or label.
 [[nodiscard]] bool can_count(std::string_view metric, const PixelFilter& filter);
 

@@ -59,9 +59,8 @@ double traded_change(const GateRule& rule, const GateEntry& before, const GateEn
         return 0;
     }
     const double fall = *was - *is;
-    // Causes and labels share out the wrong pixels: without more of those, one grew for another.
-    const bool shares_out =
-        rule.metric.starts_with("causes.") || rule.metric.starts_with("labels.");
+    // Causes and labels share out the errors: without more of those, one grew for another.
+    const bool shares_out = rule.metric.starts_with("cause") || rule.metric.starts_with("label");
     const bool is_enough = fall > 0 || (fall == 0 && shares_out);
     return is_enough ? *rule.trade_off * std::max(fall, 1.0) : 0;
 }

@@ -110,7 +110,8 @@ const GateMetric* find_gate_metric(std::string_view name)
 bool is_amount(std::string_view metric)
 {
     return metric == error_amount_metric || metric == "mean_abs_error" || metric == "unassigned" ||
-           metric.starts_with("shadow_amount") || metric.starts_with("light_amount");
+           metric.starts_with("shadow_amount") || metric.starts_with("light_amount") ||
+           metric.starts_with("cause_amounts.") || metric.starts_with("label_amounts.");
 }
 
 bool is_gap_length(std::string_view name)

@@ -54,21 +54,29 @@ void add_count_rules(std::vector<GateRule>& rules, std::string_view metric, doub
 /// No object and no band may become worse, whatever the others do.
 void add_part_rules(std::vector<GateRule>& rules)
 {
-    for (const bool each_object : {true, false}) {
-        for (const JobState job : {JobState::unchanged, JobState::changed}) {
-            GateRule rule = optional_rule(wrong_pixels_metric, job);
-            rule.id = fmt::format("{} of each {}", rule.metric,
-                                  each_object ? "object" : "band of light distance");
-            rule.each_object = each_object;
-            rule.each_band = !each_object;
-            if (job == JobState::unchanged) {
-                rule.allow_pixels = 0;
-            } else {
-                rule.id += ", changed job";
-                rule.allow_share = changed_job_share;
-                rule.trade_off = changed_job_trade_off;
+    struct PartRule {
+        std::string_view metric;
+        double trade_off;
+    };
+    for (const auto& [metric, trade_off] :
+         {PartRule{wrong_pixels_metric, changed_job_trade_off},
+          PartRule{error_amount_metric, changed_job_amount_trade_off}}) {
+        for (const bool each_object : {true, false}) {
+            for (const JobState job : {JobState::unchanged, JobState::changed}) {
+                GateRule rule = optional_rule(metric, job);
+                rule.id = fmt::format("{} of each {}", rule.metric,
+                                      each_object ? "object" : "band of light distance");
+                rule.each_object = each_object;
+                rule.each_band = !each_object;
+                if (job == JobState::unchanged) {
+                    rule.allow_pixels = 0;
+                } else {
+                    rule.id += ", changed job";
+                    rule.allow_share = changed_job_share;
+                    rule.trade_off = trade_off;
+                }
+                rules.push_back(std::move(rule));
             }
-            rules.push_back(std::move(rule));
         }
     }
 }

@@ -93,11 +93,16 @@ std::string contradicted_sum(const GateEntry& entry)
 }
 
 /// Amounts are sums of fractions, which round: by no more than 10^-9 of the pixels.
+double allowed_amount(const GateEntry& entry)
+{
+    return 1e-9 * std::max(1.0, entry.metric("pixels.total").value_or(0));
+}
+
 std::string contradicted_amount(const GateEntry& entry)
 {
     const auto all = sum_of(entry, {"shadow_amount", "light_amount"});
     const auto unassigned = entry.metric("unassigned");
-    const double allowed = 1e-9 * std::max(1.0, entry.metric("pixels.total").value_or(0));
+    const double allowed = allowed_amount(entry);
     const auto differs = [&](std::string_view what, const std::optional<double>& a,
                              std::string_view other, const std::optional<double>& b) {
         return a && b && std::abs(*a - *b) > allowed ? unequal(what, a, other, b) : std::string{};
@@ -147,7 +152,7 @@ std::string contradicted_rate(const GateEntry& entry)
     return {};
 }
 
-/// Parts hold every scored pixel, and where causes are known every wrong one.
+/// Parts hold every scored pixel, and where causes are known every error.
 std::string contradicted_parts(const GateEntry& entry)
 {
     if (entry.parts.empty()) {
@@ -157,11 +162,13 @@ std::string contradicted_parts(const GateEntry& entry)
     double blocked = 0;
     double false_shadow = 0;
     double false_lit = 0;
+    double amount = 0;
     for (const analysis::ErrorPart& part : entry.parts) {
         lit += static_cast<double>(part.lit);
         blocked += static_cast<double>(part.blocked);
-        for (const analysis::WrongCount& wrong : part.wrong) {
-            (wrong.is_false_lit ? false_lit : false_shadow) += static_cast<double>(wrong.pixels);
+        for (const analysis::KindOfError& kind : part.errors) {
+            (kind.is_false_lit ? false_lit : false_shadow) += static_cast<double>(kind.pixels);
+            amount += kind.amount;
         }
     }
     std::map<std::string, double> sums{{"pixels.lit", lit}, {"pixels.blocked", blocked}};
@@ -174,7 +181,10 @@ std::string contradicted_parts(const GateEntry& entry)
             return differs;
         }
     }
-    return {};
+    const auto assigned = sum_of(entry, names_of("cause_amounts.", analysis::cause_names));
+    return assigned && std::abs(*assigned - amount) > allowed_amount(entry)
+               ? unequal("all cause_amounts", assigned, "its parts sum to", amount)
+               : std::string{};
 }
 
 } // namespace

@@ -14,23 +14,27 @@ namespace gnomon::reports {
 
 namespace {
 
-/// The parts of the image whose wrong pixels are not as many as they were, where both are known;
-/// and whether wrong pixels are elsewhere.
+/// The parts of the image whose errors are not what they were, where both are known; and whether
+/// wrong pixels are elsewhere.
 std::string differing_parts(const analysis::GateEntry& before, const analysis::GateEntry& now)
 {
-    const std::string name{analysis::wrong_pixels_metric};
     std::string text;
     for (const analysis::ErrorPart& part : now.parts) {
         analysis::PixelFilter filter;
         filter.object = part.object;
         filter.bands = analysis::ZetaBands{part.band, part.band};
-        const auto was = before.metric(name, filter);
-        const auto is = now.metric(name, filter);
-        if (was && was != is) {
-            text += fmt::format(
-                "  {} {} {} {}\n", pad_right(fmt::format("{}, {}", name, filter_text(filter)), 50),
-                pad_left(metric_text(name, was), 12), pad_left(metric_text(name, is), 12),
-                pad_left(change_text(name, was, is), 12));
+        for (const std::string_view metric :
+             {analysis::wrong_pixels_metric, analysis::error_amount_metric}) {
+            const std::string name{metric};
+            const auto was = before.metric(name, filter);
+            const auto is = now.metric(name, filter);
+            if (was && was != is) {
+                text += fmt::format("  {} {} {} {}\n",
+                                    pad_right(fmt::format("{}, {}", name, filter_text(filter)), 50),
+                                    pad_left(metric_text(name, was), 12),
+                                    pad_left(metric_text(name, is), 12),
+                                    pad_left(change_text(name, was, is), 12));
+            }
         }
     }
     if (!before.pixels.empty() && !now.pixels.empty() && before.pixels != now.pixels) {

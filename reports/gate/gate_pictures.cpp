@@ -55,8 +55,8 @@ std::optional<Pictured> pictured_pixels(const GateReport& report, const GateFind
     if (!filter) {
         return std::nullopt;
     }
-    return Pictured{*filter, !rule.metric.starts_with("false_lit"),
-                    !rule.metric.starts_with("false_shadow")};
+    return Pictured{*filter, analysis::counts_side(rule.metric, false),
+                    analysis::counts_side(rule.metric, true)};
 }
 
 /// The pixels of one configuration, then and now.

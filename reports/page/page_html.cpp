@@ -218,16 +218,21 @@ std::string objects_table(const Json& detail)
 }
 
 std::string counts_table(std::string_view caption, const ResultRow& row,
-                         const std::vector<std::pair<std::string, std::string>>& columns)
+                         const std::vector<KindColumns>& columns)
 {
     const std::uint64_t all = row.count("false_shadow") + row.count("false_lit");
-    std::string html = table_head(caption, {"what", "pixels", "of the wrong"});
-    for (const auto& [column, name] : columns) {
-        const std::uint64_t count = row.count(column);
+    const bool with_amounts = has_amounts(row);
+    std::string html = with_amounts
+                           ? table_head(caption, {"what", "pixels", "of the wrong", "amount [px]"})
+                           : table_head(caption, {"what", "pixels", "of the wrong"});
+    for (const auto& [count_column, amount_column, name] : columns) {
+        const std::uint64_t count = row.count(count_column);
         html +=
             "<tr>" + row_heading(name) + number_cell(grouped(count)) +
             number_cell(all == 0 ? std::string{"-"}
                                  : percent(static_cast<double>(count) / static_cast<double>(all))) +
+            (with_amounts ? number_cell(grouped_amount(row.number(amount_column).value_or(0)))
+                          : std::string{}) +
             "</tr>\n";
     }
     return html + std::string{table_end};

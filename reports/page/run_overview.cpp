@@ -163,14 +163,14 @@ std::string common_scene(const RunReader& run)
     return find.step() ? std::string{} : builtin + file; // a job has one of them
 }
 
-std::vector<std::pair<std::string, std::string>> named_columns(std::string_view group,
-                                                               const auto& names)
+std::vector<KindColumns> named_columns(std::string_view kind, const auto& names)
 {
-    std::vector<std::pair<std::string, std::string>> columns;
+    std::vector<KindColumns> columns;
     for (std::size_t i = 1; i < names.size(); ++i) { // the first is "none"
         std::string words{names[i]};
         std::replace(words.begin(), words.end(), '_', '-');
-        columns.emplace_back(fmt::format("{}.{}", group, names[i]), std::move(words));
+        columns.push_back({fmt::format("{}s.{}", kind, names[i]),
+                           fmt::format("{}_amounts.{}", kind, names[i]), std::move(words)});
     }
     return columns;
 }
@@ -257,16 +257,24 @@ std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& r
     return settings;
 }
 
-const std::vector<std::pair<std::string, std::string>>& cause_columns()
+const std::vector<KindColumns>& cause_columns()
 {
-    static const auto columns = named_columns("causes", analysis::cause_names);
+    static const auto columns = named_columns("cause", analysis::cause_names);
     return columns;
 }
 
-const std::vector<std::pair<std::string, std::string>>& label_columns()
+const std::vector<KindColumns>& label_columns()
 {
-    static const auto columns = named_columns("labels", analysis::label_names);
+    static const auto columns = named_columns("label", analysis::label_names);
     return columns;
+}
+
+bool has_amounts(const ResultRow& row)
+{
+    return std::ranges::any_of(cause_columns(), [&](const KindColumns& kind) {
+        const auto amount = row.number(kind.amount);
+        return amount && *amount != static_cast<double>(row.count(kind.count));
+    });
 }
 
 } // namespace gnomon::reports

@@ -48,9 +48,17 @@ compare_command(const RunDescription& description, const std::string& case_name,
 /// bias, as the job's keys and values.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row);
 
-/// The names by which people know counts: {"causes.bias", "bias"}, … and {"labels.acne", "acne"},
-/// ….
-[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& cause_columns();
-[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& label_columns();
+/// The columns of one cause or label, and the name by which people know it:
+/// {"causes.bias", "cause_amounts.bias", "bias"}.
+struct KindColumns {
+    std::string count;
+    std::string amount;
+    std::string name;
+};
+[[nodiscard]] const std::vector<KindColumns>& cause_columns();
+[[nodiscard]] const std::vector<KindColumns>& label_columns();
+
+/// Whether amounts say more than counts do: verdicts are fractions.
+[[nodiscard]] bool has_amounts(const ResultRow& row);
 
 } // namespace gnomon::reports

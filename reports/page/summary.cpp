@@ -46,8 +46,12 @@ std::string counts(const ResultRow& row)
     for (const auto* const columns : {&cause_columns(), &label_columns()}) {
         text += columns == &cause_columns() ? "By cause: " : "By name: ";
         bool is_first = true;
-        for (const auto& [column, name] : *columns) {
-            text += fmt::format("{}{} {}", is_first ? "" : ", ", name, grouped(row.count(column)));
+        for (const auto& [count, amount, name] : *columns) {
+            text += fmt::format("{}{} {}", is_first ? "" : ", ", name, grouped(row.count(count)));
+            if (has_amounts(row)) {
+                text += fmt::format(" ({} px by amount)",
+                                    grouped_amount(row.number(amount).value_or(0)));
+            }
             is_first = false;
         }
         text += ".\n\n";

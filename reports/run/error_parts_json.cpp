@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <tuple>
@@ -17,31 +18,43 @@ namespace {
 
 using analysis::Cause;
 using analysis::ErrorPart;
+using analysis::KindOfError;
 using analysis::Label;
-using analysis::WrongCount;
 using analysis::ZetaBand;
 
 /// Every integer up to here is a double.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 53U;
 
-std::string wrong_text(const WrongCount& wrong)
+/// The count's name, or the amount's.
+std::string kind_text(const KindOfError& kind, bool is_amount)
 {
-    return fmt::format("{}.{}.{}", wrong.is_false_lit ? "false_lit" : "false_shadow",
-                       analysis::cause_names[static_cast<std::size_t>(wrong.cause)],
-                       analysis::label_names[static_cast<std::size_t>(wrong.label)]);
+    const std::string_view lit = is_amount ? "shadow_amount" : "false_shadow";
+    const std::string_view blocked = is_amount ? "light_amount" : "false_lit";
+    return fmt::format("{}.{}.{}", kind.is_false_lit ? blocked : lit,
+                       analysis::cause_names[static_cast<std::size_t>(kind.cause)],
+                       analysis::label_names[static_cast<std::size_t>(kind.label)]);
 }
 
-/// Every kind of wrong pixel by its name.
-const std::map<std::string, WrongCount, std::less<>>& wrong_by_name()
+/// A kind of error, and whether its name is that of the amount.
+struct NamedKind {
+    KindOfError kind;
+    std::size_t order = 0; ///< by side, cause and label
+    bool is_amount = false;
+};
+
+const std::map<std::string, NamedKind, std::less<>>& kinds_by_name()
 {
     static const auto by_name = [] {
-        std::map<std::string, WrongCount, std::less<>> all;
+        std::map<std::string, NamedKind, std::less<>> all;
         for (const bool is_false_lit : {false, true}) {
             for (std::size_t cause = 1; cause < analysis::cause_names.size(); ++cause) {
                 for (std::size_t label = 1; label < analysis::label_names.size(); ++label) {
-                    const WrongCount kind{is_false_lit, static_cast<Cause>(cause),
-                                          static_cast<Label>(label), 0};
-                    all.emplace(wrong_text(kind), kind);
+                    const KindOfError kind{is_false_lit, static_cast<Cause>(cause),
+                                           static_cast<Label>(label)};
+                    const std::size_t order = all.size();
+                    for (const bool is_amount : {false, true}) {
+                        all.emplace(kind_text(kind, is_amount), NamedKind{kind, order, is_amount});
+                    }
                 }
             }
         }
@@ -63,24 +76,44 @@ std::uint64_t pixel_count(const Json& json, const std::string& place)
     return json.get<std::uint64_t>();
 }
 
-void read_count(ErrorPart& part, const std::string& name, std::uint64_t pixels,
-                const std::string& place)
+double pixel_amount(const Json& json, const std::string& place)
 {
-    if (name == "lit") {
-        part.lit = pixels;
-        return;
+    if (!json.is_number() || !(json.get<double>() >= 0) ||
+        json.get<double>() > static_cast<double>(most_pixels)) {
+        refuse_part(place, "is no amount of pixels");
     }
-    if (name == "blocked") {
-        part.blocked = pixels;
-        return;
+    return json.get<double>();
+}
+
+/// The errors of a part: a kind whose amount is not written is off by whole pixels.
+std::vector<KindOfError> errors_from_json(const Json& json, const std::string& place)
+{
+    std::map<std::size_t, KindOfError> kinds; // by their order
+    for (const bool are_amounts : {false, true}) {
+        for (const auto& [name, value] : json.items()) {
+            const std::string there = fmt::format("{}.{}", place, name);
+            const auto named = kinds_by_name().find(name);
+            const bool is_kind = named != kinds_by_name().end();
+            if (!is_kind && name != "lit" && name != "blocked") {
+                refuse_part(there, "is no kind of pixel");
+            }
+            if (!is_kind || named->second.is_amount != are_amounts) {
+                continue;
+            }
+            KindOfError& kind =
+                kinds.try_emplace(named->second.order, named->second.kind).first->second;
+            if (!are_amounts) {
+                kind.pixels = pixel_count(value, there);
+            }
+            kind.amount =
+                are_amounts ? pixel_amount(value, there) : static_cast<double>(kind.pixels);
+        }
     }
-    const auto kind = wrong_by_name().find(name);
-    if (kind == wrong_by_name().end()) {
-        refuse_part(place, "is no kind of pixel");
+    std::vector<KindOfError> errors;
+    for (const auto& [order, kind] : kinds) {
+        errors.push_back(kind);
     }
-    WrongCount wrong = kind->second;
-    wrong.pixels = pixels;
-    part.wrong.push_back(wrong);
+    return errors;
 }
 
 ErrorPart part_from_json(const Json& json, const std::string& place)
@@ -89,14 +122,9 @@ ErrorPart part_from_json(const Json& json, const std::string& place)
         refuse_part(place, "is no object with \"lit\" and \"blocked\"");
     }
     ErrorPart part;
-    for (const auto& [name, value] : json.items()) {
-        const std::string there = fmt::format("{}.{}", place, name);
-        read_count(part, name, pixel_count(value, there), there);
-    }
-    std::sort(part.wrong.begin(), part.wrong.end(), [](const WrongCount& a, const WrongCount& b) {
-        return std::tie(a.is_false_lit, a.cause, a.label) <
-               std::tie(b.is_false_lit, b.cause, b.label);
-    });
+    part.lit = pixel_count(json.at("lit"), place + ".lit");
+    part.blocked = pixel_count(json.at("blocked"), place + ".blocked");
+    part.errors = errors_from_json(json, place);
     return part;
 }
 
@@ -125,8 +153,13 @@ Json parts_json(const std::vector<ErrorPart>& parts)
     Json json = Json::object();
     for (const ErrorPart& part : parts) {
         Json counts{{"blocked", part.blocked}, {"lit", part.lit}};
-        for (const WrongCount& wrong : part.wrong) {
-            counts[wrong_text(wrong)] = wrong.pixels;
+        for (const KindOfError& kind : part.errors) {
+            if (kind.pixels > 0) {
+                counts[kind_text(kind, false)] = kind.pixels;
+            }
+            if (kind.amount != static_cast<double>(kind.pixels)) {
+                counts[kind_text(kind, true)] = kind.amount;
+            }
         }
         json[part.object][band_text(part.band)] = std::move(counts);
     }

@@ -39,9 +39,9 @@ inline std::string text_of(const ErrorPart& part)
 {
     std::string text =
         fmt::format("{} {} {} {}", part.object, part.band.place, part.lit, part.blocked);
-    for (const WrongCount& wrong : part.wrong) {
-        text += fmt::format(" {}{}{}:{}", wrong.is_false_lit, static_cast<int>(wrong.cause),
-                            static_cast<int>(wrong.label), wrong.pixels);
+    for (const KindOfError& kind : part.errors) {
+        text += fmt::format(" {}{}{}:{} {}", kind.is_false_lit, static_cast<int>(kind.cause),
+                            static_cast<int>(kind.label), kind.pixels, kind.amount);
     }
     return text;
 }

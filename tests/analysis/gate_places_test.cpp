@@ -16,13 +16,14 @@ namespace gnomon::analysis {
 namespace {
 
 const std::vector<ErrorPart> two_objects{
-    {"floor", zeta_band_of(4), 90, 10, {{false, Cause::resolution, Label::acne, 7}}},
+    {"floor", zeta_band_of(4), 90, 10, {{false, Cause::resolution, Label::acne, 7, 6.5}}},
     {"floor", zeta_band_of(8), 50, 0, {}},
     {"wall",
      zeta_band_of(4),
      20,
      30,
-     {{false, Cause::bias, Label::overshadow, 2}, {true, Cause::bias, Label::peter_panning, 5}}}};
+     {{false, Cause::bias, Label::overshadow, 2, 2},
+      {true, Cause::bias, Label::peter_panning, 5, 5.25}}}};
 
 PixelFilter of_object(const std::string& name)
 {
@@ -80,6 +81,32 @@ TEST(PixelFilters, CountTheirPixels)
     EXPECT_EQ(metric_of_pixels(two_objects, "error_rate", bands), 0);
 }
 
+TEST(PixelFilters, AddUpTheirAmounts)
+{
+    PixelFilter filter = of_object("wall");
+    EXPECT_EQ(metric_of_pixels(two_objects, "error_amount", filter), 7.25);
+    EXPECT_EQ(metric_of_pixels(two_objects, "shadow_amount", filter), 2);
+    EXPECT_EQ(metric_of_pixels(two_objects, "light_amount_rate", filter), 5.25 / 30);
+    EXPECT_EQ(metric_of_pixels(two_objects, "mean_abs_error", filter), 7.25 / 50);
+    EXPECT_EQ(metric_of_pixels(two_objects, "label_amounts.peter_panning", filter), 5.25);
+    EXPECT_EQ(metric_of_pixels(two_objects, "cause_amounts.resolution", filter), 0);
+    filter.label = Label::overshadow;
+    EXPECT_EQ(metric_of_pixels(two_objects, "error_amount", filter), 2);
+    EXPECT_EQ(metric_of_pixels(two_objects, "error_amount", of_object("floor")), 6.5);
+}
+
+TEST(PixelFilters, KnowEveryKindOfErrorThatThereIs)
+{
+    PixelFilter filter;
+    filter.cause = Cause::filter;
+    EXPECT_TRUE(can_count("false_shadow", filter));
+    EXPECT_TRUE(can_count("light_amount", filter));
+    EXPECT_TRUE(can_count("label_amounts.bleed", filter));
+    EXPECT_FALSE(can_count("labels.leak", filter)) << "nobody loses a blocker by filtering";
+    filter.label = Label::bleed;
+    EXPECT_FALSE(can_count("shadow_amount", filter));
+}
+
 TEST(PixelFilters, OfNoPixelsHaveNoValue)
 {
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", of_object("walls")), std::nullopt);
@@ -97,14 +124,28 @@ TEST(EachObject, IsJudgedByItself)
     GateEntry before = gate_entry("1", {{"wrong_pixels", 14}});
     before.parts = two_objects;
     GateEntry now = before;
-    now.parts[0].wrong[0].pixels = 4; // three fewer
-    now.parts[2].wrong[1].pixels = 7; // two more
+    now.parts[0].errors[0].pixels = 4; // three fewer
+    now.parts[2].errors[1].pixels = 7; // two more
     now.parts.push_back(
-        {"zebra", zeta_band_of(4), 9, 9, {{true, Cause::bias, Label::peter_panning, 9}}});
+        {"zebra", zeta_band_of(4), 9, 9, {{true, Cause::bias, Label::peter_panning, 9, 9}}});
     const GateOutcome outcome = judge_run(gate_entries({before}), gate_entries({now}), rules);
     ASSERT_EQ(outcome.findings.size(), 1U) << "a new object has nothing to be compared with";
     EXPECT_EQ(outcome.findings[0].filter, of_object("wall"));
     EXPECT_EQ(outcome.findings[0].cause, (DominantCause{"bias", 2}));
+}
+
+TEST(EachObject, IsHeldToItsAmountByTheDefaultRules)
+{
+    GateEntry before = gate_entry("1", {{"pixels.total", 1000}});
+    before.parts = two_objects;
+    GateEntry now = before;
+    now.parts[0].errors[0].amount -= 1; // as many pixels are wrong, the floor's by less,
+    now.parts[2].errors[1].amount += 1; // the wall's by more: the total is what it was
+    const std::vector<GateRule> rules = default_gate_rules();
+    const GateOutcome outcome = judge_run(gate_entries({before}), gate_entries({now}), rules);
+    ASSERT_EQ(outcome.findings.size(), 1U);
+    EXPECT_EQ(rules[outcome.findings[0].rule].metric, "error_amount");
+    EXPECT_EQ(outcome.findings[0].filter, of_object("wall"));
 }
 
 TEST(AnObjectThatNobodyShows, MatchesNothing)

@@ -18,6 +18,7 @@ const page = loadScripts(
     "SliderScale",
     "shortestFloat32",
     "percent",
+    "groupedAmount",
   ],
 );
 
@@ -159,6 +160,14 @@ describe("A float32 as text", () => {
       const value = Math.fround((random() - 0.5) * 10 ** (60 * random() - 30));
       assert.equal(Math.fround(Number(page.shortestFloat32(value))), value);
     }
+  });
+});
+
+describe("An amount of pixels", () => {
+  it("has the digits that the program gives it", () => {
+    const amounts = [0, 0.0004, 0.0012, 0.25, 1 / 3 + 1, 9.996, 12.34, 99.96, 999.6, 367863.6];
+    const wanted = ["0", "<0.001", "0.001", "0.250", "1.33", "10.0", "12.3", "100", "1,000", "367,864"];
+    assert.deepEqual(amounts.map(page.groupedAmount), wanted);
   });
 });
 

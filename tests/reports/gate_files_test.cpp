@@ -39,19 +39,25 @@ const std::vector<analysis::ErrorPart> example_parts{
      analysis::zeta_band_of(-5),
      3,
      2,
-     {{false, analysis::Cause::bias, analysis::Label::overshadow, 1}}},
+     {{false, analysis::Cause::bias, analysis::Label::overshadow, 1, 0.75}}},
     {"floor",
      analysis::zeta_band_of(4),
      90,
      10,
-     {{false, analysis::Cause::resolution, analysis::Label::acne, 7},
-      {true, analysis::Cause::coverage, analysis::Label::leak, 1}}}};
+     {{false, analysis::Cause::resolution, analysis::Label::acne, 7, 7},
+      {false, analysis::Cause::filter, analysis::Label::edge, 0, 2.5},
+      {true, analysis::Cause::coverage, analysis::Label::leak, 1, 1}}}};
 
 TEST(ErrorParts, ReadBackAsTheyWereWritten)
 {
     const Json json = Json::parse(parts_json(example_parts).dump());
     EXPECT_EQ(parts_from_json(json, "parts"), example_parts);
-    EXPECT_EQ(json.at("floor").at("[4, 8)").at("false_lit.coverage.leak"), 1);
+    const Json& floor = json.at("floor");
+    EXPECT_EQ(floor.at("[4, 8)").at("false_lit.coverage.leak"), 1);
+    EXPECT_FALSE(floor.at("[4, 8)").contains("light_amount.coverage.leak")) << "whole pixels";
+    EXPECT_EQ(floor.at("[4, 8)").at("shadow_amount.filter.edge"), 2.5);
+    EXPECT_FALSE(floor.at("[4, 8)").contains("false_shadow.filter.edge")) << "none is wrong";
+    EXPECT_EQ(floor.at("[-8, -4)").at("shadow_amount.bias.overshadow"), 0.75);
     for (int place = analysis::ZetaBand::lowest; place <= analysis::ZetaBand::highest; ++place) {
         EXPECT_EQ(band_from_text(band_text({place})), analysis::ZetaBand{place}) << place;
     }
@@ -77,6 +83,10 @@ TEST(ErrorParts, RefuseWhatTheyAreNot)
     EXPECT_THAT(
         refusal(R"x({"a": {"[4, 8)": {"lit": 1, "blocked": 0, "false_lit.none.leak": 1}}})x"),
         HasSubstr("is no kind of pixel"));
+    EXPECT_THAT(
+        refusal(
+            R"x({"a": {"[4, 8)": {"lit": 1, "blocked": 0, "shadow_amount.bias.overshadow": -1}}})x"),
+        HasSubstr("is no amount of pixels"));
 }
 
 analysis::PixelMask random_mask(std::uint32_t seed)

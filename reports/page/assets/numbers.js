@@ -22,6 +22,17 @@ function grouped(count) {
   return String(count).replace(/\B(?=(\d{3})+(?!\d))/g, ",");
 }
 
+/** An amount of pixels, as reports::grouped_amount: whole from 100 on, else to three digits. */
+function groupedAmount(pixels) {
+  if (pixels === 0 || pixels >= 99.95) {
+    return grouped(Math.round(pixels));
+  }
+  if (pixels < 0.0005) {
+    return "<0.001";
+  }
+  return pixels.toFixed(pixels >= 9.995 ? 1 : pixels >= 0.9995 ? 2 : 3);
+}
+
 /** A share in percent, to three significant digits and at most four decimals, as reports::percent. */
 function percent(share) {
   if (share === null || !Number.isFinite(share)) {

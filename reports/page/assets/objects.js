@@ -33,8 +33,11 @@ function objectTable(objects) {
   );
 }
 
-/** A table of wrong pixels by cause or by name, with a swatch each. */
-function kindTable(caption, heading, counts, colours) {
+/**
+ * A table of wrong pixels by cause or by name, with a swatch each.
+ * @param {?Object} amounts  by how much wrong and partial pixels are off [px]; null: not more than the counts say
+ */
+function kindTable(caption, heading, counts, amounts, colours) {
   const whole = Object.values(counts).reduce((sum, count) => sum + count, 0);
   const rows = Object.entries(counts).map(([name, count]) => {
     const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
@@ -45,6 +48,7 @@ function kindTable(caption, heading, counts, colours) {
       element("th", { scope: "row" }, swatch, spoken(name)),
       element("td", { class: "number", text: grouped(count) }),
       element("td", { class: "number", text: percent(rate(count, whole)) }),
+      ...(amounts === null ? [] : [element("td", { class: "number", text: groupedAmount(amounts[name]) })]),
     );
   });
   const head = element(
@@ -53,6 +57,7 @@ function kindTable(caption, heading, counts, colours) {
     element("th", { scope: "col", text: heading }),
     element("th", { scope: "col", class: "number", text: "pixels" }),
     element("th", { scope: "col", class: "number", text: "of wrong" }),
+    ...(amounts === null ? [] : [element("th", { scope: "col", class: "number", text: "amount [px]" })]),
   );
   return scroller(
     caption,
@@ -66,13 +71,14 @@ function kindTable(caption, heading, counts, colours) {
   );
 }
 
-/** Tables of causes and of names, side by side. */
-function kindTables(causes, labels) {
+/** Tables of causes and of names, side by side; with amounts where they are not the counts. */
+function kindTables({ causes, labels, cause_amounts: causeAmounts, label_amounts: labelAmounts }) {
+  const isMore = Object.entries(causeAmounts ?? {}).some(([name, amount]) => amount !== causes[name]);
   return element(
     "div",
     { class: "side-by-side" },
-    kindTable("Wrong pixels by cause", "cause", causes, causeColours),
-    kindTable("Wrong pixels by name", "called", labels, labelColours),
+    kindTable("Wrong pixels by cause", "cause", causes, isMore ? causeAmounts : null, causeColours),
+    kindTable("Wrong pixels by name", "called", labels, isMore ? labelAmounts : null, labelColours),
   );
 }
 
@@ -90,7 +96,7 @@ class ObjectTables {
       refill(
         this.section,
         element("p", { class: "caption name", text: caption }),
-        kindTables(detail.causes, detail.labels),
+        kindTables(detail),
         objectTable(detail.by_object ?? []),
       );
     } else if (row === this.headline) {
