@@ -18,6 +18,14 @@ struct ErrorAmounts {
     double unassigned = 0;     ///< the part of both from right pixels that are not partial [px]
 
     [[nodiscard]] double total() const { return shadow + light; }
+    ErrorAmounts& operator+=(const ErrorAmounts& other)
+    {
+        shadow += other.shadow;
+        light += other.light;
+        partial += other.partial;
+        unassigned += other.unassigned;
+        return *this;
+    }
     friend bool operator==(const ErrorAmounts&, const ErrorAmounts&) = default;
 };
 

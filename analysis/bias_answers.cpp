@@ -17,6 +17,17 @@ std::vector<float> slopes(const BiasQuestion& question)
                                               question.job.lookup.filter, zeta_m));
 }
 
+std::optional<Recommendation> recommended(const BiasQuestion& question, const BiasCurve& curve)
+{
+    if (scene::promises(question.job.lookup.filter).has_fractions()) {
+        return std::nullopt;
+    }
+    return recommend_by_count(
+        curve,
+        {question.view.frustum, question.job.shadow_map.resolution_texels, question.median_zeta_m},
+        question.job.bias);
+}
+
 void answer_slopes(const BiasQuestion& question, BiasAnswers& answers)
 {
     for (const float slope : slopes(question)) {
@@ -25,7 +36,8 @@ void answer_slopes(const BiasQuestion& question, BiasAnswers& answers)
             is_better(curve.best, answers.slopes[answers.best_slope].best)) {
             answers.best_slope = answers.slopes.size();
         }
-        answers.slopes.push_back({slope, curve.best, curve.bounds});
+        answers.slopes.push_back(
+            {slope, curve.best, curve.bounds, recommended(question, curve.curve)});
     }
 }
 

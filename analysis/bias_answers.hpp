@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/advice/recommendation.hpp"
 #include "analysis/bias_curve.hpp"
 #include "analysis/bias_limits.hpp"
 #include "analysis/bias_units.hpp"
@@ -9,6 +10,7 @@
 #include "scene/layers.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -18,6 +20,8 @@ struct SlopeAnswer {
     float slope = 0; ///< depth units per unit of tan θ
     BestBiases best;
     BiasBounds bounds;
+    /// Where amounts are counts: of others each slope would have to be measured.
+    std::optional<Recommendation> recommended;
 };
 
 /// Every constant bias at once, with the job's slope and normal offset.
@@ -37,6 +41,7 @@ struct BiasQuestion {
     const scene::View& view;
     SlopeInputs curves;
     const scene::Image<float>& zeta_m; ///< light distance of the receivers [m]
+    double median_zeta_m = 0;          ///< of the scored ones
 };
 
 /// @param own  the curve of the job's own slope.

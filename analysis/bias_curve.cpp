@@ -1,5 +1,6 @@
 #include "analysis/bias_curve.hpp"
 
+#include "analysis/bias_intervals.hpp"
 #include "analysis/bias_order.hpp"
 #include "analysis/radix_sort.hpp"
 #include "analysis/ratio.hpp"
@@ -72,37 +73,6 @@ ScoredCriticals gather_scored(const scene::Image<float>& criticals,
     scored.lit.resize(lit_count);
     scored.blocked.resize(blocked_count);
     return scored;
-}
-
-/// Calls `visit(interval, errors)` for every interval of constant counts, in ascending order.
-template <typename Visit>
-void for_each_interval(const BiasCurve& curve, const Visit& visit)
-{
-    const auto& lit = curve.lit();
-    const auto& blocked = curve.blocked();
-    auto next_lit = std::upper_bound(lit.begin(), lit.end(), -infinity);
-    auto next_blocked = std::upper_bound(blocked.begin(), blocked.end(), -infinity);
-    const auto errors = [&] {
-        return ErrorCounts{static_cast<std::uint64_t>(lit.end() - next_lit),
-                           static_cast<std::uint64_t>(next_blocked - blocked.begin())};
-    };
-    float lo = -infinity;
-    while (true) {
-        const float next = std::min(next_lit != lit.end() ? *next_lit : infinity,
-                                    next_blocked != blocked.end() ? *next_blocked : infinity);
-        if (next == infinity) {
-            visit(BiasInterval{lo, infinity}, errors());
-            return;
-        }
-        visit(BiasInterval{lo, previous_bias(next)}, errors());
-        while (next_lit != lit.end() && *next_lit == next) {
-            ++next_lit;
-        }
-        while (next_blocked != blocked.end() && *next_blocked == next) {
-            ++next_blocked;
-        }
-        lo = next;
-    }
 }
 
 /// A finite bias of the interval: its lower end where it has one.
@@ -229,18 +199,19 @@ BestBiases find_best_biases(const BiasCurve& curve, const BiasInterval& within)
             best = run;
         }
     };
-    for_each_interval(curve, [&](BiasInterval interval, const ErrorCounts& errors) {
-        interval = {std::max(interval.lo, within.lo), std::min(interval.hi, within.hi)};
-        if (interval.lo > interval.hi) {
-            return;
-        }
-        if (errors.total() == run.errors.total()) {
-            run.interval.hi = interval.hi;
-        } else {
-            finish_run();
-            run = {interval, errors};
-        }
-    });
+    for_each_interval(
+        curve.lit(), curve.blocked(), [&](BiasInterval interval, const ErrorCounts& errors) {
+            interval = {std::max(interval.lo, within.lo), std::min(interval.hi, within.hi)};
+            if (interval.lo > interval.hi) {
+                return;
+            }
+            if (errors.total() == run.errors.total()) {
+                run.interval.hi = interval.hi;
+            } else {
+                finish_run();
+                run = {interval, errors};
+            }
+        });
     finish_run();
     return best;
 }
@@ -270,16 +241,17 @@ std::vector<CurvePoint> pareto_front(const BiasCurve& curve, std::size_t most_po
     // Upwards false shadow never grows and false lit never falls, so a point survives when the one
     // before it has more false shadow and the one after it more false lit.
     std::vector<CurvePoint> front;
-    for_each_interval(curve, [&](const BiasInterval& interval, const ErrorCounts& errors) {
-        const CurvePoint point{lowest_finite(interval), errors};
-        if (front.empty() || errors.false_lit > front.back().errors.false_lit) {
-            if (front.empty() || errors.false_shadow < front.back().errors.false_shadow) {
-                front.push_back(point);
+    for_each_interval(
+        curve.lit(), curve.blocked(), [&](const BiasInterval& interval, const ErrorCounts& errors) {
+            const CurvePoint point{lowest_finite(interval), errors};
+            if (front.empty() || errors.false_lit > front.back().errors.false_lit) {
+                if (front.empty() || errors.false_shadow < front.back().errors.false_shadow) {
+                    front.push_back(point);
+                }
+            } else if (errors.false_shadow < front.back().errors.false_shadow) {
+                front.back() = point;
             }
-        } else if (errors.false_shadow < front.back().errors.false_shadow) {
-            front.back() = point;
-        }
-    });
+        });
     return thinned(front, most_points);
 }
 

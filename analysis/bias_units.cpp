@@ -1,6 +1,7 @@
 #include "analysis/bias_units.hpp"
 
 #include "analysis/bias_order.hpp"
+#include "analysis/depth/depth_mapping.hpp"
 #include "analysis/pixel_runs.hpp"
 
 #include <algorithm>
@@ -51,6 +52,16 @@ double bias_length_m(const scene::LightFrustum& frustum, double bias, double zet
     return relative * zeta_m / (1.0 + relative);
 }
 
+double bias_of_length(const scene::LightFrustum& frustum, double length_m, double zeta_m)
+{
+    if (!is_perspective(frustum)) {
+        return length_m / frustum.range_m();
+    }
+    return length_m < zeta_m
+               ? length_m / (inverse_distance_range(frustum) * zeta_m * (zeta_m - length_m))
+               : std::numeric_limits<double>::infinity();
+}
+
 double depth_per_metre(const scene::LightFrustum& frustum, double zeta_m)
 {
     return is_perspective(frustum) ? 1.0 / (inverse_distance_range(frustum) * zeta_m * zeta_m)
@@ -64,6 +75,13 @@ double depth_step(scene::DepthFormat format, float depth)
     }
     const float normal = std::max(std::abs(depth), std::numeric_limits<float>::min());
     return std::ldexp(1.0, std::ilogb(normal) - 23);
+}
+
+double depth_step_length_m(const scene::LightFrustum& frustum, scene::DepthFormat format,
+                           double zeta_m)
+{
+    const double depth = DepthMapping{frustum.depth_range()}.depth(zeta_m);
+    return bias_length_m(frustum, depth_step(format, static_cast<float>(depth)), zeta_m);
 }
 
 BiasMap map_biases(const BiasMapInputs& inputs)

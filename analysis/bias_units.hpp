@@ -17,6 +17,15 @@ namespace gnomon::analysis {
 /// Source: DESIGN §6 with Δ = −b; docs/bias_curve.md#units.
 [[nodiscard]] double bias_length_m(const scene::LightFrustum& frustum, double bias, double zeta_m);
 
+/// The inverse of `bias_length_m`: the constant bias that moves a receiver at ζ by that length.
+///
+///     directional:  length / (far − near)    spot:  length / (A ζ (ζ − length))
+///
+/// @param length_m  [m], at least 0.
+/// @return  Infinite where a spot's receiver would be moved to the light or beyond it.
+[[nodiscard]] double bias_of_length(const scene::LightFrustum& frustum, double length_m,
+                                    double zeta_m);
+
 /// Depth units per metre along the light's axis at ζ, always positive.
 ///
 ///     directional:  1 / (far − near)        spot:  1 / (A ζ²)
@@ -30,6 +39,10 @@ namespace gnomon::analysis {
 /// @param depth  Decides the step of d32f; 0 and subnormal depths have the smallest normal's step.
 /// Source: OpenGL 4.6 §14.6.5; docs/bias_curve.md#units.
 [[nodiscard]] double depth_step(scene::DepthFormat format, float depth);
+
+/// How many metres along the light's axis such a step is at ζ.
+[[nodiscard]] double depth_step_length_m(const scene::LightFrustum& frustum,
+                                         scene::DepthFormat format, double zeta_m);
 
 /// Per pixel the bias that it needs (lit: the smallest with which it is lit) or allows (blocked:
 /// the largest with which it stays shadowed), in four units; NaN where the pixel is not scored.

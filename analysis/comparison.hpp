@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/advice/remedy.hpp"
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/bias_reruns.hpp"
 #include "analysis/bias_verification.hpp"
@@ -42,17 +43,16 @@ struct SceneSummary {
 [[nodiscard]] SceneSummary summarise_scene(const scene::SceneSettings& settings,
                                            const scene::TriangleScene& triangles);
 
-/// One change of the job's settings, and what a run with it measured.
-struct Advice {
-    std::vector<std::string>
-        keys; ///< what changes, as the job file writes it: "bias.constant = 0.002"
-    ErrorCounts errors;
-    std::optional<double> error_rate; ///< empty: no scored pixel
-    ErrorAmounts amounts;
-    double softening = 0; ///< the part of the amounts that a kernel softens borders by [px]
-
-    /// By how much verdicts are wrong beside what a kernel softens on purpose [px].
-    [[nodiscard]] double error_amount() const { return amounts.total() - softening; }
+/// The views that advice was made from.
+struct AdviceViews {
+    struct View {
+        std::string name;
+        scene::CameraSettings camera;
+        scene::LightSettings light;
+        ViewOutcome now; ///< with the job as it is
+    };
+    std::vector<View> views;     ///< the job's own first; empty: no advice was asked for
+    std::size_t passed_over = 0; ///< generated ones that showed too little
 };
 
 /// One configuration's result: everything that reports show.
@@ -75,7 +75,8 @@ struct Comparison {
     std::optional<BiasVerification> verification;
     /// Of the wrong pixels of cause `precision`; empty: not asked for.
     std::optional<PrecisionKinds> precision_kinds;
-    std::vector<Advice> advice;                        ///< empty: not asked for
+    std::vector<Remedy> advice;                        ///< reruns of GL; empty: not asked for
+    AdviceViews advice_views;                          ///< what it was made from
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
 
     std::string truth_method;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -257,6 +258,53 @@ void add_best(CurveMetrics& metrics)
          }});
 }
 
+/// What is recommended: no change of it is worse or better by itself.
+void add_recommended(CurveMetrics& metrics)
+{
+    const auto add = [&](const std::string& name, std::string_view unit, std::string meaning,
+                         const std::function<double(const Recommendation&)>& value) {
+        metrics.push_back({MetricDescription{"bias_curve.recommended." + name,
+                                             MetricType::number,
+                                             unit,
+                                             std::move(meaning),
+                                             {}},
+                           [value](const CurveResult& curve) {
+                               const double found = curve.recommended
+                                                        ? value(*curve.recommended)
+                                                        : std::numeric_limits<double>::quiet_NaN();
+                               return std::isfinite(found) ? MetricValue{found} : none;
+                           }});
+    };
+    struct Length {
+        const char* name;
+        const char* meaning;
+        BiasLength Recommendation::*length;
+    };
+    for (const auto& [name, meaning, length] :
+         {Length{
+              "bias",
+              "the constant bias to take: the middle of the lowest broad valley of the amount of "
+              "error without softening; in metres along the light's axis and in texels at the "
+              "median receiver",
+              &Recommendation::bias},
+          Length{"low", "where that valley begins", &Recommendation::low},
+          Length{"high", "and ends; without a value where nothing limits it",
+                 &Recommendation::high}}) {
+        const auto of = [length = length](auto BiasLength::*unit) {
+            return [=](const Recommendation& r) { return double{r.*length.*unit}; };
+        };
+        add(name, "depth units", meaning, of(&BiasLength::depth));
+        add(fmt::format("{}_m", name), "m", "", of(&BiasLength::metres));
+        add(fmt::format("{}_texels", name), "texels", "", of(&BiasLength::texels));
+    }
+    add("shadow_amount", "px", "both amounts, and softening, with the recommended bias",
+        [](const Recommendation& r) { return r.outcome.amounts.shadow; });
+    add("light_amount", "px", "", [](const Recommendation& r) { return r.outcome.amounts.light; });
+    add("softening", "px", "", [](const Recommendation& r) { return r.outcome.softening; });
+    add("views", "", "how many views it is made of",
+        [](const Recommendation& r) { return static_cast<double>(r.views); });
+}
+
 /// Finds the limits that four metrics are about.
 using FindLimits = std::function<const BiasLimits&(const BiasBounds&)>;
 
@@ -333,6 +381,7 @@ CurveMetrics describe_curve_metrics()
                 "the same without the pixels that are false lit without any bias"},
                [](const BiasBounds& bounds) -> const BiasLimits& { return bounds.strict; });
     add_allowances(all);
+    add_recommended(all);
     all.push_back({MetricDescription{"bias_curve.no_constant_bias_serves",
                                      MetricType::flag,
                                      "",

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -110,6 +111,14 @@ Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& l
 std::uint64_t ClassCounts::scored() const
 {
     return of(PixelClass::lit) + of(PixelClass::blocked);
+}
+
+ClassCounts& ClassCounts::operator+=(const ClassCounts& other)
+{
+    total += other.total;
+    std::ranges::transform(by_class, other.by_class, by_class.begin(), std::plus<>{});
+    std::ranges::transform(by_reason, other.by_reason, by_reason.begin(), std::plus<>{});
+    return *this;
 }
 
 std::uint64_t ClassCounts::surface() const

@@ -26,6 +26,7 @@ struct ClassCounts {
     }
     /// Scored pixels: lit and blocked.
     [[nodiscard]] std::uint64_t scored() const;
+    ClassCounts& operator+=(const ClassCounts& other);
     /// Pixels in which GL or the exact ray sees a surface.
     [[nodiscard]] std::uint64_t surface() const;
 };

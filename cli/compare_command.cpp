@@ -1,6 +1,7 @@
 #include "cli/compare_command.hpp"
 
-#include "analysis/advice.hpp"
+#include "analysis/advice/advise.hpp"
+#include "cli/advice_options.hpp"
 #include "cli/command_text.hpp"
 #include "cli/compare_run.hpp"
 #include "cli/comparison_session.hpp"
@@ -47,6 +48,7 @@ struct CompareOptions {
     std::string truth = "exact";
     bool audit = false;
     bool advise = false;
+    AdviceOptions advice;
     bool verify = false;
     SessionOptions session;
 };
@@ -192,6 +194,11 @@ void require_exact_truth(const CompareOptions& options)
     if (options.advise && options.truth != "exact") {
         throw scene::InputError{"--advise needs --truth exact: advice follows from the causes"};
     }
+    if (options.advice.any() && !options.advise) {
+        throw scene::InputError{
+            "--views, --lights and --all-cases need --advise: they are the views "
+            "that advice is made from"};
+    }
     if (options.verify && options.truth != "exact") {
         throw scene::InputError{"--verify needs --truth exact: without it there is no bias curve"};
     }
@@ -203,6 +210,17 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
     if (!comparison.verification) {
         fmt::print(stderr, "gnomon: --verify: the hardware filter has no critical biases to hold "
                            "GL to; its other biases are GL's own reruns\n");
+    }
+}
+
+/// A job without scored pixels has nothing to be mended.
+void advise(analysis::Comparison& comparison, const analysis::ViewRequest& request,
+            const ComparisonSession& session)
+{
+    if (comparison.metrics.pixels.scored() > 0) {
+        const auto views =
+            analysis::judge_views(comparison.job, session.file(), session.renderers(), request);
+        analysis::advise(comparison, views, session.file(), session.renderers());
     }
 }
 
@@ -220,7 +238,12 @@ void compare(const CompareOptions& options)
     require_distinct_paths(options);
     require_exact_truth(options);
     require_writable(options);
-    const scene::Job job = read_job(options.job).job;
+    const scene::JobFile job_file = read_job(options.job);
+    const scene::Job& job = job_file.job;
+    const analysis::ViewRequest views = view_request(options.advice, options.job);
+    if (!options.advice.all_cases) {
+        note_ignored_cases("compare", options.job, job_file);
+    }
     std::optional<CompareRun> run;
     if (!options.folder.empty()) {
         run.emplace(options.folder);
@@ -246,7 +269,7 @@ void compare(const CompareOptions& options)
         verify(comparison, session.renderers());
     }
     if (options.advise) {
-        comparison.advice = analysis::advise(comparison, session.file(), session.renderers());
+        advise(comparison, views, session);
     }
     if (run) {
         run->record(read_job_source(options.job), options.job.case_name, comparison,
@@ -295,6 +318,7 @@ void add_compare_command(CLI::App& program)
     command->add_flag(
         "--advise", options->advise,
         "Run GL again with the changes that suit the errors, and print what they give");
+    add_advice_options(*command, options->advice);
     command->add_flag("--verify", options->verify,
                       "Run GL again with biases that put the bias curve to the test, and compare "
                       "every verdict; exit status 4 if one differs");
@@ -303,7 +327,8 @@ void add_compare_command(CLI::App& program)
                     "  gnomon compare --builtin sphere-plane\n"
                     "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
                     "  gnomon compare job.toml --set shadow_map.resolution=2048 --json\n"
-                    "  gnomon compare job.toml --case noon --aov noon.exr");
+                    "  gnomon compare job.toml --case noon --aov noon.exr\n"
+                    "  gnomon compare job.toml --advise --views 4");
     command->callback([options] { compare(*options); });
 }
 

@@ -1,6 +1,7 @@
 #include "reports/diagnosis_json.hpp"
 
 #include "analysis/part_table.hpp"
+#include "reports/advice_json.hpp"
 #include "reports/findings.hpp"
 #include "reports/json_values.hpp"
 #include "reports/metric_json.hpp"
@@ -53,19 +54,15 @@ void add_pareto_front(Json& bias_curve, const analysis::BiasCurve& curve)
 }
 
 /// Metrics and points of the curve; null without one.
-void add_bias_curve(Json& json, const std::optional<analysis::BiasAnswers>& answers)
+void add_bias_curve(Json& json, const analysis::Diagnosis& diagnosis)
 {
-    if (!answers) {
+    if (!diagnosis.biases) {
         json["bias_curve"] = nullptr;
         return;
     }
-    analysis::CurveResult curve;
-    curve.best = answers->best;
-    curve.bounds = answers->bounds;
-    add_metrics(json, analysis::curve_metrics(), curve);
-    add_pareto_front(json["bias_curve"], answers->curve);
+    add_metrics(json, analysis::curve_metrics(), diagnosis.curve);
+    add_pareto_front(json["bias_curve"], diagnosis.biases->curve);
     json["bias_curve"]["amount_ordinate"] = "exact";
-    json["bias_curve"]["recommended"] = nullptr;
 }
 
 Json precision_kinds(const std::optional<analysis::PrecisionKinds>& kinds)
@@ -160,33 +157,17 @@ Json verification(const std::optional<analysis::BiasVerification>& verification)
             {"reruns", std::move(reruns)}};
 }
 
-Json advice(const std::vector<analysis::Advice>& changes)
-{
-    Json json = Json::array();
-    for (const analysis::Advice& change : changes) {
-        json.push_back({{"keys", change.keys},
-                        {"false_shadow", change.errors.false_shadow},
-                        {"false_lit", change.errors.false_lit},
-                        {"error_rate", number_or_null(change.error_rate)},
-                        {"shadow_amount", change.amounts.shadow},
-                        {"light_amount", change.amounts.light},
-                        {"softening", change.softening}});
-    }
-    return json;
-}
-
 } // namespace
 
 void add_diagnosis(Json& json, const analysis::Comparison& comparison)
 {
-    json["remedies"] = nullptr;
     const auto& diagnosis = comparison.diagnosis;
     if (!diagnosis) {
         for (const char* const name :
              {"causes", "labels", "cause_amounts", "label_amounts", "cause_arithmetic",
               "precision_kinds", "bias_curve", "bias_source", "bias_reruns", "verification",
               "slope_curves", "by_light_distance_m", "by_receiver_angle_rad", "by_object",
-              "findings", "advice"}) {
+              "findings", "advice", "remedies", "views", "views_passed_over"}) {
             json[name] = nullptr;
         }
         if (comparison.evaluation) {
@@ -196,7 +177,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
     }
     json["cause_arithmetic"] = "exact";
     json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
-    add_bias_curve(json, diagnosis->biases);
+    add_bias_curve(json, *diagnosis);
     json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     json["bias_reruns"] = comparison.reruns.empty() ? Json(nullptr) : reruns(comparison.reruns);
     json["verification"] = verification(comparison.verification);
@@ -205,7 +186,7 @@ void add_diagnosis(Json& json, const analysis::Comparison& comparison)
     json["by_receiver_angle_rad"] = bins(diagnosis->by_angle);
     json["by_object"] = by_object(diagnosis->by_object);
     json["findings"] = findings(comparison);
-    json["advice"] = comparison.advice.empty() ? Json(nullptr) : advice(comparison.advice);
+    add_advice(json, comparison);
 }
 
 } // namespace gnomon::reports

@@ -1,6 +1,9 @@
 #include "reports/diagnosis_table.hpp"
 
+#include "analysis/advice/remedies.hpp"
+#include "analysis/ratio.hpp"
 #include "reports/findings.hpp"
+#include "reports/remedy_words.hpp"
 #include "reports/table_lines.hpp"
 #include "reports/text.hpp"
 
@@ -119,6 +122,19 @@ std::string verification(const analysis::Comparison& comparison)
                  : std::string{};
 }
 
+/// "recommended 0.029 (0.21 m, 3 texels); 0.021 to 0.04 are nearly as good"
+std::string recommended_bias(const analysis::Recommendation& recommended)
+{
+    const analysis::BiasLength& bias = recommended.pasted_length;
+    std::string text = fmt::format("recommended {:.4g} ({:.3g} m, {:.3g} texels)", bias.depth,
+                                   bias.metres, bias.texels);
+    text += std::isfinite(recommended.high.depth)
+                ? fmt::format("; {:.4g} to {:.4g} are nearly as good", recommended.low.depth,
+                              recommended.high.depth)
+                : fmt::format("; all from {:.4g} are nearly as good", recommended.low.depth);
+    return recommended.views > 1 ? fmt::format("{}, over {} views", text, recommended.views) : text;
+}
+
 std::string constant_bias(const analysis::Comparison& comparison)
 {
     if (!comparison.diagnosis || !comparison.diagnosis->biases) {
@@ -136,33 +152,62 @@ std::string constant_bias(const analysis::Comparison& comparison)
                                          acne_limit(strict), limit(strict.panning_free, "-")));
     text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
                                          acne_limit(lenient), limit(lenient.panning_free, "-")));
+    if (const auto& recommended = comparison.diagnosis->curve.recommended) {
+        text += setting_line("", recommended_bias(*recommended));
+    }
     return text + verification(comparison);
 }
 
-/// "bias.constant = 0.002, shadow_map.resolution = 2048" and what was measured with it.
-std::string advice(const analysis::Comparison& comparison)
+/// Each view, with the job as it is and with the first remedy.
+std::string views(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
-    if (comparison.advice.empty()) {
+    const auto& views = comparison.advice_views.views;
+    if (views.size() < 2 || remedy.views.size() != views.size()) {
         return "";
     }
-    const analysis::Metrics& metrics = comparison.metrics;
-    const std::uint64_t now = metrics.false_shadow + metrics.false_lit;
-    const bool is_soft = analysis::has_fractions(metrics);
     std::string text = "\n";
-    text += count_line("measured with", "errors", is_soft ? "amount" : "rate",
-                       is_soft ? "amount: px, without softened borders" : "");
-    const auto line = [&](std::string_view head, std::uint64_t errors, double amount,
-                          const std::optional<double>& rate, const std::string& note) {
-        text += count_line(head, grouped(errors), is_soft ? grouped_amount(amount) : percent(rate),
-                           note);
-    };
-    const double softening = comparison.diagnosis->causes.amounts.softening();
-    line("the job as it is", now, metrics.amounts.total() - softening, metrics.error_rate, "");
-    for (const analysis::Advice& change : comparison.advice) {
-        line("", change.errors.total(), change.error_amount(), change.error_rate,
-             fmt::format("{}", fmt::join(change.keys, ", ")));
+    text += count_line("view", "as it is", "remedy 1", "");
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        text += count_line(views[i].name, percent(views[i].now.error_rate()),
+                           percent(remedy.views[i].error_rate()), "");
+    }
+    text += count_line("all", "", percent(analysis::pooled(remedy.views).error_rate()), "");
+    if (comparison.advice_views.passed_over > 0) {
+        text += setting_line("", fmt::format("{} passed over: they show too little",
+                                             counted(comparison.advice_views.passed_over, "view")));
     }
     return text;
+}
+
+/// What helps, ranked: what it leaves, what it costs, and how that is known.
+std::string remedies(const analysis::Comparison& comparison)
+{
+    constexpr std::size_t most_lines = 12;
+    const auto ranked = analysis::ranked_remedies(comparison);
+    if (ranked.empty()) {
+        return "";
+    }
+    const std::uint64_t scored = comparison.metrics.pixels.scored();
+    const auto share = [&](double amount) { return percent(analysis::ratio(amount, scored)); };
+    std::string text = "\n";
+    text += count_line("remedy", "wrong", "error", "");
+    text += count_line("the job as it is",
+                       grouped(comparison.metrics.false_shadow + comparison.metrics.false_lit),
+                       share(analysis::error_amount(comparison)), "");
+    for (std::size_t i = 0; i < std::min(ranked.size(), most_lines); ++i) {
+        const analysis::Remedy& remedy = ranked[i];
+        text += count_line(fmt::format("{}", i + 1), grouped(remedy.outcome.errors.total()),
+                           share(remedy.outcome.error_amount()),
+                           fmt::format("{}: {}, {}, by {}", remedy_keys(remedy),
+                                       mebibytes(remedy.map_bytes),
+                                       counted(static_cast<std::uint64_t>(remedy.taps), "tap"),
+                                       shown_name(analysis::measured_by_names.at(
+                                           static_cast<std::size_t>(remedy.measured_by)))));
+    }
+    if (ranked.size() > most_lines) {
+        text += setting_line("", fmt::format("and {} more", ranked.size() - most_lines));
+    }
+    return text + views(comparison, ranked.front());
 }
 
 } // namespace
@@ -194,7 +239,7 @@ std::string object_table(const std::vector<analysis::ObjectErrors>& objects)
 
 std::string diagnosis_table(const analysis::Comparison& comparison)
 {
-    return causes(comparison) + constant_bias(comparison) + advice(comparison);
+    return causes(comparison) + constant_bias(comparison) + remedies(comparison);
 }
 
 std::string findings_text(const analysis::Comparison& comparison)

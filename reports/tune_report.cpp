@@ -1,12 +1,17 @@
 #include "reports/tune_report.hpp"
 
+#include "analysis/advice/map_cost.hpp"
+#include "reports/advice_json.hpp"
+#include "reports/api_states.hpp"
 #include "reports/findings.hpp"
 #include "reports/json_values.hpp"
+#include "reports/remedy_words.hpp"
 #include "reports/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -17,6 +22,7 @@ namespace {
 using analysis::TunedSetting;
 using analysis::TuneLimits;
 using analysis::TuneResult;
+using analysis::ViewOutcome;
 
 std::string plane_text(const std::optional<double>& plane_m)
 {
@@ -30,37 +36,42 @@ Json plane_json(const std::optional<double>& plane_m)
 
 Json setting_json(const TunedSetting& setting)
 {
-    return {{"shadow_map.resolution", setting.map.resolution_texels},
-            {"shadow_map.depth_format", scene::depth_format_name(setting.map.depth_format)},
-            {"shadow_map.near", plane_json(setting.map.frustum.near_m)},
-            {"shadow_map.far", plane_json(setting.map.frustum.far_m)},
-            {"bias.constant", setting.constant},
-            {"bias.slope", setting.slope},
-            {"bias.normal_texels", setting.normal_texels},
-            {"map_bytes", analysis::map_bytes(setting.map)},
-            {"false_shadow", setting.errors.false_shadow},
-            {"false_lit", setting.errors.false_lit},
-            {"false_shadow_rate", number_or_null(setting.false_shadow_rate)},
-            {"false_lit_rate", number_or_null(setting.false_lit_rate)},
-            {"error_rate", number_or_null(setting.error_rate)},
-            {"shadow_amount", setting.amounts.shadow},
-            {"light_amount", setting.amounts.light},
-            {"shadow_softening", setting.shadow_softening},
-            {"light_softening", setting.light_softening},
-            {"best_interval", {setting.interval.lo, setting.interval.hi}},
-            {"meets_limits", setting.meets_limits}};
+    const analysis::BiasInterval& run = setting.bias.run;
+    Json json{{"shadow_map.resolution", setting.map.resolution_texels},
+              {"shadow_map.depth_format", scene::depth_format_name(setting.map.depth_format)},
+              {"shadow_map.fit", scene::fit_name(setting.map.frustum.fit)},
+              {"shadow_map.near", plane_json(setting.map.frustum.near_m)},
+              {"shadow_map.far", plane_json(setting.map.frustum.far_m)},
+              {"shadow_map.cull", scene::cull_name(setting.map.cull)},
+              {"lookup.filter", scene::filter_name(setting.filter)},
+              {"bias.constant", setting.bias.constant()},
+              {"bias.slope", setting.slope},
+              {"bias.normal_texels", setting.normal_texels},
+              {"map_bytes", analysis::map_bytes(setting.map)},
+              {"taps", analysis::tap_count(setting.filter)}};
+    json.update(outcome_json(setting.pooled()));
+    json["best_interval"] = {run.lo, std::isfinite(run.hi) ? Json(run.hi) : Json(nullptr)};
+    json["views"] = setting.bias.outcomes.size();
+    json["meets_limits"] = setting.meets_limits();
+    return json;
 }
 
 /// Maps that differ only in slope, offset and bias share a line: the best of them.
 std::vector<const TunedSetting*> best_of_each_map(const TuneResult& result)
 {
-    using Key = std::tuple<int, std::string, std::optional<double>, std::optional<double>>;
+    using Key = std::tuple<int, std::string, scene::Fit, std::optional<double>,
+                           std::optional<double>, scene::Cull, scene::Filter>;
     std::map<Key, std::size_t> lines;
     std::vector<const TunedSetting*> best;
     for (const TunedSetting& setting : result.considered) {
+        const scene::FrustumSettings& frustum = setting.map.frustum;
         const Key key{setting.map.resolution_texels,
                       scene::depth_format_name(setting.map.depth_format),
-                      setting.map.frustum.near_m, setting.map.frustum.far_m};
+                      frustum.fit,
+                      frustum.near_m,
+                      frustum.far_m,
+                      setting.map.cull,
+                      setting.filter};
         const auto [line, is_new] = lines.try_emplace(key, best.size());
         if (is_new) {
             best.push_back(&setting);
@@ -82,25 +93,39 @@ std::string range(const scene::FrustumSettings& frustum)
                : "auto";
 }
 
-std::string mebibytes(std::uint64_t bytes)
+std::string map_name(const TunedSetting& setting)
 {
-    return fmt::format("{:.3g} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+    return fmt::format("{} {}", setting.map.resolution_texels,
+                       scene::depth_format_name(setting.map.depth_format));
 }
 
-std::string table(const TuneResult& result)
+std::string table_line(const TunedSetting& setting)
 {
-    std::string text = fmt::format("{:<14}{:<14}{:>10}{:>12}{:>12}{:>9}{:>14}{:>12}{:>12}  {}\n",
-                                   "map", "near, far", "memory", "constant", "slope", "offset",
-                                   "false shadow", "false lit", "errors", "limits");
+    const ViewOutcome pooled = setting.pooled();
+    return fmt::format("{:<11}{:<8}{:<13}{:<7}{:<10}{:>10}{:>12.4g}{:>11.4g}{:>8.3g}{:>14}{:>12}  "
+                       "{}\n",
+                       map_name(setting), scene::fit_name(setting.map.frustum.fit),
+                       range(setting.map.frustum), scene::cull_name(setting.map.cull),
+                       scene::filter_name(setting.filter),
+                       mebibytes(analysis::map_bytes(setting.map)), setting.bias.constant(),
+                       setting.slope, setting.normal_texels, percent(pooled.shadow_rate()),
+                       percent(pooled.light_rate()), setting.meets_limits() ? "met" : "-");
+}
+
+std::string table(const TuneResult& result, TuneDetail detail)
+{
+    std::string text =
+        fmt::format("{:<11}{:<8}{:<13}{:<7}{:<10}{:>10}{:>12}{:>11}{:>8}{:>14}{:>12}  {}\n", "map",
+                    "fit", "near, far", "cull", "filter", "memory", "constant", "slope", "offset",
+                    "false shadow", "false lit", "limits");
+    if (detail == TuneDetail::tried) {
+        for (const TunedSetting& setting : result.considered) {
+            text += table_line(setting);
+        }
+        return text;
+    }
     for (const TunedSetting* setting : best_of_each_map(result)) {
-        text += fmt::format("{:<14}{:<14}{:>10}{:>12.4g}{:>12.4g}{:>9.3g}{:>14}{:>12}{:>12}  {}\n",
-                            fmt::format("{} {}", setting->map.resolution_texels,
-                                        scene::depth_format_name(setting->map.depth_format)),
-                            range(setting->map.frustum),
-                            mebibytes(analysis::map_bytes(setting->map)), setting->constant,
-                            setting->slope, setting->normal_texels, percent(setting->shadow_rate),
-                            percent(setting->light_rate), grouped_amount(setting->error_amount()),
-                            setting->meets_limits ? "met" : "-");
+        text += table_line(*setting);
     }
     return text;
 }
@@ -125,30 +150,78 @@ std::string verdict(const TuneResult& result, const TuneLimits& limits)
         "false shadow at most {} of the lit pixels, false lit at most {} of the blocked ones{}",
         percent(limits.max_shadow_amount_rate), percent(limits.max_light_amount_rate),
         counts_asked(limits));
-    if (result.meets_limits) {
-        return fmt::format(
-            "The smallest of these maps that meets the limits ({}); its keys, in place "
-            "of the job's own:\n",
-            asked);
+    const std::string views = result.views.size() == 1
+                                  ? "in this view"
+                                  : fmt::format("in each of {} views", result.views.size());
+    if (result.meets_limits()) {
+        return fmt::format("The cheapest of these settings that meets the limits {} ({}); its "
+                           "keys, in place of the job's own:\n",
+                           views, asked);
     }
-    return fmt::format("No setting up to {0}x{0} meets the limits ({1}); the one that is least "
+    return fmt::format("No setting up to {0}x{0} meets the limits {1} ({2}); the one that is least "
                        "wrong; its keys, in place of the job's own:\n",
-                       limits.max_resolution_texels, asked);
+                       limits.max_resolution_texels, views, asked);
 }
 
-/// What verdicts that are fractions add; empty where none are.
-std::string measured_amounts(const TuneResult& result)
+/// "Other culling and filters were not tried at 256 and 512 texels: …"
+std::string not_tried(const TuneResult& result)
 {
-    const analysis::Metrics& measured = result.measured.metrics;
-    if (!has_fractions(measured)) {
-        return "";
+    return result.hopeless_texels.empty()
+               ? ""
+               : fmt::format("Other culling and filters were not tried at {} texels, where errors "
+                             "are more than eight times the limits.\n",
+                             fmt::join(result.hopeless_texels, ", "));
+}
+
+/// What GL measured with it, in each view.
+std::string measured(const TuneResult& result, const TuneLimits& limits)
+{
+    std::string text = fmt::format("\n{:<14}{:>14}{:>12}{:>14}{:>12}  {}\n", "measured in",
+                                   "false shadow", "false lit", "by count", "by count", "limits");
+    for (std::size_t i = 0; i < result.measured_views.size(); ++i) {
+        const ViewOutcome& view = result.measured_views[i];
+        text +=
+            fmt::format("{:<14}{:>14}{:>12}{:>14}{:>12}  {}\n", result.views[i].name,
+                        percent(view.shadow_rate()), percent(view.light_rate()),
+                        percent(view.metrics.false_shadow_rate),
+                        percent(view.metrics.false_lit_rate), meets(view, limits) ? "met" : "-");
     }
-    const TunedSetting& best = result.best();
-    return fmt::format(
-        "By amount: {} px of false shadow ({} of them softened borders), {} px of "
-        "false light ({}).\n",
-        grouped_amount(measured.amounts.shadow), grouped_amount(best.shadow_softening),
-        grouped_amount(measured.amounts.light), grouped_amount(best.light_softening));
+    if (result.passed_over > 0) {
+        text += fmt::format("{} passed over: they show too little.\n",
+                            counted(result.passed_over, "view"));
+    }
+    return text;
+}
+
+std::string states(const TunedSetting& setting)
+{
+    std::string text;
+    for (const ApiState& state : api_states(setting)) {
+        text += fmt::format("\n{}:\n  {}\n", state.api, fmt::join(state.lines, "\n  "));
+    }
+    return text;
+}
+
+Json views_json(const TuneResult& result, const TuneLimits& limits)
+{
+    Json json = Json::array();
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+        const scene::Job& job = result.views[i].job;
+        Json view = view_json(result.views[i].name, *job.camera, *job.light);
+        view["measured"] = outcome_json(result.measured_views[i]);
+        view["meets_limits"] = meets(result.measured_views[i], limits);
+        json.push_back(std::move(view));
+    }
+    return json;
+}
+
+Json states_json(const TunedSetting& setting)
+{
+    Json json = Json::object();
+    for (const ApiState& state : api_states(setting)) {
+        json[state.api] = state.lines;
+    }
+    return json;
 }
 
 } // namespace
@@ -159,33 +232,48 @@ std::string tune_toml(const TunedSetting& setting)
         "[shadow_map]\n"
         "resolution = {}\n"
         "depth_format = \"{}\"\n"
+        "fit = \"{}\"\n"
         "near = {}\n"
         "far = {}\n"
+        "cull = \"{}\"\n"
+        "[lookup]\n"
+        "filter = \"{}\"\n"
         "[bias]\n"
-        "constant = {}\n"
+        "{}\n"
         "slope = {}\n"
         "normal_texels = {}\n",
         setting.map.resolution_texels, scene::depth_format_name(setting.map.depth_format),
-        plane_text(setting.map.frustum.near_m), plane_text(setting.map.frustum.far_m),
-        setting.constant, setting.slope, setting.normal_texels);
+        scene::fit_name(setting.map.frustum.fit), plane_text(setting.map.frustum.near_m),
+        plane_text(setting.map.frustum.far_m), scene::cull_name(setting.map.cull),
+        scene::filter_name(setting.filter), setting.bias.pasted.key.substr(std::size("bias.") - 1),
+        setting.slope, setting.normal_texels);
 }
 
-std::string tune_text(const TuneResult& result, const TuneLimits& limits)
+std::string tuned_setting_line(const TunedSetting& setting)
 {
-    const analysis::Metrics& measured = result.measured.metrics;
+    const ViewOutcome pooled = setting.pooled();
+    return fmt::format("{}, fit {}, cull {}, {}, slope {:.4g}, offset {:.3g}: false shadow {}, "
+                       "false lit {}{}",
+                       map_name(setting), scene::fit_name(setting.map.frustum.fit),
+                       scene::cull_name(setting.map.cull), scene::filter_name(setting.filter),
+                       setting.slope, setting.normal_texels, percent(pooled.shadow_rate()),
+                       percent(pooled.light_rate()),
+                       setting.meets_limits() ? ", meets the limits" : "");
+}
+
+std::string tune_text(const TuneResult& result, const TuneLimits& limits, TuneDetail detail)
+{
+    if (detail == TuneDetail::answer) {
+        return tune_toml(result.best());
+    }
     std::string text = fmt::format(
-        "{} settings considered; of each map the best bias, slope and normal offset [texels], "
-        "and its errors by amount [px], without what the filter softens on purpose:\n\n",
-        grouped(result.considered.size()));
-    text += table(result);
-    text += "\n";
-    text += verdict(result, limits);
-    text += "\n";
-    text += tune_toml(result.best());
-    text += fmt::format("\nMeasured with it: {} false shadow ({}), {} false lit ({}).\n",
-                        grouped(measured.false_shadow), percent(measured.false_shadow_rate),
-                        grouped(measured.false_lit), percent(measured.false_lit_rate));
-    text += measured_amounts(result);
+        "{} considered; of each map and filter the best bias, slope and normal offset [texels], "
+        "and its errors by amount, without what the filter softens on purpose:\n\n",
+        counted(result.considered.size(), "setting"));
+    text += table(result, detail) + not_tried(result) + "\n";
+    text += verdict(result, limits) + "\n" + tune_toml(result.best());
+    text += states(result.best());
+    text += measured(result, limits) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }
@@ -196,7 +284,7 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
 {
     const analysis::Metrics& measured = result.measured.metrics;
     Json json{{"schema", 1},
-              {"meets_limits", result.meets_limits},
+              {"meets_limits", result.meets_limits()},
               {"limits",
                {{"max_shadow_amount_rate", limits.max_shadow_amount_rate},
                 {"max_light_amount_rate", limits.max_light_amount_rate},
@@ -205,6 +293,7 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
                 {"max_resolution", limits.max_resolution_texels}}},
               {"recommended", setting_json(result.best())},
               {"toml", tune_toml(result.best())},
+              {"states", states_json(result.best())},
               {"measured",
                {{"false_shadow", measured.false_shadow},
                 {"false_lit", measured.false_lit},
@@ -213,7 +302,12 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
                 {"error_rate", number_or_null(measured.error_rate)},
                 {"shadow_amount", measured.amounts.shadow},
                 {"light_amount", measured.amounts.light}}},
-              {"why", errors_in_words(result.measured)}};
+              {"views", views_json(result, limits)},
+              {"views_passed_over", result.passed_over},
+              {"pooled", outcome_json(analysis::pooled(result.measured_views))},
+              {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
+              {"why", errors_in_words(result.measured)},
+              {"hopeless_resolutions", result.hopeless_texels}};
     json["considered"] = Json::array();
     for (const TunedSetting& setting : result.considered) {
         json["considered"].push_back(setting_json(setting));

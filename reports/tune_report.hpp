@@ -1,7 +1,8 @@
 #pragma once
 
-#include "analysis/tune.hpp"
+#include "analysis/advice/tune.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace gnomon::reports {
@@ -9,12 +10,23 @@ namespace gnomon::reports {
 /// The keys of a setting, ready to paste into a job file. Numbers read back to the same bits.
 [[nodiscard]] std::string tune_toml(const analysis::TunedSetting& setting);
 
-/// What was considered, the recommendation as TOML, what was measured with it, and why.
+/// How much a tune tells.
+enum class TuneDetail : std::uint8_t {
+    answer, ///< the recommended keys alone
+    found,  ///< the best of each map, what was measured and why
+    tried,  ///< every setting
+};
+
+/// What was considered, the recommendation as TOML and as states of graphics interfaces, what was
+/// measured with it in each view, and why.
 [[nodiscard]] std::string tune_text(const analysis::TuneResult& result,
-                                    const analysis::TuneLimits& limits);
+                                    const analysis::TuneLimits& limits, TuneDetail detail);
 
 /// The same as one JSON object; docs/tune.md names its members.
 [[nodiscard]] std::string tune_json(const analysis::TuneResult& result,
                                     const analysis::TuneLimits& limits);
+
+/// "512 d16, fit scene, pcf3, slope 0.1, offset 1: 0.12 % and 0.40 %": a line of progress.
+[[nodiscard]] std::string tuned_setting_line(const analysis::TunedSetting& setting);
 
 } // namespace gnomon::reports

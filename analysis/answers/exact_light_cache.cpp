@@ -32,6 +32,14 @@ scene::ImageSize ExactLightCache::size_if(bool is_kept) const
     return is_kept ? view_.image : scene::ImageSize{0, 0};
 }
 
+std::optional<double> ExactLightCache::median_zeta_m()
+{
+    if (!zeta_quantiles_m_) {
+        zeta_quantiles_m_ = find_quantiles(std::vector<float>(zeta_m_->begin(), zeta_m_->end()));
+    }
+    return zeta_quantiles_m_ ? std::optional{double{zeta_quantiles_m_->median}} : std::nullopt;
+}
+
 const PartMap& ExactLightCache::parts()
 {
     if (parts_ == nullptr) {

@@ -6,6 +6,7 @@
 #include "analysis/chain/pixel_causes.hpp"
 #include "analysis/gaps.hpp"
 #include "analysis/map_errors.hpp"
+#include "analysis/quantiles.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/exact_light.hpp"
@@ -38,6 +39,8 @@ public:
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
     /// Light distance of the scored receivers [m], else NaN.
     [[nodiscard]] const scene::Image<float>& zeta_m() const { return *zeta_m_; }
+    /// The median light distance of the scored receivers [m]; empty if there are none.
+    [[nodiscard]] std::optional<double> median_zeta_m();
     /// The scored receivers by light distance.
     [[nodiscard]] const Binning& distances() const { return *distances_; }
     /// The scored receivers by object and light distance.
@@ -72,6 +75,7 @@ private:
     ReceiverGeometry geometry_;
     std::unique_ptr<scene::ExactLight> light_;
     std::shared_ptr<const scene::Image<float>> zeta_m_;
+    std::optional<Quantiles> zeta_quantiles_m_; ///< empty until asked for, or without receivers
     std::shared_ptr<const Binning> distances_;
     std::shared_ptr<const PartMap> parts_; ///< nullptr until asked for
     std::optional<CentreHits> centre_hits_;

@@ -1,11 +1,14 @@
 #include "analysis/answers/lookup_answers.hpp"
 
+#include "analysis/advice/bias_valley.hpp"
+#include "analysis/advice/map_cost.hpp"
+#include "analysis/advice/tried_biases.hpp"
 #include "analysis/bias_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/map_errors.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "analysis/tune.hpp"
+#include "scene/infinity.hpp"
 
 #include <algorithm>
 #include <array>
@@ -267,6 +270,7 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     CurveResult result = describe_map();
     result.best = curve.best;
     result.bounds = curve.bounds;
+    result.recommended = recommend(curve);
     const std::vector<float> samples = samples_of(curve);
     const auto errors_by = amounts(curve, samples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -288,6 +292,49 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     result.by_distance = {{At::job_bias, biases[0], std::move(profiles[0])},
                           {At::best_bias, biases[1], std::move(profiles[1])}};
     return result;
+}
+
+std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
+{
+    const auto zeta_m = exact_->median_zeta_m();
+    if (curve.curve.lit().empty() || !zeta_m) {
+        return std::nullopt;
+    }
+    const BiasPlace place{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels, *zeta_m};
+    return has_taps() ? recommend_by_amount(curve.slope, place)
+                      : recommend_by_count(curve.curve, place, lookup_.job.bias);
+}
+
+std::optional<Recommendation> LookupAnswers::recommend_by_amount(float slope,
+                                                                 const BiasPlace& place)
+{
+    const std::vector<float> biases = tried_biases();
+    std::vector<ErrorPiece> pieces;
+    for (const MeasuredBias& at :
+         measure_biases(slope, around_least(biases, amounts_at(slope, biases)))) {
+        pieces.push_back({at.bias, at.bias, at.outcome().error_amount()});
+    }
+    if (pieces.back().lo == biases.back()) {
+        pieces.back().hi = scene::infinity; // from there on everything is lit
+    }
+    const auto valley = find_valley(pieces);
+    if (!valley) {
+        return std::nullopt;
+    }
+    const auto outcome_of = [&](float bias) {
+        const std::array<float, 1> alone{bias};
+        return measure_biases(slope, alone).front().outcome();
+    };
+    const float middle = valley->middle();
+    const PastedBias pasted = pasted_bias(middle, valley->run, lookup_.job.bias, place.frustum);
+    return Recommendation{place.length_of(middle),
+                          place.length_of(valley->run.lo),
+                          place.length_of(valley->run.hi),
+                          outcome_of(middle),
+                          pasted,
+                          place.length_of(pasted.bias),
+                          outcome_of(pasted.bias),
+                          1};
 }
 
 scene::Image<float> LookupAnswers::critical_biases(float slope) const
@@ -389,8 +436,9 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
         const SlopeInputs inputs = curves();
         SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
         diagnosis.curve = describe(curve, profile_bias);
-        diagnosis.biases =
-            answer_biases({lookup_.job, lookup_.view, inputs, exact_->zeta_m()}, std::move(curve));
+        diagnosis.biases = answer_biases({lookup_.job, lookup_.view, inputs, exact_->zeta_m(),
+                                          exact_->median_zeta_m().value_or(0)},
+                                         std::move(curve));
     }
     diagnosis.zeta_m = exact_->zeta_m();
     diagnosis.map_error_m = map_error_m_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/advice/recommendation.hpp"
 #include "analysis/amount_rows.hpp"
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/exact_light_cache.hpp"
@@ -15,6 +16,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +36,11 @@ struct MeasuredBias {
     float bias = 0; ///< depth units
     Metrics metrics;
     CauseAmounts amounts;
+
+    [[nodiscard]] Outcome outcome() const
+    {
+        return {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, amounts.softening()};
+    }
 };
 
 /// Observes what must be known of a lookup beside its layers. Asks `look_up` and `read_map_depths`,
@@ -115,6 +122,11 @@ private:
     /// What is fitted, whatever the lookup.
     [[nodiscard]] CurveResult describe_map() const;
     [[nodiscard]] CurveResult describe(const SlopeCurve& curve, float profile_bias);
+    /// Empty if no scored pixel is lit.
+    [[nodiscard]] std::optional<Recommendation> recommend(const SlopeCurve& curve);
+    /// The same of fractions: of the biases around the least amount of error.
+    [[nodiscard]] std::optional<Recommendation> recommend_by_amount(float slope,
+                                                                    const BiasPlace& place);
     /// Causes and gaps at the job's bias.
     void explain(const scene::LookupLayers& own, Diagnosis& diagnosis);
     /// Errors by distance, angle and object, at the job's bias.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/advice/recommendation.hpp"
 #include "analysis/bias_curve.hpp"
 #include "analysis/bias_limits.hpp"
 #include "analysis/bias_verification.hpp"
@@ -80,7 +81,8 @@ struct CurveResult {
     /// Empty for `hardware`, which has no curve.
     std::optional<BestBiases> best;
     std::optional<BiasBounds> bounds;
-    std::vector<CurveSample> points; ///< at its `sample_biases`
+    std::optional<Recommendation> recommended; ///< empty too if no scored pixel is lit
+    std::vector<CurveSample> points;           ///< at its `sample_biases`
     std::vector<DistanceProfile> by_distance;
     std::optional<BiasVerification> verification; ///< empty: not asked for, or without a curve
 };

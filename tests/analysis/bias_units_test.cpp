@@ -65,6 +65,19 @@ TEST(BiasLength, IsTheWayThatTheBiasMovesASpotsReceiver)
     }
 }
 
+TEST(BiasOfLength, IsTheInverse)
+{
+    EXPECT_EQ(bias_of_length(directional(), 2.0, 5.0), 0.25);
+    for (const double bias : {1e-6, 1e-3, 0.1}) {
+        for (const double zeta_m : {5.0, 20.0, 49.0}) {
+            const double length_m = bias_length_m(spot(), bias, zeta_m);
+            // Relative: ζ − length loses at most a few bits here.
+            EXPECT_NEAR(bias_of_length(spot(), length_m, zeta_m) / bias, 1, 1e-12);
+        }
+    }
+    EXPECT_EQ(bias_of_length(spot(), 5, 5), std::numeric_limits<double>::infinity());
+}
+
 TEST(BiasLength, HasTheSlopeOfDepth)
 {
     const double step_m = 1e-5;

@@ -33,6 +33,10 @@ TEST(TuneCommand, PrintsAFragmentWithWhichCompareMeasuresWhatWasPromised)
     EXPECT_LE(result.at("measured").at("false_shadow_rate").get<double>(), 0.05);
     EXPECT_LE(result.at("measured").at("false_lit_rate").get<double>(), 0.05);
     EXPECT_NE(ending.err.find("gnomon tune: 256 d16"), std::string::npos) << ending.err;
+    EXPECT_EQ(result.at("views").size(), 1U);
+    EXPECT_EQ(result.at("views")[0].at("measured").at("false_lit"),
+              result.at("measured").at("false_lit"));
+    EXPECT_EQ(result.at("states").at("Vulkan").size(), 4U);
 
     const TemporaryFolder folder;
     const auto job = folder.path() / "tuned.toml";

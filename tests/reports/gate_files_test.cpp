@@ -215,22 +215,22 @@ const std::map<std::string, double> example_metrics{{"pixels.total", 921'600},
                                                     {"labels.edge", 0},
                                                     {"labels.overshadow", 1},
                                                     {"labels.bleed", 0},
-                                                    {"shadow_amount", 8},
+                                                    {"shadow_amount", 10.25},
                                                     {"light_amount", 1},
                                                     {"unassigned", 0},
-                                                    {"cause_amounts.bias", 1},
+                                                    {"cause_amounts.bias", 0.75},
                                                     {"cause_amounts.precision", 0},
                                                     {"cause_amounts.resolution", 7},
                                                     {"cause_amounts.coverage", 1},
-                                                    {"cause_amounts.filter", 0},
+                                                    {"cause_amounts.filter", 2.5},
                                                     {"label_amounts.acne", 7},
                                                     {"label_amounts.peter_panning", 0},
                                                     {"label_amounts.leak", 1},
-                                                    {"label_amounts.edge", 0},
-                                                    {"label_amounts.overshadow", 1},
+                                                    {"label_amounts.edge", 2.5},
+                                                    {"label_amounts.overshadow", 0.75},
                                                     {"label_amounts.bleed", 0},
-                                                    {"softening", 0},
-                                                    {"shadow_softening", 0},
+                                                    {"softening", 2.5},
+                                                    {"shadow_softening", 2.5},
                                                     {"light_softening", 0}};
 
 analysis::GateEntries example_entries()
@@ -265,11 +265,14 @@ TEST(DamagedBaselines, ContradictThemselvesWhereANumberIsEdited)
     for (const auto& [name, value] : example_metrics) {
         Json edited = whole;
         Json& metric = edited["configurations"][0]["metrics"][name];
-        metric = name.ends_with("_rate") ? Json(value / 2) : Json(metric.get<std::uint64_t>() + 1);
+        metric = name.ends_with("_rate") ? Json(value / 2) : Json(metric.get<double>() + 1);
         EXPECT_THROW((void)parse_baseline(edited.dump(), "b.json"), scene::InputError) << name;
     }
     Json edited = whole;
     edited["configurations"][0]["parts"]["floor"]["[4, 8)"]["false_shadow.resolution.acne"] = 6;
+    EXPECT_THROW((void)parse_baseline(edited.dump(), "b.json"), scene::InputError);
+    edited = whole;
+    edited["configurations"][0]["parts"]["floor"]["[4, 8)"]["shadow_amount.filter.edge"] = 2;
     EXPECT_THROW((void)parse_baseline(edited.dump(), "b.json"), scene::InputError);
 }
 

@@ -62,6 +62,12 @@ Comparison example_comparison()
         .by_distance = {},
         .by_angle = {},
         .by_object = {}};
+    analysis::CurveResult& found = comparison.diagnosis->curve;
+    found.best = best;
+    found.bounds = bounds;
+    const analysis::Outcome outcome{{4, 2}, {4.5, 2.25, 0, 0}, 1.75};
+    found.recommended = analysis::Recommendation{
+        {0.5F, 2, 7}, {0.25F, 1, 3}, {0.75F, 3, 11}, outcome, {}, {}, {}, 4};
     return comparison;
 }
 
@@ -74,10 +80,8 @@ FinishedCurve as_curve(const Comparison& comparison, const std::string& id)
     if (comparison.diagnosis) {
         result.causes = comparison.diagnosis->causes.counts;
         result.peter_panning = comparison.diagnosis->peter_panning;
-        if (comparison.diagnosis->biases) {
-            finished.curve.best = comparison.diagnosis->biases->best;
-            finished.curve.bounds = comparison.diagnosis->biases->bounds;
-        }
+        finished.curve = comparison.diagnosis->curve;
+        finished.curve.id = id;
     }
     finished.rows.push_back({0, result});
     return finished;
@@ -143,7 +147,7 @@ void expect_as_in_json(const Comparison& comparison)
             EXPECT_EQ(cell, value.dump()) << column;
         }
     }
-    EXPECT_EQ(compared, 8 + 6 + 12 + 11 + 14 + 7 + 7 + 16U);
+    EXPECT_EQ(compared, 8 + 6 + 12 + 11 + 14 + 7 + 7 + 16U + 13);
 }
 
 TEST(ResultsCsv, HoldsWhatCompareJsonPrints)
@@ -157,11 +161,16 @@ TEST(ResultsCsv, LeavesEmptyWhatIsNullInJson)
     comparison.metrics.false_lit_rate.reset();
     comparison.diagnosis->peter_panning = {};
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    comparison.diagnosis->biases->bounds.strict.acne_free = infinity;
-    comparison.diagnosis->biases->bounds.strict.panning_free = -infinity;
-    comparison.diagnosis->biases->best.interval = {-infinity, infinity};
+    analysis::CurveResult& curve = comparison.diagnosis->curve;
+    curve.bounds->strict.acne_free = infinity;
+    curve.bounds->strict.panning_free = -infinity;
+    curve.best->interval = {-infinity, infinity};
+    curve.recommended->high = {infinity, infinity, infinity};
+    expect_as_in_json(comparison);
+    curve.recommended.reset(); // no scored pixel is lit
     expect_as_in_json(comparison);
     comparison.diagnosis->biases.reset();
+    curve = {};
     expect_as_in_json(comparison);
     comparison.diagnosis.reset();
     expect_as_in_json(comparison);

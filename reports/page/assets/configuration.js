@@ -78,14 +78,15 @@ class ConfigurationDetail {
     const columns = await this.table.select(this.table.allNames);
     const values = new Map([...columns].map(([name, column]) => [name, column.at(row)]));
     const groups = new Map(valueGroups.map(([name]) => [name, []]).concat([["Other", []]]));
-    const shown = [...values].filter(([name, value]) => value !== null && !/^(causes|labels)\./.test(name));
+    const shown = [...values].filter(([name, value]) => value !== null && !/^(causes|labels|cause_amounts|label_amounts)\./.test(name));
     shown.forEach(([name, value]) => groups.get(groupOf(name)).push([name, value]));
-    const causes = countsOf(values, "causes.");
-    const labels = countsOf(values, "labels.");
+    const kinds = Object.fromEntries(
+      ["causes", "labels", "cause_amounts", "label_amounts"].map((name) => [name, countsOf(values, `${name}.`)]),
+    );
     this.heading.textContent = title;
     this.host.replaceChildren(
       this.pixelsLine(values, hasImage),
-      ...(causes && labels ? [kindTables(causes, labels)] : []),
+      ...(kinds.causes && kinds.labels ? [kindTables(kinds)] : []),
       ...[...groups]
         .filter(([, entries]) => entries.length > 0)
         .map(([name, entries]) => valueList(name, entries)),

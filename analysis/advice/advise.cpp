@@ -1,0 +1,135 @@
+#include "analysis/advice/advise.hpp"
+
+#include "analysis/advice/bias_search.hpp"
+#include "analysis/advice/map_cost.hpp"
+#include "analysis/advice/variants.hpp"
+#include "analysis/bias_units.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::Job;
+
+namespace {
+
+Outcome own_outcome(const ViewOutcome& outcome)
+{
+    return {{outcome.metrics.false_shadow, outcome.metrics.false_lit},
+            outcome.metrics.amounts,
+            outcome.shadow_softening + outcome.light_softening};
+}
+
+class Adviser {
+public:
+    Adviser(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+            const Renderers& renderers)
+        : comparison_{comparison},
+          views_{views},
+          file_{file},
+          renderers_{renderers}
+    {
+    }
+
+    void run()
+    {
+        for (const Variant& variant : variants_for(comparison_)) {
+            try_variant(variant);
+        }
+    }
+
+private:
+    void try_variant(const Variant& variant)
+    {
+        BiasSearch search{file_, renderers_, views_.turns_light};
+        for (const JudgedView& judged : views_.views) {
+            search.add_view(with_view_of(variant.job, judged.view.job), judged);
+        }
+        const BiasPlace place{search.own_view().frustum, variant.job.shadow_map.resolution_texels,
+                              views_.own().median_zeta_m};
+        const scene::Bias own = scene::resolve_bias(variant.job.bias, place.frustum);
+        const std::vector<ViewOutcome> as_it_is = search.measure(own.constant, own.slope);
+        if (variant.keys.empty()) {
+            keep_views(as_it_is);
+        } else {
+            add(variant, variant.keys, as_it_is, std::nullopt);
+        }
+        const FoundBias found = search.find(no_limits(), own.slope);
+        const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, own.slope);
+        std::vector<std::string> keys = variant.keys;
+        keys.push_back(found.pasted.key);
+        add(variant, std::move(keys), measured, place.length_of(found.pasted.bias));
+        if (variant.keys.empty() && views_.views.size() > 1) {
+            recommend(found, measured, place);
+        }
+    }
+
+    void add(const Variant& variant, std::vector<std::string> keys,
+             const std::vector<ViewOutcome>& outcomes, const std::optional<BiasLength>& bias)
+    {
+        comparison_.advice.push_back(
+            {std::move(keys), own_outcome(outcomes.front()), outcomes.front().metrics.error_rate,
+             map_bytes(variant.job.shadow_map), tap_count(variant.job.lookup.filter),
+             MeasuredBy::rerun, bias, outcomes, step_change(variant.job)});
+    }
+
+    void keep_views(const std::vector<ViewOutcome>& now)
+    {
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            const AdviceView& view = views_.views[i].view;
+            comparison_.advice_views.views.push_back(
+                {view.name, *view.job.camera, *view.job.light, now[i]});
+        }
+        comparison_.advice_views.passed_over = views_.passed_over;
+    }
+
+    /// What is recommended holds for all views now.
+    void recommend(const FoundBias& found, const std::vector<ViewOutcome>& measured,
+                   const BiasPlace& place)
+    {
+        if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
+            return;
+        }
+        const BiasLength bias = place.length_of(found.pasted.bias);
+        const Outcome outcome = own_outcome(measured.front());
+        comparison_.diagnosis->curve.recommended = Recommendation{bias,
+                                                                  place.length_of(found.run.lo),
+                                                                  place.length_of(found.run.hi),
+                                                                  outcome,
+                                                                  found.pasted,
+                                                                  bias,
+                                                                  outcome,
+                                                                  measured.size()};
+    }
+
+    /// How far a step of the stored depth reaches at the median receiver, now and with the change.
+    [[nodiscard]] DepthStepChange step_change(const Job& job) const
+    {
+        const scene::View view = scene::resolve_view(with_view_of(job, views_.own().view.job),
+                                                     file_.scene, file_.defaults);
+        const auto length_m = [&](const scene::View& of, const Job& with) {
+            return depth_step_length_m(of.frustum, with.shadow_map.depth_format,
+                                       views_.own().median_zeta_m);
+        };
+        return {length_m(comparison_.view, comparison_.job), length_m(view, job)};
+    }
+
+    Comparison& comparison_;
+    const JudgedViews& views_;
+    const scene::SceneFile& file_;
+    const Renderers& renderers_;
+};
+
+} // namespace
+
+void advise(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+            const Renderers& renderers)
+{
+    if (!comparison.diagnosis) {
+        throw std::invalid_argument("advise: comparison: it has no diagnosis");
+    }
+    Adviser{comparison, views, file, renderers}.run();
+}
+
+} // namespace gnomon::analysis

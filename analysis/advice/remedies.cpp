@@ -1,0 +1,127 @@
+#include "analysis/advice/remedies.hpp"
+
+#include "analysis/advice/map_cost.hpp"
+#include "analysis/ratio.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace gnomon::analysis {
+
+namespace {
+
+/// Of what the best remedy takes away.
+constexpr double share_of_most = 0.8;
+
+/// What a change of biases leaves: the map stays as it is.
+Remedy bias_remedy(const Comparison& comparison, std::vector<std::string> keys,
+                   const Outcome& outcome, MeasuredBy measured_by)
+{
+    return {std::move(keys),
+            outcome,
+            ratio(outcome.errors.total(), comparison.metrics.pixels.scored()),
+            map_bytes(comparison.job.shadow_map),
+            tap_count(comparison.job.lookup.filter),
+            measured_by};
+}
+
+Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string> keys,
+                          const Recommendation& recommended, MeasuredBy measured_by)
+{
+    keys.push_back(recommended.pasted.key);
+    Remedy remedy =
+        bias_remedy(comparison, std::move(keys), recommended.pasted_outcome, measured_by);
+    remedy.bias = recommended.pasted_length;
+    return remedy;
+}
+
+void add_curves(const Comparison& comparison, std::vector<Remedy>& remedies)
+{
+    const Diagnosis& diagnosis = *comparison.diagnosis;
+    if (diagnosis.curve.recommended) {
+        remedies.push_back(
+            recommended_remedy(comparison, {}, *diagnosis.curve.recommended, MeasuredBy::curve));
+    }
+    if (!diagnosis.biases) {
+        return;
+    }
+    // Slopes that leave no less than the job's own are no remedies: they are more to set.
+    const auto leaves_less = [&](const Recommendation& other) {
+        const auto& own = diagnosis.curve.recommended;
+        return !own || other.pasted_outcome.error_amount() < own->pasted_outcome.error_amount();
+    };
+    for (const SlopeAnswer& answer : diagnosis.biases->slopes) {
+        if (answer.recommended && answer.slope != comparison.view.bias.slope &&
+            leaves_less(*answer.recommended)) {
+            remedies.push_back(recommended_remedy(comparison,
+                                                  {fmt::format("bias.slope = {}", answer.slope)},
+                                                  *answer.recommended, MeasuredBy::slope_curve));
+        }
+    }
+}
+
+/// Of GL's own reruns the least wrong: they know nothing of softening.
+void add_reruns(const Comparison& comparison, std::vector<Remedy>& remedies)
+{
+    if (comparison.reruns.empty() || !comparison.advice.empty()) {
+        return;
+    }
+    const auto least = std::ranges::min_element(
+        comparison.reruns, {}, [](const BiasRerun& rerun) { return rerun.amounts.total(); });
+    remedies.push_back(bias_remedy(
+        comparison, {fmt::format("bias.constant = {}", least->bias)},
+        {least->errors, least->amounts, comparison.diagnosis->causes.amounts.softening()},
+        MeasuredBy::rerun));
+}
+
+/// Changes that say the same: what GL measured goes before what a curve knows.
+void remove_repeats(std::vector<Remedy>& remedies)
+{
+    std::vector<Remedy> once;
+    for (Remedy& remedy : remedies) {
+        if (std::ranges::none_of(once,
+                                 [&](const Remedy& known) { return known.keys == remedy.keys; })) {
+            once.push_back(std::move(remedy));
+        }
+    }
+    remedies = std::move(once);
+}
+
+} // namespace
+
+double error_amount(const Comparison& comparison)
+{
+    const double all = comparison.metrics.amounts.total();
+    return comparison.diagnosis ? all - comparison.diagnosis->causes.amounts.softening() : all;
+}
+
+std::vector<Remedy> ranked_remedies(const Comparison& comparison)
+{
+    if (!comparison.diagnosis) {
+        return {};
+    }
+    std::vector<Remedy> remedies = comparison.advice;
+    add_curves(comparison, remedies);
+    add_reruns(comparison, remedies);
+    remove_repeats(remedies);
+    const double now = error_amount(comparison);
+    std::erase_if(remedies,
+                  [&](const Remedy& remedy) { return remedy.outcome.error_amount() >= now; });
+    const auto left = [](const Remedy& remedy) { return remedy.outcome.error_amount(); };
+    double least = now;
+    for (const Remedy& remedy : remedies) {
+        least = std::min(least, left(remedy));
+    }
+    const auto order = [&](const Remedy& remedy) {
+        const bool cures_most = now - left(remedy) >= share_of_most * (now - least);
+        return cures_most ? std::tuple{0, remedy.map_bytes, remedy.taps, left(remedy)}
+                          : std::tuple{1, std::uint64_t{0}, 0, left(remedy)};
+    };
+    std::ranges::stable_sort(remedies, {}, order);
+    return remedies;
+}
+
+} // namespace gnomon::analysis

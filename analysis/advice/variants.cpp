@@ -1,0 +1,143 @@
+#include "analysis/advice/variants.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::Job;
+
+namespace {
+
+constexpr int largest_resolution_texels = 16384;
+
+class Variants {
+public:
+    explicit Variants(const Comparison& comparison)
+        : job_{comparison.job},
+          causes_{comparison.diagnosis->causes},
+          tried_{{job_, {}}}
+    {
+    }
+
+    [[nodiscard]] bool has(Cause cause) const
+    {
+        return causes_.counts.of(cause) > 0 || causes_.amounts.of(cause) > 0;
+    }
+    [[nodiscard]] bool has(Label label) const
+    {
+        return causes_.counts.of(label) > 0 || causes_.amounts.of(label) > 0;
+    }
+
+    template <typename Change>
+    void add(std::vector<std::string> keys, const Change& change)
+    {
+        tried_.push_back({job_, std::move(keys)});
+        change(tried_.back().job);
+    }
+
+    [[nodiscard]] const Job& job() const { return job_; }
+    [[nodiscard]] std::vector<Variant> take() { return std::move(tried_); }
+
+private:
+    const Job& job_;
+    const CauseLayers& causes_;
+    std::vector<Variant> tried_;
+};
+
+/// Biases that no constant one makes up for; and those that spare the surfaces that need none.
+void add_biases(Variants& variants, const std::optional<BiasAnswers>& answers)
+{
+    if (variants.has(Cause::bias) && variants.job().bias.slope != 0) {
+        variants.add({"bias.slope = 0"}, [](Job& job) { job.bias.slope = 0; });
+    }
+    if (variants.has(Cause::bias) && variants.job().bias.normal_texels != 0) {
+        variants.add({"bias.normal_texels = 0"}, [](Job& job) { job.bias.normal_texels = 0; });
+    }
+    if (variants.has(Label::acne) && answers) {
+        const double slope =
+            std::stod(fmt::format("{:.3g}", answers->slopes[answers->best_slope].slope));
+        if (slope > 0) {
+            variants.add({fmt::format("bias.slope = {}", slope)},
+                         [slope](Job& job) { job.bias.slope = slope; });
+        }
+    }
+    if (variants.has(Label::acne) && variants.job().bias.normal_texels == 0) {
+        variants.add({"bias.normal_texels = 1"}, [](Job& job) { job.bias.normal_texels = 1; });
+    }
+}
+
+/// Maps that resolve more.
+void add_finer_maps(Variants& variants)
+{
+    const int resolution = 2 * variants.job().shadow_map.resolution_texels;
+    const bool is_coarse = variants.has(Cause::resolution) || variants.has(Cause::filter);
+    if (is_coarse && resolution <= largest_resolution_texels) {
+        variants.add({fmt::format("shadow_map.resolution = {}", resolution)},
+                     [resolution](Job& job) { job.shadow_map.resolution_texels = resolution; });
+    }
+    if (is_coarse && variants.job().shadow_map.frustum.fit == scene::Fit::scene) {
+        variants.add({"shadow_map.fit = \"camera\""},
+                     [](Job& job) { job.shadow_map.frustum.fit = scene::Fit::camera; });
+    }
+    if (variants.has(Label::edge) && variants.job().lookup.filter == scene::Filter::nearest) {
+        variants.add({"lookup.filter = \"pcf3\""},
+                     [](Job& job) { job.lookup.filter = scene::Filter::pcf3; });
+    }
+}
+
+/// Maps that store depths more finely.
+void add_finer_depths(Variants& variants)
+{
+    const scene::ShadowMapSettings& map = variants.job().shadow_map;
+    if (variants.has(Cause::precision) && !map.depth_format.is_float()) {
+        variants.add({"shadow_map.depth_format = \"d32f\""}, [](Job& job) {
+            job.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+        });
+    }
+    const bool is_fitted = !map.frustum.near_m && !map.frustum.far_m;
+    if (!is_fitted) {
+        variants.add({"shadow_map.near = \"auto\"", "shadow_map.far = \"auto\""}, [](Job& job) {
+            job.shadow_map.frustum.near_m.reset();
+            job.shadow_map.frustum.far_m.reset();
+        });
+    }
+}
+
+/// Maps that miss less.
+void add_wider_maps(Variants& variants)
+{
+    if (!variants.has(Cause::coverage)) {
+        return;
+    }
+    if (variants.job().shadow_map.cull != scene::Cull::none) {
+        variants.add({"shadow_map.cull = \"none\""},
+                     [](Job& job) { job.shadow_map.cull = scene::Cull::none; });
+    }
+    const scene::FrustumSettings& frustum = variants.job().shadow_map.frustum;
+    if (frustum.fit != scene::Fit::scene) {
+        variants.add({"shadow_map.fit = \"scene\"", "shadow_map.near = \"auto\"",
+                      "shadow_map.far = \"auto\""},
+                     [](Job& job) {
+                         scene::FrustumSettings& wider = job.shadow_map.frustum;
+                         wider.fit = scene::Fit::scene;
+                         wider.near_m.reset();
+                         wider.far_m.reset();
+                     });
+    }
+}
+
+} // namespace
+
+std::vector<Variant> variants_for(const Comparison& comparison)
+{
+    Variants variants{comparison};
+    add_biases(variants, comparison.diagnosis->biases);
+    add_finer_maps(variants);
+    add_finer_depths(variants);
+    add_wider_maps(variants);
+    return variants.take();
+}
+
+} // namespace gnomon::analysis

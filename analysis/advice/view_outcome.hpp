@@ -1,0 +1,39 @@
+#pragma once
+
+#include "analysis/bias_curve.hpp"
+#include "analysis/metrics.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace gnomon::analysis {
+
+/// What a setting gives in one view.
+struct ViewOutcome {
+    float constant = 0; ///< the constant bias there, depth units
+    Metrics metrics;
+    double shadow_softening = 0; ///< what a kernel softens on purpose, of lit pixels [px]
+    double light_softening = 0;  ///< of blocked pixels [px]
+
+    /// By how much verdicts are wrong without that [px].
+    [[nodiscard]] double error_amount() const
+    {
+        return metrics.amounts.total() - shadow_softening - light_softening;
+    }
+    /// The same over the scored pixels; empty without any.
+    [[nodiscard]] std::optional<double> error_rate() const;
+    /// Amounts without softening per lit, per blocked pixel; empty without any.
+    [[nodiscard]] std::optional<double> shadow_rate() const;
+    [[nodiscard]] std::optional<double> light_rate() const;
+};
+
+/// Several views as one; the constant bias is the first one's.
+/// @param outcomes  At least one.
+[[nodiscard]] ViewOutcome pooled(std::span<const ViewOutcome> outcomes);
+
+/// The view with the largest error rate; the first of several.
+/// @param outcomes  At least one.
+[[nodiscard]] std::size_t worst_view(std::span<const ViewOutcome> outcomes);
+
+} // namespace gnomon::analysis

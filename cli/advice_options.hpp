@@ -1,0 +1,31 @@
+#pragma once
+
+#include "analysis/advice/judged_views.hpp"
+#include "cli/job_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon::cli {
+
+/// From which views advice is made: --views, --lights, --all-cases.
+struct AdviceOptions {
+    int cameras = 0;
+    int lights = 0;
+    bool all_cases = false;
+
+    [[nodiscard]] bool any() const { return cameras > 0 || lights > 0 || all_cases; }
+};
+
+void add_advice_options(CLI::App& command, AdviceOptions& options);
+
+/// The views that the options ask for.
+/// @throws scene::InputError  if --all-cases is given without cases, with --case, or a case changes
+///                            more than camera, light and image.
+[[nodiscard]] analysis::ViewRequest view_request(const AdviceOptions& options,
+                                                 const JobOptions& job);
+
+/// Says on stderr that a job's cases are left out, where it has some and none is named.
+void note_ignored_cases(std::string_view command, const JobOptions& job,
+                        const scene::JobFile& file);
+
+} // namespace gnomon::cli
