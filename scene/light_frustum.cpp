@@ -1,5 +1,6 @@
 #include "scene/light_frustum.hpp"
 
+#include "scene/clipped_range.hpp"
 #include "scene/error.hpp"
 #include "scene/view_clip.hpp"
 
@@ -105,28 +106,113 @@ void set_sides(LightFrustum& frustum, const FrustumSettings& settings, const Lig
     set_symmetric_sides(frustum, narrow ? std::min(tangent, extent.largest_tangent) : tangent);
 }
 
-/// Near and far from the settings, else from the ranges of ζ of casters and receivers.
-void set_depth_range(LightFrustum& frustum, const FrustumSettings& settings, double nearest_m,
-                     double farthest_m)
+/// A range of ζ, and the planes around it.
+struct ZetaRange {
+    double nearest_m = 0;
+    double farthest_m = 0;
+
+    [[nodiscard]] double padding_m() const { return auto_padding * (farthest_m - nearest_m); }
+    [[nodiscard]] double near_m() const { return nearest_m - padding_m(); }
+    [[nodiscard]] double far_m() const { return farthest_m + padding_m(); }
+};
+
+struct DepthPlanes {
+    double near_m = 0;
+    double far_m = 0;
+};
+
+/// The settings' planes; those that they leave to us from `automatic`, a spot's near limited.
+DepthPlanes chosen_planes(const FrustumSettings& settings, Projection projection,
+                          const DepthPlanes& automatic)
 {
-    const bool spot = frustum.projection == Projection::perspective;
-    const double padding_m = auto_padding * (farthest_m - nearest_m);
-    frustum.far_m = settings.far_m.value_or(farthest_m + padding_m);
-    double auto_near_m = nearest_m - padding_m;
-    if (spot) {
-        auto_near_m = std::max(auto_near_m, smallest_spot_near * frustum.far_m);
+    const double far_m = settings.far_m.value_or(automatic.far_m);
+    const bool spot = projection == Projection::perspective;
+    const double least_m = spot ? smallest_spot_near * far_m : automatic.near_m;
+    return {settings.near_m.value_or(std::max(automatic.near_m, least_m)), far_m};
+}
+
+/// The whole scene's range of ζ, and how auto planes follow from it.
+struct WholeScene {
+    ZetaRange range;             ///< up to the farthest that the camera sees, if `keeps_far`
+    bool keeps_far = false;      ///< `camera`: nothing beyond what the camera sees matters
+    double smallest_range_m = 0; ///< for flat scenes
+};
+
+/// The planes around what lies within the map's sides: with the padding, or with as much as the
+/// float32 matrix needs for GL to find all of it between them, where that is more.
+///
+/// Let T be the largest sum of absolute terms of ζ, which no |ζ| exceeds, and u = 2^-24. Z and W
+/// err by 5u of their absolute terms: a rounding of each coefficient, four of the products and
+/// sums. In ζ that is at most 5u (T + |ζ|) <= 10u T, at a spot's far f, where depth is flattest,
+/// f/n times as much: 16u T and 16u T·f/n are to spare. The latter solves f = farthest + 16u T·f/n;
+/// half of f, at most, for beyond that the matrix cannot tell the distances anyway. Where near is a
+/// thousandth of far, far does not go beyond the whole scene's: near would, too.
+DepthPlanes planes_around(const FrustumSettings& settings, Projection projection,
+                          const WholeScene& whole, const ZetaRange& inside, double largest_terms_m)
+{
+    const double rounding_m = 16 * 0x1p-24 * largest_terms_m;
+    const double whole_far_m = whole.range.far_m();
+    DepthPlanes planes{std::min(inside.near_m(), inside.nearest_m - rounding_m),
+                       whole.keeps_far ? whole_far_m : inside.far_m()};
+    if (projection == Projection::orthographic) {
+        planes.far_m = std::max(planes.far_m, inside.farthest_m + rounding_m);
+        return planes;
     }
-    frustum.near_m = settings.near_m.value_or(auto_near_m);
-    if (spot && !(frustum.near_m > 0)) {
+    const double near_m = chosen_planes(settings, projection, planes).near_m;
+    const double lost_share = std::min(0.5, rounding_m / near_m);
+    planes.far_m = std::max(planes.far_m, inside.farthest_m / (1 - lost_share));
+    if (!settings.near_m && planes.near_m < smallest_spot_near * planes.far_m) {
+        planes.far_m = std::min(planes.far_m, whole_far_m);
+    }
+    return planes;
+}
+
+void check_planes(const DepthPlanes& planes, Projection projection)
+{
+    if (projection == Projection::perspective && !(planes.near_m > 0)) {
         throw InputError(
             fmt::format("shadow_map.near = {}: a spot's near plane must be in front of it, above 0",
-                        frustum.near_m));
+                        planes.near_m));
     }
-    if (!(frustum.near_m < frustum.far_m)) {
+    if (!(planes.near_m < planes.far_m)) {
         throw InputError(fmt::format("shadow_map.near = {} is not below shadow_map.far = {}: "
                                      "correct them, or write \"auto\"",
-                                     frustum.near_m, frustum.far_m));
+                                     planes.near_m, planes.far_m));
     }
+}
+
+/// The auto planes around what the scene has within the sides, which are set; none where that is
+/// nothing, or nothing on the right side of a given plane.
+std::optional<DepthPlanes> clipped_planes(LightFrustum& frustum, const FrustumSettings& settings,
+                                          const TriangleScene& scene, const WholeScene& whole)
+{
+    compose_matrix(frustum); // for its rows of x, y and w: they do not depend on near and far
+    const ClippedRange inside = clipped_range(frustum, scene);
+    ZetaRange range{inside.nearest_m, whole.keeps_far ? whole.range.farthest_m : inside.farthest_m};
+    const bool spot = frustum.projection == Projection::perspective;
+    if (!(range.nearest_m <= range.farthest_m) || (spot && range.farthest_m <= 0)) {
+        return {};
+    }
+    widen(range.nearest_m, range.farthest_m, whole.smallest_range_m);
+    const auto planes =
+        planes_around(settings, frustum.projection, whole, range, inside.largest_terms_m);
+    const DepthPlanes chosen = chosen_planes(settings, frustum.projection, planes);
+    return chosen.near_m < chosen.far_m ? std::optional{chosen} : std::nullopt;
+}
+
+/// Near and far from the settings, else around the triangles within the sides, which are set, else
+/// around the whole scene.
+void set_depth_range(LightFrustum& frustum, const FrustumSettings& settings,
+                     const TriangleScene& scene, const WholeScene& whole)
+{
+    const bool has_both = settings.near_m && settings.far_m;
+    const auto clipped = has_both ? std::nullopt : clipped_planes(frustum, settings, scene, whole);
+    const DepthPlanes planes = clipped ? *clipped
+                                       : chosen_planes(settings, frustum.projection,
+                                                       {whole.range.near_m(), whole.range.far_m()});
+    check_planes(planes, frustum.projection);
+    frustum.near_m = planes.near_m;
+    frustum.far_m = planes.far_m;
 }
 
 Vec3d camera_position(const LightSettings& settings, const Light& light, const Box& box)
@@ -187,17 +273,16 @@ LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSetti
                               [&](const Vec3d& corner) { seen.include(frustum, corner); });
     }
     LightViewExtent sides = seen.empty() ? whole : seen;
-    double nearest_m = whole.lower.z; // casters before the view matter too
-    double farthest_m = sides.upper.z;
     const double smallest_m = smallest_relative_extent * box.diagonal_m();
+    ZetaRange range{whole.lower.z, sides.upper.z}; // casters before the view matter too
     widen(sides.lower.x, sides.upper.x, smallest_m);
     widen(sides.lower.y, sides.upper.y, smallest_m);
-    widen(nearest_m, farthest_m, smallest_m);
-    if (frustum.projection == Projection::perspective && farthest_m <= 0) {
-        farthest_m = box.diagonal_m(); // everything is behind the spot
+    widen(range.nearest_m, range.farthest_m, smallest_m);
+    if (frustum.projection == Projection::perspective && range.farthest_m <= 0) {
+        range.farthest_m = box.diagonal_m(); // everything is behind the spot
     }
     set_sides(frustum, settings, light_settings, sides);
-    set_depth_range(frustum, settings, nearest_m, farthest_m);
+    set_depth_range(frustum, settings, scene, {range, !seen.empty(), smallest_m});
     compose_matrix(frustum);
     return frustum;
 }

@@ -82,12 +82,14 @@ TEST(SceneFit, OfASpotHasTheConesFov)
     }
 }
 
-TEST(SceneFit, PutsASpotInsideTheSceneAThousandthOfFarBeforeItsNearPlane)
+TEST(SceneFit, PutsASpotThatTouchesTheSceneAThousandthOfFarBeforeItsNearPlane)
 {
     LightSettings light = spot_above();
-    light.position = Vec3d{0.1, 0.5, 0.2};
+    light.position = Vec3d{0, 1, 0}; // the soup's top
     light.target = Vec3d{0, 0, 0};
     const LightFrustum f = fitted({}, light);
+    // Not beyond the padding, for all that float32 errs by at far = 1000 near: near would follow.
+    EXPECT_DOUBLE_EQ(f.far_m, 1 + 1e-4);
     EXPECT_DOUBLE_EQ(f.near_m, 1e-3 * f.far_m);
 }
 
@@ -164,7 +166,7 @@ TEST(CameraFit, HoldsWhatTheCameraSeesAndNoMore)
         const Vec3d ndc = ndc_of(narrow, {0, 0.5, 0});
         EXPECT_LE(std::abs(ndc.x), 1);
         EXPECT_LE(std::abs(ndc.y), 1);
-        EXPECT_NEAR(narrow.near_m, whole.near_m, 1e-3) << "casters outside the view still count";
+        EXPECT_GE(narrow.near_m, whole.near_m) << "what is beside the narrow map does not count";
     }
 }
 
