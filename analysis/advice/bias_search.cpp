@@ -30,11 +30,6 @@ float as_bias(double bias)
     return std::isnormal(rounded) ? rounded : 0.0F;
 }
 
-ViewOutcome outcome_of(float constant, const Metrics& metrics, const CauseAmounts& amounts)
-{
-    return {constant, metrics, amounts.shadow_softening, amounts.light_softening};
-}
-
 std::optional<BiasInterval> common(const BiasInterval& a, const BiasInterval& b)
 {
     const BiasInterval both{std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
@@ -228,10 +223,10 @@ ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float s
     const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
     const int taps = scene::promises(searched.job.lookup.filter).equal_taps();
     const Metrics metrics = analysis::measure(searched.judged->truth, own, taps);
-    return outcome_of(constant, metrics,
-                      searched.answers == nullptr
-                          ? CauseAmounts{}
-                          : searched.answers->causes_of(own, constant, slope).amounts);
+    const CauseAmounts amounts = searched.answers == nullptr
+                                     ? CauseAmounts{}
+                                     : searched.answers->causes_of(own, constant, slope).amounts;
+    return {constant, metrics, amounts.shadow_softening, amounts.light_softening};
 }
 
 std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
@@ -249,7 +244,7 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
         return outcomes;
     }
     for (const MeasuredBias& at : views_[view].answers->measure_biases(slope, here)) {
-        outcomes.push_back(outcome_of(at.bias, at.metrics, at.amounts));
+        outcomes.push_back({at.bias, at.metrics, at.softening.shadow, at.softening.light});
     }
     return outcomes;
 }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -43,12 +43,16 @@ public:
           renderers_{renderers},
           views_{views},
           limits_{limits},
-          progress_{progress}
+          progress_{progress},
+          frusta_{distinct_frusta()}
     {
     }
 
     TuneResult run()
     {
+        if (frusta_.empty()) { // says why
+            (void)scene::resolve_view(views_.own().view.job, file_.scene, file_.defaults);
+        }
         const auto sizes = map_sizes(job_, limits_);
         if (sizes.empty()) {
             throw scene::InputError(
@@ -67,6 +71,32 @@ public:
     }
 
 private:
+    /// Those of the frusta to try that make a map in every view, and are not another's in all
+    /// views.
+    [[nodiscard]] std::vector<scene::FrustumSettings> distinct_frusta() const
+    {
+        std::vector<scene::FrustumSettings> distinct;
+        std::vector<std::vector<scene::Mat4f>> known;
+        for (const scene::FrustumSettings& frustum : frusta(job_)) {
+            std::vector<scene::Mat4f> matrices;
+            try {
+                for (const JudgedView& judged : views_.views) {
+                    Job job = with_view_of(job_, judged.view.job);
+                    job.shadow_map.frustum = frustum;
+                    matrices.push_back(scene::resolve_view(job, file_.scene, file_.defaults)
+                                           .frustum.light_clip_from_world);
+                }
+            } catch (const scene::InputError&) {
+                continue; // planes that do not go together there
+            }
+            if (std::ranges::find(known, matrices) == known.end()) {
+                known.push_back(std::move(matrices));
+                distinct.push_back(frustum);
+            }
+        }
+        return distinct;
+    }
+
     /// Whether something meets the limits: what comes later takes more bytes or taps.
     [[nodiscard]] bool is_done() const
     {
@@ -81,6 +111,10 @@ private:
             if (is_done() && tap_count(result_.best().filter) < taps) {
                 return;
             }
+            if (is_costly(filter)) {
+                try_best_maps(sizes, filter);
+                continue;
+            }
             for (const MapSize& size : sizes) {
                 const bool is_first = filter == Filter::nearest;
                 if (is_first || !is_hopeless(size.resolution_texels)) {
@@ -88,6 +122,35 @@ private:
                 }
             }
         }
+    }
+
+    /// A costly filter, with the best map of each resolution that cheaper ones have found.
+    void try_best_maps(std::span<const MapSize> sizes, Filter filter)
+    {
+        std::set<int> done;
+        for (const MapSize& size : sizes) {
+            if (is_hopeless(size.resolution_texels) ||
+                !done.insert(size.resolution_texels).second) {
+                continue;
+            }
+            const TunedSetting* best = nullptr;
+            for (const TunedSetting& setting : result_.considered) {
+                const bool is_of_size = setting.map.resolution_texels == size.resolution_texels &&
+                                        map_bytes(setting.map) == size.bytes();
+                if (is_of_size && !is_costly(setting.filter) &&
+                    (best == nullptr || is_better(setting, *best))) {
+                    best = &setting;
+                }
+            }
+            try_map(scene::ShadowMapSettings{best->map}, filter);
+        }
+    }
+
+    /// Each setting of such a filter costs as much as a hundred others.
+    static bool is_costly(Filter filter) { return scene::promises(filter).has_fractions(); }
+    [[nodiscard]] bool is_far_from_limits(const TunedSetting& setting) const
+    {
+        return times_above(setting.bias.outcomes.front(), limits_) > hopeless_factor;
     }
 
     [[nodiscard]] bool is_hopeless(int resolution_texels) const
@@ -100,15 +163,14 @@ private:
     void try_size(const MapSize& size, Filter filter)
     {
         const std::size_t first = result_.considered.size();
-        for (const scene::FrustumSettings& frustum : frusta(job_)) {
+        for (const scene::FrustumSettings& frustum : frusta_) {
             try_map({size.resolution_texels, size.format, frustum, job_.shadow_map.cull}, filter);
         }
         const auto best = std::min_element(
             result_.considered.begin() + static_cast<std::ptrdiff_t>(first),
             result_.considered.end(),
             [](const TunedSetting& a, const TunedSetting& b) { return is_better(a, b); });
-        const double above = times_above(best->bias.outcomes.front(), limits_);
-        if (filter == Filter::nearest && above > hopeless_factor) {
+        if (filter == Filter::nearest && is_far_from_limits(*best)) {
             if (!is_hopeless(size.resolution_texels)) {
                 result_.hopeless_texels.push_back(size.resolution_texels);
             }
@@ -126,15 +188,14 @@ private:
         for (const double normal_texels : normal_offsets(job_, filter)) {
             TunedSetting setting{map, filter, 0, normal_texels, {}};
             BiasSearch search{file_, renderers_, views_.turns_light};
-            try {
-                add_view(search, setting, views_.own());
-            } catch (const scene::InputError&) {
-                return; // near and far that go together in no view of this fit
-            }
+            add_view(search, setting, views_.own());
             for (const double slope :
                  slopes(job_, filter, search.own_view().frustum, map.resolution_texels)) {
                 setting.slope = slope;
                 consider(search, setting);
+                if (is_costly(filter) && is_far_from_limits(result_.considered.back())) {
+                    return;
+                }
             }
         }
     }
@@ -193,6 +254,7 @@ private:
     const JudgedViews& views_;
     const TuneLimits& limits_;
     const std::function<void(const TunedSetting&)>& progress_;
+    std::vector<scene::FrustumSettings> frusta_;
     TuneResult result_;
 };
 

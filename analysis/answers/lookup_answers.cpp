@@ -301,18 +301,22 @@ std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
         return std::nullopt;
     }
     const BiasPlace place{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels, *zeta_m};
-    return has_taps() ? recommend_by_amount(curve.slope, place)
+    return has_taps() ? recommend_by_amount(curve, place)
                       : recommend_by_count(curve.curve, place, lookup_.job.bias);
 }
 
-std::optional<Recommendation> LookupAnswers::recommend_by_amount(float slope,
+std::optional<Recommendation> LookupAnswers::recommend_by_amount(const SlopeCurve& curve,
                                                                  const BiasPlace& place)
 {
     const std::vector<float> biases = tried_biases();
+    const std::vector<ErrorAmounts> amounts_of = amounts(curve, biases);
+    const std::span<const float> around = around_least(biases, amounts_of);
+    const auto softening = softening_with(curve.slope, curve.critical_bias, around);
     std::vector<ErrorPiece> pieces;
-    for (const MeasuredBias& at :
-         measure_biases(slope, around_least(biases, amounts_at(slope, biases)))) {
-        pieces.push_back({at.bias, at.bias, at.outcome().error_amount()});
+    const auto first = static_cast<std::size_t>(around.data() - biases.data());
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        pieces.push_back(
+            {around[i], around[i], amounts_of[first + i].total() - softening[i].total()});
     }
     if (pieces.back().lo == biases.back()) {
         pieces.back().hi = scene::infinity; // from there on everything is lit
@@ -321,12 +325,17 @@ std::optional<Recommendation> LookupAnswers::recommend_by_amount(float slope,
     if (!valley) {
         return std::nullopt;
     }
-    const auto outcome_of = [&](float bias) {
-        const std::array<float, 1> alone{bias};
-        return measure_biases(slope, alone).front().outcome();
-    };
     const float middle = valley->middle();
     const PastedBias pasted = pasted_bias(middle, valley->run, lookup_.job.bias, place.frustum);
+    std::vector<float> both{middle, pasted.bias};
+    std::ranges::sort(both);
+    both.erase(std::unique(both.begin(), both.end()), both.end());
+    const auto soft = softening_with(curve.slope, curve.critical_bias, both);
+    const auto amounts_with = amounts(curve, both);
+    const auto outcome_of = [&](float bias) {
+        const std::size_t i = bias == both.front() ? 0 : 1;
+        return Outcome{curve.curve.at(bias), amounts_with[i], soft[i].total()};
+    };
     return Recommendation{place.length_of(middle),
                           place.length_of(valley->run.lo),
                           place.length_of(valley->run.hi),
@@ -395,24 +404,31 @@ void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis
     diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
 }
 
-std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<const float> biases)
+std::vector<Softening> LookupAnswers::softening_with(float slope,
+                                                     const scene::Image<float>& criticals,
+                                                     std::span<const float> biases)
 {
-    scene::Image<float> criticals = critical_biases(slope);
-    const BiasCurve curve{criticals, classes()};
-    const auto errors_by = amounts_at(slope, biases);
     require_lit_causes(biases.front(), slope);
     const TapCriticals taps_of_slope = taps(slope);
     find_blocked_causes(reached_by(criticals, taps_of_slope, biases.back()));
-    const auto rows = count_rows({classes(), deciding(), criticals, causes_, rule_with(slope),
-                                  has_texels() ? &taps_of_slope : nullptr},
-                                 curve, errors_by, biases);
+    return softening_at({classes(), deciding(), criticals, causes_, rule_with(slope),
+                         has_texels() ? &taps_of_slope : nullptr},
+                        biases);
+}
+
+std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<const float> biases)
+{
+    const scene::Image<float> criticals = critical_biases(slope);
+    const BiasCurve curve{criticals, classes()};
+    const auto errors_by = amounts_at(slope, biases);
+    const auto softening = softening_with(slope, criticals, biases);
     std::vector<MeasuredBias> measured;
     for (std::size_t i = 0; i < biases.size(); ++i) {
-        const ErrorCounts& errors = rows[i].errors;
+        const ErrorCounts errors = curve.at(biases[i]);
         measured.push_back({biases[i],
                             make_metrics(exact_->receivers().classes(),
                                          {errors.false_shadow, errors.false_lit, errors_by[i]}),
-                            rows[i].amounts});
+                            softening[i]});
     }
     return measured;
 }

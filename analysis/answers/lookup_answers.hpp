@@ -9,6 +9,7 @@
 #include "analysis/chain/pixel_causes.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/slope_curves.hpp"
+#include "analysis/softening.hpp"
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/results.hpp"
 #include "scene/job.hpp"
@@ -35,11 +36,11 @@ struct ObservedLookup {
 struct MeasuredBias {
     float bias = 0; ///< depth units
     Metrics metrics;
-    CauseAmounts amounts;
+    Softening softening;
 
     [[nodiscard]] Outcome outcome() const
     {
-        return {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, amounts.softening()};
+        return {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, softening.total()};
     }
 };
 
@@ -125,8 +126,14 @@ private:
     /// Empty if no scored pixel is lit.
     [[nodiscard]] std::optional<Recommendation> recommend(const SlopeCurve& curve);
     /// The same of fractions: of the biases around the least amount of error.
-    [[nodiscard]] std::optional<Recommendation> recommend_by_amount(float slope,
+    [[nodiscard]] std::optional<Recommendation> recommend_by_amount(const SlopeCurve& curve,
                                                                     const BiasPlace& place);
+    /// What is softened on purpose with each of several biases.
+    /// @param criticals  of that slope.
+    /// @param biases     Ascending.
+    [[nodiscard]] std::vector<Softening> softening_with(float slope,
+                                                        const scene::Image<float>& criticals,
+                                                        std::span<const float> biases);
     /// Causes and gaps at the job's bias.
     void explain(const scene::LookupLayers& own, Diagnosis& diagnosis);
     /// Errors by distance, angle and object, at the job's bias.

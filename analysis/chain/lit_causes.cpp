@@ -104,29 +104,35 @@ private:
     {
         const TracedLookups unbiased = trace_lookups(inputs_, inputs_.unbiased, pixels);
         const bool is_moved = &inputs_.job != &inputs_.unbiased;
-        const auto own =
+        const OwnTaps found =
             is_moved ? find_own(trace_lookups(inputs_, inputs_.job, pixels)) : find_own(unbiased);
         const auto half = exact_critical_biases(rule_, unbiased, inputs_.light, LitShare::half);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             causes_.pixels[pixels[i]].exact_critical_bias = half[i];
-            causes_.pixels[pixels[i]].sees = own[i][0];
+            causes_.pixels[pixels[i]].sees = found.own[i][0];
         }
         if (!causes_.filters.empty()) {
-            explain_filter(unbiased, own, half);
+            explain_filter(unbiased, found, half);
         }
     }
 
-    /// The taps of the job's lookup that see the receiver's own sheet.
-    [[nodiscard]] std::vector<TapSet> find_own(const TracedLookups& lookups) const
+    /// Taps of the job's lookup, and those of them that see the receiver's own sheet.
+    struct OwnTaps {
+        std::vector<TapSet> asked;
+        std::vector<TapSet> own;
+    };
+    [[nodiscard]] OwnTaps find_own(const TracedLookups& lookups) const
     {
         // What is remembered of a single tap must not depend on what is stored.
         const bool asks_all = inputs_.asks_below_zero || inputs_.promises().has_one_tap();
-        const auto asked = asks_all ? std::vector<TapSet>(lookups.size(), TapSet{}.set())
-                                    : shadowing_taps(inputs_, inputs_.job, lookups);
-        return own_taps(inputs_.light, lookups, asked);
+        const TapSet all = TapSet{}.set() >> (scene::most_taps - inputs_.promises().tap_count());
+        auto asked = asks_all ? std::vector<TapSet>(lookups.size(), all)
+                              : shadowing_taps(inputs_, inputs_.job, lookups);
+        auto own = own_taps(inputs_.light, lookups, asked);
+        return {std::move(asked), std::move(own)};
     }
 
-    void explain_filter(const TracedLookups& lookups, std::span<const TapSet> own,
+    void explain_filter(const TracedLookups& lookups, const OwnTaps& found,
                         std::span<const float> half)
     {
         const bool has_fractions = inputs_.promises().has_fractions();
@@ -144,7 +150,9 @@ private:
         }
         const auto centre_own = own_taps(inputs_.light, lookups, asked);
         for (std::size_t i = 0; i < lookups.size(); ++i) {
-            causes_.filters[lookups.pixel(i)] = {full[i], centre[i], centre_own[i].any(), own[i]};
+            causes_.filters[lookups.pixel(i)] = {full[i], centre[i], centre_own[i].any(),
+                                                 found.own[i],
+                                                 (found.asked[i] & ~found.own[i]).any()};
         }
     }
 

@@ -43,6 +43,7 @@ struct FilterCause {
     bool centre_is_own = false;
     /// Taps of the job's lookup that see it, of those that shadow without bias, or of all.
     TapSet own;
+    bool has_others = false; ///< whether some of those do not
 };
 
 /// The causes of an image's pixels.

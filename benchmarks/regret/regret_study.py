@@ -2,14 +2,16 @@
 """How well does a recommended constant bias serve views that it was not made from?
 
     regret_study.py GNOMON [--scenes DIR] [--out FILE.csv] [--jobs N] [--lights] [--only NAME] [--keep DIR]
+                    [--below-ground]
 
 Jobs: the built-in scenes and the meshes suzanne.obj, bunny.obj and nefertiti.obj of DIR (default $GNOMON_SHARED_SCENES)
 on ground, under a directional light and a spot, with maps of 512 and 2048 texels; nearest, d24, 640 x 360 pixels, the
 job's own camera, map and planes fitted to the scene. Both lights shine the way of the program's default light; the
 spot stands 1.5 diagonals of the scene's box from its centre, where a cone of 40 degrees holds the box's sphere.
 
-Views: the job's own and those of views.py; one that scores less than a tenth of the job's own is passed over. The own
-one and the first three are fitted to, the next seven are held out.
+Views: the job's own and those of views.py; one that scores less than a tenth of the job's own is passed over, as is one
+from below everything in the scene (--below-ground keeps those). The own one and the first three are fitted to, the
+next seven are held out.
 
 Regret of a bias: the worst share of wrong pixels over the held-out views, less the same of the single bias that
 makes it smallest, of every float32, negative ones included; in percentage points.
@@ -90,24 +92,29 @@ class StudyJob:
 
 
 def gather(view_of, wanted, own_scored):
-    """The first `wanted` of view_of(1), view_of(2), ... that score enough, up to 4 times as many tries; their indices,
-    and how many were passed over."""
+    """The first `wanted` of view_of(1), view_of(2), ... that are views and score enough, up to 4 times as many tries;
+    their indices, and how many were passed over."""
     views, indices, tries = [], [], 0
     while len(views) < wanted and tries < 4 * wanted:
         tries += 1
         view = view_of(tries)
-        if view.curve.scored > 0 and view.curve.scored >= LEAST_SCORED * own_scored:
+        if view is not None and view.curve.scored > 0 and view.curve.scored >= LEAST_SCORED * own_scored:
             views.append(view)
             indices.append(tries)
     return views, indices, tries - len(views)
 
 
-def study_views(program, job):
+def study_views(program, job, below_ground):
     """The views of a job, and its row."""
     own = program.view(job.scene, job.settings(job.camera.keys()))
-    others, _, passed_over = gather(
-        lambda k: program.view(job.scene, job.settings(job.camera.generated(k))), FITTED + HELD_OUT - 1,
-        own.curve.scored)
+    lowest_m = min(job.box[0][1], job.camera.eye[1])
+
+    def around(k):
+        keys = job.camera.generated(k)
+        is_below = keys["camera.eye"][1] < lowest_m
+        return None if is_below and not below_ground else program.view(job.scene, job.settings(keys))
+
+    others, _, passed_over = gather(around, FITTED + HELD_OUT - 1, own.curve.scored)
     fitted, held_out = [own, *others[:FITTED - 1]], others[FITTED - 1:]
     row = {"scene": job.scene.name, "light": job.light, "resolution": job.resolution, "scored_own": own.curve.scored,
            "lit_own": own.curve.lit.size, "fitted": len(fitted), "held_out": len(held_out), "passed_over": passed_over}
@@ -162,11 +169,11 @@ class Progress:
               flush=True)
 
 
-def study(program, job, with_lights, progress):
+def study(program, job, arguments, progress):
     """The job's row and its lights' rows; the row says what failed."""
     try:
-        fitted, row = study_views(program, job)
-        light_rows = study_lights(program, job, fitted) if with_lights else []
+        fitted, row = study_views(program, job, arguments.below_ground)
+        light_rows = study_lights(program, job, fitted) if arguments.lights else []
     except (RuntimeError, ValueError, OSError) as error:
         progress(job.name, f"FAILED: {error}")
         return {"scene": job.scene.name, "light": job.light, "resolution": job.resolution, "failed": str(error)}, []
@@ -211,6 +218,7 @@ def parse_arguments():
     parser.add_argument("--lights", action="store_true", help="turn the lights, too")
     parser.add_argument("--only", action="append", help="a scene's name; repeatable")
     parser.add_argument("--keep", type=Path, help="folder for what is read of each view")
+    parser.add_argument("--below-ground", action="store_true", help="keep views from below everything in the scene")
     return parser.parse_args()
 
 
@@ -233,7 +241,7 @@ def main():
         jobs = [StudyJob(scene, camera, box, light, resolution) for scene, (camera, box) in zip(scenes, framed)
                 for light in LIGHTS for resolution in RESOLUTIONS]
         progress = Progress(len(jobs))
-        results = list(pool.map(lambda job: study(program, job, arguments.lights, progress), jobs))
+        results = list(pool.map(lambda job: study(program, job, arguments, progress), jobs))
     rows = [row for row, _ in results]
     light_rows = [row for _, rows_of_job in results for row in rows_of_job]
     print(distribution_table(rows, WAYS, "bias"), beyond_promise(rows), sep="\n\n")
