@@ -82,14 +82,31 @@ std::string limit_text(const ResultRow& row, std::string_view column)
 }
 
 /// What the bias curve says of the headline configuration.
+/// What the recommended bias is in other units; empty where none is.
+std::string recommended_text(const ResultRow& row)
+{
+    const auto metres = row.number("bias_curve.recommended.bias_m");
+    const auto texels = row.number("bias_curve.recommended.bias_texels");
+    const auto views = row.number("bias_curve.recommended.views");
+    if (!metres || !texels || !views) {
+        return {};
+    }
+    return fmt::format("<p>The recommended bias is {:.3g} m along the light’s axis, {:.3g} texels, "
+                       "at the median receiver; it was made from {}.</p>\n",
+                       *metres, *texels, counted(static_cast<std::uint64_t>(*views), "view"));
+}
+
 std::string bias_table(const ResultRow& row)
 {
     if (row.text("bias_source") != "curve") {
         return {};
     }
     std::string html = table_head("Constant biases, in depth units", {"bias", "value"});
-    for (const auto& [name, column] : {std::pair{"best, from", "bias_curve.best_interval.lo"},
-                                       {"best, to", "bias_curve.best_interval.hi"},
+    for (const auto& [name, column] : {std::pair{"recommended", "bias_curve.recommended.bias"},
+                                       {"nearly as good, from", "bias_curve.recommended.low"},
+                                       {"nearly as good, to", "bias_curve.recommended.high"},
+                                       {"fewest errors, from", "bias_curve.best_interval.lo"},
+                                       {"fewest errors, to", "bias_curve.best_interval.hi"},
                                        {"smallest without acne", "bias_curve.acne_free"},
                                        {"largest without peter-panning", "bias_curve.panning_free"},
                                        {"the same, but for what is lit without any bias",
@@ -97,7 +114,8 @@ std::string bias_table(const ResultRow& row)
         html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
     }
     html += table_end;
-    return html + fmt::format("<p>At the best, {} pixels are wrong.</p>\n",
+    html += recommended_text(row);
+    return html + fmt::format("<p>At the fewest, {} pixels are wrong.</p>\n",
                               grouped(row.count("bias_curve.best_errors")));
 }
 
@@ -370,6 +388,7 @@ std::string page_body(const RunReader& run, const RunOverview& overview,
 {
     return "<body>\n<a class=\"skip\" href=\"#verdict\">To the verdict</a>\n" +
            header(run, overview) + "<main>\n" + verdict_section(overview) +
+           script_section("remedies", "What would help") +
            script_section("inspector", "Pixel by pixel") + figures_section(options, pictures) +
            script_section("distance", "By distance from the light") +
            script_section("slope", "By the receiver's slope") +

@@ -62,7 +62,7 @@ TEST(Amounts, AreInTheTableAndItsSentence)
                 "bias.constant=0.0008"});
     EXPECT_EQ(table.exit_code, 0) << table.err;
     EXPECT_THAT(table.out, HasSubstr("mean |verdict - truth|"));
-    EXPECT_THAT(table.out, HasSubstr("39.9 % of the lit surface shadows itself (acne)"));
+    EXPECT_THAT(table.out, HasSubstr("41.8 % of the lit surface shadows itself (acne)"));
     EXPECT_THAT(table.out, ::testing::Not(HasSubstr("scored pixels are right")));
 }
 

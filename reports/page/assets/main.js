@@ -17,6 +17,7 @@ class ReportPage {
     this.distance = new DistanceCharts(section("distance"));
     this.slope = section("slope");
     this.objects = new ObjectTables(section("objects"), data.headline);
+    this.remedies = new RemedySection(section("remedies"));
   }
 
   async open() {
@@ -68,6 +69,7 @@ class ReportPage {
     this.distance.show(detail?.by_light_distance_m?.map(binOfJson) ?? job?.bins ?? null, best, caption);
     showSlopeCharts(this.slope, detail?.by_receiver_angle_rad?.map(binOfJson), caption);
     this.objects.show(row, detail, caption);
+    this.remedies.show(detail, caption);
     await this.sweep?.showDetail(row, caption, image !== null);
     dropDeadCharts();
   }

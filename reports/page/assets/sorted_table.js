@@ -2,7 +2,8 @@
 
 /**
  * @param {string} caption
- * @param {{title: string, numeric: boolean, format: ?function}[]} columns  the first one heads the row
+ * @param {{title: string, numeric: boolean, wraps: boolean, format: ?function}[]} columns  the first one heads the row;
+ *     texts are cut unless they wrap
  * @param {Array[]} rows  values; null where there is none
  * @return {HTMLElement}  a scrolling region with the table
  */
@@ -29,13 +30,13 @@ function sortedTable(caption, columns, rows) {
 /** One row of a table. */
 function tableRow(columns, row) {
   const cells = row.map((value, index) => {
-    const { numeric, format } = columns[index];
+    const { numeric, wraps, format } = columns[index];
     const tag = index === 0 ? "th" : "td";
     const text = value === null ? noValue : (format ?? String)(value);
     return element(
       tag,
       { scope: index === 0 ? "row" : null, class: numeric ? "number" : null },
-      numeric ? text : nameElement(text),
+      numeric || wraps ? text : nameElement(text),
     );
   });
   return element("tr", {}, ...cells);

@@ -1,0 +1,99 @@
+// What would leave less error than the shown configuration has, and the biases that other slopes need.
+
+const measuredBy = { rerun: "GL, run again", curve: "the bias curve", slope_curve: "another slope’s bias curve" };
+
+/** "4 MiB" */
+function mebibytes(bytes) {
+  return `${readable(bytes / 1024 / 1024)} MiB`;
+}
+
+/** A bias in the units that people think in, behind its key; empty where a remedy sets none. */
+function biasLength({ bias, bias_m: metres, bias_texels: texels }) {
+  return bias > 0 && metres !== null
+    ? ` (${readable(Number(metres.toPrecision(3)))} m, ${readable(Number(texels.toPrecision(3)))} texels)`
+    : "";
+}
+
+/** The ranked remedies, from `gnomon compare --json`: the first cures most for the least. */
+function remedyTable({ remedies, pixels, false_shadow: shadow, false_lit: lit, ...now }) {
+  const scored = pixels.lit + pixels.blocked;
+  const error = (of) => rate(of.shadow_amount + of.light_amount - (of.softening ?? 0), scored);
+  const hasViews = remedies.some(({ worst_view: worst }) => worst);
+  const columns = [
+    { title: "change", wraps: true },
+    { title: "rank", numeric: true, format: grouped },
+    { title: "wrong pixels", numeric: true, format: grouped },
+    { title: "error by amount", numeric: true, format: percent },
+    { title: "map", numeric: true, format: mebibytes },
+    { title: "texels read", numeric: true, format: grouped },
+    { title: "known from", wraps: true },
+    ...(hasViews
+      ? [{ title: "worst view" }, { title: "error there", numeric: true, format: percent }]
+      : []),
+  ];
+  const worst = ({ worst_view: name, views }) => [
+    name ?? null,
+    views?.find((view) => view.name === name)?.error_amount_rate ?? null,
+  ];
+  const row = (remedy, i) => [
+    remedy.keys.join(", ") + biasLength(remedy),
+    i + 1,
+    remedy.false_shadow + remedy.false_lit,
+    error(remedy),
+    remedy.map_bytes,
+    remedy.taps,
+    measuredBy[remedy.measured_by],
+    ...(hasViews ? worst(remedy) : []),
+  ];
+  const asItIs = ["the job as it is", null, shadow + lit, error(now), null, null, null, ...(hasViews ? [null, null] : [])];
+  return sortedTable("What leaves less error, by amount without softened borders", columns, [
+    asItIs,
+    ...remedies.map(row),
+  ]);
+}
+
+/** The constant biases that each slope allows. */
+function slopeTable(slopes) {
+  const columns = [
+    { title: "slope", numeric: true, format: readable },
+    { title: "fewest errors [px]", numeric: true, format: grouped },
+    { title: "with a constant bias from", numeric: true, format: readable },
+    { title: "to", numeric: true, format: readable },
+    { title: "no acne from", numeric: true, format: readable },
+    { title: "no peter-panning up to", numeric: true, format: readable },
+  ];
+  return sortedTable(
+    "Constant biases with other slopes [depth units]",
+    columns,
+    slopes.map((slope) => [
+      slope.slope,
+      slope.best_errors,
+      slope.best_interval[0],
+      slope.best_interval[1],
+      slope.acne_free,
+      slope.panning_free,
+    ]),
+  );
+}
+
+/** Fills section#remedies; hidden where nothing is known to help. */
+class RemedySection {
+  constructor(section) {
+    this.section = section;
+  }
+
+  show(detail, caption) {
+    const remedies = detail?.remedies ?? [];
+    const slopes = detail?.slope_curves ?? [];
+    this.section.hidden = remedies.length === 0 && slopes.length === 0;
+    if (this.section.hidden) {
+      return;
+    }
+    refill(
+      this.section,
+      element("p", { class: "caption name", text: caption }),
+      ...(remedies.length > 0 ? [remedyTable(detail)] : [element("p", { text: "Nothing that was measured leaves less." })]),
+      ...(slopes.length > 0 ? [slopeTable(slopes)] : []),
+    );
+  }
+}
