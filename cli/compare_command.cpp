@@ -8,6 +8,7 @@
 #include "cli/exported_case.hpp"
 #include "cli/job_options.hpp"
 #include "cli/kept_pixels.hpp"
+#include "cli/origin_remedy.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/aov_exr.hpp"
 #include "reports/comparison_json.hpp"
@@ -215,12 +216,13 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
 
 /// A job without scored pixels has nothing to be mended.
 void advise(analysis::Comparison& comparison, const analysis::ViewRequest& request,
-            const ComparisonSession& session)
+            const ComparisonSession& session, const SessionOptions& options)
 {
     if (comparison.metrics.pixels.scored() > 0) {
         const auto views =
             analysis::judge_views(comparison.job, session.file(), session.renderers(), request);
         analysis::advise(comparison, views, session.file(), session.renderers());
+        advise_origin(comparison, session, options);
     }
 }
 
@@ -269,7 +271,7 @@ void compare(const CompareOptions& options)
         verify(comparison, session.renderers());
     }
     if (options.advise) {
-        advise(comparison, views, session);
+        advise(comparison, views, session, session_options);
     }
     if (run) {
         run->record(read_job_source(options.job), options.job.case_name, comparison,

@@ -21,6 +21,7 @@ public:
     {
         return hands_.reference();
     }
+    [[nodiscard]] const raster_gl::Context& context() const { return context_; }
     /// Valid as long as the session.
     [[nodiscard]] const analysis::Renderers& renderers() const { return hands_.renderers(); }
     [[nodiscard]] double scene_seconds() const { return scene_s_; }

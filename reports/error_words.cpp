@@ -243,9 +243,10 @@ std::string precision_kinds(const analysis::Comparison& comparison)
                            step_at_median(comparison));
     }
     const scene::Vec3d centre = comparison.triangles->bounds().centre();
-    return fmt::format(", {} of that to float32 matrices and positions: move the scene's origin "
-                       "nearer, its centre is {:.3g} m away",
-                       share(static_cast<double>(kinds->transform), all), glm::length(centre));
+    return fmt::format(", {} of that to float32 matrices and positions: an origin nearer to the "
+                       "scene helps, its centre is {} m away",
+                       share(static_cast<double>(kinds->transform), all),
+                       grouped_amount(glm::length(centre)));
 }
 
 /// Slope and normal offset are biases too, which no constant one makes up for.
@@ -297,11 +298,11 @@ std::string what_it_comes_from(const analysis::Comparison& comparison)
     for (const std::size_t i : largest(errors)) {
         const auto cause = static_cast<Cause>(i);
         parts.push_back(fmt::format("{}{}{}{}", share(errors.at(i), all),
-                                    parts.empty() ? " of the error is due to " : " to ",
+                                    parts.empty() ? " of the error is due to " : " is due to ",
                                     words(cause),
                                     cause == Cause::precision ? precision_kinds(comparison) : ""));
     }
-    return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, ", "));
+    return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
 }
 
 std::string what_to_try(const analysis::Comparison& comparison)

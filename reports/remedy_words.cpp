@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <string_view>
 
 namespace gnomon::reports {
 
@@ -68,7 +69,11 @@ std::string views_words(const analysis::Comparison& comparison, const analysis::
 
 std::string remedy_keys(const analysis::Remedy& remedy)
 {
+    constexpr std::string_view comment = "# move "; // what is no key of a job
     std::string text = fmt::format("{}", fmt::join(remedy.keys, ", "));
+    if (text.starts_with(comment)) {
+        return fmt::format("Moving {}", text.substr(comment.size()));
+    }
     if (remedy.bias && remedy.bias->depth > 0 && std::isfinite(remedy.bias->metres)) {
         text += fmt::format(" ({:.3g} m, {:.3g} {})", remedy.bias->metres, remedy.bias->texels,
                             remedy.bias->texels == 1 ? "texel" : "texels");
