@@ -17,18 +17,23 @@ std::vector<float> slopes(const BiasQuestion& question)
                                               question.job.lookup.filter, zeta_m));
 }
 
-std::optional<Recommendation> recommended(const BiasQuestion& question, const BiasCurve& curve)
+/// Nothing where even the slope's best bias leaves no less than `own` does: it is no remedy then.
+std::optional<Recommendation> recommended(const BiasQuestion& question, const SlopeCurve& curve,
+                                          const std::optional<Recommendation>& own)
 {
-    if (scene::promises(question.job.lookup.filter).has_fractions()) {
+    const bool can_leave_less =
+        own && static_cast<double>(curve.best.errors.total()) < own->pasted_outcome.error_amount();
+    if (!can_leave_less || scene::promises(question.job.lookup.filter).has_fractions()) {
         return std::nullopt;
     }
     return recommend_by_count(
-        curve,
+        curve.curve,
         {question.view.frustum, question.job.shadow_map.resolution_texels, question.median_zeta_m},
         question.job.bias);
 }
 
-void answer_slopes(const BiasQuestion& question, BiasAnswers& answers)
+void answer_slopes(const BiasQuestion& question, const std::optional<Recommendation>& own,
+                   BiasAnswers& answers)
 {
     for (const float slope : slopes(question)) {
         const SlopeCurve curve = slope_curve(question.curves, slope);
@@ -37,13 +42,14 @@ void answer_slopes(const BiasQuestion& question, BiasAnswers& answers)
             answers.best_slope = answers.slopes.size();
         }
         answers.slopes.push_back(
-            {slope, curve.best, curve.bounds, recommended(question, curve.curve)});
+            {slope, curve.best, curve.bounds, recommended(question, curve, own)});
     }
 }
 
 } // namespace
 
-BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own)
+BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own,
+                          const std::optional<Recommendation>& recommended)
 {
     BiasMap map = map_biases({own.critical_bias, question.curves.classes, question.curves.samples,
                               question.zeta_m, question.view.frustum,
@@ -56,7 +62,7 @@ BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own)
                         std::move(map),
                         {},
                         0};
-    answer_slopes(question, answers);
+    answer_slopes(question, recommended, answers);
     return answers;
 }
 

@@ -20,7 +20,8 @@ struct SlopeAnswer {
     float slope = 0; ///< depth units per unit of tan θ
     BestBiases best;
     BiasBounds bounds;
-    /// Where amounts are counts: of others each slope would have to be measured.
+    /// Where amounts are counts (of others each slope would have to be measured), and some bias
+    /// leaves less than what is recommended with the job's own slope.
     std::optional<Recommendation> recommended;
 };
 
@@ -44,8 +45,10 @@ struct BiasQuestion {
     double median_zeta_m = 0;          ///< of the scored ones
 };
 
-/// @param own  the curve of the job's own slope.
+/// @param own          the curve of the job's own slope.
+/// @param recommended  what it recommends.
 /// @throws std::invalid_argument  if the images differ in size.
-[[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own);
+[[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own,
+                                        const std::optional<Recommendation>& recommended);
 
 } // namespace gnomon::analysis

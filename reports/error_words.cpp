@@ -21,7 +21,6 @@ namespace gnomon::reports {
 namespace {
 
 using analysis::Cause;
-using analysis::Label;
 using scene::PixelClass;
 
 constexpr double worth_naming = 0.25; // of the error
@@ -67,33 +66,33 @@ std::string_view to_try(Cause cause)
 }
 
 /// "4.51 % of the lit surface shadows itself (acne)"
-std::string words(Label label, double amount, const analysis::ClassCounts& pixels)
+std::string words(analysis::Label label, double amount, const analysis::ClassCounts& pixels)
 {
     const auto of = [&](std::uint64_t whole) { return percent(analysis::ratio(amount, whole)); };
     const std::string lit = of(pixels.of(PixelClass::lit));
     const std::string blocked = of(pixels.of(PixelClass::blocked));
     switch (label) {
-    case Label::acne:
+    case analysis::Label::acne:
         return fmt::format("{} of the lit surface shadows itself (acne)", lit);
-    case Label::overshadow:
+    case analysis::Label::overshadow:
         return fmt::format("{} of the lit surface is shadowed by nothing that is there "
                            "(overshadow)",
                            lit);
-    case Label::peter_panning:
+    case analysis::Label::peter_panning:
         return fmt::format("{} of the shadowed surface is lit because the bias detaches shadows "
                            "(peter-panning)",
                            blocked);
-    case Label::leak:
+    case analysis::Label::leak:
         return fmt::format("{} of the shadowed surface is lit because the map lost what shadows it "
                            "(leaks)",
                            blocked);
-    case Label::bleed:
+    case analysis::Label::bleed:
         return fmt::format("{} of the shadowed surface is lit by the method alone (bleed)",
                            blocked);
-    case Label::edge:
+    case analysis::Label::edge:
         return fmt::format("{} of the surface is wrong along ragged or displaced shadow edges",
                            of(pixels.scored()));
-    case Label::none:
+    case analysis::Label::none:
         break;
     }
     return "";
@@ -129,7 +128,7 @@ auto errors_by_label(const analysis::Comparison& comparison)
 {
     const analysis::CauseLayers& causes = comparison.diagnosis->causes;
     return errors_of(comparison, causes.counts.by_label, causes.amounts.by_label,
-                     static_cast<std::size_t>(Label::edge));
+                     static_cast<std::size_t>(analysis::Label::edge));
 }
 
 auto errors_by_cause(const analysis::Comparison& comparison)
@@ -275,7 +274,7 @@ std::string what_is_wrong(const analysis::Comparison& comparison)
     const auto errors = errors_by_label(comparison);
     std::vector<std::string> parts;
     for (const std::size_t label : largest(errors)) {
-        parts.push_back(words(static_cast<Label>(label), errors.at(label), pixels));
+        parts.push_back(words(static_cast<analysis::Label>(label), errors.at(label), pixels));
     }
     if (parts.empty()) {
         return softened_alone(comparison);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
 
 namespace gnomon::analysis {
 
@@ -47,26 +48,38 @@ std::optional<BiasValley> at_least_level(std::span<const ErrorPiece> pieces, dou
             levels.push_back(piece.error);
         }
     }
-    std::ranges::sort(levels);
-    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-    const auto level = std::ranges::partition_point(
-        levels, [&](double tried) { return !broad_run(pieces, tried); });
-    return level == levels.end()
-               ? std::nullopt
-               : std::optional{BiasValley{*broad_run(pieces, *level), least, *level}};
+    std::optional<BiasValley> valley;
+    for (auto first = levels.begin(), last = levels.end(); first != last;) {
+        const auto middle = first + (last - first) / 2;
+        std::nth_element(first, middle, last); // in all it costs less than sorting them
+        if (const auto run = broad_run(pieces, *middle)) {
+            valley = BiasValley{*run, least, *middle};
+            last = middle;
+        } else {
+            first = middle + 1;
+        }
+    }
+    return valley;
 }
 
 } // namespace
 
 std::vector<ErrorPiece> error_pieces(std::span<const float> lit, std::span<const float> blocked)
 {
+    const auto positive = [](std::span<const float> criticals) {
+        const auto first = std::ranges::upper_bound(criticals, 0.0F);
+        return criticals.subspan(static_cast<std::size_t>(first - criticals.begin()));
+    };
+    const std::span<const float> lit_from = positive(lit);
+    const std::span<const float> blocked_from = positive(blocked);
+    const std::uint64_t lit_at_zero = blocked.size() - blocked_from.size(); // though it is blocked
     std::vector<ErrorPiece> pieces;
-    for_each_interval(lit, blocked, [&](const BiasInterval& interval, const ErrorCounts& errors) {
-        if (interval.hi >= 0) {
-            pieces.push_back(
-                {std::max(interval.lo, 0.0F), interval.hi, static_cast<double>(errors.total())});
-        }
-    });
+    pieces.reserve(lit_from.size() + blocked_from.size() + 1);
+    for_each_interval(lit_from, blocked_from,
+                      [&](const BiasInterval& interval, const ErrorCounts& errors) {
+                          pieces.push_back({std::max(interval.lo, 0.0F), interval.hi,
+                                            static_cast<double>(errors.total() + lit_at_zero)});
+                      });
     return pieces;
 }
 

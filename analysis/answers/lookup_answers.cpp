@@ -454,7 +454,7 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
         diagnosis.curve = describe(curve, profile_bias);
         diagnosis.biases = answer_biases({lookup_.job, lookup_.view, inputs, exact_->zeta_m(),
                                           exact_->median_zeta_m().value_or(0)},
-                                         std::move(curve));
+                                         std::move(curve), diagnosis.curve.recommended);
     }
     diagnosis.zeta_m = exact_->zeta_m();
     diagnosis.map_error_m = map_error_m_;
