@@ -1,10 +1,16 @@
 #include "reports/page/summary.hpp"
 
+#include "reports/remedy_words.hpp"
 #include "reports/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace gnomon::reports {
 
@@ -59,6 +65,51 @@ std::string counts(const ResultRow& row)
     return text;
 }
 
+/// Of data that anybody may have written: 0 or empty where it is not what it should be.
+std::uint64_t count_of(const Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+std::string text_of(const Json& text)
+{
+    return text.is_string() ? text.get<std::string>() : std::string{};
+}
+
+std::string remedy_row(const Json& remedy)
+{
+    std::vector<std::string> keys;
+    if (const auto found = remedy.find("keys"); found != remedy.end() && found->is_array()) {
+        for (const Json& key : *found) {
+            keys.push_back(text_of(key));
+        }
+    }
+    const auto measured_by = remedy.find("measured_by");
+    return fmt::format("| {} | {} | {} | {} | {} |\n",
+                       markdown_text(fmt::format("{}", fmt::join(keys, ", "))),
+                       grouped(count_of(remedy, "false_shadow") + count_of(remedy, "false_lit")),
+                       mebibytes(count_of(remedy, "map_bytes")), grouped(count_of(remedy, "taps")),
+                       measured_by == remedy.end() ? "" : markdown_text(text_of(*measured_by)));
+}
+
+/// What leaves less error than the headline's configuration, the first few; empty without any.
+std::string remedies(const Json& detail)
+{
+    constexpr std::size_t most_lines = 5;
+    const auto ranked = detail.is_object() ? detail.find("remedies") : detail.end();
+    if (ranked == detail.end() || !ranked->is_array() || ranked->empty()) {
+        return {};
+    }
+    std::string text = "| remedy | wrong pixels | map | texels read | known from |\n"
+                       "|---|---:|---:|---:|---|\n";
+    for (std::size_t i = 0; i < std::min(ranked->size(), most_lines); ++i) {
+        if ((*ranked)[i].is_object()) {
+            text += remedy_row((*ranked)[i]);
+        }
+    }
+    return text + "\n";
+}
+
 } // namespace
 
 std::string markdown_text(std::string_view text)
@@ -99,6 +150,7 @@ std::string summary_text(const RunReader& run, const RunOverview& overview,
         text += table(overview);
         text += overview.rows.size() > 1 ? "Of the best:\n\n" : "";
         text += counts(overview.headline->result);
+        text += remedies(overview.detail);
     }
     for (const OverviewRow& row : overview.failed) {
         text += fmt::format("- failed: {}: {}\n", markdown_text(row.settings),

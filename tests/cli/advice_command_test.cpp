@@ -109,6 +109,17 @@ TEST(Remedies, ComeBeforeCausesAndTheRecommendedBiasSurvivesAnotherPicture)
     EXPECT_LT(lower.at("false_lit_rate").get<double>(), 0.02);
 }
 
+TEST(Remedies, AreInTheSummaryOfAReport)
+{
+    const TemporaryFolder folder;
+    const std::string run = (folder.path() / "run").string();
+    EXPECT_EQ(gnomon(small({"compare", "--builtin", "sphere-plane", "--out", run})).exit_code, 0);
+    EXPECT_EQ(gnomon({"report", run, "--no-figures"}).exit_code, 0);
+    const std::string summary = text_of(folder.path() / "run" / "summary.md");
+    EXPECT_THAT(summary, HasSubstr("| remedy | wrong pixels | map | texels read | known from |"));
+    EXPECT_THAT(summary, HasSubstr("| bias.constant = "));
+}
+
 TEST(Remedies, OfAcneAreABiasBeforeALargerMap)
 {
     const Json result = compared({"--builtin", "sphere-cube", "--set", "bias.constant=0", "--set",
