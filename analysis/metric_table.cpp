@@ -301,8 +301,16 @@ void add_recommended(CurveMetrics& metrics)
         [](const Recommendation& r) { return r.outcome.amounts.shadow; });
     add("light_amount", "px", "", [](const Recommendation& r) { return r.outcome.amounts.light; });
     add("softening", "px", "", [](const Recommendation& r) { return r.outcome.softening; });
-    add("views", "", "how many views it is made of",
-        [](const Recommendation& r) { return static_cast<double>(r.views); });
+    metrics.push_back({MetricDescription{"bias_curve.recommended.views",
+                                         MetricType::count,
+                                         "",
+                                         "how many views it is made of",
+                                         {}},
+                       [](const CurveResult& curve) {
+                           return curve.recommended
+                                      ? MetricValue{std::uint64_t{curve.recommended->views}}
+                                      : none;
+                       }});
 }
 
 /// Finds the limits that four metrics are about.

@@ -71,6 +71,8 @@ ApiState gl_state(const TunedSetting& setting)
             {fmt::format("glTexStorage2D(GL_TEXTURE_2D, 1, {0}, {1}, {1});", format,
                          setting.map.resolution_texels),
              std::string{cull_names(setting.map.cull).gl}, "glDisable(GL_POLYGON_OFFSET_FILL);",
+             reversed ? "glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);"
+                      : "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);",
              fmt::format("glDepthFunc({0}); glClearDepth({1}); // lookup compares with {2}",
                          reversed ? "GL_GREATER" : "GL_LESS", reversed ? 0 : 1,
                          reversed ? "GL_GEQUAL" : "GL_LEQUAL")}};
@@ -88,8 +90,9 @@ ApiState direct3d_state(const TunedSetting& setting)
              fmt::format("D3D12_RASTERIZER_DESC: CullMode = {}, FrontCounterClockwise = TRUE, "
                          "DepthBias = 0, SlopeScaledDepthBias = 0, DepthClipEnable = TRUE;",
                          cull_names(setting.map.cull).direct3d),
-             fmt::format("D3D12_DEPTH_STENCIL_DESC::DepthFunc = D3D12_COMPARISON_FUNC_{};",
-                         reversed ? "GREATER" : "LESS"),
+             fmt::format("D3D12_DEPTH_STENCIL_DESC::DepthFunc = D3D12_COMPARISON_FUNC_{}; clear to "
+                         "{}",
+                         reversed ? "GREATER" : "LESS", reversed ? 0 : 1),
              fmt::format("D3D12_SAMPLER_DESC::ComparisonFunc = D3D12_COMPARISON_FUNC_{};",
                          reversed ? "GREATER_EQUAL" : "LESS_EQUAL")}};
 }
@@ -108,8 +111,8 @@ ApiState vulkan_state(const TunedSetting& setting)
                          "depthClampEnable = VK_FALSE;",
                          cull_names(setting.map.cull).vulkan),
              fmt::format("VkPipelineDepthStencilStateCreateInfo::depthCompareOp = "
-                         "VK_COMPARE_OP_{};",
-                         reversed ? "GREATER" : "LESS"),
+                         "VK_COMPARE_OP_{}; clear to {}",
+                         reversed ? "GREATER" : "LESS", reversed ? 0 : 1),
              fmt::format("VkSamplerCreateInfo::compareOp = VK_COMPARE_OP_{};",
                          reversed ? "GREATER_OR_EQUAL" : "LESS_OR_EQUAL")}};
 }

@@ -162,8 +162,14 @@ std::string constant_bias(const analysis::Comparison& comparison)
 std::string views(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
     const auto& views = comparison.advice_views.views;
+    std::string passed_over;
+    if (comparison.advice_views.passed_over > 0) {
+        passed_over =
+            setting_line("", fmt::format("{} passed over: they show too little, or make no view",
+                                         counted(comparison.advice_views.passed_over, "view")));
+    }
     if (views.size() < 2 || remedy.views.size() != views.size()) {
-        return "";
+        return passed_over;
     }
     std::string text = "\n";
     text += count_line("view", "as it is", "remedy 1", "");
@@ -172,11 +178,7 @@ std::string views(const analysis::Comparison& comparison, const analysis::Remedy
                            percent(remedy.views[i].error_rate()), "");
     }
     text += count_line("all", "", percent(analysis::pooled(remedy.views).error_rate()), "");
-    if (comparison.advice_views.passed_over > 0) {
-        text += setting_line("", fmt::format("{} passed over: they show too little",
-                                             counted(comparison.advice_views.passed_over, "view")));
-    }
-    return text;
+    return text + passed_over;
 }
 
 /// What helps, ranked: what it leaves, what it costs, and how that is known.

@@ -154,7 +154,8 @@ std::vector<std::size_t> largest(const std::array<double, size>& errors)
 {
     std::vector<std::size_t> order;
     for (std::size_t i = 1; i < size; ++i) { // the first is "none"
-        if (errors.at(i) > 0 && errors.at(i) >= worth_naming * sum_of(errors)) {
+        const bool is_largest = errors.at(i) == std::ranges::max(errors);
+        if (errors.at(i) > 0 && (is_largest || errors.at(i) >= worth_naming * sum_of(errors))) {
             order.push_back(i);
         }
     }
@@ -219,7 +220,10 @@ std::string blind_depths(const analysis::Comparison& comparison)
     }
     const double step_m =
         analysis::depth_step_length_m(frustum, of_transforms, double{zeta_m->median});
-    if (step_m < too_long * (double{zeta_m->max} - double{zeta_m->min})) {
+    const double texel_m =
+        frustum.texel_width_m(double{zeta_m->median}, comparison.job.shadow_map.resolution_texels);
+    // Flat receivers have no range, and a step below a texel's width is none that one sees.
+    if (step_m < texel_m || step_m < too_long * (double{zeta_m->max} - double{zeta_m->min})) {
         return "";
     }
     return fmt::format("the map cannot tell depths apart, for with near = {:.3g} and far = {:.3g} "
@@ -241,11 +245,13 @@ std::string precision_kinds(const analysis::Comparison& comparison)
                            scene::depth_format_name(comparison.job.shadow_map.depth_format),
                            step_at_median(comparison));
     }
-    const scene::Vec3d centre = comparison.triangles->bounds().centre();
-    return fmt::format(", {} of that to float32 matrices and positions: an origin nearer to the "
-                       "scene helps, its centre is {} m away",
-                       share(static_cast<double>(kinds->transform), all),
-                       grouped_amount(glm::length(centre)));
+    const scene::Box box = comparison.triangles->bounds();
+    const double away_m = glm::length(box.centre());
+    const std::string what = fmt::format(", {} of that to float32 matrices and positions",
+                                         share(static_cast<double>(kinds->transform), all));
+    return away_m > box.diagonal_m() ? fmt::format("{}: the scene's centre is {} m from its origin",
+                                                   what, grouped_amount(away_m))
+                                     : what;
 }
 
 /// Slope and normal offset are biases too, which no constant one makes up for.

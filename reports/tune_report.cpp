@@ -163,14 +163,24 @@ std::string verdict(const TuneResult& result, const TuneLimits& limits)
                        limits.max_resolution_texels, views, asked);
 }
 
-/// "Other culling and filters were not tried at 256 and 512 texels: …"
+std::vector<std::string> hopeless_maps(const TuneResult& result)
+{
+    std::vector<std::string> names;
+    for (const analysis::MapSize& size : result.hopeless) {
+        names.push_back(
+            fmt::format("{} {}", size.resolution_texels, scene::depth_format_name(size.format)));
+    }
+    return names;
+}
+
+/// "Other culling and filters were not tried with 256 d16, 256 d24: …"
 std::string not_tried(const TuneResult& result)
 {
-    return result.hopeless_texels.empty()
+    return result.hopeless.empty()
                ? ""
-               : fmt::format("Other culling and filters were not tried at {} texels, where errors "
-                             "are more than eight times the limits.\n",
-                             fmt::join(result.hopeless_texels, ", "));
+               : fmt::format("Other culling and filters were not tried with {}, whose errors are "
+                             "more than eight times the limits.\n",
+                             fmt::join(hopeless_maps(result), ", "));
 }
 
 /// What GL measured with it, in each view.
@@ -186,8 +196,15 @@ std::string measured(const TuneResult& result, const TuneLimits& limits)
                         percent(view.metrics.false_shadow_rate),
                         percent(view.metrics.false_lit_rate), meets(view, limits) ? "met" : "-");
     }
+    if (result.measured_views.size() > 1) {
+        const std::size_t worst = analysis::worst_view(result.measured_views);
+        text += fmt::format("All together {}; the worst is {} with {}.\n",
+                            percent(analysis::pooled(result.measured_views).error_rate()),
+                            result.views[worst].name,
+                            percent(result.measured_views[worst].error_rate()));
+    }
     if (result.passed_over > 0) {
-        text += fmt::format("{} passed over: they show too little.\n",
+        text += fmt::format("{} passed over: they show too little, or make no view.\n",
                             counted(result.passed_over, "view"));
     }
     return text;
@@ -307,7 +324,7 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
               {"pooled", outcome_json(analysis::pooled(result.measured_views))},
               {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
               {"why", errors_in_words(result.measured)},
-              {"hopeless_resolutions", result.hopeless_texels}};
+              {"hopeless_maps", hopeless_maps(result)}};
     json["considered"] = Json::array();
     for (const TunedSetting& setting : result.considered) {
         json["considered"].push_back(setting_json(setting));

@@ -4,6 +4,7 @@
 #include "analysis/advice/map_cost.hpp"
 #include "analysis/advice/variants.hpp"
 #include "analysis/bias_units.hpp"
+#include "scene/error.hpp"
 
 #include <stdexcept>
 #include <utility>
@@ -35,7 +36,14 @@ public:
     void run()
     {
         for (const Variant& variant : variants_for(comparison_)) {
-            try_variant(variant);
+            try {
+                try_variant(variant);
+            } catch (const scene::InputError&) {
+                if (variant.keys.empty()) {
+                    throw;
+                } // else the job's other keys do not go with the change in some view: it is no
+                  // remedy
+            }
         }
     }
 
@@ -48,20 +56,20 @@ private:
         }
         const BiasPlace place{search.own_view().frustum, variant.job.shadow_map.resolution_texels,
                               views_.own().median_zeta_m};
-        const scene::Bias own = scene::resolve_bias(variant.job.bias, place.frustum);
-        const std::vector<ViewOutcome> as_it_is = search.measure(own.constant, own.slope);
+        const auto slope = static_cast<float>(variant.job.bias.slope);
+        const std::vector<ViewOutcome> as_it_is = search.measure_as_set(slope);
         if (variant.keys.empty()) {
             keep_views(as_it_is);
         } else {
             add(variant, variant.keys, as_it_is, std::nullopt);
         }
-        const FoundBias found = search.find(no_limits(), own.slope);
-        const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, own.slope);
+        const FoundBias found = search.find(no_limits(), slope);
+        const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, slope);
         std::vector<std::string> keys = variant.keys;
         keys.push_back(found.pasted.key);
         add(variant, std::move(keys), measured, place.length_of(found.pasted.bias));
         if (variant.keys.empty() && views_.views.size() > 1) {
-            recommend(found, measured, place);
+            recommend(found, search.measure(found.middle, slope), measured, place);
         }
     }
 
@@ -85,22 +93,22 @@ private:
     }
 
     /// What is recommended holds for all views now.
-    void recommend(const FoundBias& found, const std::vector<ViewOutcome>& measured,
-                   const BiasPlace& place)
+    /// @param with_middle, with_pasted  What GL gives with that bias.
+    void recommend(const FoundBias& found, const std::vector<ViewOutcome>& with_middle,
+                   const std::vector<ViewOutcome>& with_pasted, const BiasPlace& place)
     {
         if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
             return;
         }
-        const BiasLength bias = place.length_of(found.pasted.bias);
-        const Outcome outcome = own_outcome(measured.front());
-        comparison_.diagnosis->curve.recommended = Recommendation{bias,
-                                                                  place.length_of(found.run.lo),
-                                                                  place.length_of(found.run.hi),
-                                                                  outcome,
-                                                                  found.pasted,
-                                                                  bias,
-                                                                  outcome,
-                                                                  measured.size()};
+        comparison_.diagnosis->curve.recommended =
+            Recommendation{place.length_of(found.middle),
+                           place.length_of(found.run.lo),
+                           place.length_of(found.run.hi),
+                           own_outcome(with_middle.front()),
+                           found.pasted,
+                           place.length_of(found.pasted.bias),
+                           own_outcome(with_pasted.front()),
+                           with_pasted.size()};
     }
 
     /// How far a step of the stored depth reaches at the median receiver, now and with the change.

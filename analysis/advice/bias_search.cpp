@@ -107,9 +107,10 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
         told_like_ = job.bias;
     }
     added.view = scene::resolve_view(added.job, file_.scene, file_.defaults);
+    added.set_constant = scene::resolve_bias(job.bias, added.view.frustum).constant;
     added.judged = &judged;
     const bool is_directional = added.view.frustum.projection == scene::Projection::orthographic;
-    if (in_metres_ && is_directional && !told_like_.constant_m) {
+    if (views_.size() == 1 && in_metres_ && is_directional && !told_like_.constant_m) {
         told_like_.constant_m = 0; // what is carried from light to light is told as such
     }
     draw(views_.size() - 1);
@@ -134,7 +135,7 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
 
 float BiasSearch::carried(std::size_t to, float bias) const
 {
-    if (!in_metres_ || to == 0 || !(bias > 0)) {
+    if (!shares_metres() || to == 0 || !(bias > 0)) {
         return bias;
     }
     const SearchedView& own = views_.front();
@@ -146,7 +147,7 @@ float BiasSearch::carried(std::size_t to, float bias) const
 
 float BiasSearch::carried_back(std::size_t from, float bias) const
 {
-    if (!in_metres_ || from == 0 || !(bias > 0) || std::isinf(bias)) {
+    if (!shares_metres() || from == 0 || !(bias > 0) || std::isinf(bias)) {
         return bias;
     }
     const SearchedView& own = views_.front();
@@ -270,21 +271,23 @@ BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, flo
     return {find_valley(pieces), meeting_runs(biases, meets_at)};
 }
 
-PastedBias BiasSearch::chosen(const Valley& found) const
+float BiasSearch::middle_of(const Valley& found) const
 {
-    const scene::LightFrustum& frustum = own_view().frustum;
-    if (!found.valley) {
-        return pasted_bias(0, {}, told_like_, frustum);
-    }
-    const float middle =
-        allowed_bias(*found.valley, found.allowed).value_or(found.valley->middle());
-    BiasInterval within = found.valley->run;
+    return found.valley
+               ? allowed_bias(*found.valley, found.allowed).value_or(found.valley->middle())
+               : 0;
+}
+
+PastedBias BiasSearch::pasted_of(const Valley& found) const
+{
+    const float middle = middle_of(found);
+    BiasInterval within = found.valley ? found.valley->run : BiasInterval{};
     for (const BiasInterval& allowed : found.allowed) {
         if (allowed.lo <= middle && middle <= allowed.hi) {
             within = common(within, allowed).value_or(allowed);
         }
     }
-    return pasted_bias(middle, within, told_like_, frustum);
+    return pasted_bias(middle, within, told_like_, own_view().frustum);
 }
 
 FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const
@@ -293,7 +296,11 @@ FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const
     const std::vector<BiasCurve> of_views = is_soft ? std::vector<BiasCurve>{} : curves(slope);
     const Valley valley =
         is_soft ? valley_of_fractions(limits, slope) : valley_of(of_views, limits);
-    FoundBias found{valley.valley ? valley.valley->run : BiasInterval{}, chosen(valley), {}, true};
+    FoundBias found{valley.valley ? valley.valley->run : BiasInterval{},
+                    middle_of(valley),
+                    pasted_of(valley),
+                    {},
+                    true};
     const std::array<float, 1> constant{found.pasted.bias};
     for (std::size_t view = 0; view < views_.size(); ++view) {
         if (is_soft) {
@@ -311,6 +318,15 @@ FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const
         found.meets_limits = found.meets_limits && meets(found.outcomes.back(), limits);
     }
     return found;
+}
+
+std::vector<ViewOutcome> BiasSearch::measure_as_set(float slope) const
+{
+    std::vector<ViewOutcome> outcomes;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        outcomes.push_back(measured_by_gl(view, views_[view].set_constant, slope));
+    }
+    return outcomes;
 }
 
 std::vector<ViewOutcome> BiasSearch::measure(float constant, float slope) const

@@ -19,7 +19,8 @@ namespace gnomon::analysis {
 /// The constant bias that is recommended for some views, with one slope.
 struct FoundBias {
     BiasInterval run;  ///< the valley's, in the job's own view; hi infinite: nothing limits it
-    PastedBias pasted; ///< as a job file has it
+    float middle = 0;  ///< the recommended bias of the job's own view
+    PastedBias pasted; ///< one of the valley with few digits, as a job file has it
     std::vector<ViewOutcome> outcomes; ///< with the recommended one, by view
     bool meets_limits = false;         ///< in every view
 
@@ -50,6 +51,8 @@ public:
     /// Source: docs/bias_curve.md#what-is-recommended.
     [[nodiscard]] FoundBias find(const TuneLimits& limits, float slope) const;
 
+    /// What GL itself gives in each view with the constant bias that its job sets, and a slope.
+    [[nodiscard]] std::vector<ViewOutcome> measure_as_set(float slope) const;
     /// What GL itself gives in each view with a constant bias and slope.
     /// @param constant  In the first view; carried to the others.
     [[nodiscard]] std::vector<ViewOutcome> measure(float constant, float slope) const;
@@ -58,6 +61,7 @@ private:
     struct SearchedView {
         scene::Job job;
         scene::View view;
+        float set_constant = 0; ///< of its job [depth units]
         const JudgedView* judged = nullptr;
         scene::LookupLayers deciding;           ///< empty where verdicts are fractions
         std::unique_ptr<LookupAnswers> answers; ///< there alone
@@ -82,8 +86,11 @@ private:
     [[nodiscard]] std::vector<ViewOutcome> outcomes_in(std::size_t view, float slope,
                                                        std::span<const float> biases) const;
     [[nodiscard]] ViewOutcome measured_by_gl(std::size_t view, float constant, float slope) const;
-    /// The bias to take of a valley, in the first view.
-    [[nodiscard]] PastedBias chosen(const Valley& found) const;
+    /// The bias to take of a valley, in the first view, and the same with few digits.
+    [[nodiscard]] float middle_of(const Valley& found) const;
+    [[nodiscard]] PastedBias pasted_of(const Valley& found) const;
+    /// Whether views share the bias's length, and not its depth units.
+    [[nodiscard]] bool shares_metres() const { return in_metres_ || told_like_.constant_m; }
     /// A bias of the first view in another, and back.
     [[nodiscard]] float carried(std::size_t to, float bias) const;
     [[nodiscard]] float carried_back(std::size_t from, float bias) const;

@@ -45,7 +45,8 @@ void add_curves(const Comparison& comparison, std::vector<Remedy>& remedies)
         remedies.push_back(
             recommended_remedy(comparison, {}, *diagnosis.curve.recommended, MeasuredBy::curve));
     }
-    if (!diagnosis.biases) {
+    // Slopes are known of the job's own view alone.
+    if (!diagnosis.biases || comparison.advice_views.views.size() > 1) {
         return;
     }
     // Slopes that leave no less than the job's own are no remedies: they are more to set.
@@ -61,20 +62,6 @@ void add_curves(const Comparison& comparison, std::vector<Remedy>& remedies)
                                                   *answer.recommended, MeasuredBy::slope_curve));
         }
     }
-}
-
-/// Of GL's own reruns the least wrong: they know nothing of softening.
-void add_reruns(const Comparison& comparison, std::vector<Remedy>& remedies)
-{
-    if (comparison.reruns.empty() || !comparison.advice.empty()) {
-        return;
-    }
-    const auto least = std::ranges::min_element(
-        comparison.reruns, {}, [](const BiasRerun& rerun) { return rerun.amounts.total(); });
-    remedies.push_back(bias_remedy(
-        comparison, {fmt::format("bias.constant = {}", least->bias)},
-        {least->errors, least->amounts, comparison.diagnosis->causes.amounts.softening()},
-        MeasuredBy::rerun));
 }
 
 /// Changes that say the same: what GL measured goes before what a curve knows.
@@ -105,7 +92,6 @@ std::vector<Remedy> ranked_remedies(const Comparison& comparison)
     }
     std::vector<Remedy> remedies = comparison.advice;
     add_curves(comparison, remedies);
-    add_reruns(comparison, remedies);
     remove_repeats(remedies);
     const double now = error_amount(comparison);
     std::erase_if(remedies,

@@ -117,7 +117,7 @@ private:
             }
             for (const MapSize& size : sizes) {
                 const bool is_first = filter == Filter::nearest;
-                if (is_first || !is_hopeless(size.resolution_texels)) {
+                if (is_first || !is_hopeless(size)) {
                     try_size(size, filter);
                 }
             }
@@ -129,8 +129,7 @@ private:
     {
         std::set<int> done;
         for (const MapSize& size : sizes) {
-            if (is_hopeless(size.resolution_texels) ||
-                !done.insert(size.resolution_texels).second) {
+            if (is_hopeless(size) || !done.insert(size.resolution_texels).second) {
                 continue;
             }
             const TunedSetting* best = nullptr;
@@ -153,10 +152,9 @@ private:
         return times_above(setting.bias.outcomes.front(), limits_) > hopeless_factor;
     }
 
-    [[nodiscard]] bool is_hopeless(int resolution_texels) const
+    [[nodiscard]] bool is_hopeless(const MapSize& size) const
     {
-        return std::ranges::find(result_.hopeless_texels, resolution_texels) !=
-               result_.hopeless_texels.end();
+        return std::ranges::find(result_.hopeless, size) != result_.hopeless.end();
     }
 
     /// All frusta with the job's culling; the best of them with other culling.
@@ -171,8 +169,8 @@ private:
             result_.considered.end(),
             [](const TunedSetting& a, const TunedSetting& b) { return is_better(a, b); });
         if (filter == Filter::nearest && is_far_from_limits(*best)) {
-            if (!is_hopeless(size.resolution_texels)) {
-                result_.hopeless_texels.push_back(size.resolution_texels);
+            if (!is_hopeless(size)) {
+                result_.hopeless.push_back(size);
             }
             return;
         }
@@ -270,7 +268,9 @@ bool is_better(const TunedSetting& a, const TunedSetting& b)
                                       : std::pair{std::uint64_t{0}, 0};
     };
     const auto order = [&](const TunedSetting& setting) {
-        const ViewOutcome pooled = setting.pooled();
+        // What fails was not looked at in all views: the job's own tells them apart.
+        const ViewOutcome pooled =
+            setting.meets_limits() ? setting.pooled() : setting.bias.outcomes.front();
         return std::tuple{cost(setting),
                           pooled.error_rate().value_or(0),
                           pooled.metrics.error_rate.value_or(0),

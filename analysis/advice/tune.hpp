@@ -3,6 +3,7 @@
 #include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/judged_views.hpp"
 #include "analysis/advice/tune_limits.hpp"
+#include "analysis/advice/tune_space.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/renderers.hpp"
 
@@ -34,9 +35,9 @@ struct TuneResult {
     std::size_t recommended = 0;          ///< index; the one that is least wrong if none meets
     std::vector<AdviceView> views;        ///< that the limits hold in; the job's own first
     std::size_t passed_over = 0;          ///< generated views that showed too little
-    /// Sizes at which other culling and filters were not tried, for errors were far above the
-    /// limits [texels].
-    std::vector<int> hopeless_texels;
+    /// Maps with which other culling and filters were not tried, for errors were far above the
+    /// limits.
+    std::vector<MapSize> hopeless;
     Comparison measured; ///< GL's own run with the recommended setting, in the job's own view
     std::vector<ViewOutcome> measured_views; ///< the same in every view
 

@@ -14,6 +14,7 @@ struct MapSize {
     scene::DepthFormat format;
 
     [[nodiscard]] std::uint64_t bytes() const;
+    friend bool operator==(const MapSize&, const MapSize&) = default;
 };
 /// Powers of two from 256 up and the job's own, in d16, d24, d32f and the job's own format: from
 /// the fewest bytes, of as many the smaller resolution first.
