@@ -38,7 +38,8 @@ public:
     BiasSearch(const scene::SceneFile& file, const Renderers& renderers, bool in_metres);
 
     /// Draws the view's receivers and map with these settings, and looks them up.
-    /// @param job  With the view's camera and light; its constant and slope bias are not looked at.
+    /// @param job  With the view's camera and light; its constant bias is that of `measure_as_set`,
+    ///             its slope is not looked at.
     /// @throws scene::InputError  where verdicts can be fractions and the renderers have no exact
     ///                            light, which tells softened borders from errors.
     void add_view(const scene::Job& job, const JudgedView& judged);
@@ -47,7 +48,7 @@ public:
 
     /// The recommended constant bias, within the limits where they can be met: with few digits, if
     /// such a one will do. Where each verdict is one comparison, limits that are not met then
-    /// cannot be met with any constant bias.
+    /// cannot be met with any constant bias, but for what carrying it in metres rounds.
     /// Source: docs/bias_curve.md#what-is-recommended.
     [[nodiscard]] FoundBias find(const TuneLimits& limits, float slope) const;
 
