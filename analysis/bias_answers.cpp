@@ -28,7 +28,7 @@ std::optional<Recommendation> recommended(const BiasQuestion& question, const Sl
     }
     return recommend_by_count(
         curve.curve,
-        {question.view.frustum, question.job.shadow_map.resolution_texels, question.median_zeta_m},
+        {question.view.frustum, question.job.shadow_map.resolution_texels, question.unit_zeta_m},
         question.job.bias);
 }
 

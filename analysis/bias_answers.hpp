@@ -42,7 +42,7 @@ struct BiasQuestion {
     const scene::View& view;
     SlopeInputs curves;
     const scene::Image<float>& zeta_m; ///< light distance of the receivers [m]
-    double median_zeta_m = 0;          ///< of the scored ones
+    double unit_zeta_m = 0;            ///< at which biases are told as lengths [m]
 };
 
 /// @param own          the curve of the job's own slope.

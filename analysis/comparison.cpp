@@ -1,5 +1,7 @@
 #include "analysis/comparison.hpp"
 
+#include "analysis/chain/float_map.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -36,7 +38,9 @@ auto timed(double& seconds, Stage&& stage)
 void require_renderers(const Renderers& renderers)
 {
     if (!renderers.draw_receivers || !renderers.draw_shadow_map || !renderers.look_up ||
-        !renderers.find_truth || (renderers.make_exact_light && !renderers.read_map_depths)) {
+        !renderers.find_truth ||
+        (renderers.make_exact_light &&
+         (!renderers.read_map_depths || !renderers.read_float_depths))) {
         throw std::invalid_argument("compare: renderers: a stage has no callable");
     }
 }
@@ -96,6 +100,7 @@ std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
     const BiasAnswers& answers = *comparison.diagnosis->biases;
     const auto& triangles = comparison.receivers.triangle;
     const std::array<float, 2> wanted{comparison.view.bias.constant, answers.best.recommended()};
+    renderers.draw_shadow_map(comparison.job, comparison.view);
     return verify_biases(comparison.job, comparison.view, triangles, answers.critical_bias,
                          biases_to_verify(answers.critical_bias, triangles, wanted), renderers);
 }
@@ -117,7 +122,7 @@ Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
 
 namespace {
 
-/// Draws the job's map again with floats, if there is something to ask of it, and then as it was.
+/// What the same map of 32-bit floats says of the pixels.
 PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Renderers& renderers)
 {
     const auto pixels =
@@ -125,20 +130,15 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
     if (pixels.empty()) {
         return {};
     }
-    const scene::Job& job = comparison.job;
-    scene::Job floats = job;
-    floats.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
-    scene::View unbiased = comparison.view;
-    unbiased.bias = {};
-    renderers.draw_shadow_map(floats, unbiased);
-    const scene::LookupLayers lookup = renderers.look_up(floats, unbiased);
-    const bool has_one_tap = scene::promises(job.lookup.filter).has_one_tap();
-    const auto depths = has_one_tap ? scene::Image<float>{} : renderers.read_map_depths();
-    renderers.draw_shadow_map(job, comparison.view);
-    const auto light = renderers.make_exact_light(floats, comparison.view, comparison.receivers);
-    return find_precision_kinds({job.lookup, job.shadow_map.resolution_texels,
+    const FloatMap map =
+        draw_float_map(comparison.job, comparison.view, comparison.lookup, pixels, renderers);
+    const bool derives = map.unbiased.samples.empty();
+    const auto light =
+        renderers.make_exact_light(comparison.job, comparison.view, comparison.receivers);
+    return find_precision_kinds({comparison.job.lookup, comparison.job.shadow_map.resolution_texels,
                                  comparison.view.frustum.reversed, comparison.truth,
-                                 comparison.lookup, lookup, depths, *light},
+                                 comparison.lookup, derives ? comparison.lookup : map.unbiased,
+                                 map.depths, *light},
                                 pixels, comparison.view.bias);
 }
 

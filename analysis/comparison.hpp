@@ -110,6 +110,8 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers, floa
 /// filter has no bias curve, and a diagnosis is asked for, GL's lookup is run again with other
 /// biases.
 ///
+/// The shadow map drawn last need not be the job's afterwards.
+///
 /// `seconds.bvh` stays 0, and `seconds.scene` covers only what happens in here: whoever read the
 /// scene and built the hierarchy adds that time.
 /// @param file  The scene; must outlive the result, which points to its triangles.

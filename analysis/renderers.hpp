@@ -35,6 +35,9 @@ struct Renderers {
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
     /// The depths of the map drawn last, as shaders see them, top left first.
     std::function<scene::Image<float>()> read_map_depths;
+    /// Those of some rows of the same map drawn as d32f; the map drawn last is lost.
+    std::function<scene::Image<float>(const scene::Job&, const scene::View&, scene::TexelRows)>
+        read_float_depths;
     /// Empty: errors stay without a diagnosis. What it makes may refer to its arguments.
     std::function<std::unique_ptr<scene::ExactLight>(const scene::Job&, const scene::View&,
                                                      const scene::ReceiverLayers&)>

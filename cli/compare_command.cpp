@@ -226,11 +226,11 @@ void advise(analysis::Comparison& comparison, const analysis::ViewRequest& reque
     }
 }
 
-/// Before anything else is drawn into the map.
 void write_light_view(const CompareOptions& options, const analysis::Comparison& comparison,
                       const analysis::Renderers& renderers)
 {
     if (!options.depth_map_path.empty()) {
+        renderers.draw_shadow_map(comparison.job, comparison.view);
         reports::write_depth_map(options.depth_map_path, comparison, renderers.read_map_depths());
     }
 }

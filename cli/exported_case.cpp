@@ -17,6 +17,7 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
                                scene::resolve_light(job, defaults),
                                {},
                                {}};
+    renderers.draw_shadow_map(job, comparison.view);
     if (!scene::promises(job.lookup.filter).has_one_tap()) {
         extras.map_depths = renderers.read_map_depths();
     }

@@ -62,6 +62,15 @@ scene::Image<float> GlRenderer::read_map_depths() const
     return raster_gl::read_shader_depths(context_, *shadow_map_);
 }
 
+scene::Image<float> GlRenderer::read_float_depths(const scene::Job& job, const scene::View& view,
+                                                  scene::TexelRows rows)
+{
+    scene::ShadowMapSettings floats = job.shadow_map;
+    floats.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+    shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, floats, rows);
+    return raster_gl::read_shader_depths(context_, *shadow_map_, rows);
+}
+
 analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& facts,
                                    const reference_rt::ReferenceScene& reference,
                                    const reference_rt::TruthOptions& options)
@@ -81,6 +90,10 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
         return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
     };
     renderers.read_map_depths = [&gl] { return gl.read_map_depths(); };
+    renderers.read_float_depths = [&gl](const scene::Job& job, const scene::View& view,
+                                        scene::TexelRows rows) {
+        return gl.read_float_depths(job, view, rows);
+    };
     if (options.method == reference_rt::TruthMethod::exact) {
         renderers.make_exact_light =
             [&reference, threads = options.threads](const scene::Job& job, const scene::View& view,

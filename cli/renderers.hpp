@@ -30,6 +30,9 @@ public:
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
+    /// Draws these rows of the job's map as d32f, which takes its place, and reads their depths.
+    [[nodiscard]] scene::Image<float>
+    read_float_depths(const scene::Job& job, const scene::View& view, scene::TexelRows rows);
 
 private:
     struct Receivers {

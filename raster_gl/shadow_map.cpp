@@ -96,6 +96,19 @@ bool is_large(int resolution_texels)
     return resolution_texels > 4096;
 }
 
+/// While it lives, draws and clears touch these rows alone.
+class DrawnRows {
+public:
+    DrawnRows(scene::TexelRows rows, int width_texels)
+    {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(0, rows.first, width_texels, rows.count);
+    }
+    DrawnRows(const DrawnRows&) = delete;
+    DrawnRows& operator=(const DrawnRows&) = delete;
+    ~DrawnRows() { glDisable(GL_SCISSOR_TEST); }
+};
+
 /// Copies one pixel. Drivers keep a deleted texture until a draw samples another one in its place.
 void let_go_of_deleted_textures()
 {
@@ -151,6 +164,14 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
                                scene::depth_format_name(settings.depth_format)));
     map_.format = settings.depth_format;
     map_.resolution_texels = size;
+}
+
+const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::LightFrustum& frustum,
+                                       const scene::ShadowMapSettings& settings,
+                                       scene::TexelRows rows)
+{
+    const DrawnRows only{rows, settings.resolution_texels};
+    return render(scene, frustum, settings);
 }
 
 const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::LightFrustum& frustum,
@@ -224,19 +245,26 @@ scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& 
 
 scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map)
 {
+    return read_shader_depths(context, map, {0, map.resolution_texels});
+}
+
+scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map,
+                                       scene::TexelRows rows)
+{
     // In bands, so that a large map is not there a third time.
     const int resolution = map.resolution_texels;
-    const int band_rows = std::min(resolution, 256);
+    const int band_rows = std::min(rows.count, 256);
     const DepthCopy copy{resolution, band_rows};
     scene::Image<float> depths{{resolution, resolution}};
-    for (int first_row = 0; first_row < resolution; first_row += band_rows) {
-        const int rows = std::min(band_rows, resolution - first_row);
-        copy.draw(map.depth, first_row, rows);
+    const int end = rows.first + rows.count;
+    for (int first_row = rows.first; first_row < end; first_row += band_rows) {
+        const int drawn = std::min(band_rows, end - first_row);
+        copy.draw(map.depth, first_row, drawn);
         // Turned over, a short last band's rows are the last ones, and the map's top comes first.
         const auto band = copy.read();
-        std::copy_n(band.data() + std::ptrdiff_t{band_rows - rows} * resolution,
-                    std::ptrdiff_t{rows} * resolution,
-                    depths.data() + std::ptrdiff_t{resolution - first_row - rows} * resolution);
+        std::copy_n(band.data() + std::ptrdiff_t{band_rows - drawn} * resolution,
+                    std::ptrdiff_t{drawn} * resolution,
+                    depths.data() + std::ptrdiff_t{resolution - first_row - drawn} * resolution);
     }
     context.check("reading the map's depths");
     return depths;

@@ -6,6 +6,7 @@
 #include "raster_gl/program.hpp"
 #include "scene/image.hpp"
 #include "scene/job.hpp"
+#include "scene/layers.hpp"
 
 #include <cstdint>
 
@@ -37,6 +38,9 @@ public:
     /// @throws scene::EnvironmentError  if GL fails, memory included.
     const ShadowMap& render(const GpuScene& scene, const scene::LightFrustum& frustum,
                             const scene::ShadowMapSettings& settings);
+    /// The same map in these rows alone; what the others hold is left open.
+    const ShadowMap& render(const GpuScene& scene, const scene::LightFrustum& frustum,
+                            const scene::ShadowMapSettings& settings, scene::TexelRows rows);
 
 private:
     void allocate(const scene::ShadowMapSettings& settings);
@@ -61,5 +65,8 @@ private:
 /// The depths as shaders see them, top left first. Reading a depth texture as floats gives other
 /// bits on some drivers, so a shader writes them.
 [[nodiscard]] scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map);
+/// The same of these rows; the image is of the map's size, and 0 in the others.
+[[nodiscard]] scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map,
+                                                     scene::TexelRows rows);
 
 } // namespace gnomon::raster_gl

@@ -30,6 +30,12 @@ struct LookupLayers {
     Image<Vec2f> texels = {};
 };
 
+/// Some of a shadow map's rows of texels, counted from its lower edge.
+struct TexelRows {
+    int first = 0;
+    int count = 0;
+};
+
 /// How the signs that decide the truth were found.
 struct TruthSigns {
     std::uint64_t filtered = 0; ///< in double, by a proven error bound

@@ -3,6 +3,7 @@
 #include "analysis/chain/blocked_causes.hpp"
 #include "analysis/chain/lit_causes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -32,8 +33,13 @@ scene::ImageSize ExactLightCache::size_if(bool is_kept) const
     return is_kept ? view_.image : scene::ImageSize{0, 0};
 }
 
-std::optional<double> ExactLightCache::median_zeta_m()
+std::optional<double> ExactLightCache::representative_zeta_m()
 {
+    if (view_.frustum.projection == scene::Projection::orthographic) {
+        const auto scored =
+            std::ranges::find_if(*zeta_m_, [](float m) { return std::isfinite(m); });
+        return scored != zeta_m_->end() ? std::optional{double{*scored}} : std::nullopt;
+    }
     if (!zeta_quantiles_m_) {
         zeta_quantiles_m_ = find_quantiles(std::vector<float>(zeta_m_->begin(), zeta_m_->end()));
     }

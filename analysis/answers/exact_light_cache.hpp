@@ -39,8 +39,10 @@ public:
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
     /// Light distance of the scored receivers [m], else NaN.
     [[nodiscard]] const scene::Image<float>& zeta_m() const { return *zeta_m_; }
-    /// The median light distance of the scored receivers [m]; empty if there are none.
-    [[nodiscard]] std::optional<double> median_zeta_m();
+    /// The light distance at which biases are told as lengths [m]: the median of the scored
+    /// receivers', or any of them where lengths are the same everywhere (a directional light's);
+    /// empty if there are none.
+    [[nodiscard]] std::optional<double> representative_zeta_m();
     /// The scored receivers by light distance.
     [[nodiscard]] const Binning& distances() const { return *distances_; }
     /// The scored receivers by object and light distance.

@@ -296,7 +296,7 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
 
 std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
 {
-    const auto zeta_m = exact_->median_zeta_m();
+    const auto zeta_m = exact_->representative_zeta_m();
     if (curve.curve.lit().empty() || !zeta_m) {
         return std::nullopt;
     }
@@ -453,7 +453,7 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
         SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
         diagnosis.curve = describe(curve, profile_bias);
         diagnosis.biases = answer_biases({lookup_.job, lookup_.view, inputs, exact_->zeta_m(),
-                                          exact_->median_zeta_m().value_or(0)},
+                                          exact_->representative_zeta_m().value_or(0)},
                                          std::move(curve), diagnosis.curve.recommended);
     }
     diagnosis.zeta_m = exact_->zeta_m();

@@ -8,10 +8,11 @@ using scene::PixelClass;
 
 namespace {
 
-class FloatMap {
+class FloatVerdicts {
 public:
-    FloatMap(const CauseInputs& floats, const scene::Bias& bias)
+    FloatVerdicts(const CauseInputs& floats, const scene::Bias& bias)
         : floats_{floats},
+          footprint_{floats.lookup, floats.resolution_texels},
           rule_{floats.rule()},
           bias_{bias}
     {
@@ -20,9 +21,8 @@ public:
     /// Whether the pixel's only comparison is right.
     [[nodiscard]] bool repairs(std::size_t pixel) const
     {
-        const scene::LookupSample& sample = floats_.unbiased.samples[pixel];
-        return rule_.is_lit(sample.receiver_depth, sample.map_depth, kept_bias(pixel)) ==
-               is_lit_truth(pixel);
+        const float r = floats_.unbiased.samples[pixel].receiver_depth;
+        return rule_.is_lit(r, compared_depth(pixel), kept_bias(pixel)) == is_lit_truth(pixel);
     }
 
     /// Whether its taps' verdicts are on the right side of one half.
@@ -34,9 +34,7 @@ public:
         double lit = 0;
         double all = 0;
         for (std::size_t t = 0; t < taps.size(); ++t) {
-            const float depth = taps[t].is_inside
-                                    ? floats_.stored_depth(floats_.unbiased, pixel, taps[t].texel)
-                                    : rule_.outside_depth();
+            const float depth = taps[t].is_inside ? depth_at(taps[t].texel) : rule_.outside_depth();
             all += taps[t].weight;
             lit += own[t] || rule_.is_lit(r, depth, kept_bias(pixel)) ? taps[t].weight : 0;
         }
@@ -49,6 +47,21 @@ public:
     }
 
 private:
+    [[nodiscard]] float depth_at(const scene::Texel& texel) const
+    {
+        // The map's rows are counted from the top, texels from the bottom.
+        return floats_.map_depths(texel.x, floats_.resolution_texels - 1 - texel.y);
+    }
+    /// The only tap's, or as GL interpolated it.
+    [[nodiscard]] float compared_depth(std::size_t pixel) const
+    {
+        const float looked_up = floats_.unbiased.samples[pixel].map_depth;
+        if (!floats_.promises().has_one_tap()) {
+            return looked_up;
+        }
+        const Tap tap = footprint_.taps(floats_.unbiased.texels[pixel]).front();
+        return tap.is_inside ? depth_at(tap.texel) : looked_up;
+    }
     /// V2's: the job's for a lit pixel, as the lookup added it.
     [[nodiscard]] float kept_bias(std::size_t pixel) const
     {
@@ -57,6 +70,7 @@ private:
     }
 
     const CauseInputs& floats_;
+    Footprint footprint_;
     LookupRule rule_;
     scene::Bias bias_;
 };
@@ -81,7 +95,7 @@ std::vector<std::size_t> wrong_by_precision(const scene::Image<Cause>& causes,
 PrecisionKinds find_precision_kinds(const CauseInputs& floats, std::span<const std::size_t> pixels,
                                     const scene::Bias& bias)
 {
-    const FloatMap map{floats, bias};
+    const FloatVerdicts map{floats, bias};
     PrecisionKinds kinds;
     const auto add = [&](bool is_repaired) { ++(is_repaired ? kinds.format : kinds.transform); };
     if (!floats.promises().has_fractions()) {

@@ -25,7 +25,7 @@ struct PrecisionKinds {
 
 /// Compares them as V1 does, with V2's bias, in the same map drawn as d32f.
 /// @param floats  of that map: its `job` has the job's tan θ, its `unbiased` and `map_depths` are
-///                the float map's.
+///                the float map's (`linear`: without `map_depths`).
 /// @param pixels  from `wrong_by_precision`.
 /// @param bias    the job's.
 [[nodiscard]] PrecisionKinds find_precision_kinds(const CauseInputs& floats,

@@ -91,6 +91,7 @@ void expect_amounts(const Compared& compared, const TiltedPlaneSetting& setting,
 void expect_tap_criticals(const Compared& compared, const analysis::Comparison& result)
 {
     const PlaneDepth depth{result};
+    compared.renderers().draw_shadow_map(result.job, result.view);
     const auto map = compared.renderers().read_map_depths();
     const auto rule = analysis::lookup_rule(result.job, result.view);
     const analysis::TapCriticals taps{result.lookup, map, rule};

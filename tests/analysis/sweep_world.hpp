@@ -204,6 +204,8 @@ private:
             return look_up(job, view);
         };
         renderers_.read_map_depths = [this] { return map_depths_; };
+        renderers_.read_float_depths = [this](const scene::Job&, const scene::View&,
+                                              scene::TexelRows) { return map_depths_; };
         renderers_.make_exact_light = [this](const scene::Job& job, const scene::View& view,
                                              const scene::ReceiverLayers&) {
             if (before_stage) {

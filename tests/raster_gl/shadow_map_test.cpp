@@ -74,6 +74,31 @@ TEST(ShadowMap, HasTheSameDepthsWhereCodesAreDropped)
     EXPECT_THROW((void)read_unquantised_z(*tests::shared_context(), map), std::invalid_argument);
 }
 
+TEST(ShadowMap, RowsDrawnAndReadAloneAreThoseOfTheWholeMap)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"columns", {{"shadow_map.depth_format", "d32f"}, {"shadow_map.resolution", "600"}}};
+    c.draw_shadow_map();
+    const auto whole = read_shader_depths(*tests::shared_context(), *c.map);
+    for (const scene::TexelRows rows : {scene::TexelRows{0, 1}, {599, 1}, {100, 300}, {0, 600}}) {
+        ShadowMapPass pass{*tests::shared_context()};
+        const ShadowMap& map = pass.render(c.gpu, c.view.frustum, c.job.shadow_map, rows);
+        const auto part = read_shader_depths(*tests::shared_context(), map, rows);
+        ASSERT_EQ(part.size(), whole.size());
+        for (int y = 0; y < 600; ++y) {
+            const int row = 599 - y; // from the lower edge
+            const bool is_read = row >= rows.first && row < rows.first + rows.count;
+            for (int x = 0; x < 600; ++x) {
+                ASSERT_EQ(part(x, y), is_read ? whole(x, y) : 0.0F) << x << ", " << y;
+            }
+        }
+        // A later draw of the pass is whole again.
+        const ShadowMap& again = pass.render(c.gpu, c.view.frustum, c.job.shadow_map);
+        const auto depths = read_shader_depths(*tests::shared_context(), again);
+        ASSERT_TRUE(std::equal(depths.begin(), depths.end(), whole.begin()));
+    }
+}
+
 TEST(ShadowMap, ShaderDepthsAreTheCodesNormalised)
 {
     GNOMON_REQUIRE_GL();
