@@ -1,5 +1,6 @@
 #include "reports/tune_report.hpp"
 
+#include "analysis/advice/fit_setting.hpp"
 #include "analysis/advice/map_cost.hpp"
 #include "reports/advice_json.hpp"
 #include "reports/api_states.hpp"
@@ -243,13 +244,13 @@ Json states_json(const TunedSetting& setting)
 
 } // namespace
 
-std::string tune_toml(const TunedSetting& setting)
+std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit)
 {
     return fmt::format(
         "[shadow_map]\n"
         "resolution = {}\n"
         "depth_format = \"{}\"\n"
-        "fit = \"{}\"\n"
+        "{}\n"
         "near = {}\n"
         "far = {}\n"
         "cull = \"{}\"\n"
@@ -260,10 +261,11 @@ std::string tune_toml(const TunedSetting& setting)
         "slope = {}\n"
         "normal_texels = {}\n",
         setting.map.resolution_texels, scene::depth_format_name(setting.map.depth_format),
-        scene::fit_name(setting.map.frustum.fit), plane_text(setting.map.frustum.near_m),
-        plane_text(setting.map.frustum.far_m), scene::cull_name(setting.map.cull),
-        scene::filter_name(setting.filter), setting.bias.pasted.key.substr(std::size("bias.") - 1),
-        setting.slope, setting.normal_texels);
+        analysis::fit_setting(own_fit, setting.map.frustum.fit),
+        plane_text(setting.map.frustum.near_m), plane_text(setting.map.frustum.far_m),
+        scene::cull_name(setting.map.cull), scene::filter_name(setting.filter),
+        setting.bias.pasted.key.substr(std::size("bias.") - 1), setting.slope,
+        setting.normal_texels);
 }
 
 std::string tuned_setting_line(const TunedSetting& setting)
@@ -281,14 +283,15 @@ std::string tuned_setting_line(const TunedSetting& setting)
 std::string tune_text(const TuneResult& result, const TuneLimits& limits, TuneDetail detail)
 {
     if (detail == TuneDetail::answer) {
-        return tune_toml(result.best());
+        return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit);
     }
     std::string text = fmt::format(
         "{} considered; of each map and filter the best bias, slope and normal offset [texels], "
         "and its errors by amount, without what the filter softens on purpose:\n\n",
         counted(result.considered.size(), "setting"));
     text += table(result, detail) + not_tried(result) + "\n";
-    text += verdict(result, limits) + "\n" + tune_toml(result.best());
+    text += verdict(result, limits) + "\n" +
+            tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit);
     text += states(result.best());
     text += measured(result, limits) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
@@ -309,7 +312,7 @@ std::string tune_json(const TuneResult& result, const TuneLimits& limits)
                 {"max_false_lit_rate", limits.max_false_lit_rate},
                 {"max_resolution", limits.max_resolution_texels}}},
               {"recommended", setting_json(result.best())},
-              {"toml", tune_toml(result.best())},
+              {"toml", tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit)},
               {"states", states_json(result.best())},
               {"measured",
                {{"false_shadow", measured.false_shadow},

@@ -8,7 +8,8 @@
 namespace gnomon::reports {
 
 /// The keys of a setting, ready to paste into a job file. Numbers read back to the same bits.
-[[nodiscard]] std::string tune_toml(const analysis::TunedSetting& setting);
+/// @param own_fit  that of the job which it is pasted into.
+[[nodiscard]] std::string tune_toml(const analysis::TunedSetting& setting, scene::Fit own_fit);
 
 /// How much a tune tells.
 enum class TuneDetail : std::uint8_t {

@@ -1,5 +1,7 @@
 #include "analysis/advice/variants.hpp"
 
+#include "analysis/advice/fit_setting.hpp"
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -78,7 +80,7 @@ void add_finer_maps(Variants& variants)
                      [resolution](Job& job) { job.shadow_map.resolution_texels = resolution; });
     }
     if (is_coarse && variants.job().shadow_map.frustum.fit == scene::Fit::scene) {
-        variants.add({"shadow_map.fit = \"camera\""},
+        variants.add({"shadow_map." + fit_setting(scene::Fit::scene, scene::Fit::camera)},
                      [](Job& job) { job.shadow_map.frustum.fit = scene::Fit::camera; });
     }
     if (variants.has(Label::edge) && variants.job().lookup.filter == scene::Filter::nearest) {
@@ -117,8 +119,8 @@ void add_wider_maps(Variants& variants)
     }
     const scene::FrustumSettings& frustum = variants.job().shadow_map.frustum;
     if (frustum.fit != scene::Fit::scene) {
-        variants.add({"shadow_map.fit = \"scene\"", "shadow_map.near = \"auto\"",
-                      "shadow_map.far = \"auto\""},
+        variants.add({"shadow_map." + fit_setting(frustum.fit, scene::Fit::scene),
+                      "shadow_map.near = \"auto\"", "shadow_map.far = \"auto\""},
                      [](Job& job) {
                          scene::FrustumSettings& wider = job.shadow_map.frustum;
                          wider.fit = scene::Fit::scene;

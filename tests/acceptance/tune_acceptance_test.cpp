@@ -144,5 +144,48 @@ TEST(LongTune, PromisesAreKeptOnSharedScenes)
     }
 }
 
+/// The bunny 32 units wide, standing on y = 0, under a spot far above it.
+struct LargeBunny {
+    scene::Job job;
+    scene::SceneFile file;
+};
+LargeBunny large_bunny(const std::filesystem::path& folder)
+{
+    LargeBunny bunny;
+    bunny.job = small_job("sphere-plane");
+    bunny.job.scene = {};
+    bunny.job.scene.file = folder / "bunny.obj";
+    bunny.job.camera.reset();
+    bunny.job.light = scene::LightSettings{.type = scene::LightType::spot,
+                                           .direction = {},
+                                           .position = scene::Vec3d{20, 45, 35},
+                                           .target = scene::Vec3d{0, 14, 0},
+                                           .cone_deg = 60};
+    bunny.job.shadow_map = {};
+    bunny.file = scene::load_scene(bunny.job.scene);
+    const scene::Box box = bunny.file.scene.bounds();
+    const double scale = 32 / (box.upper.x - box.lower.x);
+    const scene::Vec3d foot{(box.lower.x + box.upper.x) / 2, box.lower.y, 0};
+    for (scene::Vec3f& vertex : bunny.file.scene.vertices) {
+        vertex = scene::Vec3f{(scene::Vec3d{vertex} - foot) * scale};
+    }
+    return bunny;
+}
+
+TEST(LongTune, PlacesNearAndFarBeforeItSpendsBytes)
+{
+    GNOMON_REQUIRE_GL();
+    const char* const folder = std::getenv("GNOMON_SHARED_SCENES");
+    if (folder == nullptr) {
+        GTEST_SKIP() << "GNOMON_SHARED_SCENES is not set";
+    }
+    LargeBunny bunny = large_bunny(folder);
+    const scene::Job job = bunny.job;
+    const Compared compared{std::move(bunny.file)};
+    const auto result = tuned(job, compared, {});
+    ASSERT_TRUE(result.meets_limits());
+    EXPECT_LE(analysis::map_bytes(result.best().map), std::uint64_t{32} << 20);
+}
+
 } // namespace
 } // namespace gnomon::tests

@@ -279,19 +279,24 @@ TEST(TuneToml, ReadsBackToTheSameBits)
     setting.map.frustum.near_m = 0.5;
     setting.bias.pasted = {"bias.constant = 0.0009866967", 0.0009866967F};
     setting.slope = 8.264e-05;
-    EXPECT_EQ(tune_toml(setting), "[shadow_map]\n"
-                                  "resolution = 2048\n"
-                                  "depth_format = \"d16\"\n"
-                                  "fit = \"scene\"\n"
-                                  "near = 0.5\n"
-                                  "far = \"auto\"\n"
-                                  "cull = \"none\"\n"
-                                  "[lookup]\n"
-                                  "filter = \"nearest\"\n"
-                                  "[bias]\n"
-                                  "constant = 0.0009866967\n"
-                                  "slope = 8.264e-05\n"
-                                  "normal_texels = 0\n");
+    EXPECT_EQ(tune_toml(setting, scene::Fit::scene), "[shadow_map]\n"
+                                                     "resolution = 2048\n"
+                                                     "depth_format = \"d16\"\n"
+                                                     "fit = \"scene\"\n"
+                                                     "near = 0.5\n"
+                                                     "far = \"auto\"\n"
+                                                     "cull = \"none\"\n"
+                                                     "[lookup]\n"
+                                                     "filter = \"nearest\"\n"
+                                                     "[bias]\n"
+                                                     "constant = 0.0009866967\n"
+                                                     "slope = 8.264e-05\n"
+                                                     "normal_texels = 0\n");
+    // The size of a fixed map beside another fit is refused.
+    EXPECT_THAT(tune_toml(setting, scene::Fit::fixed),
+                HasSubstr("fit = \"scene\" # and remove half_extent or fov_deg\nnear"));
+    setting.map.frustum.fit = scene::Fit::fixed;
+    EXPECT_THAT(tune_toml(setting, scene::Fit::fixed), HasSubstr("fit = \"fixed\"\nnear"));
 }
 
 } // namespace
