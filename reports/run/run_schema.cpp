@@ -222,6 +222,12 @@ bool was_made_by(const Database& database, const std::string& statement)
     return search.bind(1, std::string_view{statement}).first().has_value();
 }
 
+/// Whether it has nothing yet: it is new, or the disk was full when it got its tables.
+bool is_empty(const Database& database)
+{
+    return database.integer("SELECT count(*) FROM sqlite_schema") == 0;
+}
+
 void create_schema(const Database& database)
 {
     for (const std::string& statement : schema_statements()) {
@@ -350,6 +356,12 @@ std::filesystem::path results_path(const std::filesystem::path& folder)
 
 void require_run_schema(const Database& database)
 {
+    if (is_empty(database)) {
+        throw scene::InputError(scene::one_line(fmt::format(
+            "{}: nothing is recorded in it yet, for the run was cut off as it was begun: run the "
+            "command that began it again",
+            database.path().string())));
+    }
     if (database.integer("PRAGMA application_id") != application_id) {
         refuse_database(database, "is a database, but not of a sweep's results");
     }
@@ -369,7 +381,7 @@ void require_run_schema(const Database& database)
 
 void prepare_run(Database& database)
 {
-    const bool is_new = database.integer("SELECT count(*) FROM sqlite_schema") == 0;
+    const bool is_new = is_empty(database);
     if (!is_new) {
         require_run_schema(database); // before anything of somebody else's is changed
         database.require_sound();

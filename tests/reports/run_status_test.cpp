@@ -124,5 +124,29 @@ TEST(RunStatus, LeavesTheCommandOutWhereItIsNotKnown)
     EXPECT_THAT(run_status_text(read_run_status(folder.path(), 0)), Not(HasSubstr("resume")));
 }
 
+TEST(RunStatus, SaysThatNothingIsRecordedYetWhereTheDiskWasFullAtOnce)
+{
+    // SQLite leaves a file without a byte, or one with its first page alone.
+    for (const char* const statement : {"", "PRAGMA journal_mode = WAL; PRAGMA user_version = 0; "
+                                            "CREATE TABLE t (a); DROP TABLE t"}) {
+        const TemporaryFolder folder;
+        {
+            const sqlite::Database database{results_path(folder.path()),
+                                            sqlite::Database::Access::write};
+            database.run(statement);
+        }
+        try {
+            (void)read_run_status(folder.path(), 20);
+            ADD_FAILURE() << statement;
+        } catch (const scene::InputError& error) {
+            EXPECT_THAT(error.what(), EndsWith("results.sqlite: nothing is recorded in it yet, for "
+                                               "the run was cut off as it was begun: run the "
+                                               "command that began it again"));
+        }
+        two_case_run.compute(folder.path(), 1); // so it goes on
+        EXPECT_TRUE(read_run_status(folder.path(), 20).is_complete());
+    }
+}
+
 } // namespace
 } // namespace gnomon::reports
