@@ -83,6 +83,7 @@ TriangleScene move_to_space(TriangleScene mesh, const CaseSpace& space)
     }
     SceneBuilder builder;
     builder.count_ignored_primitives(mesh.ignored_primitives);
+    builder.keep_contents(mesh.file);
     std::vector<std::uint32_t> number_of(mesh.vertices.size(), no_triangle);
     for (const Object& object : mesh.objects) {
         const MovedObject moved = moved_object(mesh, object, space, number_of);

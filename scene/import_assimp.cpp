@@ -2,7 +2,11 @@
 
 #include "scene/import_field_of_view.hpp"
 #include "scene/import_folder.hpp"
+#include "scene/import_gltf.hpp"
 #include "scene/import_mesh.hpp"
+#include "scene/import_names.hpp"
+#include "scene/import_surface.hpp"
+#include "scene/import_text.hpp"
 
 #include <assimp/Importer.hpp>
 #include <assimp/camera.h>
@@ -13,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -137,6 +142,7 @@ void find_camera_and_light(const aiScene& scene, const std::vector<PlacedNode>& 
 struct Instance {
     const PlacedNode* node = nullptr;
     const ImportedMesh* mesh = nullptr;
+    const aiMesh* source = nullptr;
     std::string name;
 };
 
@@ -159,8 +165,8 @@ std::vector<Instance> instances(const aiScene& scene, const std::vector<PlacedNo
         for (unsigned k = 0; k < node.mNumMeshes; ++k) {
             const ImportedMesh& mesh = meshes.at(node.mMeshes[k]);
             if (!mesh.triangles.empty()) {
-                result.push_back(
-                    {&placed, &mesh, instance_name(node, k, *scene.mMeshes[node.mMeshes[k]])});
+                const aiMesh& source = *scene.mMeshes[node.mMeshes[k]];
+                result.push_back({&placed, &mesh, &source, instance_name(node, k, source)});
             }
         }
     }
@@ -210,7 +216,51 @@ void write_instance(const Instance& instance, ImportWriter& writer)
     writer.put_array(std::span<const TriangleIndices>{triangles});
 }
 
-void write_scene(const aiScene& scene, const ImportLimits& limits, int output)
+/// The format, by what the file's name ends with.
+bool is_named(const std::filesystem::path& scene_file, std::initializer_list<std::string_view> any)
+{
+    const std::string extension = lower_extension(scene_file);
+    return std::ranges::find(any, extension) != any.end();
+}
+
+/// What the file says of itself, where Assimp keeps silent about what it lost.
+struct OwnWords {
+    GltfFacts gltf;
+    std::uint64_t free_form_shapes = 0;
+};
+
+OwnWords read_own_words(const std::filesystem::path& scene_file)
+{
+    OwnWords words;
+    if (is_named(scene_file, {".gltf", ".glb"})) {
+        words.gltf = read_gltf_facts(scene_file);
+    } else if (is_named(scene_file, {".obj"})) {
+        words.free_form_shapes = count_free_form_shapes(scene_file);
+    }
+    return words;
+}
+
+void count_placed(const aiScene& scene, const std::vector<PlacedNode>& nodes,
+                  const std::vector<Instance>& all, ContentCounts& counts)
+{
+    for (const PlacedNode& node : nodes) {
+        for (unsigned c = 0; c < scene.mNumCameras; ++c) {
+            counts.cameras += stands_at(*scene.mCameras[c], node) ? 1U : 0U;
+        }
+        for (unsigned l = 0; l < scene.mNumLights; ++l) {
+            counts.lights += stands_at(*scene.mLights[l], node) ? 1U : 0U;
+        }
+    }
+    SurfaceCounter surfaces{scene};
+    for (const Instance& instance : all) {
+        surfaces.add(*instance.source);
+    }
+    surfaces.write(counts);
+    counts.animations = scene.mNumAnimations;
+}
+
+void write_scene(const aiScene& scene, const OwnWords& words, const ImportLimits& limits,
+                 int output)
 {
     const std::vector<PlacedNode> nodes = placed_nodes(*scene.mRootNode);
     ImportHeader header;
@@ -223,19 +273,28 @@ void write_scene(const aiScene& scene, const ImportLimits& limits, int output)
     const std::vector<Instance> all = instances(scene, nodes, meshes);
     check_size(all, limits);
     header.object_count = all.size();
+    count_placed(scene, nodes, all, header.contents);
+    header.contents.free_form_shapes = words.free_form_shapes;
+    std::string extensions;
+    for (const std::string& extension : words.gltf.unread_extensions) {
+        extensions += extension + '\n';
+    }
+    header.extension_bytes = extensions.size();
     ImportWriter writer{output};
     writer.put(header);
+    writer.put_array(std::span<const char>{extensions});
     for (const Instance& instance : all) {
         write_instance(instance, writer);
     }
     writer.flush();
 }
 
-void write_refusal(const std::string& reason, int output)
+void write_refusal(const std::string& reason, int output,
+                   ImportOutcome outcome = ImportOutcome::refusal)
 {
     ImportWriter writer{output};
     ImportHeader header;
-    header.outcome = ImportOutcome::refusal;
+    header.outcome = outcome;
     writer.put(header);
     writer.put_array(std::span<const char>{reason});
     writer.flush();
@@ -264,7 +323,15 @@ void write_imported_scene(const std::filesystem::path& scene_file, const ImportL
     importer.SetIOHandler(folder); // takes ownership
     keep_known_formats(importer);
     try {
-        write_scene(read(importer, scene_file.string()), limits, output);
+        const OwnWords words = read_own_words(scene_file);
+        const aiScene& scene = read(importer, scene_file.string());
+        require_triangles(words.gltf, scene);
+        if (is_named(scene_file, {".ply"})) {
+            require_faces(scene_file, scene);
+        }
+        write_scene(scene, words, limits, output);
+    } catch (const UnsupportedContent& content) {
+        write_refusal(content.what(), output, ImportOutcome::unsupported);
     } catch (const std::bad_alloc&) {
         write_refusal("it needs more memory than a file of its size should", output);
     } catch (const std::exception& error) {

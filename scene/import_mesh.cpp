@@ -1,5 +1,6 @@
 #include "scene/import_mesh.hpp"
 
+#include "scene/import_gltf.hpp"
 #include "scene/import_polygon.hpp"
 
 #include <assimp/mesh.h>
@@ -74,11 +75,29 @@ void check_indices(const aiMesh& mesh)
     }
 }
 
+/// Of a polygon: cutting it up takes time by the square of its corners.
+constexpr unsigned most_corners = 100'000;
+
+/// @throws UnsupportedContent  naming mesh and face, if a polygon is too large.
+void check_corners(const aiMesh& mesh)
+{
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const unsigned corners = mesh.mFaces[f].mNumIndices;
+        if (corners > most_corners) {
+            throw UnsupportedContent{fmt::format(
+                "mesh \"{}\", face {}: a polygon of {} corners is too large, {} are the "
+                "most; export it as triangles",
+                mesh.mName.C_Str(), f, corners, most_corners)};
+        }
+    }
+}
+
 } // namespace
 
 ImportedMesh imported_mesh(const aiMesh& mesh)
 {
     check_indices(mesh);
+    check_corners(mesh);
     ImportedMesh result;
     VertexTable table{result.vertices, mesh.mNumVertices};
     std::vector<std::uint32_t> index_of(mesh.mNumVertices);

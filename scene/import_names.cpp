@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace gnomon::scene {
 
@@ -50,6 +51,14 @@ std::string printable(std::string_view text)
     }
     result.erase(result.find_last_not_of(' ') + 1);
     return result;
+}
+
+std::string lower_extension(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
 }
 
 std::string UniqueNames::make(std::string_view wanted)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -12,6 +13,9 @@ namespace gnomon::scene {
 ///
 /// Control characters become spaces, bytes that are no UTF-8 question marks.
 [[nodiscard]] std::string printable(std::string_view text);
+
+/// What a file's name ends with, in small letters: ".glb".
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
 /// Hands out "name", "name.2", "name.3", and never the same name twice.
 class UniqueNames {

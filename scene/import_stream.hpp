@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/scene_notes.hpp"
 #include "scene/vec.hpp"
 
 #include <array>
@@ -15,8 +16,9 @@ namespace gnomon::scene {
 
 /// How an import ended, as the child process says it.
 enum class ImportOutcome : std::uint64_t {
-    scene = 1,   ///< a header, then `object_count` objects
-    refusal = 2, ///< a header, then a text up to the end
+    scene = 1,       ///< a header, then the names of extensions, then `object_count` objects
+    refusal = 2,     ///< a header, then a text up to the end
+    unsupported = 3, ///< likewise; the text has its remedy
 };
 
 /// A camera in world space, looking along `forward`.
@@ -45,6 +47,8 @@ struct ImportHeader {
     std::uint64_t ignored_primitives = 0;
     std::uint64_t has_camera = 0;
     std::uint64_t has_light = 0;
+    ContentCounts contents;
+    std::uint64_t extension_bytes = 0; ///< names of unread ones, each followed by a line feed
     ImportedCamera camera;
     ImportedLight light;
 };

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -32,9 +31,7 @@ constexpr double max_m = max_coordinate_m;
 
 bool has_known_extension(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(path);
     constexpr std::array<std::string_view, 4> known{".gltf", ".glb", ".obj", ".ply"};
     return std::find(known.begin(), known.end(), extension) != known.end();
 }
@@ -128,7 +125,8 @@ std::optional<LightSettings> light_settings(const ImportedLight& light)
     return settings;
 }
 
-std::string refusal(const std::string& label, std::string_view reason)
+std::string refusal(const std::string& label, std::string_view reason,
+                    std::string_view remedy = "; export it again")
 {
     if (reason.starts_with("No suitable reader")) {
         reason = "it is not what its name says, or its first lines are damaged";
@@ -137,7 +135,7 @@ std::string refusal(const std::string& label, std::string_view reason)
     if (text.ends_with('.')) {
         text.pop_back();
     }
-    return fmt::format("{}: cannot be imported: {}; export it again", label, text);
+    return fmt::format("{}: cannot be imported: {}{}", label, text, remedy);
 }
 
 /// @throws InputError  with the child's own reason, if it refused the file.
@@ -147,10 +145,25 @@ const ImportHeader& checked_header(ImportReader& reader, const std::string& labe
     if (header.magic == import_magic && header.outcome == ImportOutcome::refusal) {
         throw InputError{refusal(label, reader.take_text(reader.bytes_left()))};
     }
+    if (header.magic == import_magic && header.outcome == ImportOutcome::unsupported) {
+        throw InputError{refusal(label, reader.take_text(reader.bytes_left()), "")};
+    }
     if (header.magic != import_magic || header.outcome != ImportOutcome::scene) {
         throw CorruptStream{};
     }
     return header;
+}
+
+FileContents file_contents(const ImportHeader& header, ImportReader& reader)
+{
+    FileContents contents{header.contents, {}};
+    std::string_view names = reader.take_text(header.extension_bytes);
+    while (!names.empty()) {
+        const std::size_t end = std::min(names.find('\n'), names.size() - 1);
+        contents.unread_extensions.push_back(printable(names.substr(0, end)));
+        names.remove_prefix(end + 1);
+    }
+    return contents;
 }
 
 /// Turns the child's bytes into a scene; every length in them is checked, none is trusted.
@@ -163,6 +176,7 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
     SceneFile file;
     SceneBuilder builder;
     builder.count_ignored_primitives(header.ignored_primitives);
+    builder.keep_contents(file_contents(header, reader));
     UniqueNames names;
     const std::string fallback = printable(std::filesystem::path{label}.stem().string());
     std::uint64_t triangle_count = 0;

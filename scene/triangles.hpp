@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/scene_notes.hpp"
 #include "scene/vec.hpp"
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::scene {
@@ -49,6 +51,7 @@ struct TriangleScene {
     std::vector<Object> objects;
     std::uint64_t dropped_triangles = 0;  ///< zero-area triangles that were removed
     std::uint64_t ignored_primitives = 0; ///< points and lines that the file held
+    FileContents file;                    ///< what else it held; none for a built-in scene
 
     [[nodiscard]] std::array<Vec3f, 3> corners(std::uint32_t triangle) const
     {
@@ -86,6 +89,8 @@ public:
              std::span<const std::array<std::uint32_t, 3>> triangles);
     /// Counts points and lines of a file that are not part of the scene.
     void count_ignored_primitives(std::uint64_t count) { scene_.ignored_primitives += count; }
+    /// Keeps what else a file held beside its triangles.
+    void keep_contents(FileContents contents) { scene_.file = std::move(contents); }
     [[nodiscard]] TriangleScene take();
 
 private:
