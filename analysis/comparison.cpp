@@ -57,11 +57,16 @@ void require_size(std::string_view layer, const scene::Image<Pixel>& image, scen
 
 } // namespace
 
+std::string scene_name(const scene::SceneSettings& settings)
+{
+    return settings.builtin.empty() ? settings.file.filename().string() : settings.builtin;
+}
+
 SceneSummary summarise_scene(const scene::SceneSettings& settings,
                              const scene::TriangleScene& triangles)
 {
     SceneSummary summary;
-    summary.name = settings.builtin.empty() ? settings.file.filename().string() : settings.builtin;
+    summary.name = scene_name(settings);
     summary.triangles = triangles.triangles.size();
     summary.objects = triangles.objects.size();
     summary.dropped_triangles = triangles.dropped_triangles;
@@ -113,6 +118,8 @@ Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
     comparison.job = job;
     comparison.view = scene::resolve_view(job, file.scene, file.defaults);
     comparison.scene = std::move(summary);
+    comparison.scene.notes =
+        scene::scene_notes(file.scene, file.defaults, scene::left_to_file(job));
     comparison.triangles = &file.scene;
     comparison.truth_method = renderers.truth_method;
     comparison.subpixel_bits = renderers.subpixel_bits;

@@ -32,13 +32,17 @@ struct StageSeconds {
 
 /// What a result says of its scene.
 struct SceneSummary {
-    std::string name; ///< of the built-in, or the file's name without its folder
+    std::string name; ///< `scene_name`
     std::uint64_t triangles = 0;
     std::uint64_t objects = 0;
     std::uint64_t dropped_triangles = 0;  ///< zero-area triangles that were removed
     std::uint64_t ignored_primitives = 0; ///< points and lines that the file held
     std::string hash;                     ///< `scene::content_hash`
+    std::vector<scene::SceneNote> notes;  ///< on the scene as this job compares it
 };
+
+/// Of the built-in, or the file's name without its folder.
+[[nodiscard]] std::string scene_name(const scene::SceneSettings& settings);
 
 [[nodiscard]] SceneSummary summarise_scene(const scene::SceneSettings& settings,
                                            const scene::TriangleScene& triangles);

@@ -3,6 +3,7 @@
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/sweep/catalogue.hpp"
 #include "cli/kept_pixels.hpp"
+#include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 #include "scene/sweep_space.hpp"
@@ -62,8 +63,10 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     }
     const analysis::Configuration& own = configurations.front();
     // Another driver's results in the folder are replaced, not mixed with.
-    store_.plan({comparison.environment, {}, 1, {}, std::move(job_text), command, command},
-                configurations, reports::Environments::several);
+    reports::RunDescription description{comparison.environment, {},      1,      {},
+                                        std::move(job_text),    command, command};
+    reports::add_notes(description.notes, comparison.scene.name, comparison.scene.notes, 1);
+    store_.plan(description, configurations, reports::Environments::several);
     keep_pixels(folder_, own.id, comparison);
     store_.record(analysis::finish_compared(comparison, own.curve, 0));
     store_.write_csv();

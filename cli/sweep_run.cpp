@@ -1,5 +1,6 @@
 #include "cli/sweep_run.hpp"
 
+#include "analysis/comparison.hpp"
 #include "analysis/sweep/background.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/runner.hpp"
@@ -15,6 +16,7 @@
 #include "reference_rt/truth.hpp"
 #include "reports/run/pixels.hpp"
 #include "reports/run/run_lock.hpp"
+#include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -124,6 +126,8 @@ private:
             const std::string message =
                 error.empty() ? refusal_of([&] { require_memory(job); }) : error;
             largest_need_bytes_ = std::max(largest_need_bytes_, needed_memory_bytes(job));
+            reports::add_notes(notes_, analysis::scene_name(job.scene),
+                               content.notes[scene::left_to_file(job)], request.ordinals.size());
             identities_.push_back(analysis::identify_scene(job, content.hash, content.defaults));
             is_refused_.push_back(!message.empty());
             if (!message.empty()) {
@@ -225,6 +229,7 @@ private:
         description.job = options_.job_text;
         description.command = options_.command;
         description.compare_command = options_.compare_command;
+        description.notes = notes_;
         return description;
     }
 
@@ -365,6 +370,7 @@ private:
     std::optional<tbb::global_control> threads_;
     std::vector<analysis::SceneIdentity> identities_;    ///< of scenes, by request of the catalogue
     std::vector<bool> is_refused_;                       ///< likewise
+    std::vector<reports::RunNote> notes_;                ///< on the scenes, in order
     std::uint64_t largest_need_bytes_ = 0;               ///< of a request's image and map
     std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
     std::vector<std::uint64_t> repeated_;      ///< ordinals whose results are those of earlier ones

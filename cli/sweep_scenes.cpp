@@ -26,7 +26,12 @@ void SweepScenes::read(const scene::Job& job)
 SweepScenes::Content SweepScenes::content(const scene::Job& job)
 {
     read(job);
-    return {scene::content_hash(file_->scene), file_->defaults};
+    Content content{scene::content_hash(file_->scene), file_->defaults, {}};
+    for (const scene::LeftToFile left :
+         {scene::LeftToFile{false, false}, {false, true}, {true, false}, {true, true}}) {
+        content.notes[left] = scene::scene_notes(file_->scene, file_->defaults, left);
+    }
+    return content;
 }
 
 analysis::OpenScene SweepScenes::open(const scene::Job& job)

@@ -6,9 +6,11 @@
 #include "scene/job.hpp"
 #include "scene/scene_file.hpp"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gnomon::cli {
 
@@ -18,10 +20,12 @@ public:
     /// The context must outlive this.
     SweepScenes(const raster_gl::Context& context, const SessionOptions& options);
 
-    /// What of a scene decides its sweep's ids.
+    /// What of a scene decides its sweep's ids, and what is to be said of it.
     struct Content {
         std::string hash; ///< `scene::content_hash`
         scene::SceneDefaults defaults;
+        /// By what a job may leave to the file.
+        std::map<scene::LeftToFile, std::vector<scene::SceneNote>> notes;
     };
     /// That of the job's scene, which it reads unless it is the last one read.
     /// @throws scene::InputError  as `scene::load_scene` does.

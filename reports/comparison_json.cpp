@@ -6,6 +6,7 @@
 #include "reports/exact_inputs.hpp"
 #include "reports/json_values.hpp"
 #include "reports/metric_json.hpp"
+#include "reports/scene_notes_json.hpp"
 #include "scene/job_file.hpp"
 
 #include <algorithm>
@@ -76,7 +77,7 @@ Json scene_object(const analysis::SceneSummary& scene)
             {"dropped_triangles", scene.dropped_triangles},
             {"ignored_primitives", scene.ignored_primitives},
             {"hash", scene.hash},
-            {"notes", Json::array()}};
+            {"notes", scene_notes_json(scene.notes)}};
 }
 
 Json frustum_object(const scene::LightFrustum& frustum, int resolution_texels)

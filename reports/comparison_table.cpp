@@ -38,6 +38,7 @@ std::string settings(const analysis::Comparison& comparison)
     const analysis::Environment& environment = comparison.environment;
     std::string text = setting_line("scene", comparison.scene.name);
     text += setting_line("", words.size);
+    text += note_lines(comparison.scene.notes);
     text += setting_line("image", words.image);
     text += setting_line("light", words.light);
     text += setting_line("shadow map", words.map);

@@ -13,15 +13,8 @@ namespace {
 
 std::string describe_size(const analysis::SceneSummary& scene)
 {
-    std::string text = fmt::format("{}, {}", counted(scene.triangles, "triangle"),
-                                   counted(scene.objects, "object"));
-    if (scene.dropped_triangles > 0) {
-        text += fmt::format(", {} dropped", counted(scene.dropped_triangles, "flat triangle"));
-    }
-    if (scene.ignored_primitives > 0) {
-        text += fmt::format(", {} points and lines ignored", grouped(scene.ignored_primitives));
-    }
-    return text;
+    return fmt::format("{}, {}", counted(scene.triangles, "triangle"),
+                       counted(scene.objects, "object"));
 }
 
 std::string describe_light(const scene::Light& light)

@@ -42,6 +42,7 @@ std::string evaluation_settings(const analysis::Comparison& comparison,
     text += setting_line("renderer", comparison.environment.gl_renderer);
     text += setting_line("scene", comparison.scene.name);
     text += setting_line("", words.size);
+    text += note_lines(comparison.scene.notes);
     text += setting_line("image", words.image);
     text += setting_line("light", words.light);
     text += setting_line("level", fmt::format("{}", evaluation.level));

@@ -31,4 +31,13 @@ std::string count_line(std::string_view name, std::string_view count, std::strin
                    pad_left(rate, rate_columns) + "  " + std::string{note});
 }
 
+std::string note_lines(std::span<const scene::SceneNote> notes)
+{
+    std::string text;
+    for (const scene::SceneNote& note : notes) {
+        text += setting_line(text.empty() ? "note" : "", note.text);
+    }
+    return text;
+}
+
 } // namespace gnomon::reports

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "scene/scene_notes.hpp"
+
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,5 +15,8 @@ namespace gnomon::reports {
 /// "lit                   43,270     4.70 %  scored"
 [[nodiscard]] std::string count_line(std::string_view name, std::string_view count,
                                      std::string_view rate, std::string_view note);
+
+/// A line for each note on the scene.
+[[nodiscard]] std::string note_lines(std::span<const scene::SceneNote> notes);
 
 } // namespace gnomon::reports

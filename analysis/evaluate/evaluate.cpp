@@ -391,6 +391,7 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.job = checked.job;
     result.view = checked.view;
     result.scene = summarise_scene(checked.job.scene, subject.mesh);
+    result.scene.notes = scene::scene_notes(subject.mesh, {}, {}); // the case has its own light
     result.triangles = &subject.mesh;
     result.receivers.triangle = checked.truth.triangle;
     result.lookup = lookup_of(subject.layers);

@@ -141,6 +141,20 @@ std::string failures_table(const RunOverview& overview)
     return html;
 }
 
+/// What was found in the scenes' files.
+std::string notes_list(const RunOverview& overview)
+{
+    if (overview.notes.empty()) {
+        return {};
+    }
+    std::string html = "<p id=\"notes-heading\">Notes on the scene:</p>\n"
+                       "<ul aria-labelledby=\"notes-heading\">\n";
+    for (const std::string& note : overview.notes) {
+        html += fmt::format("<li><bdi>{}</bdi></li>\n", escaped(note));
+    }
+    return html + "</ul>\n";
+}
+
 std::string verdict_section(const RunOverview& overview)
 {
     std::string html = "<section id=\"verdict\" aria-labelledby=\"verdict-heading\">\n"
@@ -148,6 +162,7 @@ std::string verdict_section(const RunOverview& overview)
     for (const std::string& sentence : overview.sentences) {
         html += fmt::format("<p><bdi>{}</bdi></p>\n", escaped(sentence));
     }
+    html += notes_list(overview);
     if (overview.headline) {
         html += headline_table(overview) + bias_table(overview.headline->result);
     }

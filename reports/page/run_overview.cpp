@@ -3,6 +3,7 @@
 #include "analysis/chain/cause.hpp"
 #include "reports/page/page_images.hpp"
 #include "reports/run/run_columns.hpp"
+#include "reports/run/run_notes.hpp"
 #include "reports/shell_text.hpp"
 #include "reports/text.hpp"
 
@@ -181,6 +182,7 @@ RunOverview read_overview(const RunReader& run)
 {
     RunOverview overview;
     overview.scene = common_scene(run);
+    overview.notes = note_sentences(run.description());
     overview.rows = ranked_rows(run);
     const PlanOutcome& outcome = run.outcome();
     overview.failed_count = outcome.failed;

@@ -22,6 +22,7 @@ struct OverviewRow {
 struct RunOverview {
     std::string scene; ///< of the scene that all share; empty if they differ
     std::vector<std::string> sentences;
+    std::vector<std::string> notes; ///< on its scenes
     /// The configuration with the lowest error rate; empty if none was measured.
     std::optional<OverviewRow> headline;
     Json detail; ///< what `compare --json` says of it; null if its layers were not kept

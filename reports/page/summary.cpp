@@ -146,6 +146,10 @@ std::string summary_text(const RunReader& run, const RunOverview& overview,
         text += markdown_text(sentence) + "\n";
     }
     text += "\n";
+    for (const std::string& note : overview.notes) {
+        text += fmt::format("- note: {}\n", markdown_text(note));
+    }
+    text += overview.notes.empty() ? "" : "\n";
     if (overview.headline) {
         text += table(overview);
         text += overview.rows.size() > 1 ? "Of the best:\n\n" : "";

@@ -2,6 +2,7 @@
 
 #include "reports/json_values.hpp"
 #include "reports/run/run_columns.hpp"
+#include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
@@ -270,6 +271,7 @@ void write_description(const Database& database, const RunDescription& descripti
     write_value(database, "job", description.job);
     write_value(database, "command", description.command);
     write_value(database, "compare_command", description.compare_command);
+    write_value(database, "notes", notes_json(description.notes));
 }
 
 PlanOutcome write_plan(const Database& database, const RunDescription& description,
@@ -334,6 +336,7 @@ RunDescription read_description(const Database& database)
     description.job = read_text(database, "job");
     description.command = read_text(database, "command");
     description.compare_command = read_text(database, "compare_command");
+    description.notes = read_notes(read_text(database, "notes"));
     return description;
 }
 

@@ -4,6 +4,7 @@
 #include "analysis/sweep/results.hpp"
 #include "reports/run/run_checks.hpp"
 #include "reports/run/run_schema.hpp"
+#include "scene/scene_notes.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,6 +26,15 @@ struct Shard {
     friend bool operator==(const Shard&, const Shard&) = default;
 };
 
+/// A note on a scene of the run.
+struct RunNote {
+    std::string scene; ///< its name
+    scene::SceneNote note;
+    std::uint64_t configurations = 0; ///< of the sweep, that it is about
+
+    friend bool operator==(const RunNote&, const RunNote&) = default;
+};
+
 /// What a run is: recorded beside its results.
 struct RunDescription {
     analysis::Environment environment;
@@ -38,6 +48,7 @@ struct RunDescription {
     /// The command that computes one configuration, but for its case and its values of the axes:
     /// "gnomon compare job.toml".
     std::string compare_command = {};
+    std::vector<RunNote> notes = {}; ///< none in runs of before there were notes
 };
 
 /// How a configuration stands.

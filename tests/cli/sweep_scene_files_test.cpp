@@ -43,6 +43,25 @@ TEST(Sweep, HasARowOfItsOwnForEachSceneThatCannotBeRead)
     EXPECT_THAT(gnomon(arguments).out, StartsWith("2 of 3 configurations done, 1 failed: "));
 }
 
+TEST(Sweep, KeepsTheNotesOnEachScenesFileForItsReport)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", "image.width = 32\nimage.height = 18\n");
+    const std::string ground = "v -9 0 -9\nv 9 0 -9\nv 0 0 9\nf 1 3 2\n";
+    folder.write("plain.obj", ground);
+    folder.write("glass.mtl", "newmtl glass\nKd 1 1 1\nd 0.5\n");
+    folder.write("glass.obj", "mtllib glass.mtl\nusemtl glass\n" + ground + "l 1 2\n");
+    const path run = folder.path() / "run";
+    swept(sweep(job, run, {"--axis", "scene.file=plain.obj,glass.obj"}));
+    const Ending compared = gnomon({"compare", (folder.path() / "glass.obj").string(), "--json"});
+    EXPECT_THAT(compared.out, HasSubstr("\"kind\": \"alpha_blend\""));
+    EXPECT_EQ(gnomon({"report", run.string(), "--no-figures"}).exit_code, 0);
+    const std::string summary = text_of(run / "summary.md");
+    EXPECT_THAT(summary, HasSubstr("- note: 1 material is transparent, but taken as solid: 1 "
+                                   "object (in 1 of 2 configurations)\n"));
+    EXPECT_THAT(summary, HasSubstr("- note: points and lines cast no shadow, and one is left out"));
+}
+
 TEST(Sweep, NamesEachRowsOwnFileOfEqualContent)
 {
     const TemporaryFolder folder;

@@ -100,6 +100,15 @@ TEST(ComparisonJson, NamesSceneAndMethod)
     EXPECT_EQ(object["truth_method"], "exact");
 }
 
+TEST(ComparisonJson, WritesTheNotesOnTheScene)
+{
+    EXPECT_EQ(parsed(example().comparison)["scene"]["notes"], json::array());
+    analysis::Comparison comparison = example().comparison;
+    comparison.scene.notes = {{"alpha_mask", 2, "2 materials are cut out"}};
+    EXPECT_EQ(parsed(comparison)["scene"]["notes"],
+              json::parse(R"([{"kind":"alpha_mask","count":2,"text":"2 materials are cut out"}])"));
+}
+
 TEST(ComparisonJson, WritesJobValuesInTheirTypes)
 {
     const json job = parsed(example().comparison)["job"];

@@ -147,6 +147,25 @@ TEST(Report, NamesTheBestConfigurationAndItsCommand)
     EXPECT_LT(summary.size(), 65'536U); // GitHub takes no longer a text
 }
 
+TEST(Report, ShowsTheNotesOnTheScenes)
+{
+    const TemporaryFolder folder;
+    const ExampleRun run;
+    RunDescription description = run.description();
+    description.notes = {{"a.glb", {"alpha_mask", 1, hostile}, description.size},
+                         {"b.glb", {"alpha_blend", 2, "2 materials are transparent"}, 4}};
+    std::filesystem::create_directories(folder / "run");
+    RunStore store{folder / "run", RunStore::Access::write};
+    store.plan(description, run.configurations());
+    run.record(store);
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    EXPECT_THAT(page.html(), HasSubstr("<li><bdi>a.glb: " + escaped(hostile) + "</bdi></li>"));
+    EXPECT_THAT(page.html(), HasSubstr("<li><bdi>b.glb: 2 materials are transparent (in 4 of 12 "
+                                       "configurations)</bdi></li>"));
+    EXPECT_THAT(read_text(folder / "out/summary.md"),
+                HasSubstr("\n- note: b.glb: 2 materials are transparent (in 4 of 12"));
+}
+
 TEST(Report, OfARunThatFailedSaysSo)
 {
     const TemporaryFolder folder;

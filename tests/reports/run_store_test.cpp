@@ -3,6 +3,7 @@
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
 #include "example_run.hpp"
+#include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
 
 #include <gmock/gmock.h>
@@ -63,6 +64,34 @@ TEST(RunStore, KnowsWhatWasRecorded)
     EXPECT_EQ(rows[0].axes[0],
               (std::pair<std::string, std::string>{"shadow_map.resolution", "256"}));
     EXPECT_EQ(rows[0].axes[1].first, "bias.constant");
+}
+
+TEST(RunStore, KeepsTheNotesOnItsScenes)
+{
+    const TemporaryFolder folder;
+    RunDescription description = small_run.description();
+    const scene::SceneNote note{"alpha_mask", 2, "2 materials"};
+    const scene::SceneNote other{"alpha_blend", 1, "1 material"};
+    add_notes(description.notes, "a.glb", std::vector{note}, 3);
+    add_notes(description.notes, "a.glb", std::vector{note, other}, 3);
+    add_notes(description.notes, "b.glb", std::vector{note}, 1);
+    {
+        RunStore store{folder.path(), Access::write};
+        store.plan(description, small_run.configurations());
+    }
+    const RunStore store{folder.path(), Access::read};
+    EXPECT_THAT(store.description().notes,
+                ElementsAre(RunNote{"a.glb", note, 6}, RunNote{"a.glb", other, 3},
+                            RunNote{"b.glb", note, 1}));
+    EXPECT_THAT(note_sentences(store.description()),
+                ElementsAre("a.glb: 2 materials", "a.glb: 1 material (in 3 of 6 configurations)",
+                            "b.glb: 2 materials (in 1 of 6 configurations)"));
+}
+
+TEST(RunNotes, PassOverWhatIsNone)
+{
+    EXPECT_THAT(read_notes(""), IsEmpty()); // a run of before there were notes
+    EXPECT_THAT(read_notes("[1, {\"scene\": \"a\"}, {}]"), IsEmpty());
 }
 
 TEST(RunStore, KeepsItAllForTheNextProcess)

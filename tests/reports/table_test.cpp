@@ -73,6 +73,15 @@ TEST(ComparisonTable, NamesSceneSettingsAndEnvironment)
     EXPECT_THAT(table, HasSubstr("seconds         scene "));
 }
 
+TEST(ComparisonTable, ShowsTheNotesOnTheScene)
+{
+    analysis::Comparison comparison = with_counts();
+    EXPECT_THAT(comparison_table(comparison), testing::Not(HasSubstr("\nnote ")));
+    comparison.scene.notes = {{"alpha_mask", 2, "2 materials are cut out"}, {"a", 1, "another"}};
+    EXPECT_THAT(comparison_table(comparison),
+                HasSubstr("\nnote            2 materials are cut out\n                another\n"));
+}
+
 TEST(ComparisonTable, ShowsADashForARateWithoutADenominator)
 {
     analysis::Comparison comparison = with_counts();
