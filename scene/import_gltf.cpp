@@ -24,11 +24,12 @@ constexpr std::string_view quantization = "KHR_mesh_quantization";
 /// Extensions that move no triangle, of which Assimp reads lights and Draco's meshes.
 bool is_read_or_harmless(std::string_view extension)
 {
-    constexpr std::array<std::string_view, 11> known{draco,
+    constexpr std::array<std::string_view, 12> known{draco,
                                                      "KHR_lights_punctual",
                                                      "KHR_xmp",
                                                      "KHR_xmp_json_ld",
                                                      "KHR_techniques_webgl",
+                                                     "KHR_technique_webgl",
                                                      "KHR_binary_glTF",
                                                      "KHR_materials_common",
                                                      "FB_ngon_encoding",

@@ -357,10 +357,11 @@ std::filesystem::path results_path(const std::filesystem::path& folder)
 void require_run_schema(const Database& database)
 {
     if (is_empty(database)) {
-        throw scene::InputError(scene::one_line(fmt::format(
-            "{}: nothing is recorded in it yet, for the run was cut off as it was begun: run the "
-            "command that began it again",
-            database.path().string())));
+        throw scene::InputError(
+            scene::one_line(fmt::format("{}: nothing is recorded in it yet, for the run was cut "
+                                        "off as it was begun: repeat the "
+                                        "command that began it",
+                                        database.path().string())));
     }
     if (database.integer("PRAGMA application_id") != application_id) {
         refuse_database(database, "is a database, but not of a sweep's results");

@@ -140,8 +140,8 @@ TEST(RunStatus, SaysThatNothingIsRecordedYetWhereTheDiskWasFullAtOnce)
             ADD_FAILURE() << statement;
         } catch (const scene::InputError& error) {
             EXPECT_THAT(error.what(), EndsWith("results.sqlite: nothing is recorded in it yet, for "
-                                               "the run was cut off as it was begun: run the "
-                                               "command that began it again"));
+                                               "the run was cut off as it was begun: repeat the "
+                                               "command that began it"));
         }
         two_case_run.compute(folder.path(), 1); // so it goes on
         EXPECT_TRUE(read_run_status(folder.path(), 20).is_complete());
