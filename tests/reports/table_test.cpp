@@ -76,6 +76,7 @@ TEST(ComparisonTable, NamesSceneSettingsAndEnvironment)
 TEST(ComparisonTable, ShowsTheNotesOnTheScene)
 {
     analysis::Comparison comparison = with_counts();
+    comparison.scene.notes = {};
     EXPECT_THAT(comparison_table(comparison), testing::Not(HasSubstr("\nnote ")));
     comparison.scene.notes = {{"alpha_mask", 2, "2 materials are cut out"}, {"a", 1, "another"}};
     EXPECT_THAT(comparison_table(comparison),
