@@ -10,6 +10,7 @@
 #include "reports/gate/gate_rule_file.hpp"
 #include "reports/gate/gate_run.hpp"
 #include "reports/gate/pixel_mask.hpp"
+#include "reports/output_name.hpp"
 #include "reports/text.hpp"
 #include "scene/job_toml.hpp"
 
@@ -32,6 +33,7 @@ struct BaselineOptions {
 
 void save_baseline(const BaselineOptions& options)
 {
+    reports::require_output_name(options.file, reports::OutputKind::baseline);
     const auto points = options.rules.empty()
                             ? std::vector<analysis::CurvePointMetric>{}
                             : reports::curve_points_of(reports::read_gate_rules(options.rules));

@@ -1,5 +1,6 @@
 #include "cli/capture_kit_command.hpp"
 
+#include "cli/output_files.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
@@ -33,13 +34,7 @@ void write_kit(const KitOptions& options)
 {
     const std::filesystem::path folder{options.folder};
     for (const KitFile& file : capture_kit_files()) {
-        const std::filesystem::path path = folder / file.name;
-        if (!options.force && std::filesystem::exists(path)) {
-            throw scene::InputError(
-                fmt::format("{}: the file exists: name another folder, or pass --force to "
-                            "replace the kit's files",
-                            path.string()));
-        }
+        require_absent(folder / file.name, options.force, "name another folder");
     }
     make_folder(folder);
     std::string written;

@@ -9,13 +9,14 @@
 #include "cli/job_options.hpp"
 #include "cli/kept_pixels.hpp"
 #include "cli/origin_remedy.hpp"
+#include "cli/output_files.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/aov_exr.hpp"
+#include "reports/case/case_write.hpp"
 #include "reports/comparison_json.hpp"
 #include "reports/comparison_table.hpp"
 #include "reports/depth_map_exr.hpp"
 #include "reports/heat_map.hpp"
-#include "reports/output_file.hpp"
 #include "reports/picture.hpp"
 #include "scene/error.hpp"
 
@@ -30,12 +31,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
 namespace {
+
+using reports::OutputKind;
 
 struct CompareOptions {
     JobOptions job;
@@ -46,6 +47,7 @@ struct CompareOptions {
     std::vector<std::string> heat_maps; ///< NAME=FILE
     std::string folder;                 ///< RUN
     std::string case_folder;            ///< of --export-case
+    bool force = false;
     std::string truth = "exact";
     bool audit = false;
     bool advise = false;
@@ -53,15 +55,6 @@ struct CompareOptions {
     bool verify = false;
     SessionOptions session;
 };
-
-bool are_same_file(const std::string& a, const std::string& b)
-{
-    std::error_code unreachable; // what cannot be reached cannot be written either: said later
-    return !a.empty() && !b.empty() &&
-           std::filesystem::weakly_canonical(a, unreachable) ==
-               std::filesystem::weakly_canonical(b, unreachable) &&
-           !unreachable;
-}
 
 struct HeatMapFile {
     reports::HeatMap kind;
@@ -84,44 +77,26 @@ std::vector<HeatMapFile> heat_map_files(const CompareOptions& options)
     return files;
 }
 
-/// An option that names a file, and the file.
-using Output = std::pair<const char*, std::string>;
-
-std::vector<Output> outputs(const CompareOptions& options)
+std::vector<OutputOption> outputs(const CompareOptions& options)
 {
-    std::vector<Output> all{{"--aov", options.aov_path},
-                            {"--picture", options.picture_path},
-                            {"--depth-map", options.depth_map_path}};
+    std::vector<OutputOption> all{{"--aov", options.aov_path, OutputKind::layers},
+                                  {"--picture", options.picture_path, OutputKind::picture},
+                                  {"--depth-map", options.depth_map_path, OutputKind::layers}};
     for (const HeatMapFile& file : heat_map_files(options)) {
-        all.emplace_back("--heat-map", file.path);
+        all.push_back({"--heat-map", file.path, OutputKind::picture});
     }
     return all;
 }
 
-/// One output would replace the other, or the job.
-void require_distinct_paths(const CompareOptions& options)
+/// Fails before the work, not after it.
+void require_new_outputs(const CompareOptions& options)
 {
-    const auto all = outputs(options);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        for (std::size_t j = i + 1; j < all.size(); ++j) {
-            if (are_same_file(all[i].second, all[j].second)) {
-                throw scene::InputError(fmt::format("{} and {} name the same file: name two",
-                                                    all[i].first, all[j].first));
-            }
-        }
-        if (are_same_file(all[i].second, options.job.job_path)) {
-            throw scene::InputError(all[i].second +
-                                    ": is both JOB and output: name another output");
-        }
-    }
-}
-
-/// Fails before the work, not after it, where an output cannot be written.
-void require_writable(const CompareOptions& options)
-{
-    for (const auto& [option, path] : outputs(options)) {
-        if (!path.empty()) {
-            const reports::OutputFile probe{path};
+    const InputFile job{"JOB", options.job.job_path};
+    require_outputs(outputs(options), {&job, 1});
+    if (!options.case_folder.empty()) {
+        for (const std::string_view name : reports::case_files()) {
+            require_absent(std::filesystem::path{options.case_folder} / name, options.force,
+                           "name another folder");
         }
     }
 }
@@ -237,9 +212,8 @@ void write_light_view(const CompareOptions& options, const analysis::Comparison&
 
 void compare(const CompareOptions& options)
 {
-    require_distinct_paths(options);
     require_exact_truth(options);
-    require_writable(options);
+    require_new_outputs(options);
     const scene::JobFile job_file = read_job(options.job);
     const scene::Job& job = job_file.job;
     const analysis::ViewRequest views = view_request(options.advice, options.job);
@@ -248,7 +222,7 @@ void compare(const CompareOptions& options)
     }
     std::optional<CompareRun> run;
     if (!options.folder.empty()) {
-        run.emplace(options.folder);
+        run.emplace(options.folder, options.force);
     }
     SessionOptions session_options = options.session;
     session_options.audits = options.audit;
@@ -309,6 +283,8 @@ void add_compare_command(CLI::App& program)
     command->add_option("--export-case", options->case_folder,
                         "DIR, a folder for GL's shadows as a case for `gnomon evaluate` "
                         "(docs/evaluate.md)");
+    command->add_flag("--force", options->force,
+                      "Let --export-case replace a case, and --out another scene's run or a sweep");
     command
         ->add_option("--truth", options->truth,
                      "exact: every scored pixel is proven; float: plain Embree rays, for comparing "

@@ -30,14 +30,16 @@ void keep_given(std::vector<std::pair<std::string, std::string>>& parameters,
 
 } // namespace
 
-CompareRun::CompareRun(std::filesystem::path folder)
+CompareRun::CompareRun(std::filesystem::path folder, bool may_replace)
     : folder_{std::move(folder)},
+      other_scenes_{may_replace ? reports::OtherScenes::replaced : reports::OtherScenes::refused},
       lock_{folder_},
       store_{folder_, reports::RunStore::Access::write}
 {
-    if (store_.description().size > 1) {
+    if (!may_replace && store_.description().size > 1) {
         throw scene::InputError(fmt::format(
-            "--out {}: holds a sweep, whose plan this would replace: name another folder",
+            "--out {}: holds a sweep, whose plan this would replace: name another folder, or pass "
+            "--force to replace it",
             scene::one_line(folder_.string())));
     }
 }
@@ -66,7 +68,7 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     reports::RunDescription description{comparison.environment, {},      1,      {},
                                         std::move(job_text),    command, command};
     reports::add_notes(description.notes, comparison.scene.name, comparison.scene.notes, 1);
-    store_.plan(description, configurations, reports::Environments::several);
+    store_.plan(description, configurations, reports::Environments::several, other_scenes_);
     keep_pixels(folder_, own.id, comparison);
     store_.record(analysis::finish_compared(comparison, own.curve, 0));
     store_.write_csv();

@@ -16,12 +16,15 @@ class CompareRun {
 public:
     /// Takes the folder before the work is done.
     /// @throws scene::InputError, scene::EnvironmentError  as `RunLock` and `RunStore` do.
-    explicit CompareRun(std::filesystem::path folder);
+    /// @param may_replace  a sweep, and results of another scene.
+    CompareRun(std::filesystem::path folder, bool may_replace);
 
     /// Records the comparison, its layers and the CSV files.
     /// @param source    of the comparison's job; its sweep is left aside.
     /// @param defaults  that the comparison's scene brings along.
     /// @param job_text, command  as in `reports::RunDescription`.
+    /// @throws scene::InputError        if the folder holds results of another scene that may not
+    /// be replaced.
     /// @throws scene::EnvironmentError  if the disk fails.
     void record(scene::JobSource source, std::string_view case_name,
                 const analysis::Comparison& comparison, const scene::SceneDefaults& defaults,
@@ -29,6 +32,7 @@ public:
 
 private:
     std::filesystem::path folder_;
+    reports::OtherScenes other_scenes_;
     reports::RunLock lock_;
     reports::RunStore store_;
 };

@@ -2,6 +2,7 @@
 
 #include "analysis/depth/depth_plan.hpp"
 #include "cli/depth_measure.hpp"
+#include "cli/output_files.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/depth/depth_comparison.hpp"
 #include "reports/depth/depth_csv.hpp"
@@ -14,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -252,9 +254,10 @@ void require_consistent(const DepthOptions& options)
         throw scene::InputError(fmt::format("--samples {}: must be 2 to {}", options.samples,
                                             scene::most_depth_planes));
     }
-    if (!options.plot_path.empty()) {
-        reports::require_drawing_path(options.plot_path);
-    }
+    require_outputs(
+        std::array{OutputOption{"--plot", options.plot_path, reports::OutputKind::plot},
+                   OutputOption{"--csv", options.csv_path.value_or(""), reports::OutputKind::csv}},
+        {});
 }
 
 void run(const DepthOptions& options)

@@ -5,6 +5,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/kept_pixels.hpp"
 #include "cli/memory.hpp"
+#include "cli/output_files.hpp"
 #include "cli/standard_output.hpp"
 #include "reference_rt/exact_light.hpp"
 #include "reference_rt/rounded_truth.hpp"
@@ -14,7 +15,6 @@
 #include "reports/comparison_table.hpp"
 #include "reports/evaluation_json.hpp"
 #include "reports/evaluation_table.hpp"
-#include "reports/output_file.hpp"
 #include "reports/picture.hpp"
 #include "reports/shell_text.hpp"
 #include "scene/case_file.hpp"
@@ -25,6 +25,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +42,7 @@ struct EvaluateOptions {
     std::string aov_path;
     std::string picture_path;
     std::string folder; ///< RUN
+    bool force = false;
     std::optional<double> tolerance_m;
     int threads = 0;
 };
@@ -59,11 +61,11 @@ auto in_words_of(const scene::CaseFile& file, const Work& work)
 /// A case with everything that it names in memory, and its mesh in Embree's hands.
 class CaseSession {
 public:
-    explicit CaseSession(const EvaluateOptions& options)
-        : file_{scene::read_case_file(options.path, options.from)},
+    CaseSession(scene::CaseFile file, int threads)
+        : file_{std::move(file)},
           layers_{reports::read_case_layers(file_, available_memory_bytes())},
           mesh_{load_mesh(file_)},
-          reference_{mesh_, {options.threads}}
+          reference_{mesh_, {threads}}
     {
         set_image_size();
     }
@@ -127,13 +129,15 @@ private:
 };
 
 /// Before the work, not after it.
-void require_writable_results(const EvaluateOptions& options)
+void require_writable_results(const EvaluateOptions& options, const scene::CaseFile& file)
 {
-    for (const std::string& path : {options.aov_path, options.picture_path}) {
-        if (!path.empty()) {
-            const reports::OutputFile probe{path};
-        }
-    }
+    const std::array outputs{
+        OutputOption{"--aov", options.aov_path, reports::OutputKind::layers},
+        OutputOption{"--picture", options.picture_path, reports::OutputKind::picture}};
+    const std::array inputs{InputFile{"the case", file.path.string()},
+                            InputFile{"the case's image", file.image.string()},
+                            InputFile{"the case's map", file.map.string()}};
+    require_outputs(outputs, inputs);
 }
 
 void print_check(const EvaluateOptions& options, const analysis::ImportCheck& check)
@@ -175,8 +179,9 @@ void write_evaluation(const EvaluateOptions& options, const analysis::Comparison
 
 void evaluate(const EvaluateOptions& options)
 {
-    require_writable_results(options);
-    const CaseSession session{options};
+    const scene::CaseFile file = scene::read_case_file(options.path, options.from);
+    require_writable_results(options, file);
+    const CaseSession session{file, options.threads};
     const analysis::CaseTruth truth = session.truth(options.threads);
     analysis::CheckedCase checked = in_words_of(session.file(), [&] {
         return analysis::check_case(session.subject(), truth, options.tolerance_m);
@@ -191,7 +196,7 @@ void evaluate(const EvaluateOptions& options)
     }
     std::optional<CompareRun> run;
     if (!options.folder.empty()) {
-        run.emplace(options.folder);
+        run.emplace(options.folder, options.force);
     }
     const analysis::Comparison comparison =
         analysis::evaluate(session.subject(), std::move(checked), truth);
@@ -227,6 +232,8 @@ void add_evaluate_command(CLI::App& program)
                         "Write a labelled picture: the shadows, the true ones, the errors (PNG)");
     command->add_option("--out", options->folder,
                         "RUN, a folder for the result, for `report`, `gate` and `baseline`");
+    command->add_flag("--force", options->force,
+                      "Let --out replace another scene's run, or a sweep");
     command
         ->add_option("--tolerance-m", options->tolerance_m,
                      "How far positions may be from the mesh, at 99 % of them [m]; default: 2^-16 "

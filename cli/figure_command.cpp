@@ -2,6 +2,7 @@
 
 #include "cli/figures.hpp"
 #include "cli/standard_output.hpp"
+#include "reports/output_name.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -49,6 +50,7 @@ void check(const FigureOptions& options)
         throw scene::InputError(
             fmt::format("figure {}: where to? give -o FILE.pdf, .svg or .png", options.name));
     }
+    reports::require_output_name(options.output, reports::OutputKind::figure);
 }
 
 void figure(const FigureOptions& options)

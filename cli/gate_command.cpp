@@ -5,6 +5,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/gate_outputs.hpp"
 #include "cli/gate_update.hpp"
+#include "cli/output_files.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/gate/baseline_read.hpp"
 #include "reports/gate/gate_json.hpp"
@@ -24,6 +25,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -143,6 +145,9 @@ reports::GateReport read_report(const GateOptions& options)
 
 void gate(const GateOptions& options)
 {
+    require_outputs(std::array{OutputOption{"--junit", options.junit, reports::OutputKind::junit}},
+                    std::array{InputFile{"the baseline", options.baseline},
+                               InputFile{"the rules", options.rules}});
     reports::GateReport report = read_report(options);
     if (!options.update.empty()) {
         return update_baseline({options.baseline, options.update, options.allows_ci_update},

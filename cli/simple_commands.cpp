@@ -1,16 +1,14 @@
 #include "cli/simple_commands.hpp"
 
+#include "cli/output_files.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/output_file.hpp"
+#include "reports/output_name.hpp"
 #include "reports/scenes_json.hpp"
 #include "reports/scenes_table.hpp"
 #include "scene/builtin_scenes.hpp"
-#include "scene/error.hpp"
 #include "scene/job_file.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -23,10 +21,8 @@ void init(const std::string& path, bool force)
         print(scene::commented_job_file());
         return;
     }
-    if (!force && std::filesystem::exists(path)) {
-        throw scene::InputError(
-            fmt::format("{}: the file exists: name another, or pass --force to replace it", path));
-    }
+    reports::require_output_name(path, reports::OutputKind::job);
+    require_absent(path, force, "name another");
     reports::write_file(path, scene::commented_job_file());
 }
 

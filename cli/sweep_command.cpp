@@ -41,6 +41,7 @@ struct SweepOptions {
     bool verifies = false;
     bool is_quiet = false;
     bool allows_mixed = false;
+    bool force = false;
     SessionOptions session;
 };
 
@@ -180,6 +181,7 @@ void sweep(const SweepOptions& options)
     run.retries_failed = !options.retry.empty();
     run.is_quiet = options.is_quiet;
     run.allows_mixed = options.allows_mixed;
+    run.may_replace = options.force;
     run.job_text = job_text(options.job);
     run.command = command_text("sweep", options.job, options.axes) + flags_text(options);
     run.compare_command = command_text("compare", options.job);
@@ -228,6 +230,7 @@ void add_sweep_command(CLI::App& program)
                       "every verdict; also of what is done already");
     command->add_flag("--allow-mixed", options->allows_mixed,
                       "Go on in a RUN that holds results of another driver or version");
+    command->add_flag("--force", options->force, "Replace what RUN holds of another scene");
     command->add_flag("--quiet", options->is_quiet, "No progress on stderr");
     add_session_options(*command, options->session);
     command->footer(

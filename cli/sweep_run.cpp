@@ -161,8 +161,9 @@ private:
         recording_.add([this, shards = std::move(shards)] {
             planned_ = store_.plan(
                 description(), [&](const auto& visit) { show(shards, visit); },
-                options_.allows_mixed ? reports::Environments::several
-                                      : reports::Environments::one);
+                options_.allows_mixed ? reports::Environments::several : reports::Environments::one,
+                options_.may_replace ? reports::OtherScenes::replaced
+                                     : reports::OtherScenes::refused);
         });
     }
 

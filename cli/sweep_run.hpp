@@ -22,6 +22,7 @@ struct SweepRunOptions {
     bool retries_failed = false;
     bool is_quiet = false;
     bool allows_mixed = false; ///< results of several environments in one run
+    bool may_replace = false;  ///< results of other scenes
     std::string job_text;
     std::string command;
     std::string compare_command; ///< as in `reports::RunDescription`

@@ -269,6 +269,14 @@ void abandon_output_files() noexcept
     }
 }
 
+void require_writable(const std::filesystem::path& path)
+{
+    std::error_code unreachable;
+    if (!std::filesystem::is_fifo(path, unreachable)) {
+        const OutputFile probe{path};
+    }
+}
+
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes)
 {
     OutputFile file{path};

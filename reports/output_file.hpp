@@ -52,6 +52,10 @@ private:
 /// signal handler, in whatever thread, that ends the process next. Async-signal-safe.
 void abandon_output_files() noexcept;
 
+/// Fails where `OutputFile` would; leaves a pipe alone, whose reader would take this for the end.
+/// @throws scene::EnvironmentError
+void require_writable(const std::filesystem::path& path);
+
 /// Writes the whole file, atomically.
 /// @throws scene::EnvironmentError  as `OutputFile` does.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);

@@ -25,6 +25,11 @@ namespace gnomon::reports {
 
 namespace {
 
+constexpr std::string_view case_file = "case.toml";
+constexpr std::string_view mesh_file = "mesh.glb";
+constexpr std::string_view image_file = "aov.exr";
+constexpr std::string_view map_file = "map.exr";
+
 using scene::LookupSample;
 using scene::PixelClass;
 
@@ -157,12 +162,12 @@ std::string case_toml(const analysis::Comparison& comparison, const CaseExtras& 
     text += fmt::format("name = {}\n", scene::toml_quoted(comparison.scene.name));
     text +=
         fmt::format("renderer = {}\n", scene::toml_quoted(renderer.empty() ? "unknown" : renderer));
-    text += "\n[mesh]\nfile = \"mesh.glb\"\n";
+    text += fmt::format("\n[mesh]\nfile = \"{}\"\n", mesh_file);
     text += fmt::format("no_cast = [{}]\n", name_list(scene, &scene::Object::casts));
     text += fmt::format("no_receive = [{}]\n", name_list(scene, &scene::Object::receives));
     text += job_tables(comparison.job, extras);
     if (!extras.map_depths.empty()) {
-        text += "\n[map]\nfile = \"map.exr\"\n";
+        text += fmt::format("\n[map]\nfile = \"{}\"\n", map_file);
     }
     text += "\n[objects]\n";
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -184,6 +189,12 @@ void make_case_folder(const std::filesystem::path& folder)
 
 } // namespace
 
+std::span<const std::string_view> case_files()
+{
+    static constexpr std::array files{case_file, mesh_file, image_file, map_file};
+    return files;
+}
+
 void write_case(const std::filesystem::path& folder, const analysis::Comparison& comparison,
                 const CaseExtras& extras)
 {
@@ -197,16 +208,16 @@ void write_case(const std::filesystem::path& folder, const analysis::Comparison&
                         scene::one_line(folder.string())));
     }
     make_case_folder(folder);
-    write_file(folder / "mesh.glb", encode_glb(*comparison.triangles));
-    write_file(folder / "aov.exr", case_image(comparison, extras));
+    write_file(folder / mesh_file, encode_glb(*comparison.triangles));
+    write_file(folder / image_file, case_image(comparison, extras));
     if (!extras.map_depths.empty()) {
         const auto& depths = extras.map_depths;
         CaseChannels channels;
         channels.add("map.d", [&depths](std::size_t i) { return depths[i]; });
-        write_file(folder / "map.exr", encode_exr(depths.size(), channels.all(), {}));
+        write_file(folder / map_file, encode_exr(depths.size(), channels.all(), {}));
     }
     // Last: whoever finds it finds all of the case.
-    write_file(folder / "case.toml", case_toml(comparison, extras));
+    write_file(folder / case_file, case_toml(comparison, extras));
 }
 
 } // namespace gnomon::reports

@@ -7,6 +7,8 @@
 #include "scene/vec.hpp"
 
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 namespace gnomon::reports {
 
@@ -18,6 +20,9 @@ struct CaseExtras {
     scene::LookupLayers unmoved;    ///< the lookup without any bias; empty: it can be derived
     scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
 };
+
+/// The files that a case may have, the one that names the others first.
+[[nodiscard]] std::span<const std::string_view> case_files();
 
 /// Writes GL's verdict as another renderer's case into a folder, which is made where there is none:
 /// case.toml, aov.exr, mesh.glb and, if there are depths, map.exr (docs/evaluate.md).

@@ -1,6 +1,7 @@
 #include "reports/depth/drawing.hpp"
 
 #include "reports/output_file.hpp"
+#include "reports/output_name.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -170,17 +171,9 @@ RgbImage rasterise(const Drawing& drawing, const std::filesystem::path& font_fol
     return canvas.image();
 }
 
-void require_drawing_path(const std::filesystem::path& path)
-{
-    if (path.extension() != ".svg" && path.extension() != ".png") {
-        throw scene::InputError(
-            fmt::format("{}: a plot is written as .svg or .png; name it so", path.string()));
-    }
-}
-
 void write_drawing(const std::filesystem::path& path, const Drawing& drawing)
 {
-    require_drawing_path(path);
+    require_output_name(path, OutputKind::plot);
     if (path.extension() == ".svg") {
         write_file(path, svg_text(drawing));
     } else {

@@ -52,12 +52,8 @@ struct Drawing {
 [[nodiscard]] RgbImage rasterise(const Drawing& drawing,
                                  const std::filesystem::path& font_folder = default_font_folder);
 
-/// Throws unless a drawing can be written under this name: .svg or .png.
-/// @throws scene::InputError  naming the path and the remedy.
-void require_drawing_path(const std::filesystem::path& path);
-
 /// Writes the drawing as its extension says.
-/// @throws scene::InputError        as `require_drawing_path` does.
+/// @throws scene::InputError        as `require_output_name` does.
 /// @throws scene::EnvironmentError  if it cannot be drawn or written.
 void write_drawing(const std::filesystem::path& path, const Drawing& drawing);
 

@@ -1,6 +1,7 @@
 #include "reports/run/run_plan.hpp"
 
 #include "reports/json_values.hpp"
+#include "reports/run/planned_scenes.hpp"
 #include "reports/run/run_columns.hpp"
 #include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
@@ -275,18 +276,30 @@ void write_description(const Database& database, const RunDescription& descripti
 }
 
 PlanOutcome write_plan(const Database& database, const RunDescription& description,
-                       const ShowConfigurations& show, Environments environments)
+                       const ShowConfigurations& show, Environments environments,
+                       OtherScenes other_scenes)
 {
     require_valid(description.shard);
     Transaction transaction{database};
     if (environments == Environments::one) {
         require_one_environment(database, description.environment);
     }
+    const PlannedScenes earlier{database};
     write_description(database, description);
     database.run("DELETE FROM plan");
     const bool has_earlier_rows = has_configurations(database);
     Planner planner{database};
-    show([&](const Configuration& configuration) { planner.add(configuration); });
+    bool has_known_scene = earlier.empty() || other_scenes == OtherScenes::replaced;
+    show([&](const Configuration& configuration) {
+        planner.add(configuration);
+        has_known_scene = has_known_scene || earlier.have(configuration);
+    });
+    if (!has_known_scene) {
+        throw scene::InputError(scene::one_line(fmt::format(
+            "{}: holds results of another scene, {}: name another folder, or pass --force to "
+            "replace them",
+            database.path().parent_path().string(), earlier.example())));
+    }
     const std::uint64_t retired = has_earlier_rows ? retire(database) : 0;
     PlanOutcome result = read_outcome(database);
     result.retired = retired;

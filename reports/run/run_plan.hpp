@@ -9,7 +9,8 @@ namespace gnomon::reports {
 
 /// `RunStore::plan`, in one transaction.
 PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& description,
-                       const ShowConfigurations& show, Environments environments);
+                       const ShowConfigurations& show, Environments environments,
+                       OtherScenes other_scenes);
 
 /// `RunStore::has_configurations`
 [[nodiscard]] bool has_configurations(const sqlite::Database& database);

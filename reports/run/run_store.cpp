@@ -107,18 +107,19 @@ RunStore::~RunStore() = default;
 
 PlanOutcome RunStore::plan(const RunDescription& description,
                            std::span<const analysis::Configuration> configurations,
-                           Environments environments)
+                           Environments environments, OtherScenes other_scenes)
 {
     const auto show = [&](const VisitConfiguration& visit) {
         std::for_each(configurations.begin(), configurations.end(), visit);
     };
-    return plan(description, show, environments);
+    return plan(description, show, environments, other_scenes);
 }
 
 PlanOutcome RunStore::plan(const RunDescription& description, const ShowConfigurations& show,
-                           Environments environments)
+                           Environments environments, OtherScenes other_scenes)
 {
-    const PlanOutcome outcome = write_plan(parts_->database, description, show, environments);
+    const PlanOutcome outcome =
+        write_plan(parts_->database, description, show, environments, other_scenes);
     parts_->environment = environment_number(parts_->database);
     return outcome;
 }

@@ -83,6 +83,9 @@ using ShowConfigurations = std::function<void(const VisitConfiguration& visit)>;
 /// How many environments the results of one run may come from.
 enum class Environments : std::uint8_t { one, several };
 
+/// Whether a plan may take the place of one that has results of other scenes alone.
+enum class OtherScenes : std::uint8_t { refused, replaced };
+
 /// The results of a sweep on the disk: RUN/results.sqlite (docs/runs.md).
 ///
 /// What `record` and `record_failure` return from is on the disk: it survives the end of the
@@ -119,15 +122,18 @@ public:
     ///                        whose `shard` is not the description's are other parts': recorded,
     ///                        so that `merge` knows the whole, and left out of all else here.
     /// @throws scene::InputError  if it holds results of another environment and several are not
-    ///                            allowed.
+    ///                            allowed, or of other scenes alone and those may not be
+    ///                            replaced.
     /// @throws std::invalid_argument  if an ordinal occurs twice, a key is no job key, or the shard
     ///                                is none.
     PlanOutcome plan(const RunDescription& description,
                      std::span<const analysis::Configuration> configurations,
-                     Environments environments = Environments::one);
+                     Environments environments = Environments::one,
+                     OtherScenes other_scenes = OtherScenes::replaced);
     /// The same for a plan that does not fit into memory.
     PlanOutcome plan(const RunDescription& description, const ShowConfigurations& show,
-                     Environments environments = Environments::one);
+                     Environments environments = Environments::one,
+                     OtherScenes other_scenes = OtherScenes::replaced);
 
     /// Which it has, where it was opened with `read_older`.
     [[nodiscard]] const RunSchema& schema() const;
