@@ -26,6 +26,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -140,6 +141,15 @@ void require_writable_results(const EvaluateOptions& options, const scene::CaseF
     require_outputs(outputs, inputs);
 }
 
+void require_sound_tolerance(const EvaluateOptions& options)
+{
+    if (options.tolerance_m &&
+        !(std::isfinite(*options.tolerance_m) && *options.tolerance_m >= 0)) {
+        throw scene::InputError(fmt::format("--tolerance-m {}: must be a number of metres from 0",
+                                            *options.tolerance_m));
+    }
+}
+
 void print_check(const EvaluateOptions& options, const analysis::ImportCheck& check)
 {
     print(options.json ? reports::check_json(check) : reports::check_text(check));
@@ -179,6 +189,7 @@ void write_evaluation(const EvaluateOptions& options, const analysis::Comparison
 
 void evaluate(const EvaluateOptions& options)
 {
+    require_sound_tolerance(options);
     const scene::CaseFile file = scene::read_case_file(options.path, options.from);
     require_writable_results(options, file);
     const CaseSession session{file, options.threads};
@@ -234,11 +245,10 @@ void add_evaluate_command(CLI::App& program)
                         "RUN, a folder for the result, for `report`, `gate` and `baseline`");
     command->add_flag("--force", options->force,
                       "Let --out replace another scene's run, or a sweep");
-    command
-        ->add_option("--tolerance-m", options->tolerance_m,
-                     "How far positions may be from the mesh, at 99 % of them [m]; default: 2^-16 "
-                     "of the largest coordinate")
-        ->check(CLI::NonNegativeNumber);
+    command->add_option(
+        "--tolerance-m", options->tolerance_m,
+        "How far positions may be from the mesh, at 99 % of them [m]; default: 2^-16 "
+        "of the largest coordinate");
     command->add_option("--threads", options->threads, "Threads of the reference; 0: all cores")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();

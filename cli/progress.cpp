@@ -77,7 +77,7 @@ std::string Progress::line() const
     }
     if (told > 0 && elapsed > 0) {
         const double rate = static_cast<double>(told) / elapsed;
-        text += fmt::format(", {:.3g}/s, {} left", rate,
+        text += fmt::format(", {}/s, {} left", reports::grouped_amount(rate),
                             clock_text(static_cast<double>(total_ - told) / rate));
     }
     if (told < total_ && !current_.empty()) {

@@ -48,8 +48,9 @@ std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias
 {
     const std::string metres =
         settings.constant_m ? fmt::format(" ({:.4g} m)", *settings.constant_m) : std::string{};
-    return fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels", bias.constant,
-                       metres, bias.slope, bias.normal_texels);
+    return fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
+                       plain_zero(bias.constant), metres, plain_zero(bias.slope),
+                       plain_zero(bias.normal_texels));
 }
 
 } // namespace

@@ -98,7 +98,7 @@ std::string causes(const analysis::Comparison& comparison)
 /// A limit that need not exist.
 std::string limit(float bias, std::string_view none)
 {
-    return std::isfinite(bias) ? fmt::format("{:.4g}", bias) : std::string{none};
+    return std::isfinite(bias) ? fmt::format("{:.4g}", plain_zero(bias)) : std::string{none};
 }
 
 /// "0.0024 (by count 0.0008)": where taps tell them apart.
@@ -135,19 +135,33 @@ std::string recommended_bias(const analysis::Recommendation& recommended)
     return recommended.views > 1 ? fmt::format("{}, over {} views", text, recommended.views) : text;
 }
 
+/// "fewest errors (12) from 0.002 to 0.003", or without an end where the interval has none.
+std::string fewest_errors(const analysis::BestBiases& best)
+{
+    const auto& [lo, hi] = best.interval;
+    std::string text = fmt::format("fewest errors ({})", grouped(best.errors.total()));
+    if (!std::isfinite(lo) && !std::isfinite(hi)) {
+        return text + " with any bias";
+    }
+    if (!std::isfinite(lo)) {
+        return text + fmt::format(" with {:.4g} or less", plain_zero(hi));
+    }
+    return text + (std::isfinite(hi)
+                       ? fmt::format(" from {:.4g} to {:.4g}", plain_zero(lo), plain_zero(hi))
+                       : fmt::format(" with {:.4g} or more", plain_zero(lo)));
+}
+
 std::string constant_bias(const analysis::Comparison& comparison)
 {
-    if (!comparison.diagnosis || !comparison.diagnosis->biases) {
+    if (!comparison.diagnosis || !comparison.diagnosis->biases ||
+        comparison.metrics.pixels.scored() == 0) {
         return "";
     }
     const analysis::BiasAnswers& answers = *comparison.diagnosis->biases;
     const analysis::BiasLimits& strict = answers.bounds.strict;
     const analysis::BiasLimits& lenient = answers.bounds.allowances[1];
     std::string text = "\n";
-    text += setting_line("constant bias", fmt::format("fewest errors ({}) from {} to {}",
-                                                      grouped(answers.best.errors.total()),
-                                                      limit(answers.best.interval.lo, "any"),
-                                                      limit(answers.best.interval.hi, "any")));
+    text += setting_line("constant bias", fewest_errors(answers.best));
     text += setting_line("", fmt::format("no acne from {}, no peter-panning up to {}",
                                          acne_limit(strict), limit(strict.panning_free, "-")));
     text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",

@@ -269,13 +269,67 @@ std::string other_biases(const scene::Bias& bias)
 
 constexpr std::size_t one_in_a_thousand = 1; // of the allowances
 
+/// What keeps a pixel of a surface from being scored; "of the surface" fits before it.
+std::string_view why_not_scored(PixelClass pixel_class)
+{
+    switch (pixel_class) {
+    case PixelClass::unmatched:
+        return "is seen differently by GL and by the exact rays";
+    case PixelClass::attached:
+        return "faces away from the light";
+    case PixelClass::out_of_light:
+        return "is outside the light's cone";
+    case PixelClass::indeterminate:
+        return "lies exactly on a shadow's border";
+    case PixelClass::background:
+    case PixelClass::lit:
+    case PixelClass::blocked:
+        break;
+    }
+    return "";
+}
+
+/// Where there is no surface in the picture.
+std::string why_none_is_seen(const analysis::Comparison& comparison)
+{
+    const auto& objects = comparison.triangles->objects;
+    if (std::ranges::none_of(objects, &scene::Object::receives)) {
+        return "No pixel is scored: every object is in scene.no_receive, so none is drawn.";
+    }
+    return "No pixel is scored: the camera sees only background; point it at the scene.";
+}
+
+std::string why_none_is_scored(const analysis::Comparison& comparison)
+{
+    const analysis::ClassCounts& pixels = comparison.metrics.pixels;
+    const std::uint64_t surface = pixels.total - pixels.of(PixelClass::background);
+    if (surface == 0) {
+        return why_none_is_seen(comparison);
+    }
+    std::vector<std::string> parts;
+    for (const PixelClass pixel_class : {PixelClass::attached, PixelClass::out_of_light,
+                                         PixelClass::unmatched, PixelClass::indeterminate}) {
+        const std::uint64_t count = pixels.of(pixel_class);
+        if (count == surface) {
+            return fmt::format("No pixel is scored: all of the surface that the camera sees {}.",
+                               why_not_scored(pixel_class));
+        }
+        if (count > 0) {
+            parts.push_back(fmt::format("{} {}{}", percent(analysis::ratio(count, surface)),
+                                        parts.empty() ? "of the surface that the camera sees " : "",
+                                        why_not_scored(pixel_class)));
+        }
+    }
+    return fmt::format("No pixel is scored: {}.", fmt::join(parts, ", "));
+}
+
 } // namespace
 
 std::string what_is_wrong(const analysis::Comparison& comparison)
 {
     const analysis::ClassCounts& pixels = comparison.metrics.pixels;
     if (pixels.scored() == 0) {
-        return "No pixel is scored: nothing that the camera sees faces the light.";
+        return why_none_is_scored(comparison);
     }
     const auto errors = errors_by_label(comparison);
     std::vector<std::string> parts;

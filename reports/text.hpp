@@ -18,6 +18,12 @@ namespace gnomon::reports {
 /// not zero never prints as zero ("<0.0001 %"); "-" if there is none.
 [[nodiscard]] std::string percent(std::optional<double> fraction);
 
+/// The number itself, but 0 for -0, whose sign says nothing to people.
+[[nodiscard]] constexpr double plain_zero(double value)
+{
+    return value == 0 ? 0 : value;
+}
+
 /// Width of a UTF-8 text in code points.
 [[nodiscard]] std::size_t text_columns(std::string_view text);
 

@@ -15,8 +15,11 @@
 namespace gnomon::scene {
 namespace {
 
-constexpr double auto_padding = 1e-4;             // of the range of ζ, on both sides (DESIGN §7)
-constexpr double smallest_spot_near = 1e-3;       // of far
+constexpr double auto_padding = 1e-4;       // of the range of ζ, on both sides (DESIGN §7)
+constexpr double smallest_spot_near = 1e-3; // of far
+/// Closer planes, or a nearer one, leave float32 biases no number for a texel's depth.
+constexpr double smallest_given_range_m = 1e-12;
+constexpr double smallest_given_near = 1e-24;     // of far
 constexpr double smallest_relative_extent = 1e-4; // of the scene's diagonal; flat scenes
 
 /// Extent of points in light view: right, up, forward coordinates and the tangents seen from the
@@ -178,6 +181,19 @@ void check_planes(const DepthPlanes& planes, Projection projection)
         throw InputError(fmt::format("shadow_map.near = {} is not below shadow_map.far = {}: "
                                      "correct them, or write \"auto\"",
                                      planes.near_m, planes.far_m));
+    }
+    if (planes.far_m - planes.near_m < smallest_given_range_m) {
+        throw InputError(
+            fmt::format("shadow_map.near = {} is too close to shadow_map.far = {}: keep "
+                        "them {} m apart, or write \"auto\"",
+                        planes.near_m, planes.far_m, smallest_given_range_m));
+    }
+    if (projection == Projection::perspective &&
+        planes.near_m < smallest_given_near * planes.far_m) {
+        throw InputError(fmt::format("shadow_map.near = {} is too small for shadow_map.far = {}: "
+                                     "write {:.1g} or more, or \"auto\"",
+                                     planes.near_m, planes.far_m,
+                                     10 * smallest_given_near * planes.far_m));
     }
 }
 

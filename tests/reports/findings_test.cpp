@@ -101,6 +101,52 @@ TEST(Findings, SayThatAllIsRight)
     EXPECT_THAT(findings(comparison_of(0, 0)), ElementsAre("All 200 scored pixels are right."));
 }
 
+/// One of whose pixels none is scored: 60 of background, and of each other class what is given.
+analysis::Comparison
+unscored(const std::vector<std::pair<scene::PixelClass, std::uint64_t>>& counts)
+{
+    analysis::Comparison comparison = comparison_of(0, 0);
+    analysis::ClassCounts pixels;
+    pixels.total = 60;
+    pixels.by_class[static_cast<std::size_t>(scene::PixelClass::background)] = 60;
+    for (const auto& [pixel_class, count] : counts) {
+        pixels.total += count;
+        pixels.by_class[static_cast<std::size_t>(pixel_class)] = count;
+    }
+    comparison.metrics = make_metrics(pixels, {});
+    return comparison;
+}
+
+TEST(Findings, SayWhyNoPixelIsScored)
+{
+    using scene::PixelClass;
+    EXPECT_THAT(
+        findings(unscored({{PixelClass::attached, 40}})),
+        ElementsAre("No pixel is scored: all of the surface that the camera sees faces away "
+                    "from the light."));
+    EXPECT_THAT(
+        findings(unscored({{PixelClass::out_of_light, 40}})),
+        ElementsAre("No pixel is scored: all of the surface that the camera sees is outside "
+                    "the light's cone."));
+    EXPECT_THAT(findings(unscored({{PixelClass::attached, 10}, {PixelClass::out_of_light, 30}})),
+                ElementsAre("No pixel is scored: 25.0 % of the surface that the camera sees faces "
+                            "away from the light, 75.0 % is outside the light's cone."));
+}
+
+TEST(Findings, SayWhyNothingIsSeen)
+{
+    analysis::Comparison comparison = unscored({});
+    scene::TriangleScene scene;
+    scene.objects.resize(2);
+    scene.objects[0].receives = false;
+    comparison.triangles = &scene;
+    EXPECT_THAT(findings(comparison), ElementsAre("No pixel is scored: the camera sees only "
+                                                  "background; point it at the scene."));
+    scene.objects[1].receives = false;
+    EXPECT_THAT(findings(comparison), ElementsAre("No pixel is scored: every object is in "
+                                                  "scene.no_receive, so none is drawn."));
+}
+
 TEST(Findings, CallBordersThatAKernelSoftensRight)
 {
     analysis::Comparison comparison = comparison_of(0, 0);
