@@ -1,0 +1,67 @@
+#include "example_comparison.hpp"
+
+#include "reports/comparison_json.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace gnomon::reports {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::filesystem::path schema_document{GNOMON_JSON_SCHEMA_DOCUMENT};
+
+std::string document_text(const std::filesystem::path& file)
+{
+    std::ifstream stream{file};
+    return {std::istreambuf_iterator<char>{stream}, std::istreambuf_iterator<char>{}};
+}
+
+/// Whether a page names the member: by itself, or as the way to it that metrics have.
+bool is_named(const std::string& text, const std::string& name)
+{
+    return text.find(" `" + name + "`") != std::string::npos ||
+           text.find("`" + name + ".") != std::string::npos;
+}
+
+TEST(JsonSchemaDocument, NamesEveryMemberOfTheObject)
+{
+    const std::string text =
+        document_text(schema_document) +
+        document_text(schema_document.parent_path() / "metrics.md"); // to which it refers
+    const Example example;
+    const Json json = Json::parse(comparison_json(example.comparison));
+    ASSERT_GT(json.size(), 30U);
+    for (const auto& [name, value] : json.items()) {
+        EXPECT_TRUE(is_named(text, name)) << name << " is not in " << schema_document;
+    }
+}
+
+TEST(JsonSchemaDocument, NamesTheMembersOfItsObjects)
+{
+    const std::string text = document_text(schema_document);
+    const Example example;
+    const Json json = Json::parse(comparison_json(example.comparison));
+    for (const char* const object : {"environment", "seconds", "frustum", "truth_signs", "scene"}) {
+        ASSERT_TRUE(json.at(object).is_object()) << object;
+        for (const auto& [name, value] : json.at(object).items()) {
+            EXPECT_TRUE(is_named(text, name)) << object << "." << name;
+        }
+    }
+}
+
+TEST(JsonSchemaDocument, IsNotTakenToNameWhatItDoesNot)
+{
+    EXPECT_TRUE(is_named("| `seconds` | object |", "seconds"));
+    EXPECT_TRUE(is_named("| `pixels.lit` |", "pixels"));
+    EXPECT_FALSE(is_named("| `seconds` | object |", "second"));
+}
+
+} // namespace
+} // namespace gnomon::reports
