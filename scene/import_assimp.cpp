@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <new>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -50,7 +51,12 @@ const aiScene& read(Assimp::Importer& importer, const std::string& path)
     // No post-processing: the importer's own triangulation folds concave polygons over.
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene == nullptr) {
-        throw std::runtime_error{importer.GetErrorString()};
+        // The library passes on what the standard library's exceptions call themselves.
+        const std::string reason = importer.GetErrorString();
+        if (reason.starts_with("std::bad_") || reason.starts_with("vector::")) {
+            throw std::bad_alloc{};
+        }
+        throw std::runtime_error{reason};
     }
     if (scene->mRootNode == nullptr) {
         throw std::runtime_error{"the file has no scene"};
