@@ -10,6 +10,7 @@
 #include "cli/evaluate_command.hpp"
 #include "cli/figure_command.hpp"
 #include "cli/gate_command.hpp"
+#include "cli/help_command.hpp"
 #include "cli/manual.hpp"
 #include "cli/merge_command.hpp"
 #include "cli/report_command.hpp"
@@ -31,7 +32,7 @@ constexpr auto commands = std::to_array<AddCommand>(
      add_merge_command, add_status_command, add_report_command, add_gate_command,
      add_baseline_command, add_evaluate_command, add_capture_kit_command, add_figure_command,
      add_depth_command, add_scenes_command, add_init_command, add_doctor_command,
-     add_completion_command, add_manual_command});
+     add_completion_command, add_manual_command, add_help_command});
 
 } // namespace
 

@@ -2,17 +2,16 @@
 #include "cli/exit_codes.hpp"
 #include "cli/process.hpp"
 #include "cli/standard_output.hpp"
+#include "cli/usage_error.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace {
 
@@ -29,18 +28,6 @@ void complain(std::string message)
     std::fprintf(stderr, "gnomon: %s\n", message.c_str());
 }
 
-/// What a wrong command line lacks or has too much of. Without a known command CLI11 asks for one
-/// and keeps silent about the word that it could not take for one.
-std::string usage_error(const CLI::App& program, const CLI::ParseError& error)
-{
-    const std::vector<std::string> unknown = program.remaining();
-    if (program.get_subcommands().empty() && !unknown.empty()) {
-        const char* const kind = unknown.front().starts_with('-') ? "option" : "command";
-        return fmt::format("unknown {} {}; `gnomon --help` lists them", kind, unknown.front());
-    }
-    return fmt::format("{}; see `gnomon --help`", error.what());
-}
-
 int run(CLI::App& program, int argc, char** argv)
 {
     try {
@@ -54,7 +41,7 @@ int run(CLI::App& program, int argc, char** argv)
         gnomon::cli::print(text.str());
         return code;
     } catch (const CLI::ParseError& error) {
-        complain(usage_error(program, error));
+        complain(gnomon::cli::usage_error(program, error));
         return exit_codes::bad_input;
     }
 }

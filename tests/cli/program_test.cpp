@@ -62,6 +62,20 @@ TEST(Manual, NamesEveryCommandAndHoldsNoRequestOfItsOwn)
     }
 }
 
+TEST(Help, PrintsWhatTheOptionPrints)
+{
+    for (const std::vector<std::string>& command :
+         std::vector<std::vector<std::string>>{{}, {"compare"}, {"baseline", "save"}, {"help"}}) {
+        std::vector<std::string> help{"help"};
+        help.insert(help.end(), command.begin(), command.end());
+        std::vector<std::string> option = command;
+        option.emplace_back("--help");
+        const Ending ending = gnomon(help);
+        expect_done(ending);
+        EXPECT_EQ(ending.out, gnomon(option).out);
+    }
+}
+
 TEST(Init, WritesAJobThatCompares)
 {
     const TemporaryFolder folder;

@@ -1,0 +1,56 @@
+#include "cli/help_command.hpp"
+
+#include "cli/standard_output.hpp"
+#include "scene/error.hpp"
+#include "scene/job_file.hpp"
+#include "scene/job_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+/// @throws scene::InputError  naming the nearest command.
+const CLI::App& command_below(const CLI::App& app, const std::string& name)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (below->get_name() == name) {
+            return *below;
+        }
+        names.push_back(below->get_name());
+    }
+    const std::string nearest = scene::nearest_word(name, names);
+    throw scene::InputError(fmt::format("help: unknown command {}; {}", scene::one_line(name),
+                                        nearest.empty()
+                                            ? fmt::format("{} has none below it", app.get_name())
+                                            : fmt::format("did you mean {}?", nearest)));
+}
+
+} // namespace
+
+void add_help_command(CLI::App& program)
+{
+    auto names = std::make_shared<std::vector<std::string>>();
+    CLI::App* command = program.add_subcommand("help", "Print what --help prints, of a command");
+    command->add_option("COMMAND", *names, "Which; default: the program");
+    command->footer("Examples:\n"
+                    "  gnomon help compare\n"
+                    "  gnomon help baseline save");
+    command->callback([&program, names] {
+        const CLI::App* app = &program;
+        std::string full_name = app->get_name();
+        for (const std::string& name : *names) {
+            app = &command_below(*app, name);
+            full_name += " " + name;
+        }
+        // Not the program's own `help`, which would be that of the command being run: this one.
+        print(app->get_formatter()->make_help(app, full_name, CLI::AppFormatMode::Normal));
+    });
+}
+
+} // namespace gnomon::cli
