@@ -1,5 +1,6 @@
 """False-shadow and false-lit rate at every constant bias, with the biases that matter marked."""
 
+import itertools
 from dataclasses import dataclass
 
 import numpy
@@ -20,7 +21,8 @@ class Curve:
     bias: numpy.ndarray
     false_shadow_rate: numpy.ndarray
     false_lit_rate: numpy.ndarray
-    job_bias: float
+    job_bias: float  # NaN where no configuration has it
+    swept: numpy.ndarray  # biases of the sweep, where it has several
     best: tuple  # from, to
     best_errors: float
     acne_free: float
@@ -44,19 +46,24 @@ def read(run):
     chosen, why = run_settings.curves_of(run, rows)
     titles = run_settings.panel_titles(run, rows, chosen)
     settings = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
-    curves = [_curve(run, row, title) for (_, row), title in zip(chosen.iterrows(), titles)]
-    return Tables("; ".join(filter(None, (settings, why))), curves)
+    curves = [_curve(run, rows, row, title) for (_, row), title in zip(chosen.iterrows(), titles)]
+    job_biases = [curve.job_bias for curve in curves if numpy.isfinite(curve.job_bias)]
+    return Tables("; ".join(filter(None, (
+        settings, run_settings.biases_text("job's bias", job_biases), why))), curves)
 
 
-def _curve(run, row, name):
+def _curve(run, rows, row, name):
     points = run.curve_of(row)
     bins = run.error_vs_z
     at_job = bins[(bins["curve"] == row["curve"]) & (bins["at"] == "job_bias")]["bias"]
+    job_bias = at_job.iloc[0] if len(at_job) else row["bias.constant"]
+    swept = rows.loc[rows["curve"] == row["curve"], "bias.constant"].dropna().unique()
     return Curve(
         name,
         *(points[key].to_numpy(dtype=float)
           for key in ("bias", "false_shadow_rate", "false_lit_rate")),
-        job_bias=at_job.iloc[0] if len(at_job) else row["bias.constant"],
+        job_bias=job_bias if run_settings.has_bias(rows, row["curve"], job_bias) else numpy.nan,
+        swept=numpy.sort(swept.astype(float)) if len(swept) > 1 else numpy.array([]),
         best=(row["bias_curve.best_interval.lo"], row["bias_curve.best_interval.hi"]),
         best_errors=row["bias_curve.best_errors"],
         acne_free=row["bias_curve.acne_free"],
@@ -82,13 +89,15 @@ def draw(tables):
     """A row a curve."""
     curves = tables.curves
     figure = style.TitledFigure(TITLE, tables.settings, 1.85 + 2.75 * len(curves))
-    grid = style.lay_out(figure, top_in=1.45 if curves[0].name else 1.2, nrows=len(curves), ncols=1, hspace=0.42)
-    for row, curve in enumerate(curves):
+    titles = style.panel_titles([curve.name for curve in curves], 1)
+    grid = style.lay_out(figure, left_in=1.0, top_in=1.3 + style.title_height(titles),
+                         nrows=len(curves), ncols=1, hspace=0.42)
+    for row, (curve, title) in enumerate(zip(curves, titles)):
         axes = figure.add_subplot(grid[row])
         _draw(axes, curve)
-        axes.set_title(style.plain(curve.name))
+        axes.set_title(title)
     axes.set_xlabel("constant bias [depth units]")
-    style.add_legend(figure, ncol=3)
+    style.add_legend(figure, ncol=3, markerscale=1)
     return figure
 
 
@@ -113,20 +122,31 @@ def _draw(axes, curve):
               if numpy.isfinite(bias)]
     axes.set_xlim(min(-3 * linear, *(3 * bias for bias in marked if bias < 0), -3 * linear),
                   1.6 * max(curve.bias.max(initial=linear), *marked, linear))
-    axes.xaxis.set_major_locator(_ticks(linear, axes.get_xlim()))
     style.set_rate_scale(axes)
+    _set_ticks(axes, linear)
+    if len(curve.swept):
+        axes.plot(curve.swept, numpy.full(len(curve.swept), 0.016), "|", color=style.BLACK,
+                  transform=axes.get_xaxis_transform(), markersize=8, markeredgewidth=1.2,
+                  label="biases of the sweep")
     axes.set_ylabel("wrong pixels [%]")
 
 
-def _ticks(linear, limits):
-    from matplotlib.ticker import FixedLocator
-
+def _set_ticks(axes, linear):
+    """Zero and powers of ten, as many as keep apart."""
+    limits = axes.get_xlim()
     low, high = (numpy.floor(numpy.log10(max(linear, abs(limit)))) for limit in limits)
     first = numpy.log10(linear)
-    step = max(1, int(numpy.ceil((high - first) / 8)))
-    right = 10.0 ** numpy.arange(high, first - 0.5, -step)[::-1]
-    left = [-10.0**low] if limits[0] <= -(10.0**low) else []
-    return FixedLocator([*left, 0, *right])
+    lefts = [[low], []] if limits[0] <= -(10.0**low) else [[]]
+    for step in range(1, max(2, int(high - first) + 1)):
+        # The first powers may be too near to zero.
+        for start, left in itertools.product((first - 0.5, first + 0.5), lefts):
+            right = numpy.arange(high, start, -step)[::-1]
+            places = [*(-(10.0**power) for power in left), 0, *10.0**right]
+            texts = [*(style.power_of_ten(power, -1) for power in left), "0",
+                     *(style.power_of_ten(power) for power in right)]
+            if style.fit(axes, places, texts):
+                axes.set_xticks(places, labels=texts)
+                return
 
 
 def words(tables):

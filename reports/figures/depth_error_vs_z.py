@@ -13,10 +13,6 @@ COLUMNS = {"min": "map_error_m.min", "median": "map_error_m.median", "p95": "map
            "max": "map_error_m.max", "envelope": "envelope_m", "upper": "upper_m"}
 
 
-# Times the largest of what nearly all pixels have: a pixel at an edge may be off by the whole scene.
-LARGEST_SHOWN = 3
-
-
 @dataclass(frozen=True)
 class Tables:
     """The curves to draw, dictionaries of arrays [m], and the settings that they share."""
@@ -55,11 +51,15 @@ def _curve(bins, name):
 def draw(tables):
     """A column a map."""
     figure = style.TitledFigure(TITLE, tables.settings, 4.6)
-    grid = style.lay_out(figure, top_in=1.25 if tables.curves[0]["name"] else 1.0, nrows=1, ncols=len(tables.curves), wspace=0.3)
-    for column, curve in enumerate(tables.curves):
+    count = len(tables.curves)
+    titles = style.panel_titles([curve["name"] for curve in tables.curves], count)
+    grid = style.lay_out(figure, top_in=1.0 + style.title_height(titles), nrows=1, ncols=count,
+                         wspace=0.42)
+    for column, (curve, title) in enumerate(zip(tables.curves, titles)):
         axes = figure.add_subplot(grid[column])
-        distance_panels.draw_map_errors(axes, curve, LARGEST_SHOWN)
-        axes.set_title(style.plain(curve["name"]))
+        distance_panels.draw_map_errors(axes, curve)
+        style.label_columns(axes, column, count, style.LIGHT_DISTANCE_LABEL)
+        axes.set_title(title)
     style.add_legend(figure, ncol=4)
     return figure
 

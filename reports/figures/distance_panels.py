@@ -4,6 +4,11 @@ import numpy
 
 import style
 
+RATES_LABEL = "wrong pixels [%]"
+# Times the largest of what nearly all pixels have: a pixel at an edge may be off by the whole scene.
+LARGEST_SHOWN = 30
+MOST_POWERS = 4  # written on each side of 0
+
 
 def draw_rates(axes, edges, false_shadow_rate, false_lit_rate, suffix="", **line):
     """Both rates in percent, as steps over the bins between `edges` [m]."""
@@ -13,22 +18,23 @@ def draw_rates(axes, edges, false_shadow_rate, false_lit_rate, suffix="", **line
     ):
         axes.stairs(100 * rate, edges, baseline=None, color=colour, label=label + suffix,
                     **{"linewidth": 1.8, **line})
-    axes.set_ylabel("wrong pixels [%]")
 
 
-def draw_map_errors(axes, curve, largest_shown=None):
+def draw_map_errors(axes, curve):
     """Quantiles of the map's error at the middle of each bin, and the formula's envelope; all [m].
 
-    Errors beyond `largest_shown` times the largest that 95 % of a bin or the formula have are cut
-    off, and what the largest is, is written.
+    The scale is logarithmic on both sides of 0 from a tenth of the envelope on, or what is off by
+    more than the format would hide it. Errors beyond LARGEST_SHOWN times the largest that 95 % of a bin
+    or the formula have are cut off, and what the largest is, is written.
     """
     usual = max(numpy.nanmax(numpy.abs(curve[name])) for name in ("envelope", "median", "p95"))
     largest = max(numpy.nanmax(curve["max"]), -numpy.nanmin(curve["min"]))
-    is_cut = largest_shown is not None and largest > largest_shown * usual
-    factor, unit = style.length_unit(usual if is_cut else max(usual, numpy.nanmax(curve["max"])))
+    is_cut = largest > LARGEST_SHOWN * usual
+    factor, unit = style.length_unit(usual)
+    shown = LARGEST_SHOWN * usual if is_cut else max(usual, 1.3 * largest)
+    _set_error_scale(axes, factor * numpy.nanmax(curve["envelope"]), factor * shown)
     if is_cut:
-        axes.set_ylim(*(sign * factor * largest_shown * usual for sign in (-1, 1)))
-        axes.annotate(f"largest beyond the axis: {style.length_text(largest)}", (0.02, 0.03),
+        axes.annotate(f"largest beyond\nthe axis: {style.length_text(largest)}", (0.02, 0.03),
                       xycoords="axes fraction", size=9, color="#444444",
                       bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5}, zorder=5)
     zeta = curve["zeta"]
@@ -41,5 +47,15 @@ def draw_map_errors(axes, curve, largest_shown=None):
               label="envelope (formula)")
     axes.plot(curve["upper"], -factor * curve["envelope"], color=style.ORANGE)
     axes.set_xlim(curve["edges"][0], curve["edges"][-1])
-    axes.set_xlabel(style.LIGHT_DISTANCE_LABEL)
     axes.set_ylabel(f"depth error [{unit}]")
+
+
+def _set_error_scale(axes, envelope, shown):
+    """Both signs, logarithmic: powers of ten from a tenth of the envelope to what is shown."""
+    first = int(numpy.floor(numpy.log10(envelope))) - 1
+    last = int(numpy.floor(numpy.log10(shown)))
+    axes.set_yscale("symlog", linthresh=10.0**first, linscale=0.6)
+    axes.set_ylim(-shown, shown)
+    powers = range(last, first - 1, -max(1, -(-(last - first + 1) // MOST_POWERS)))
+    ticks = [0, *(sign * 10.0**power for power in powers for sign in (-1, 1))]
+    axes.set_yticks(ticks, labels=[f"{tick:g}".replace("-", "−") for tick in ticks])

@@ -91,11 +91,12 @@ def _draw(axes, panel, letters):
     axes.set_xlabel(style.plain(axis.label))
     if not axis.is_numeric:
         style.set_categories(axes, [run_settings.text_of(value) for value in axis.values], letters)
-    else:
-        axes.set_xscale(**axis.scale)
-        if len(places) <= FEW_VALUES:
-            axes.set_xticks(places, labels=[run_settings.text_of(value) for value in axis.values])
-            axes.set_xticks([], minor=True)
+        return
+    axes.set_xscale(**axis.scale)
+    if axis.is_of_powers_of_two or axis.key == "shadow_map.resolution":
+        style.set_ticks(axes, *run_settings.resolution_ticks(places))
+    elif len(places) <= FEW_VALUES:
+        style.set_ticks(axes, places, [run_settings.text_of(value) for value in axis.values])
 
 
 def words(tables):

@@ -41,17 +41,23 @@ def read(run):
     chosen, why = run_settings.curves_of(run, rows)
     titles = run_settings.panel_titles(run, rows, chosen)
     settings = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
-    curves = [_curve(bins[bins["curve"] == curve], title)
+    curves = [_curve(bins[bins["curve"] == curve], rows, title)
               for curve, title in zip(chosen["curve"], titles)]
-    return Tables("; ".join(filter(None, (settings, why))), curves)
+    biases = [run_settings.biases_text(name, [curve.at[at][0] for curve in curves if at in curve.at])
+              for at, name in run_settings.BIASES.items()]
+    return Tables("; ".join(filter(None, (settings, *biases, why))), curves)
 
 
-def _curve(bins, name):
+def _curve(bins, rows, name):
     blocks = {}
-    for at in ("job_bias", "best_bias"):
+    for at in run_settings.BIASES:
         block = bins[bins["at"] == at]
         if len(block):
             blocks[at] = block[block["bias"] == block["bias"].iloc[0]]
+    job = blocks.get("job_bias")
+    if "best_bias" in blocks and job is not None and not run_settings.has_bias(
+            rows, job["curve"].iloc[0], job["bias"].iloc[0]):
+        del blocks["job_bias"]  # the sweep has other biases
     first = next(iter(blocks.values()))
     return Curve(
         name,
@@ -67,15 +73,21 @@ def draw(tables):
     """A column a curve: rates above, the pixels that they are of below."""
     curves = tables.curves
     figure = style.TitledFigure(TITLE, tables.settings, 5.6)
-    grid = style.lay_out(figure, top_in=1.45 if curves[0].name else 1.25, nrows=2, ncols=len(curves), hspace=0.12, wspace=0.28,
-                         height_ratios=(1.7, 1))
-    for column, curve in enumerate(curves):
+    titles = style.panel_titles([curve.name for curve in curves], len(curves))
+    grid = style.lay_out(figure, top_in=1.25 + style.title_height(titles), nrows=2,
+                         ncols=len(curves), hspace=0.12, wspace=0.2, height_ratios=(1.7, 1))
+    for column, (curve, title) in enumerate(zip(curves, titles)):
         rates = figure.add_subplot(grid[0, column])
         _draw_rates(rates, curve)
         style.set_rate_scale(rates)
-        rates.set_title(style.plain(curve.name))
+        rates.set_title(title)
         rates.tick_params(labelbottom=False)
-        _draw_counts(figure.add_subplot(grid[1, column], sharex=rates), curve)
+        counts = figure.add_subplot(grid[1, column], sharex=rates)
+        _draw_counts(counts, curve)
+        style.label_columns(counts, column, len(curves), style.LIGHT_DISTANCE_LABEL)
+        if column == 0:
+            rates.set_ylabel(distance_panels.RATES_LABEL)
+            counts.set_ylabel("pixels in a bin")
     style.add_legend(figure, ncol=3, markerscale=1.3)
     return figure
 
@@ -96,9 +108,6 @@ def _draw_rates(axes, curve):
                       markersize=4.5, markeredgewidth=1.3, label=label, clip_on=False)
 
 
-BIASES = {"job_bias": "job's bias", "best_bias": "best bias"}
-
-
 def _draw_counts(axes, curve):
     for count, colour, label in ((curve.lit, style.ORANGE, "lit pixels"),
                                  (curve.blocked, style.GREY, "blocked pixels")):
@@ -110,8 +119,6 @@ def _draw_counts(axes, curve):
     first = 0 if decades < 3 else 1
     axes.set_yticks([0, *(10.0**power for power in range(first, decades + 1, 1 + first))])
     axes.set_xlim(curve.edges[0], curve.edges[-1])
-    axes.set_xlabel(style.LIGHT_DISTANCE_LABEL)
-    axes.set_ylabel("pixels in a bin")
 
 
 def words(tables):
@@ -122,7 +129,7 @@ def words(tables):
         text += f"Light distances from {curve.edges[0]:.3g} to {curve.edges[-1]:.3g} m."
         for at, (bias, false_shadow, false_lit) in curve.at.items():
             worst = [_worst(rate, curve.edges) for rate in (false_shadow, false_lit)]
-            text += (f" At the {BIASES[at]}, {run_settings.text_of(bias)}, the false-shadow rate is"
+            text += (f" At the {run_settings.BIASES[at]}, {run_settings.text_of(bias)}, the false-shadow rate is"
                      f" {worst[0]} and the false-lit rate {worst[1]}.")
         said.append(text)
     return TITLE, tables.settings, " ".join(said)

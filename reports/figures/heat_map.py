@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import matplotlib
 import numpy
 from matplotlib.colors import LogNorm
+from matplotlib.ticker import MaxNLocator
 
 import run_settings
 import style
@@ -14,7 +15,7 @@ SCALE_PERCENT = (0.001, 100)
 COLOURS = "cividis"  # the same to readers who see red and green alike
 MOST_NUMBERS = 80  # more cells are too small to write in
 MOST_NAMES = 10
-MOST_TICKS = 7  # of values that are too many to write each
+LEAST_HEIGHT_IN = 1.9  # of the cells, or the name of their axis would not fit
 
 
 @dataclass(frozen=True)
@@ -46,11 +47,16 @@ def read(run):
 
 
 def draw(tables):
-    """Cells of equal size, as the values of an axis need not be evenly spaced."""
-    figure = style.TitledFigure(TITLE, tables.settings,
-                                2.0 + numpy.clip(0.45 * len(tables.y.values), 1.4, 3.6))
-    grid = style.lay_out(figure, left_in=1.5, right_in=0.95, bottom_in=0.9, top_in=0.72, nrows=1,
-                         ncols=2, width_ratios=(30, 1), wspace=0.06)
+    """Cells of equal size, as the values of an axis need not be evenly spaced.
+
+    Numbers ascend to the right and upwards; names stand as they appear in the run, from the top down.
+    """
+    figure = style.TitledFigure(
+        TITLE, tables.settings,
+        2.0 + numpy.clip(0.45 * len(tables.y.values), LEAST_HEIGHT_IN, 3.6))
+    longest = max(len(run_settings.text_of(value)) for value in tables.y.values)
+    grid = style.lay_out(figure, left_in=0.75 + 0.088 * longest, right_in=0.95, bottom_in=0.9,
+                         top_in=0.72, nrows=1, ncols=2, width_ratios=(30, 1), wspace=0.06)
     axes = figure.add_subplot(grid[0])
     axes.grid(False)
     colours = matplotlib.colormaps[COLOURS].copy()
@@ -63,8 +69,7 @@ def draw(tables):
                            norm=LogNorm(low, high), cmap=colours, rasterized=True)
     if percent.size <= MOST_NUMBERS and len(tables.x.values) <= 10:
         _write_numbers(axes, percent)
-    for axis, which in ((tables.x, "x"), (tables.y, "y")):
-        _set_values(axes, axis, which)
+    _set_values(axes, tables)
     bar = figure.colorbar(mesh, cax=figure.add_subplot(grid[1]))
     bar.set_label("error rate [%]")
     bar.set_ticks([0.001, 0.01, 0.1, 1, 10, 100],
@@ -80,17 +85,39 @@ def _write_numbers(axes, percent):
                       color="white" if value < 0.7 else "black")
 
 
-def _set_values(axes, axis, which):
-    count = len(axis.values)
-    is_thinned = axis.is_numeric and count > MOST_NAMES
-    places = range(0, count, -(-count // MOST_TICKS) if is_thinned else 1)
-    values = [axis.values[index] for index in places]
-    texts = [style.plain(run_settings.text_of(float(f"{value:.2g}") if is_thinned else value))
-             for value in values]
-    getattr(axes, f"set_{which}ticks")(places, labels=texts)
-    getattr(axes, f"set_{which}label")(style.plain(axis.label))
-    if which == "x" and sum(map(len, texts)) > 64:
-        style.turn(axes)
+def _set_values(axes, tables):
+    axes.set_xlabel(style.plain(tables.x.label))
+    axes.set_ylabel(style.plain(tables.y.label))
+    axes.tick_params(length=4)
+    places, texts = _ticks(tables.x)
+    if tables.x.is_numeric:
+        style.set_ticks(axes, places, texts)
+    else:
+        axes.set_xticks(places, labels=[style.plain(text) for text in texts])
+        if not style.fit(axes, places, texts):
+            style.turn(axes)
+    places, texts = _ticks(tables.y)
+    axes.set_yticks(places, labels=[style.plain(text) for text in texts])
+    if not tables.y.is_numeric:
+        axes.invert_yaxis()
+
+
+def _ticks(axis):
+    """Cells and texts: of each value, or of many numbers at round ones between them."""
+    values = axis.values
+    if not axis.is_numeric or len(values) <= MOST_NAMES:
+        return range(len(values)), [run_settings.text_of(value) for value in values]
+    numbers = numpy.array(values, dtype=float)
+    if axis.scale["value"] == "linear":
+        round_ones = MaxNLocator(MOST_NAMES - 1).tick_values(numbers[0], numbers[-1])
+    elif axis.is_of_powers_of_two:
+        round_ones = numbers
+    else:
+        powers = numpy.arange(-15, 16)
+        round_ones = numpy.array([*(-(10.0 ** powers[::-1])), 0, *(10.0**powers)])
+    inside = round_ones[(round_ones >= numbers[0] * (1 - 1e-9)) & (round_ones <= numbers[-1] * (1 + 1e-9))]
+    return numpy.interp(inside, numbers, numpy.arange(len(numbers))), [
+        run_settings.text_of(value) for value in inside]
 
 
 def words(tables):

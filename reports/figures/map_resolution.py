@@ -4,13 +4,16 @@ from dataclasses import dataclass
 
 import numpy
 from gnomon import InputError, read_table
+from matplotlib.ticker import LogLocator, NullLocator
 
 import run_settings
 import style
 
 TITLE = "Errors at the edges of shadows against the map's resolution"
-COLOURS = (style.BLACK, style.VERMILION, style.GREEN, style.BLUE, style.PURPLE)
-MARKERS = "osD^v"
+COLOURS = (style.BLACK, style.VERMILION, style.GREEN, style.BLUE, style.PURPLE, style.ORANGE,
+           style.SKY)  # one for each filter there is
+MARKERS = "osD^vPX"
+LEGEND_COLUMNS = 5
 NUMBERS = ("shadow_map.resolution", "labels.edge", "pixels.lit", "pixels.blocked")
 
 
@@ -42,19 +45,38 @@ def read(paths):
 def draw(tables):
     """Both axes logarithmic, with the line of errors that halve as the resolution doubles."""
     figure = style.TitledFigure(TITLE, tables.settings, 4.6)
-    grid = style.lay_out(figure, top_in=0.8, nrows=1, ncols=1)
+    grid = style.lay_out(figure, left_in=1.1, right_in=0.35,
+                         top_in=1.1 if len(tables.series) < LEGEND_COLUMNS else 1.3, nrows=1,
+                         ncols=1)
     axes = figure.add_subplot(grid[0])
-    for (name, (texels, percent)), colour, marker in zip(tables.series.items(), COLOURS, MARKERS):
-        axes.plot(texels, percent, marker + "-", color=colour, markersize=6, label=name)
+    for index, ((name, (texels, percent)), colour, marker) in enumerate(
+            zip(tables.series.items(), COLOURS, MARKERS)):
+        # Hollow marks, later ones smaller, as filters that differ little lie on one another.
+        axes.plot(texels, percent, marker + "-", color=colour, markersize=13 - 1.6 * index,
+                  markerfacecolor="none", markeredgewidth=1.4, linewidth=2.6 - 0.3 * index,
+                  label=name)
     texels, percent = next(iter(tables.series.values()))
     axes.plot(texels, percent[0] * texels[0] / texels, color=style.GREY, linestyle=":",
               linewidth=1.5, label="∝ 1 / resolution")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xticks(texels, labels=[run_settings.text_of(int(value)) for value in texels])
-    axes.set_xticks([], minor=True)
-    axes.yaxis.set_major_formatter(lambda value, _: run_settings.text_of(value))
+    axes.set_xscale("log", base=2)
+    _set_rates(axes, numpy.concatenate([percent for _, percent in tables.series.values()]))
+    resolutions = numpy.unique(numpy.concatenate([texels for texels, _ in tables.series.values()]))
+    style.set_ticks(axes, *run_settings.resolution_ticks(resolutions))
     axes.set_xlabel("map resolution [texels]")
     axes.set_ylabel("wrong at edges [% of scored pixels]")
-    axes.legend()
+    style.add_legend(figure, ncol=LEGEND_COLUMNS, markerscale=1)
     return figure
+
+
+def _set_rates(axes, percent):
+    """Logarithmic, with a place for resolutions that have no such pixel left."""
+    if (percent > 0).all() or not (percent > 0).any():
+        axes.set_yscale("log" if (percent > 0).all() else "linear")
+        if (percent > 0).all() and percent.max() < 100 * percent.min():
+            axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            axes.yaxis.set_minor_locator(NullLocator())
+    else:
+        axes.set_yscale("symlog", linthresh=10.0 ** numpy.floor(numpy.log10(percent[percent > 0].min())),
+                        linscale=0.5)
+        axes.set_ylim(bottom=0)
+    axes.yaxis.set_major_formatter(lambda value, _: run_settings.text_of(value))

@@ -1,5 +1,6 @@
 """False shadow against false lit, one dot a configuration, and those that none other beats in both."""
 
+import textwrap
 from dataclasses import dataclass
 
 import numpy
@@ -11,6 +12,8 @@ import style
 TITLE = "False shadow against false lit"
 LEAST_CONFIGURATIONS = 3
 DOTS_ACROSS = 400  # dots that would fall on another are left out
+MOST_NAMED = 6
+LEAST_APART = 0.05  # of the axes, between dots that are named
 
 
 @dataclass(frozen=True)
@@ -22,6 +25,7 @@ class Tables:
     front: numpy.ndarray
     best: numpy.ndarray  # (2,), of the configuration with the fewest errors
     best_text: str
+    front_texts: list  # what each of the front is
 
 
 def read(run):
@@ -37,21 +41,38 @@ def read(run):
     text = run_settings.description(axes, best)
     settings = f"{run_settings.settings_text(rows)}; {len(rows):,} configurations"
     settings += f"; fewest errors: {text}" if text else ""
-    return Tables(settings, rates, front_of(rates), rates[best], text)
+    front = front_of(rates)
+    return Tables(settings, rates, rates[front], rates[best], text,
+                  [run_settings.description(axes, index) for index in front])
 
 
 def front_of(rates):
-    """The pairs that no other is below in one and not above in the other, by ascending first."""
-    ordered = rates[numpy.lexsort((rates[:, 1], rates[:, 0]))]
-    lowest = numpy.minimum.accumulate(ordered[:, 1])
+    """Which pairs no other is below in one and not above in the other, by ascending first; of equals one."""
+    order = numpy.lexsort((rates[:, 1], rates[:, 0]))
+    lowest = numpy.minimum.accumulate(rates[order, 1])
     is_new = numpy.append(True, lowest[1:] < lowest[:-1])
-    return ordered[is_new]
+    return order[is_new]
+
+
+def named_of(places, best):
+    """Which of the front's places on the axes [0, 1] get a name: both ends, and those between that
+    are far enough apart, that with the fewest errors first."""
+    def is_free(index, chosen):
+        return all(numpy.abs(places[index] - places[other]).max() >= LEAST_APART for other in chosen)
+
+    chosen = []
+    between = numpy.linspace(0, len(places) - 1, MOST_NAMED).round().astype(int)
+    for index in (*best, 0, len(places) - 1, *between):
+        if len(chosen) < MOST_NAMED and index not in chosen and is_free(index, chosen):
+            chosen.append(index)
+    return sorted(int(index) for index in chosen)
 
 
 def draw(tables):
     """Both rates on one scale."""
-    figure = style.TitledFigure(TITLE, tables.settings, 5.6)
-    grid = style.lay_out(figure, top_in=1.0, right_in=0.3, nrows=1, ncols=1)
+    key_in = style.LINE_IN * min(MOST_NAMED, len(tables.front)) + 0.1
+    figure = style.TitledFigure(TITLE, tables.settings, 5.6 + key_in)
+    grid = style.lay_out(figure, top_in=1.0, right_in=0.3, bottom_in=0.55 + key_in, nrows=1, ncols=1)
     axes = figure.add_subplot(grid[0])
     for which in ("x", "y"):
         style.set_rate_scale(axes, which)
@@ -66,7 +87,23 @@ def draw(tables):
     axes.set_xlabel("false shadow [% of lit pixels]")
     axes.set_ylabel("false lit [% of blocked pixels]")
     style.add_legend(figure, ncol=3, markerscale=1.3)
+    _write_names(figure, axes, tables, key_in)
     return figure
+
+
+def _write_names(figure, axes, tables, key_in):
+    """Numbers beside dots of the front, and under the figure what these configurations are."""
+    places = (axes.transScale + axes.transLimits).transform(100 * tables.front)
+    best = numpy.flatnonzero((tables.front == tables.best).all(axis=1))
+    lines = []
+    for number, index in enumerate(named_of(places, best), start=1):
+        axes.annotate(str(number), 100 * tables.front[index], (7, 6), textcoords="offset points",
+                      size=10, weight="bold", annotation_clip=False)
+        text = tables.front_texts[index] or "the configuration"
+        lines.append(textwrap.shorten(f"{number}  {text}", style.LETTERS_IN_A_LINE, placeholder=" …"))
+    height_in = figure.get_size_inches()[1]
+    figure.text(0.012, key_in / height_in, style.plain("\n".join(lines)), size=10,
+                color="#444444", va="top")
 
 
 def _distinct(axes, percent):

@@ -33,6 +33,7 @@ NAMES = {
     "light.direction": "light direction",
     "light.position": "light position [m]",
 }
+BIASES = {"job_bias": "job's bias", "best_bias": "best bias"}  # of errors by distance
 MOST_VALUES = 100  # more of them on one axis are united, by equal numbers of configurations
 MOST_CATEGORIES = 24
 LONGEST_TEXT = 28
@@ -62,6 +63,12 @@ class Axis:
         return name_of(self.key)
 
     @property
+    def is_of_powers_of_two(self):
+        """As the resolutions of maps are."""
+        return self.is_numeric and all(value > 0 and numpy.log2(value).is_integer()
+                                       for value in map(float, self.values))
+
+    @property
     def scale(self):
         """The keywords of set_xscale that spread the values."""
         if not self.is_numeric or len(self.values) < 3:
@@ -72,7 +79,7 @@ class Axis:
         if not is_geometric and sizes[-1] < LEAST_RATIO_OF_A_LOG_AXIS * sizes[0]:
             return {"value": "linear"}
         if self.values[0] > 0:
-            return {"value": "log"}
+            return {"value": "log", "base": 2 if self.is_of_powers_of_two else 10}
         return {"value": "symlog", "linthresh": sizes[0]}
 
 
@@ -159,6 +166,13 @@ def by_influence(axes, rate):
     return sorted(drawable, key=lambda axis: -numpy.nan_to_num(influence(axis, rate)))
 
 
+def resolution_ticks(values):
+    """Places and texts along an axis of resolutions: powers of two, or what there is where those are few."""
+    powers = 2.0 ** numpy.arange(numpy.ceil(numpy.log2(values[0])), numpy.log2(values[-1]) + 1e-9)
+    places = powers if len(powers) > 1 else values
+    return places, [text_of(place) for place in places]
+
+
 def differences(axes, index):
     """What tells a row from the others: "2048, pcf3"."""
     return ", ".join(text_of(axis.values[axis.codes[index]]) for axis in axes)
@@ -219,6 +233,26 @@ def curves_of(run, rows, most=3):
         return curves, ""
     best = rows.loc[[rows["error_rate"].fillna(numpy.inf).idxmin()]]
     return best, f"of {len(curves)} bias curves that of the configuration with the fewest errors"
+
+
+def has_bias(rows, curve, bias):
+    """Whether a configuration of the curve has this constant bias [depth units].
+
+    The job's own is none of a sweep's where the sweep has other biases. Biases in metres are told by
+    their number alone; those of bins are as float32 has them, which the lookup computes with.
+    """
+    own = rows[rows["curve"] == curve]
+    given = own["bias.constant"].dropna()
+    if len(given):
+        return bool((given.astype(numpy.float32) == numpy.float32(bias)).any())
+    return own["bias.constant_m"].nunique() <= 1
+
+
+def biases_text(name, biases):
+    """"job's bias 0.006 depth units", of one panel or for all of them, from left to right."""
+    texts = [text_of(bias) for bias in biases]
+    texts = texts[:1] if len(set(texts)) == 1 else texts
+    return f"{name} {', '.join(texts)} depth units" if texts else ""
 
 
 def panel_titles(run, rows, chosen):

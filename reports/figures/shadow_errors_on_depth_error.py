@@ -3,6 +3,8 @@
 import numpy
 
 import distance_panels
+import gnomon
+import run_settings
 import style
 import tables as csv_tables
 
@@ -30,31 +32,52 @@ def read(paths):
     results = csv_tables.read_table(paths[1], SETTINGS, SETTING_TEXTS)
     if not set(bins["curve"]) <= set(results["curve"]):
         raise csv_tables.InputError(f"{paths[1]}: not of the same run as {paths[0]}")
+    if bins.empty:
+        raise csv_tables.InputError(f"{paths[0]}: no errors by distance")
     return [bins, results]
 
 
 def data(tables):
-    """One series for each curve of the run at the job's bias: its settings, the map's depth errors
-    in the run's bins [m], and rates in united bins (NaN without a pixel to divide by).
+    """One series for each of few curves, of more for the best: the map's depth errors in the run's
+    bins [m], and rates in united bins (NaN without a pixel to divide by).
+
+    Rates are those at the job's bias, or where no configuration has it, at the best.
     """
+    rows, chosen, _ = _chosen(tables)
+    titles = run_settings.panel_titles(_run(tables), rows, chosen)
+    return [_series(_block(tables[0], rows, curve), title)
+            for curve, title in zip(chosen["curve"], titles)]
+
+
+def _run(tables):
+    return gnomon.Run("", tables[1])
+
+
+def _chosen(tables):
+    """The rows that have bins, of these one for each curve to draw, and why these."""
     bins, results = tables
-    at_job_bias = bins[bins["at"] == "job_bias"]
-    settings = results.drop_duplicates("curve").set_index("curve")
-    return [
-        _series(block.reset_index(drop=True), settings.loc[curve])
-        for curve, block in at_job_bias.groupby("curve", sort=False)
-    ]
+    rows = results[results["curve"].isin(bins["curve"])].reset_index(drop=True)
+    return rows, *run_settings.curves_of(None, rows)
 
 
-def _series(block, settings):
+def _block(bins, rows, curve):
+    of_curve = bins[bins["curve"] == curve]
+    blocks = {at: block for at, block in of_curve.groupby("at")}
+    job = blocks.get("job_bias")
+    is_of_job = job is not None and run_settings.has_bias(rows, curve, job["bias"].iloc[0])
+    block = job if is_of_job or "best_bias" not in blocks else blocks["best_bias"]
+    return block[block["bias"] == block["bias"].iloc[0]].reset_index(drop=True)
+
+
+def _series(block, name):
     united = _unite(block)
     edges = numpy.append(united["lower_m"], united["upper_m"].iloc[-1])
     with numpy.errstate(invalid="ignore", divide="ignore"):
         false_shadow_rate = (united["false_shadow"] / united["lit"]).to_numpy()
         false_lit_rate = (united["false_lit"] / united["blocked"]).to_numpy()
     return {
-        "name": settings["shadow_map.depth_format"],
-        "settings": settings,
+        "name": name,
+        "at": block["at"].iloc[0],
         "bias": block["bias"].iloc[0],
         "zeta": (0.5 * (block["lower_m"] + block["upper_m"])).to_numpy(),
         "upper": block["upper_m"].to_numpy(),
@@ -85,34 +108,36 @@ def _unite(block):
 def draw(tables):
     """A column a curve: rates above, the map's depth error below, on one axis of distance."""
     curves = data(tables)
-    figure = style.TitledFigure(_title(curves), _settings(curves), 6.2)
-    grid = style.lay_out(figure, top_in=1.35, nrows=2, ncols=len(curves), hspace=0.12,
-                         wspace=0.26, height_ratios=(1, 1.2))
+    figure = style.TitledFigure(_title(tables), _settings(tables, curves), 6.2)
+    titles = style.panel_titles([curve["name"] for curve in curves], len(curves))
+    grid = style.lay_out(figure, top_in=1.25 + style.title_height(titles), nrows=2,
+                         ncols=len(curves), hspace=0.12, wspace=0.42, height_ratios=(1, 1.2))
     shared = None
-    for column, curve in enumerate(curves):
+    for column, (curve, title) in enumerate(zip(curves, titles)):
         rates = figure.add_subplot(grid[0, column], sharey=shared)
         shared = shared or rates
         distance_panels.draw_rates(rates, curve["edges"], curve["false_shadow_rate"],
                                    curve["false_lit_rate"])
-        rates.set_title(curve["name"])
+        rates.set_title(title)
         rates.tick_params(labelbottom=False)
-        distance_panels.draw_map_errors(figure.add_subplot(grid[1, column], sharex=rates), curve)
+        errors = figure.add_subplot(grid[1, column], sharex=rates)
+        distance_panels.draw_map_errors(errors, curve)
+        style.label_columns(errors, column, len(curves), style.LIGHT_DISTANCE_LABEL)
+    shared.set_ylabel(distance_panels.RATES_LABEL)
     style.set_rate_scale(shared)
     style.add_legend(figure, ncol=3)
     return figure
 
 
-def _title(curves):
-    settings = curves[0]["settings"]
-    scene = settings[["scene.builtin", "scene.file"]].dropna().iloc[0]
-    return f"Shadow errors over the map's depth error: {scene}"
+def _title(tables):
+    scene = tables[1][["scene.builtin", "scene.file"]].bfill(axis=1).iloc[0, 0]
+    return f"Shadow errors over the map's depth error: {run_settings.text_of(scene)}"
 
 
-def _settings(curves):
-    settings = curves[0]["settings"]
-    bias = f"{curves[0]['bias']:g}".replace("e-0", "e-")
-    return (
-        f"near {settings['map_near_m']:g} m, far {settings['map_far_m']:g} m;"
-        f" {settings['shadow_map.resolution']:g}² map, filter {settings['lookup.filter']};"
-        f" constant bias {bias} depth units"
-    )
+def _settings(tables, curves):
+    _, chosen, why = _chosen(tables)
+    shared = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
+    biases = [run_settings.biases_text(
+        name, [curve["bias"] for curve in curves if curve["at"] == at])
+        for at, name in run_settings.BIASES.items()]
+    return "; ".join(filter(None, (shared, *biases, why)))

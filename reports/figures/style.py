@@ -1,6 +1,7 @@
 """How every figure looks: sizes, colours that any colour vision can tell apart, files."""
 
 import os
+import re
 import textwrap
 
 import numpy
@@ -52,6 +53,10 @@ LIGHT_DISTANCE_LABEL = "distance ζ from the light's plane [m]"
 
 LINE_IN = 0.19  # of the settings
 LETTERS_IN_A_LINE = 96
+TITLE_LINE_IN = 0.2  # of a panel
+LETTERS_OF_TITLES = 72  # over panels side by side
+TICK_LETTER_PT = 6.6
+TICK_GAP_PT = 9
 
 
 class TitledFigure(Figure):
@@ -73,6 +78,23 @@ class TitledFigure(Figure):
 def plain(text):
     """Texts of a job or scene as they are, where matplotlib would take dollars for formulas."""
     return text.replace("$", "\\$")
+
+
+def panel_titles(names, columns):
+    """Names of panels side by side, broken into lines that keep to their own panel."""
+    return [plain(textwrap.fill(name, LETTERS_OF_TITLES // columns)) for name in names]
+
+
+def title_height(titles):
+    """What the longest of these titles needs [in]; nothing where there are none."""
+    lines = max(title.count("\n") + 1 if title else 0 for title in titles)
+    return lines * TITLE_LINE_IN
+
+
+def label_columns(axes, column, columns, x_label):
+    """Labels of the panels of a row: of distances that all share, once; of rates at the left."""
+    if columns < 3 or column == columns // 2:
+        axes.set_xlabel(x_label)
 
 
 def lay_out(figure, left_in=0.85, right_in=0.15, bottom_in=0.55, top_in=1.0, **spacing):
@@ -111,6 +133,37 @@ def turn(axes):
     """The names along the lower axis, so that longer ones fit."""
     for label in axes.get_xticklabels():
         label.set(rotation=25, ha="right", rotation_mode="anchor")
+
+
+def set_ticks(axes, places, texts):
+    """Ticks along the lower axis, whose limits and scale are set: all of these, or every second, third, …
+
+    The fewest are left out with which no text runs into the next.
+    """
+    places, texts = numpy.asarray(places, dtype=float), list(texts)
+    step = next((step for step in range(1, len(places)) if fit(axes, places[::step], texts[::step])),
+                max(1, len(places) - 1))
+    axes.set_xticks(places[::step], labels=[plain_text(text) for text in texts[::step]])
+    axes.set_xticks([], minor=True)
+
+
+def plain_text(text):
+    """A tick's text, which is a power of ten or as `plain` has it."""
+    return text if re.fullmatch(r"\$-?10\^\{-?\d+\}\$", text) else plain(text)
+
+
+def power_of_ten(exponent, sign=1):
+    """As a tick's text."""
+    return f"${'-' if sign < 0 else ''}10^{{{exponent:.0f}}}$"
+
+
+def fit(axes, places, texts):
+    """Whether texts at these places of the lower axis keep apart."""
+    width_pt = 72 * axes.get_position().width * axes.figure.get_size_inches()[0]
+    points = numpy.column_stack([places, numpy.full(len(places), axes.get_ylim()[1])])
+    at_pt = width_pt * (axes.transScale + axes.transLimits).transform(points)[:, 0]
+    half_pt = 0.5 * TICK_LETTER_PT * numpy.array([len(re.sub(r"[${}^]", "", text)) for text in texts])
+    return bool(numpy.all(numpy.diff(at_pt) >= half_pt[1:] + half_pt[:-1] + TICK_GAP_PT))
 
 
 def set_rate_scale(axes, which="y"):

@@ -13,6 +13,7 @@ import unittest
 from pathlib import Path
 
 import numpy
+import pandas
 from numpy.testing import assert_array_equal
 
 HERE = Path(__file__).resolve().parent
@@ -256,7 +257,7 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
 
     def test_axes(self):
         rates, errors = self.figure.axes[:2]
-        self.assertEqual([axes.get_title() for axes in self.figure.axes[::2]], ["d16", "d24"])
+        self.assertEqual([axes.get_title() for axes in self.figure.axes[::2]], ["depth format d16", "depth format d24"])
         self.assertEqual(rates.get_ylabel(), "wrong pixels [%]")
         self.assertEqual(rates.get_yscale(), "symlog")
         assert_array_equal(rates.get_yticks(), [0, 0.01, 0.1, 1, 10, 100])
@@ -267,8 +268,36 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
         self.assertEqual(legend_labels(self.figure.legends[0]), [
             "false shadow, per lit pixel", "false lit, per blocked pixel",
             "map error, smallest to largest", "95 % are below", "median", "envelope (formula)"])
-        self.assertIn("near 4 m, far 50 m; 1024² map, filter linear;"
-                      " constant bias 4e-6 depth units", [text.get_text() for text in self.figure.texts])
+        caption = " ".join(text.get_text() for text in self.figure.texts).replace("\n", " ")
+        self.assertIn("map 1024², near 4 m, far 50 m, filter linear; job's bias 4e-6 depth units",
+                      caption)
+
+    def test_of_many_curves_is_the_best_and_says_so(self):
+        bins, results = shadow_errors_on_depth_error.read(paths("error_vs_z", "results"))
+        copies = 5
+        many = [pandas.concat([one.assign(curve=one["curve"] + str(copy)) for copy in range(copies)],
+                              ignore_index=True) for one in (bins, results)]
+        many[1]["shadow_map.resolution"] = range(2 * copies)
+        (curve,) = shadow_errors_on_depth_error.data(many)
+        figure = shadow_errors_on_depth_error.draw(many)
+        self.assertEqual(len(figure.axes), 2)
+        best = int(results["error_rate"].idxmin())
+        expected = shadow_errors_on_depth_error.data([bins, results])[best]
+        assert_array_equal(curve["false_shadow_rate"], expected["false_shadow_rate"])
+        self.assertIn("of 10 bias curves", " ".join(text.get_text() for text in figure.texts))
+
+    def test_draws_the_best_bias_where_the_sweep_has_not_the_jobs(self):
+        bins, results = shadow_errors_on_depth_error.read(paths("error_vs_z", "results"))
+        results["bias.constant"] = 0.5
+        job = bins[bins["at"] == "job_bias"]
+        best = job.assign(at="best_bias", bias=0.25, false_shadow=0)
+        tables_ = [pandas.concat([job, best], ignore_index=True), results]
+        for curve in shadow_errors_on_depth_error.data(tables_):
+            self.assertEqual((curve["at"], curve["bias"]), ("best_bias", 0.25))
+        figure = shadow_errors_on_depth_error.draw(tables_)
+        caption = " ".join(text.get_text() for text in figure.texts).replace("\n", " ")
+        self.assertIn("best bias 0.25 depth units", caption)
+        self.assertNotIn("job's bias", caption)
 
     def test_refuses_results_of_another_run(self):
         with tempfile.TemporaryDirectory() as folder:

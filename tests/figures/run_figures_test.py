@@ -8,6 +8,7 @@ sweep's error_vs_z.csv two of four curves.
 
 import contextlib
 import csv
+import dataclasses
 import io
 import json
 import shutil
@@ -29,6 +30,7 @@ sys.path.insert(0, str(SCRIPTS))
 import bias_curve  # noqa: E402
 import causes  # noqa: E402
 import depth_error_vs_z  # noqa: E402
+import distance_panels  # noqa: E402
 import error_vs_axis  # noqa: E402
 import errors_vs_z  # noqa: E402
 import gnomon  # noqa: E402
@@ -125,8 +127,32 @@ class BiasCurve(unittest.TestCase):
         title, caption, alt = bias_curve.words(self.tables)
         self.assertEqual(title, "Wrong pixels at every constant bias")
         self.assertEqual(caption, "sphere-plane, 64 × 48 px, spot light, map 64², d24, near 0.5 m,"
-                                  " far 10 m, filter nearest")
+                                  " far 10 m, filter nearest; job's bias 0.006 depth units")
         self.assertIn(f"Fewest errors, {self.row['bias_curve.best_errors']}, from bias", alt)
+
+    def test_marks_no_bias_that_the_sweep_has_not(self):
+        run = load("sweep")  # of 0 to 0.03; the job has 0.006
+        tables = bias_curve.read(run)
+        drawn = by_label(bias_curve.draw(tables).axes[0])
+        self.assertNotIn("the job's bias", drawn)
+        self.assertNotIn("job's bias", tables.settings)
+        assert_array_equal(drawn["biases of the sweep"].get_xdata(), [0, 0.001, 0.003, 0.01, 0.03])
+        run = load("sweep")
+        run.results.loc[run.results["bias.constant"] == 0.01, "bias.constant"] = 0.006
+        tables = bias_curve.read(run)
+        self.assertIn("job's bias 0.006 depth units", tables.settings)
+        self.assertIn("the job's bias", by_label(bias_curve.draw(tables).axes[0]))
+
+    def test_ticks_keep_apart(self):
+        run = load("compare")
+        for scale in (1, 1e-3, 1e3):
+            (curve,) = bias_curve.read(run).curves
+            bias = curve.bias * scale
+            table = bias_curve.Tables("", [dataclasses.replace(curve, bias=bias)])
+            (axes,) = bias_curve.draw(table).axes
+            texts = [label.get_text() for label in axes.get_xticklabels()]
+            self.assertIn("0", texts)
+            self.assertTrue(style.fit(axes, axes.get_xticks(), texts), texts)
 
     def test_does_not_apply_to_hardware(self):
         run = load("compare")
@@ -170,6 +196,14 @@ class ErrorsVsZ(unittest.TestCase):
         self.assertEqual(counts.get_ylim()[0], 0)
         self.assertGreater(counts.get_ylim()[1], numbers(self.job, "lit").max())
 
+    def test_draws_no_bias_that_the_sweep_has_not(self):
+        tables = errors_vs_z.read(load("sweep"))
+        for curve in tables.curves:
+            self.assertEqual(list(curve.at), ["best_bias"])
+        texts = ", ".join(run_settings.text_of(curve.at["best_bias"][0]) for curve in tables.curves)
+        self.assertIn(f"best bias {texts} depth units", tables.settings)
+        self.assertIn("job's bias 0.006 depth units; best bias ", self.tables.settings)
+
     def test_has_a_column_for_each_of_few_curves(self):
         figure = errors_vs_z.draw(errors_vs_z.read(load("sweep")))
         self.assertEqual(len(figure.axes), 4)
@@ -198,9 +232,20 @@ class DepthErrorVsZ(unittest.TestCase):
             run.error_vs_z["map_error_m.max"].notna(), 2.5, numpy.nan)
         (axes,) = depth_error_vs_z.draw(depth_error_vs_z.read(run)).axes
         factor = {"mm": 1e3, "µm": 1e6}[axes.get_ylabel().split("[")[1][:-1]]
-        assert_allclose(axes.get_ylim(), [-3 * factor * usual, 3 * factor * usual])
+        shown = distance_panels.LARGEST_SHOWN * factor * usual
+        assert_allclose(axes.get_ylim(), [-shown, shown])
         self.assertEqual([text.get_text() for text in axes.texts],
-                         ["largest beyond the axis: 2.5 m"])
+                         ["largest beyond\nthe axis: 2.5 m"])
+
+    def test_shows_the_envelope_beside_larger_errors(self):
+        run = load("compare")
+        run.error_vs_z["map_error_m.max"] = numpy.where(
+            run.error_vs_z["map_error_m.max"].notna(), 2.5, numpy.nan)
+        (axes,) = depth_error_vs_z.draw(depth_error_vs_z.read(run)).axes
+        envelope = numpy.nanmax(by_label(axes)["envelope (formula)"].get_ydata())
+        _, low = axes.transAxes.inverted().transform(axes.transData.transform((0, 0)))
+        _, high = axes.transAxes.inverted().transform(axes.transData.transform((0, envelope)))
+        self.assertGreater(high - low, 0.1)
 
 
 class Causes(unittest.TestCase):
@@ -277,6 +322,20 @@ class ErrorVsAxis(unittest.TestCase):
             "false shadow, smallest to largest", "false shadow, median",
             "false lit, smallest to largest", "false lit, median"])
 
+    def test_resolutions_have_ticks_at_powers_of_two(self):
+        for count in (3, 9, 11):
+            values = [32 << index for index in range(count)]
+            axis = run_settings.Axis("shadow_map.resolution", values, numpy.arange(count), True)
+            rates = numpy.full((3, count), 0.01)
+            (axes,) = error_vs_axis.draw(error_vs_axis.Tables(
+                "", [error_vs_axis.Panel(axis, rates, rates)], count)).axes
+            ticks = axes.get_xticks()
+            self.assertLessEqual(set(ticks), set(values))
+            self.assertEqual(ticks[0], 32)
+            texts = [label.get_text() for label in axes.get_xticklabels()]
+            self.assertEqual(texts, [str(int(tick)) for tick in ticks])
+            self.assertTrue(style.fit(axes, ticks, texts))
+
     def test_does_not_apply_without_an_axis(self):
         with self.assertRaises(run_settings.DoesNotApply):
             error_vs_axis.read(load("compare"))
@@ -303,6 +362,27 @@ class HeatMap(unittest.TestCase):
         self.assertEqual([label.get_text() for label in bar.get_yticklabels()],
                          ["≤ 0.001", "0.01", "0.1", "1", "10", "100"])
 
+    def test_names_stand_from_the_top_down_and_numbers_upwards(self):
+        for key, is_downwards in (("lookup.filter", True), ("shadow_map.resolution", False)):
+            run = load("sweep")
+            other = {"lookup.filter": "shadow_map.resolution"}.get(key, "lookup.filter")
+            run.results = run.results[run.results[other] == run.results[other].iloc[0]]
+            axes = heat_map.draw(heat_map.read(run)).axes[0]
+            self.assertEqual(axes.get_ylabel(), run_settings.name_of(key))
+            bottom, top = axes.get_ylim()
+            self.assertEqual(bottom > top, is_downwards)
+
+    def test_many_numbers_have_round_ticks_in_their_places(self):
+        values = [2.0**power for power in range(4, 20)]
+        axis = run_settings.Axis("shadow_map.resolution", values, numpy.arange(16), True)
+        places, texts = heat_map._ticks(axis)
+        assert_array_equal(places, range(16))
+        self.assertEqual(texts[:3], ["16", "32", "64"])
+        biases = list(numpy.geomspace(1e-5, 1e-1, 41))
+        places, texts = heat_map._ticks(run_settings.Axis("bias.constant", biases, None, True))
+        assert_allclose(places, [0, 10, 20, 30, 40], atol=1e-9)
+        self.assertEqual(texts, ["1e-5", "0.0001", "0.001", "0.01", "0.1"])
+
     def test_does_not_apply_with_fewer_than_two_axes(self):
         run = load("sweep")
         run.results = run.results[(run.results["lookup.filter"] == "nearest")
@@ -320,8 +400,29 @@ class Pareto(unittest.TestCase):
             expected = sorted({(a, b) for a, b in rates
                                if not any((c <= a and d <= b) and (c < a or d < b)
                                           for c, d in rates)})
-            front = [tuple(pair) for pair in pareto.front_of(rates)]
+            front = [tuple(pair) for pair in rates[pareto.front_of(rates)]]
             self.assertEqual(front, expected, (seed, trial, rates.tolist()))
+
+    def test_names_the_ends_of_the_front_and_the_best(self):
+        run = load("sweep")
+        rates = numpy.geomspace(1e-4, 1, len(run.results))  # all are on the front
+        run.results = run.results.assign(false_shadow_rate=rates, false_lit_rate=rates[::-1])
+        tables = pareto.read(run)
+        figure = pareto.draw(tables)
+        numbers_ = [text.get_text() for text in figure.axes[0].texts]
+        self.assertEqual(numbers_, [str(1 + index) for index in range(len(numbers_))])
+        self.assertTrue(2 <= len(numbers_) <= pareto.MOST_NAMED)
+        lines = figure.texts[-1].get_text().splitlines()
+        self.assertEqual(len(lines), len(numbers_))
+        self.assertTrue(any(line.endswith(tables.best_text) for line in lines))
+        for place, line in zip((0, -1), (lines[0], lines[-1])):
+            row = rows_of("sweep", "results")[place]
+            self.assertIn(f"map resolution {row['shadow_map.resolution']} texels", line)
+            self.assertIn(f"constant bias {row['bias.constant']} depth units", line)
+
+    def test_names_dots_that_keep_apart(self):
+        places = numpy.array([[0.1, 0.9], [0.11, 0.89], [0.5, 0.5], [0.51, 0.5], [0.9, 0.1]])
+        self.assertEqual(pareto.named_of(places, [3]), [0, 3, 4])
 
     def test_draws_every_distinct_pair_and_the_best(self):
         tables = pareto.read(load("sweep"))

@@ -11,6 +11,7 @@ import unittest
 from pathlib import Path
 
 import numpy
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from numpy.testing import assert_allclose, assert_array_equal
 
 HERE = Path(__file__).resolve().parent
@@ -173,6 +174,25 @@ class MapResolution(unittest.TestCase):
                          ["128", "256", "512", "1024", "2048", "4096"])
         self.assertEqual(axes.get_xlabel(), "map resolution [texels]")
         self.assertEqual(axes.get_ylabel(), "wrong at edges [% of scored pixels]")
+
+    def test_has_room_for_its_label_and_a_place_for_no_error(self):
+        tables = map_resolution.read([path("resolution")])
+        texels, percent = tables.series["nearest"]
+        for scale in (1, 1e-4):
+            series = {"nearest": (texels, numpy.append(scale * percent[:-1], 0))}
+            figure = map_resolution.draw(map_resolution.Tables("", series))
+            (axes,) = figure.axes
+            self.assertEqual(axes.get_yscale(), "symlog")
+            self.assertEqual(axes.get_ylim()[0], 0)
+            FigureCanvasAgg(figure).draw()
+            self.assertGreaterEqual(axes.yaxis.label.get_window_extent().x0, 0)
+
+    def test_draws_every_filter(self):
+        texels = numpy.array([1000.0, 2000.0])
+        series = {f"filter{index}": (texels, numpy.array([2.0, 1.0])) for index in range(7)}
+        (axes,) = map_resolution.draw(map_resolution.Tables("", series)).axes
+        self.assertEqual(len(by_label(axes)), 8)
+        self.assertEqual(list(axes.get_xticks()), list(texels))  # one power of two is no scale
 
     def test_refuses_one_resolution(self):
         with self.assertRaisesRegex(gnomon.InputError, "one resolution"):
