@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace gnomon::analysis {
 
@@ -17,6 +18,10 @@ struct Environment {
     std::string gl_version;
     std::string embree;
     std::string gnomon;
+
+    /// Stands for GL's version where a case says what drew its mask.
+    static constexpr std::string_view other_renderer = "another renderer";
+    [[nodiscard]] bool is_of_gl() const { return gl_version != other_renderer; }
 };
 
 /// The two renderers as callables, one for each stage, so that `analysis` needs neither GL nor

@@ -40,7 +40,7 @@ std::string evaluation_settings(const analysis::Comparison& comparison,
     const Description words = describe(comparison);
     std::string text = setting_line("case", evaluation.case_name);
     text += setting_line("renderer", comparison.environment.gl_renderer);
-    text += setting_line("scene", comparison.scene.name);
+    text += setting_line("mesh", comparison.scene.name);
     text += setting_line("", words.size);
     text += note_lines(comparison.scene.notes);
     text += setting_line("image", words.image);

@@ -4,6 +4,7 @@
 #include "reports/output_file.hpp"
 #include "reports/panels.hpp"
 #include "reports/text.hpp"
+#include "scene/job_file.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::reports {
@@ -51,6 +54,45 @@ Caption gl_caption(const analysis::Comparison& comparison)
              {"bias " + words.bias, {}, {}, {}},
              {words.range, {}, {}, {}},
              {comparison.environment.gl_renderer, {}, {}, {}}}};
+}
+
+/// "resolution = 1024, depth_format = d32f": of a table's keys those that the case gives.
+std::string given_settings(const analysis::Comparison& comparison,
+                           const std::vector<std::string>& given, std::string_view table)
+{
+    std::string text;
+    for (const auto& [key, value] : scene::resolved_keys(comparison.job)) {
+        if (key.starts_with(table) && std::ranges::find(given, key) != given.end()) {
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key.substr(table.size()),
+                                value);
+        }
+    }
+    return text;
+}
+
+/// Another renderer's: its name, and what its case says of the map, no more.
+Caption case_caption(const analysis::Comparison& comparison,
+                     const analysis::Evaluation& evaluation)
+{
+    Caption caption{comparison.environment.gl_renderer, {}};
+    for (const auto& [name, table] : {std::pair{"map", "shadow_map."},
+                                      {"lookup", "lookup."},
+                                      {"bias", "bias."}}) {
+        const std::string text = given_settings(comparison, evaluation.given_keys, table);
+        if (!text.empty()) {
+            caption.lines.push_back({fmt::format("{} {}", name, text), {}, {}, {}});
+        }
+    }
+    if (caption.lines.empty()) {
+        caption.lines.push_back({"the case gives no settings of a shadow map", {}, {}, {}});
+    }
+    return caption;
+}
+
+Caption shown_caption(const analysis::Comparison& comparison)
+{
+    return comparison.evaluation ? case_caption(comparison, *comparison.evaluation)
+                                 : gl_caption(comparison);
 }
 
 Caption truth_caption(const analysis::Comparison& comparison)
@@ -163,7 +205,9 @@ void write_heading(Canvas& canvas, const PictureLayout& layout,
 {
     const Description words = describe(comparison);
     const scene::ImageSize image = comparison.view.image;
-    std::string pixels = fmt::format("{}; {} pixels", words.size, words.image);
+    const auto& evaluation = comparison.evaluation;
+    const std::string mesh = evaluation ? comparison.scene.name + ", " : std::string{};
+    std::string pixels = fmt::format("{}{}; {} pixels", mesh, words.size, words.image);
     if (layout.panel.width_px < image.width_px) {
         pixels += fmt::format(", shown at {}x{} with every error kept", layout.panel.width_px,
                               layout.panel.height_px);
@@ -176,7 +220,7 @@ void write_heading(Canvas& canvas, const PictureLayout& layout,
         canvas.write(layout.margin, baseline, canvas.fitted(text, style, width_px), style);
         baseline += layout.line;
     };
-    write_line(comparison.scene.name, title);
+    write_line(evaluation ? evaluation->case_name : comparison.scene.name, title);
     write_line(pixels, plain);
     write_line(fmt::format("light {}; gnomon {}", words.light, comparison.environment.gnomon),
                plain);
@@ -227,7 +271,7 @@ RgbImage draw_picture(const analysis::Comparison& comparison,
     Canvas canvas{layout.canvas, paper, font_folder};
     const Panels panels = draw_panels(comparison, layout.panel);
     const std::array images{&panels.gl, &panels.truth, &panels.errors};
-    const std::array captions{gl_caption(comparison), truth_caption(comparison),
+    const std::array captions{shown_caption(comparison), truth_caption(comparison),
                               error_caption(comparison.metrics)};
     write_heading(canvas, layout, comparison);
     for (int i = 0; i < 3; ++i) {

@@ -111,6 +111,12 @@ void check_agreement(const Case& subject, const CaseTruth& truth, CheckedCase& c
     if (found.has_both()) {
         check.agreement = found.index();
     }
+    if (found.index() <= 0.5 &&
+        shows_shading_alone(subject.layers, checked.view.light, checked.truth, subject.mesh)) {
+        check.warning = "the mask shows no cast shadow: it is dark only where surfaces are turned "
+                        "from the light; are shadows switched on?";
+        return;
+    }
     note(check,
          check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth, truth));
     if (found.lit + found.blocked == 0) {
@@ -397,7 +403,8 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.lookup = lookup_of(subject.layers);
     result.truth = checked.truth.truth;
     result.truth_method = "exact for all positions that round to P";
-    result.environment = {subject.file.renderer, "another renderer", truth.embree, truth.gnomon};
+    result.environment = {subject.file.renderer, std::string{Environment::other_renderer},
+                          truth.embree, truth.gnomon};
     Evaluation& evaluation = result.evaluation.emplace(make_evaluation(subject, checked));
     const int taps = taps_of_mask(subject);
     result.metrics = measure(result.truth, result.lookup, taps);

@@ -3,8 +3,10 @@
 #include "analysis/evaluate/hypotheses.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -30,10 +32,13 @@ bool explains_better(double other, double given)
 }
 
 /// The same for another light, which changes what is lit altogether: it must be right nearly
-/// everywhere, and the given one half by chance or more.
-bool explains_far_better(const MaskAgreement& other, double given)
+/// everywhere, and the given one half by chance or more. As a light that scores few pixels may suit
+/// them by chance, it must be right at more than half as many as the given one scores.
+bool explains_far_better(const MaskAgreement& other, const MaskAgreement& given)
 {
-    return other.has_both() && other.index() >= 0.8 && given <= 0.5;
+    return other.has_both() && other.index() >= 0.8 && given.index() <= 0.5 &&
+           explains_better(other.index(), given.index()) &&
+           2 * (other.lit_right + other.blocked_right) > given.lit + given.blocked;
 }
 
 /// How an image may be turned against another.
@@ -185,11 +190,12 @@ std::vector<OtherLight> other_lights(const Light& light)
 }
 
 std::optional<ImportMistake> check_lights(const Light& light, const scene::RoundedReceivers& all,
-                                          const Image<float>& mask, double given,
-                                          const CaseTruth& finders)
+                                          const Image<float>& mask, const CaseTruth& finders)
 {
     const Tried tried = spread_pixels(all, mask);
-    double best = given;
+    const MaskAgreement given = agreement(
+        tried.mask, finders.find_truth(light, tried.receivers).truth.pixel_class);
+    double best = given.index();
     std::optional<ImportMistake> mistake;
     for (OtherLight& other : other_lights(light)) {
         const scene::RoundedTruth truth = finders.find_truth(other.light, tried.receivers);
@@ -209,6 +215,19 @@ bool is_fraction(float verdict)
     return verdict > step && verdict < 1 - step;
 }
 
+/// Whether the front of a triangle, as it is wound, is turned to the light from a point of it.
+bool is_turned_to(const Light& light, const std::array<scene::Vec3f, 3>& corners,
+                  const scene::Vec3f& point)
+{
+    const scene::Vec3d a{corners[0]};
+    const scene::Vec3d normal =
+        glm::cross(scene::Vec3d{corners[1]} - a, scene::Vec3d{corners[2]} - a);
+    const scene::Vec3d to_light = light.type == scene::LightType::directional
+                                      ? -light.direction
+                                      : light.position - scene::Vec3d{point};
+    return glm::dot(normal, to_light) > 0;
+}
+
 bool has_both_verdicts(const scene::CaseLayers& layers)
 {
     bool has_lit = false;
@@ -222,6 +241,31 @@ bool has_both_verdicts(const scene::CaseLayers& layers)
 }
 
 } // namespace
+
+bool shows_shading_alone(const scene::CaseLayers& layers, const Light& light,
+                         const scene::RoundedTruth& truth, const scene::TriangleScene& mesh)
+{
+    std::array<std::uint64_t, 2> counts{}; // dark, lit
+    std::array<std::uint64_t, 2> in_cast_shadow{};
+    std::uint64_t differing = 0;
+    for (std::size_t i = 0; i < layers.mask.pixel_count(); ++i) {
+        const PixelClass pixel_class = truth.truth.pixel_class[i];
+        if (truth.triangle[i] == scene::no_triangle ||
+            (!scene::is_scored(pixel_class) && pixel_class != PixelClass::attached)) {
+            continue;
+        }
+        const bool is_lit = scene::is_lit(layers.mask[i]);
+        const bool faces_light =
+            is_turned_to(light, mesh.corners(truth.triangle[i]), layers.position[i]);
+        ++counts.at(is_lit ? 1 : 0);
+        differing += is_lit == faces_light ? 0 : 1;
+        if (faces_light && pixel_class == PixelClass::blocked) {
+            ++in_cast_shadow.at(is_lit ? 1 : 0);
+        }
+    }
+    return counts[0] > 0 && counts[1] > 0 && differing * 100 <= counts[0] + counts[1] &&
+           in_cast_shadow[0] * 10 <= in_cast_shadow[1];
+}
 
 double MaskAgreement::index() const
 {
@@ -307,7 +351,7 @@ std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers, const L
     if (given.index() > 0.5) { // nothing can explain it far better
         return std::nullopt;
     }
-    return check_lights(light, receivers, layers.mask, given.index(), finders);
+    return check_lights(light, receivers, layers.mask, finders);
 }
 
 } // namespace gnomon::analysis

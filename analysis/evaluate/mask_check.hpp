@@ -6,6 +6,7 @@
 #include "scene/case_layers.hpp"
 #include "scene/light.hpp"
 #include "scene/rounded_receivers.hpp"
+#include "scene/triangles.hpp"
 
 #include <optional>
 
@@ -32,6 +33,15 @@ struct MaskAgreement {
 /// The mistake that a mask shows by itself: edges with fractions, where one sample has none.
 [[nodiscard]] std::optional<ImportMistake> check_fractions(const scene::CaseFile& file,
                                                            const scene::CaseLayers& layers);
+
+/// Whether the mask is both lit and dark, and tells only which side of the mesh's triangles, as they
+/// are wound, is turned to the light: a picture without cast shadows, as of a renderer whose shadows
+/// are off or of a scene in which nothing casts. A hundredth of the pixels may differ, and a tenth of
+/// those in cast shadows.
+/// @param truth  of the case's light.
+[[nodiscard]] bool shows_shading_alone(const scene::CaseLayers& layers, const scene::Light& light,
+                                       const scene::RoundedTruth& truth,
+                                       const scene::TriangleScene& mesh);
 
 /// The mistake that explains far better how a mask differs from the truth than the renderer's own
 /// errors could: an inverted mask, a flipped image, the light on another side or its axes mixed up.

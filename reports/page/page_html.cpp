@@ -297,8 +297,8 @@ std::string environment_section(const RunReader& run, const RunOverview& overvie
     const analysis::Environment& environment = description.environment;
     std::string html = "<section id=\"environment\" aria-labelledby=\"environment-heading\">\n"
                        "<h2 id=\"environment-heading\">Where, and how to repeat it</h2>\n<dl>\n";
-    html += definition("GL", environment.gl_renderer) +
-            definition("GL version", environment.gl_version) +
+    html += definition(environment.is_of_gl() ? "GL" : "renderer", environment.gl_renderer) +
+            (environment.is_of_gl() ? definition("GL version", environment.gl_version) : "") +
             definition("ray tracer", environment.embree) +
             definition("gnomon", environment.gnomon) + "</dl>\n";
     html += fmt::format("<p>All of it:</p>\n<pre><code>{} --out RUN\ngnomon report RUN</code>"

@@ -151,9 +151,14 @@ void add_findings(std::vector<std::string>& sentences, const Json& detail, bool 
     }
 }
 
-/// The scene's name, where all configurations share it.
+/// The scene's name, where all configurations share it; of another renderer's case the case's own.
 std::string common_scene(const RunReader& run)
 {
+    if (!run.description().environment.is_of_gl()) {
+        sqlite::Statement find{run.database(), "SELECT DISTINCT \"case\" FROM results LIMIT 2"};
+        std::string name = find.step() ? find.text(0) : std::string{};
+        return find.step() ? std::string{} : name;
+    }
     sqlite::Statement find{
         run.database(), "SELECT DISTINCT \"scene.builtin\", \"scene.file\" FROM results LIMIT 2"};
     if (!find.step()) {

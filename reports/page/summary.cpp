@@ -168,9 +168,10 @@ std::string summary_text(const RunReader& run, const RunOverview& overview,
             "[results.csv](results.csv), [error_vs_z.csv](error_vs_z.csv), "
             "[bias_curves.csv](bias_curves.csv).\n\n";
     const analysis::Environment& environment = run.description().environment;
-    text += fmt::format("{}, {}, {}, gnomon {}\n\n", markdown_text(environment.gl_renderer),
-                        markdown_text(environment.gl_version), markdown_text(environment.embree),
-                        markdown_text(environment.gnomon));
+    const std::string version =
+        environment.is_of_gl() ? markdown_text(environment.gl_version) + ", " : "";
+    text += fmt::format("{}, {}{}, gnomon {}\n\n", markdown_text(environment.gl_renderer), version,
+                        markdown_text(environment.embree), markdown_text(environment.gnomon));
     return text + code_block(run_command(run.description()) + " --out RUN\ngnomon report RUN");
 }
 

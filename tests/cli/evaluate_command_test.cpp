@@ -20,6 +20,7 @@ namespace {
 
 using CaseJson = nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 CaseJson evaluated(const CaseFolder& folder, const std::vector<std::string>& more = {})
 {
@@ -119,6 +120,12 @@ TEST(Evaluate, LeavesARunForReportGateAndBaseline)
     EXPECT_EQ(gnomon({"baseline", "save", run, "--baseline", baseline}).exit_code, 0);
     EXPECT_EQ(gnomon({"gate", run, "--baseline", baseline}).exit_code, 0);
     EXPECT_EQ(gnomon({"report", run}).exit_code, 0);
+    for (const char* const file : {"report.html", "summary.md"}) {
+        const std::string text = text_of(std::filesystem::path{run} / file);
+        EXPECT_THAT(text, HasSubstr("Shadow-map accuracy: sphere-plane")) << file;
+        EXPECT_THAT(text, Not(HasSubstr("GL version"))) << file;
+        EXPECT_THAT(text, Not(HasSubstr(", another renderer,"))) << file;
+    }
 
     auto& mask = folder.channels["shadow.V"];
     for (int x = 110; x < 130; ++x) {

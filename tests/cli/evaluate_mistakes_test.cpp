@@ -304,6 +304,77 @@ TEST(EvaluateMistakes, NamesNormalsOfAnotherSideOrNone)
     }
 }
 
+/// Makes the mask the light on a white surface without shadows: what faces the light, and how much.
+void switch_shadows_off(CaseFolder& folder, float x, float y, float z, bool is_directional)
+{
+    auto& channels = folder.channels;
+    auto& mask = channels["shadow.V"];
+    for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
+        const float at = is_directional ? 0.0F : 1.0F;
+        const float light = channels["Ng.X"][i] * (x - at * channels["P.X"][i]) +
+                            channels["Ng.Y"][i] * (y - at * channels["P.Y"][i]) +
+                            channels["Ng.Z"][i] * (z - at * channels["P.Z"][i]);
+        mask[i] = std::max(0.0F, light);
+    }
+    folder.toml += "\n[channels]\nlit_above = 0\n";
+}
+
+TEST(EvaluateMistakes, TakeAPictureWithoutShadowsForNoMistake)
+{
+    const std::map<std::string, std::pair<std::vector<float>, bool>> lights{
+        {"sphere-plane", {{}, false}}, {"yard", {{-20.1346F, 37.1572F, 26.7196F}, true}}};
+    for (const auto& [scene, light] : lights) {
+        for (const bool knows_side : {true, false}) {
+            CaseFolder& folder = case_of(scene);
+            float place[3] = {};
+            if (light.second) {
+                std::copy(light.first.begin(), light.first.end(), place);
+            } else {
+                const std::size_t at = folder.toml.find("position = [") + 12;
+                ASSERT_EQ(std::sscanf(folder.toml.c_str() + at, "%f, %f, %f", &place[0], &place[1],
+                                      &place[2]),
+                          3);
+            }
+            for (const char* const table : {"shadow_map", "lookup", "bias"}) {
+                folder.drop_table(table);
+            }
+            switch_shadows_off(folder, place[0], place[1], place[2], light.second);
+            if (!knows_side) {
+                folder.keep_level_0();
+                folder.drop_table("camera");
+            }
+            folder.write();
+            const Ending checked = folder.evaluate({"--check"});
+            EXPECT_EQ(checked.exit_code, 0) << scene << checked.out << checked.err;
+            EXPECT_THAT(checked.out, HasSubstr("Warning: the mask shows no cast shadow")) << scene;
+        }
+    }
+}
+
+TEST(EvaluateMistakes, ProposeNoLightForAMaskOfOneKind)
+{
+    for (const std::string& scene : mistaken_scenes) {
+        for (const float verdict : {0.0F, 1.0F}) {
+            CaseFolder& folder = case_of(scene);
+            folder.keep_level_0();
+            folder.drop_table("camera");
+            change_each(folder.channels["shadow.V"], [verdict](float) { return verdict; });
+            folder.write();
+            EXPECT_EQ(folder.evaluate({"--check"}).exit_code, 0) << scene << verdict;
+        }
+    }
+}
+
+TEST(EvaluateMistakes, NameALightWithOtherAxes)
+{
+    CaseFolder& folder = case_of("yard");
+    folder.keep_level_0();
+    folder.drop_table("light");
+    folder.toml += "\n[light]\ndirection = [20.1346, -26.7196, 37.1572]\n";
+    folder.write();
+    expect_refused(folder.evaluate(), 2, "the mask fits a light with the axes");
+}
+
 TEST(EvaluateMistakes, WarnOfAMaskThatSaysNothing)
 {
     CaseFolder& folder = case_of("yard");

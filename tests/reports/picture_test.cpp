@@ -222,6 +222,36 @@ TEST(WritePicture, SurvivesLongNamesAndMissingRates)
     EXPECT_EQ(image.size(), lay_out_picture({96, 64}).canvas);
 }
 
+std::vector<Rgb> pixels_of(const RgbImage& image)
+{
+    return {image.begin(), image.end()};
+}
+
+TEST(DrawPicture, SaysOfAnotherRenderersCaseOnlyWhatItSays)
+{
+    analysis::Comparison comparison = example().comparison;
+    comparison.environment.gl_renderer = "My Engine";
+    comparison.environment.gl_version = analysis::Environment::other_renderer;
+    analysis::Evaluation& evaluation = comparison.evaluation.emplace();
+    evaluation.case_name = "noon";
+    evaluation.points = scene::Image<scene::Vec3f>{comparison.view.image};
+    evaluation.normal = scene::Image<scene::Vec3f>{comparison.view.image, {0, 0, 1}};
+    const std::vector<Rgb> bare = pixels_of(draw_picture(comparison));
+    comparison.job.shadow_map.resolution_texels = 4096;
+    comparison.job.bias.slope = 3;
+    EXPECT_EQ(pixels_of(draw_picture(comparison)), bare); // of defaults nothing is written
+    evaluation.given_keys = {"bias.slope"};
+    EXPECT_NE(pixels_of(draw_picture(comparison)), bare);
+    const std::vector<Rgb> given = pixels_of(draw_picture(comparison));
+    comparison.job.shadow_map.resolution_texels = 1024;
+    EXPECT_EQ(pixels_of(draw_picture(comparison)), given);
+    evaluation.case_name = "dusk";
+    EXPECT_NE(pixels_of(draw_picture(comparison)), given);
+    evaluation.case_name = "noon";
+    comparison.environment.gl_renderer = "Your Engine";
+    EXPECT_NE(pixels_of(draw_picture(comparison)), given);
+}
+
 TEST(WritePicture, ReportsAnUnwritablePath)
 {
     EXPECT_THROW(write_picture("/dev/full", example().comparison), scene::EnvironmentError);
