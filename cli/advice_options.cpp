@@ -56,10 +56,10 @@ void add_advice_options(CLI::App& command, AdviceOptions& options)
 {
     command
         .add_option("--views", options.cameras,
-                    "Make advice hold for so many cameras around the job's own, too "
+                    "Make the advice hold for this many cameras around the job's own, too "
                     "(docs/tune.md#views)")
         ->check(CLI::Range(0, most_views));
-    command.add_option("--lights", options.lights, "And for so many lights around the job's own")
+    command.add_option("--lights", options.lights, "And for this many lights around the job's own")
         ->check(CLI::Range(0, most_views));
     command.add_flag("--all-cases", options.all_cases,
                      "And for the camera, light and image of each [[case]] of the job file");

@@ -8,7 +8,7 @@
 
 namespace gnomon::cli {
 
-/// A job's scene in both renderers' hands, for any number of comparisons.
+/// A job's scene, loaded by both renderers, for any number of comparisons.
 class ComparisonSession {
 public:
     /// @throws scene::InputError  before memory is taken, if the job needs more than there is; and

@@ -59,7 +59,7 @@ auto in_words_of(const scene::CaseFile& file, const Work& work)
     }
 }
 
-/// A case with everything that it names in memory, and its mesh in Embree's hands.
+/// A case with everything that it names in memory, with its mesh loaded by Embree.
 class CaseSession {
 public:
     CaseSession(scene::CaseFile file, int threads)

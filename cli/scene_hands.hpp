@@ -19,7 +19,7 @@ struct SessionOptions {
     bool audits = false; ///< float methods will be audited
 };
 
-/// A scene in both renderers' hands.
+/// A scene that both renderers have loaded.
 class SceneHands {
 public:
     /// The context and the triangles must outlive this.

@@ -31,7 +31,7 @@ struct RefusedRow {
     std::string message;
 };
 
-/// What the task asks of its curve; moves rows whose bias is none from the task to `refused`.
+/// What the task asks of its curve; moves rows without a valid bias from the task to `refused`.
 [[nodiscard]] CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum,
                                         std::vector<RefusedRow>& refused);
 
