@@ -63,21 +63,19 @@ std::string given_settings(const analysis::Comparison& comparison,
     std::string text;
     for (const auto& [key, value] : scene::resolved_keys(comparison.job)) {
         if (key.starts_with(table) && std::ranges::find(given, key) != given.end()) {
-            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key.substr(table.size()),
-                                value);
+            text +=
+                fmt::format("{}{} = {}", text.empty() ? "" : ", ", key.substr(table.size()), value);
         }
     }
     return text;
 }
 
 /// Another renderer's: its name, and what its case says of the map, no more.
-Caption case_caption(const analysis::Comparison& comparison,
-                     const analysis::Evaluation& evaluation)
+Caption case_caption(const analysis::Comparison& comparison, const analysis::Evaluation& evaluation)
 {
     Caption caption{comparison.environment.gl_renderer, {}};
-    for (const auto& [name, table] : {std::pair{"map", "shadow_map."},
-                                      {"lookup", "lookup."},
-                                      {"bias", "bias."}}) {
+    for (const auto& [name, table] :
+         {std::pair{"map", "shadow_map."}, {"lookup", "lookup."}, {"bias", "bias."}}) {
         const std::string text = given_settings(comparison, evaluation.given_keys, table);
         if (!text.empty()) {
             caption.lines.push_back({fmt::format("{} {}", name, text), {}, {}, {}});

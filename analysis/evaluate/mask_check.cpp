@@ -193,8 +193,8 @@ std::optional<ImportMistake> check_lights(const Light& light, const scene::Round
                                           const Image<float>& mask, const CaseTruth& finders)
 {
     const Tried tried = spread_pixels(all, mask);
-    const MaskAgreement given = agreement(
-        tried.mask, finders.find_truth(light, tried.receivers).truth.pixel_class);
+    const MaskAgreement given =
+        agreement(tried.mask, finders.find_truth(light, tried.receivers).truth.pixel_class);
     double best = given.index();
     std::optional<ImportMistake> mistake;
     for (OtherLight& other : other_lights(light)) {

@@ -34,10 +34,10 @@ struct MaskAgreement {
 [[nodiscard]] std::optional<ImportMistake> check_fractions(const scene::CaseFile& file,
                                                            const scene::CaseLayers& layers);
 
-/// Whether the mask is both lit and dark, and tells only which side of the mesh's triangles, as they
-/// are wound, is turned to the light: a picture without cast shadows, as of a renderer whose shadows
-/// are off or of a scene in which nothing casts. A hundredth of the pixels may differ, and a tenth of
-/// those in cast shadows.
+/// Whether the mask is both lit and dark, and tells only which side of the mesh's triangles, as
+/// they are wound, is turned to the light: a picture without cast shadows, as of a renderer whose
+/// shadows are off or of a scene in which nothing casts. A hundredth of the pixels may differ, and
+/// a tenth of those in cast shadows.
 /// @param truth  of the case's light.
 [[nodiscard]] bool shows_shading_alone(const scene::CaseLayers& layers, const scene::Light& light,
                                        const scene::RoundedTruth& truth,

@@ -92,7 +92,7 @@ def title_height(titles):
 
 
 def label_columns(axes, column, columns, x_label):
-    """Labels of the panels of a row: of distances that all share, once; of rates at the left."""
+    """The label of an axis that panels in a row share: of three or more once, in the middle."""
     if columns < 3 or column == columns // 2:
         axes.set_xlabel(x_label)
 

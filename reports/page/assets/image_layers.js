@@ -65,7 +65,7 @@ function litFrom(image) {
 function glLayer(image, scene, thresholds) {
   return {
     id: "gl",
-    title: image.detail.evaluate ? `Shadows of ${image.detail.evaluate.renderer}` : "GL’s shadows",
+    title: image.detail?.evaluate ? `Shadows of ${image.detail.evaluate.renderer}` : "GL’s shadows",
     note: image.hasCurve ? "at the slider’s bias" : jobBiasNote,
     followsBias: true,
     legend: surfaceLegend,
