@@ -114,7 +114,7 @@ void check_agreement(const Case& subject, const CaseTruth& truth, CheckedCase& c
     if (found.index() <= 0.5 &&
         shows_shading_alone(subject.layers, checked.view.light, checked.truth, subject.mesh)) {
         check.warning = "the mask shows no cast shadow: it is dark only where surfaces are turned "
-                        "from the light; are shadows switched on?";
+                        "from the light; its shadows may be switched off";
         return;
     }
     note(check,
