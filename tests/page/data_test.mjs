@@ -9,6 +9,7 @@ const page = loadScripts(
   [
     "blocks.js",
     "columns.js",
+    "bins.js",
     "curve_amounts.js",
     "numbers.js",
     "filter_language.js",
@@ -29,6 +30,8 @@ const page = loadScripts(
     "thinnedRows",
     "symlogLayout",
     "CurveAmounts",
+    "DistanceBins",
+    "ownBlock",
     "noIndex",
     "arrayOfType",
   ],
@@ -295,5 +298,36 @@ describe("Amounts along a curve", () => {
     assert.deepEqual({ ...amounts.at(0.5) }, { shadow: 2, light: 1, isStored: false });
     assert.deepEqual({ ...amounts.at(-1) }, { shadow: 8, light: 0, isStored: false });
     assert.deepEqual({ ...amounts.at(2) }, { shadow: 0, light: 2, isStored: false });
+  });
+});
+
+describe("Errors by distance of a configuration", () => {
+  const bins = new page.DistanceBins(
+    tableOf({
+      curve: [0, 0, 0, 0, 1],
+      at: ["job_bias", "job_bias", "job_bias", "best_bias", "job_bias"],
+      bias: [0.25, 0.25, 0.5, 0.75, 0.25],
+      lower_m: [1, 2, 1, 1, 1],
+      false_lit_rate: [0.1, 0.2, 0.3, 0.4, 0.5],
+    }),
+    tableOf({ id: ["a", "b"] }),
+  );
+  const ratesOf = (block) => block?.bins.map(({ falseLitRate }) => falseLitRate) ?? null;
+
+  it("are a block for each bias of its curve", async () => {
+    assert.deepEqual((await bins.of("a", "job_bias")).map(ratesOf), [[0.1, 0.2], [0.3]]);
+    assert.deepEqual((await bins.of("a", "best_bias")).map(ratesOf), [[0.4]]);
+    assert.deepEqual(await bins.of("b", "best_bias"), []);
+    assert.deepEqual(await bins.of(null, "job_bias"), []);
+  });
+
+  it("are those at its own bias alone, not at the job's without the axes", async () => {
+    const blocks = await bins.of("a", "job_bias");
+    assert.deepEqual(ratesOf(page.ownBlock(blocks, 0.5, ["bias.constant"])), [0.3]);
+    assert.equal(page.ownBlock(blocks, 0.006, ["bias.constant"]), null);
+    const [one] = await bins.of("b", "job_bias");
+    assert.equal(page.ownBlock([one], null, ["shadow_map.resolution"]), one);
+    assert.equal(page.ownBlock([one], null, ["bias.constant_m"]), null);
+    assert.equal(page.ownBlock(blocks, null, []), null);
   });
 });

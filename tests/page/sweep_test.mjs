@@ -118,6 +118,31 @@ describe("A small sweep with its pixels", () => {
   });
 });
 
+describe("A sweep without its pixels", () => {
+  after(stopBrowser);
+  const titles = (page) => page.locator("#distance figcaption").allTextContents();
+
+  it("shows errors by distance at no other bias than it names", async () => {
+    const page = await openPage(makeReport("biases", "sweep", ...manyBiases(3)).page);
+    await page.locator(".rows tr[data-place]").nth(1).click();
+    const missing = page.getByText("were not stored at this configuration’s own bias");
+    await missing.waitFor();
+    assert.match((await titles(page))[0], /^Errors by light distance, at the best bias, /);
+    assert.deepEqual(await page.getByLabel("Errors at").locator("option").allTextContents(), ["the best bias"]);
+    await page.close();
+  });
+
+  it("shows them at its own bias where the bias is the job's", async () => {
+    const axis = ["--axis", "shadow_map.resolution=64,128", "--no-keep-pixels", "--quiet"];
+    const { page: file } = makeReport("resolutions", "sweep", ...sized(48, 32, "--builtin", "wall", ...axis));
+    const page = await openPage(file);
+    assert.match((await titles(page))[0], /^Errors by light distance, at its own bias, /);
+    assert.equal(await page.getByText("were not stored at this configuration’s own bias").count(), 0);
+    assert.deepEqual(page.faults, []);
+    await page.close();
+  });
+});
+
 describe("A large sweep", () => {
   after(stopBrowser);
   const sizes = isFull ? [10_000, 200_000] : [10_000];

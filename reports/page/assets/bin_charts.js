@@ -133,6 +133,9 @@ function angleAxis() {
   };
 }
 
+const ownDistancesAreMissing =
+  "Errors by distance were not stored at this configuration’s own bias. These charts show the same shadow map at the best bias.";
+
 /** Fills section#distance for a configuration. */
 class DistanceCharts {
   constructor(section) {
@@ -140,37 +143,43 @@ class DistanceCharts {
   }
 
   /**
-   * @param {?Bin[]} job  bins at the job's bias
-   * @param {?{bias: number, bins: Bin[]}} best  at the best bias
-   * @param {string} caption
+   * @param {?{bias: ?number, bins: Bin[]}} own  at the configuration's bias; null: not stored
+   * @param {?{bias: number, bins: Bin[]}} best  at the best bias of its curve
+   * @param {string} caption  of the configuration
    */
-  show(job, best, caption) {
-    this.section.hidden = !job?.length && !best?.bins.length;
+  show({ own, best }, caption) {
+    const blocks = [
+      ["own", "its own bias", own],
+      ["best", "the best bias", best],
+    ].filter(([, , block]) => block?.bins.length);
+    this.section.hidden = blocks.length === 0;
     if (this.section.hidden) {
       return;
     }
     const hosts = [1, 2, 3].map(() => element("div", { class: "chart-host" }));
-    const draw = (at) => {
-      const bins = at === "best" ? best.bins : job;
+    const draw = (chosen) => {
+      const [, where, { bias, bins }] = blocks.find(([id]) => id === chosen);
       const x = distanceAxis(bins);
-      const where = at === "best" ? `the best bias, ${readable(best.bias)}` : "the job’s bias";
-      rateChart(hosts[0], `Errors by light distance, at ${where}`, bins, x);
+      const at = bias === null ? where : `${where}, ${readable(bias)}`;
+      rateChart(hosts[0], `Errors by light distance, at ${at}`, bins, x);
       neededChart(hosts[1], "Bias that lit pixels need, by light distance", bins, x, 1e-6);
       depthErrorChart(hosts[2], bins, x);
       dropDeadCharts();
     };
-    const options = [
-      ...(job?.length ? [["job", "the job’s bias"]] : []),
-      ...(best?.bins.length ? [["best", "the best bias"]] : []),
-    ];
-    const select = labelled("Errors at", choice(options, options[0][0], draw));
+    const [[first]] = blocks;
+    const select = choice(
+      blocks.map(([id, where]) => [id, where]),
+      first,
+      draw,
+    );
     refill(
       this.section,
       element("p", { class: "caption name", text: caption }),
-      element("div", { class: "bar" }, select),
+      ...(first === "own" ? [] : [element("p", { class: "hint", text: ownDistancesAreMissing })]),
+      element("div", { class: "bar" }, labelled("Errors at", select)),
       element("div", { class: "chart-grid" }, ...hosts),
     );
-    draw(options[0][0]);
+    draw(first);
   }
 }
 
@@ -187,6 +196,6 @@ function showSlopeCharts(section, bins, caption) {
     element("div", { class: "chart-grid" }, ...hosts),
   );
   const degrees = inDegrees(bins);
-  rateChart(hosts[0], "Errors by receiver angle, at the job’s bias", degrees, angleAxis());
+  rateChart(hosts[0], "Errors by receiver angle, at its own bias", degrees, angleAxis());
   neededChart(hosts[1], "Bias that lit pixels need, by receiver angle", degrees, angleAxis(), 1e-6);
 }

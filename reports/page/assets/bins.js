@@ -50,25 +50,20 @@ class DistanceBins {
   }
 
   /**
+   * The blocks of a curve: several cases may share it, each with a block at its own bias.
    * @param {?string} id  of a curve
    * @param {string} at  "job_bias" or "best_bias"
-   * @return {Promise<?{bias: number, bins: Bin[]}>}  null where the curve has none
+   * @return {Promise<{bias: number, bins: Bin[]}[]>}  one for each bias
    */
   async of(id, at) {
     await this.load();
-    const rows = this.rowsOf.get(`${this.curveOfId.get(id)} ${at}`);
-    if (rows === undefined) {
-      return null;
-    }
     const value = (name, row) => this.columns.get(name)?.at(row) ?? null;
-    const bias = value("bias", rows[0]);
-    // Several cases may share a curve, each with a block at its own bias: the first one is shown.
-    return {
-      bias,
-      bins: rows
-        .filter((row) => value("bias", row) === bias)
-        .map((row) => this.bin((name) => value(name, row))),
-    };
+    const blocks = new Map();
+    for (const row of this.rowsOf.get(`${this.curveOfId.get(id)} ${at}`) ?? []) {
+      const bias = value("bias", row);
+      blocks.set(bias, [...(blocks.get(bias) ?? []), this.bin((name) => value(name, row))]);
+    }
+    return [...blocks].map(([bias, bins]) => ({ bias, bins }));
   }
 
   bin(value) {
@@ -88,4 +83,20 @@ class DistanceBins {
       envelope: value("envelope_m"),
     };
   }
+}
+
+/**
+ * The block at a configuration's own bias. A sweep's curve has one at the bias of the job without the axes, which
+ * need not be that of any configuration.
+ * @param {{bias: number, bins: Bin[]}[]} blocks  at "job_bias" of the configuration's curve
+ * @param {?number} bias  constant bias of the configuration [depth units]; null: it is given in another unit
+ * @param {string[]} axes  of the sweep
+ * @return {?{bias: number, bins: Bin[]}}  null where there is none
+ */
+function ownBlock(blocks, bias, axes) {
+  if (bias !== null) {
+    return blocks.find((block) => Math.fround(block.bias) === Math.fround(bias)) ?? null;
+  }
+  const isSwept = axes.some((axis) => axis.startsWith("bias.constant"));
+  return blocks.length === 1 && !isSwept ? blocks[0] : null;
 }

@@ -48,13 +48,31 @@ class ReportPage {
     return [`Configuration ${row}`, ...values].join(", ");
   }
 
+  /** What a column holds in a row; null where it holds nothing, or there is none. */
+  async valueOf(name, row) {
+    return this.table.has(name) ? (await this.table.column(name)).at(row) : null;
+  }
+
+  /**
+   * Bins by light distance of a configuration: at its own bias, and at the best one of its curve.
+   * @return {Promise<{own: ?object, best: ?object}>}  {bias, bins} each
+   */
+  async distanceBins(row, curveId, stored) {
+    const [job, best] = await Promise.all(["job_bias", "best_bias"].map((at) => this.bins.of(curveId, at)));
+    const bins = stored?.detail?.by_light_distance_m;
+    const own = bins
+      ? { bias: stored.bias_constant, bins: bins.map(binOfJson) }
+      : ownBlock(job, await this.valueOf("bias.constant", row), this.data.run.axes);
+    return { own, best: best[0] ?? null };
+  }
+
   /** Shows a configuration in every section that has something of it. */
   async show(row) {
     this.shown = row;
     const caption = await this.caption(row);
     const stored = this.images.get(row);
-    const curveId = this.table.has("curve") ? (await this.table.column("curve")).at(row) : null;
-    const [job, best] = await Promise.all(["job_bias", "best_bias"].map((at) => this.bins.of(curveId, at)));
+    const curveId = await this.valueOf("curve", row);
+    const distance = await this.distanceBins(row, curveId, stored);
     const image = stored === undefined ? null : await loadImage(stored, this.reader);
     if (image !== null) {
       image.amounts = await loadCurveAmounts(this.data.curves, this.reader, curveId);
@@ -66,7 +84,7 @@ class ReportPage {
     if (image !== null) {
       this.inspector.show(image, caption);
     }
-    this.distance.show(detail?.by_light_distance_m?.map(binOfJson) ?? job?.bins ?? null, best, caption);
+    this.distance.show(distance, caption);
     showSlopeCharts(this.slope, detail?.by_receiver_angle_rad?.map(binOfJson), caption);
     this.objects.show(row, detail, caption);
     this.remedies.show(detail, caption);
