@@ -11,8 +11,8 @@ const require = createRequire(join(process.env.GNOMON_PAGE_MODULES, "node_module
 const { chromium } = require("playwright-core");
 export const axeSource = require.resolve("axe-core/axe.min.js");
 
-const work = mkdtempSync(join(tmpdir(), "gnomon-page-"));
-process.on("exit", () => rmSync(work, { recursive: true, force: true }));
+export const workFolder = mkdtempSync(join(tmpdir(), "gnomon-page-"));
+process.on("exit", () => rmSync(workFolder, { recursive: true, force: true }));
 
 /** What the program prints; throws where it fails. */
 export function gnomon(...words) {
@@ -36,7 +36,7 @@ export function sized(width, height, ...words) {
  * @return {{run: string, page: string}}
  */
 export function makeReport(name, command, ...words) {
-  const run = join(work, name);
+  const run = join(workFolder, name);
   gnomon(command, ...words, "--out", run);
   gnomon("report", run, "--out", `${run} report`, "--no-figures");
   return { run, page: join(`${run} report`, "report.html") };

@@ -3,6 +3,8 @@
 const darkMode = window.matchMedia("(prefers-color-scheme: dark)");
 const liveCharts = new Set();
 const tableRowsShown = 400;
+/** About the width of a sheet: wider charts would shrink until nobody can read them. */
+const paperWidthPx = 740;
 
 /** A colour of base.css. */
 function themeColour(name) {
@@ -14,7 +16,7 @@ function themeColour(name) {
  * @param {string} colour  "#RRGGBB"
  */
 function lineColour(colour) {
-  if (!darkMode.matches) {
+  if (!darkMode.matches || isOnPaper()) {
     return colour === okabeIto.yellow ? "#B7A600" : colour;
   }
   const lighter = {
@@ -264,6 +266,15 @@ class PageChart {
     this.chart.update();
   }
 
+  /** Takes the size of a sheet of paper, or again that of its place on the screen. */
+  fitPaper() {
+    if (isOnPaper()) {
+      this.chart.resize(this.spec.isSmall ? paperWidthPx / 2 : paperWidthPx, this.chart.height);
+    } else {
+      this.chart.resize();
+    }
+  }
+
   /** Moves the vertical line to an x value. */
   moveCursor(x) {
     if (this.chart !== undefined) {
@@ -283,4 +294,9 @@ function dropDeadCharts() {
   }
 }
 
-darkMode.addEventListener("change", () => [...liveCharts].forEach((live) => live.restyle()));
+const restyleAll = () => [...liveCharts].forEach((live) => live.restyle());
+darkMode.addEventListener("change", restyleAll);
+onPaperChange(() => {
+  restyleAll();
+  liveCharts.forEach((live) => live.fitPaper());
+});

@@ -35,6 +35,10 @@ class ConfigurationTable {
       on: { input: () => this.filterSoon() },
     });
     this.said = element("p", { class: "hint", role: "status" });
+    this.paperNote = element("p", {
+      class: "hint paper",
+      text: `The first ${rowsOnPaper} rows are printed. All of them are in results.csv.`,
+    });
     this.filterSoon = oncePerFrame(() => this.filter());
     this.root = element(
       "div",
@@ -44,8 +48,9 @@ class ConfigurationTable {
       this.columnChooser(),
       this.said,
       this.rows.scroll,
+      this.paperNote,
       element("p", {
-        class: "hint",
+        class: "hint screen",
         text: "Click a row, or press Enter on it, to see the configuration. Headings sort.",
       }),
     );
@@ -63,6 +68,7 @@ class ConfigurationTable {
         ? `${grouped(shown)} configurations`
         : `${grouped(shown)} of ${grouped(this.table.count)} configurations`;
     this.said.classList.remove("problem");
+    this.paperNote.hidden = shown <= rowsOnPaper;
   }
 
   async filter() {

@@ -35,6 +35,11 @@ function nameElement(name, tag = "span") {
   return element(tag, { class: "name", title: name.length > 24 ? name.slice(0, 1000) : null, text: name });
 }
 
+/** A name such as "shadow_map.resolution", which may break behind its dots and underscores. */
+function breakable(name) {
+  return name.split(/(?<=[._])/).flatMap((part, i) => (i === 0 ? [part] : [element("wbr"), part]));
+}
+
 /** A control with its label before it. */
 function labelled(text, control, className = "control") {
   control.id ||= freshId("control");

@@ -71,8 +71,9 @@ function heatCanvas(across, down, cells, title) {
   const ends = (axis) => `from ${axisText(axis, axis.values[0])} to ${axisText(axis, axis.values.at(-1))}`;
   const told = element("p", {
     class: "hint",
-    text: `${across.name} ${ends(across)} to the right, ${down.name} ${ends(down)} upwards. Point at a cell for its number.`,
+    text: `${across.name} ${ends(across)} to the right, ${down.name} ${ends(down)} upwards.`,
   });
+  told.append(element("span", { class: "screen", text: " Point at a cell for its number." }));
   canvas.addEventListener("pointermove", (event) => {
     const column = Math.min(
       across.values.length - 1,

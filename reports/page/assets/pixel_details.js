@@ -67,7 +67,7 @@ class PixelDetails {
     this.heading = element("h3", { text: "Pixel" });
     this.list = element("dl", { class: "facts" });
     this.hint = element("p", {
-      class: "hint",
+      class: "hint screen",
       text: "Point at a pixel, or move the cursor with the arrow keys. A click or tap pins it. Ctrl and the wheel zoom.",
     });
     this.said = element("p", { class: "visually-hidden", role: "status" });

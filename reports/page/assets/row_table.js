@@ -2,6 +2,7 @@
 
 const rowHeightPx = 32;
 const spareRows = 8;
+const rowsOnPaper = 40;
 const narrowestColumnPx = 104;
 const widestColumnPx = 280;
 
@@ -62,6 +63,7 @@ class RowTable {
     this.grid.addEventListener("keydown", (event) => this.key(event));
     this.body.addEventListener("click", (event) => this.click(event));
     new ResizeObserver(this.draw).observe(this.scroll);
+    onPaperChange(() => this.drawNow());
   }
 
   /** Decodes the shown columns and draws. */
@@ -103,11 +105,12 @@ class RowTable {
     const headings = this.columns.map((column) => {
       const direction =
         this.sorted?.name !== column.name ? null : this.sorted.descending ? "descending" : "ascending";
-      const control = button(column.name, () => this.sortBy(column.name), {
+      const control = button("", () => this.sortBy(column.name), {
         class: "sort",
         "data-column": column.name,
         title: column.name,
       });
+      control.append(...breakable(column.name));
       const heading = element(
         "th",
         { scope: "col", class: column.isText ? null : "number", "aria-sort": direction },
@@ -128,9 +131,7 @@ class RowTable {
     if (this.columns === undefined) {
       return;
     }
-    const seen = Math.ceil((this.scroll.clientHeight || 480) / rowHeightPx);
-    const first = Math.max(0, Math.floor(this.scroll.scrollTop / rowHeightPx) - spareRows);
-    const last = Math.min(this.rows.length, first + seen + 2 * spareRows);
+    const [first, last] = this.placesInSight();
     const drawn = [];
     for (let place = first; place < last; ++place) {
       drawn.push(this.rowElement(place));
@@ -143,6 +144,16 @@ class RowTable {
     } else {
       this.grid.setAttribute("aria-activedescendant", active.id);
     }
+  }
+
+  /** The first row that is drawn, and the one behind the last. */
+  placesInSight() {
+    if (isOnPaper()) {
+      return [0, Math.min(this.rows.length, rowsOnPaper)];
+    }
+    const seen = Math.ceil((this.scroll.clientHeight || 480) / rowHeightPx);
+    const first = Math.max(0, Math.floor(this.scroll.scrollTop / rowHeightPx) - spareRows);
+    return [first, Math.min(this.rows.length, first + seen + 2 * spareRows)];
   }
 
   /** Room for rows that are not drawn; screen readers pass it over. */

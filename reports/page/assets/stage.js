@@ -105,7 +105,7 @@ class Stage {
   }
 
   fitRoot() {
-    if (this.view === undefined || this.root.clientWidth === 0) {
+    if (this.view === undefined || this.root.clientWidth === 0 || isOnPaper()) {
       return;
     }
     const { width, height } = this.view.image;
