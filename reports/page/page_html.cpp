@@ -44,14 +44,14 @@ std::string table_head(std::string_view caption, std::initializer_list<std::stri
 
 constexpr std::string_view table_end = "</tbody></table></div>\n";
 
-std::string count_cells(const ResultRow& row)
+std::string count_cells(const OverviewRow& overview)
 {
+    const ResultRow& row = overview.result;
     return number_cell(grouped(row.count("false_shadow"))) +
            number_cell(percent(row.number("false_shadow_rate"))) +
            number_cell(grouped(row.count("false_lit"))) +
            number_cell(percent(row.number("false_lit_rate"))) +
-           number_cell(percent(row.number("error_rate"))) +
-           number_cell(percent(row.number("mean_abs_error")));
+           number_cell(percent(row.number("error_rate"))) + number_cell(overview.mean_error);
 }
 
 /// "" for one configuration, else its settings.
@@ -70,7 +70,7 @@ std::string headline_table(const RunOverview& overview)
         const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
         html += fmt::format("<tr{}>{}{}</tr>\n", is_highest ? " class=\"highest\"" : "",
                             row_heading((is_highest ? "highest: " : "") + row_name(row)),
-                            count_cells(row.result));
+                            count_cells(row));
     }
     return html + std::string{table_end};
 }

@@ -4,13 +4,17 @@
 #include "reports/page/page_images.hpp"
 #include "reports/run/run_columns.hpp"
 #include "reports/run/run_notes.hpp"
+#include "reports/run/run_csv.hpp"
 #include "reports/shell_text.hpp"
 #include "reports/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <map>
 
 namespace gnomon::reports {
 
@@ -19,20 +23,44 @@ namespace {
 constexpr const char* measured = "WHERE status = 'done' AND error_rate IS NOT NULL";
 constexpr std::size_t most_rows_shown = 10;
 
+/// A cell for people: whole numbers and texts as they are, other numbers to four digits.
+std::string short_text(const sqlite::ValueView& cell)
+{
+    const auto* const real = std::get_if<double>(&cell);
+    return real == nullptr || *real == std::floor(*real) ? cell_text(cell)
+                                                         : fmt::format("{:.4g}", *real);
+}
+std::string short_text(const ResultRow& row, const std::string& column)
+{
+    const std::optional<double> number = row.number(column);
+    return number ? short_text(*number) : row.text(column);
+}
+
+/// Configurations that differ in biases alone and have the same errors.
+struct Tie {
+    std::uint64_t ordinal = 0; ///< of the first
+    std::uint64_t count = 1;
+    std::map<std::string, std::string> ranges = {}; ///< "0.01 to 0.03", of its biases
+    std::string mean_error = {};                    ///< empty: that of the first
+};
+
 /// "shadow_map.resolution = 2048, bias.constant = 0", after the case.
-std::string settings_text(const RunDescription& description, const ResultRow& row)
+std::string settings_text(const RunDescription& description, const ResultRow& row, const Tie& tie)
 {
     std::string text;
-    const auto add = [&](std::string_view name, const std::string& value) {
+    const auto add = [&](const std::string& name) {
+        const auto range = tie.ranges.find(name);
+        const std::string value = range == tie.ranges.end() ? short_text(row, name) : range->second;
         if (!value.empty()) {
             text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
         }
     };
-    add("case", row.text("case"));
+    add("case");
     for (const std::string& axis : description.axes) {
-        add(axis, row.text(axis));
+        add(axis);
     }
-    return text;
+    return tie.count == 1 ? text
+                          : fmt::format("{} ({})", text, counted(tie.count, "configuration"));
 }
 
 std::uint64_t place_of(const RunReader& run, std::uint64_t ordinal)
@@ -41,27 +69,84 @@ std::uint64_t place_of(const RunReader& run, std::uint64_t ordinal)
         fmt::format("SELECT count(*) FROM part WHERE ordinal < {}", ordinal)));
 }
 
-std::vector<OverviewRow> named_rows(const RunReader& run, std::vector<ResultRow> found)
+OverviewRow named_row(const RunReader& run, ResultRow row, const Tie& tie = {})
 {
-    std::vector<OverviewRow> rows;
-    for (ResultRow& row : found) {
-        const std::uint64_t place = place_of(run, row.count("ordinal"));
-        std::string settings = settings_text(run.description(), row);
-        rows.push_back({place, std::move(settings), std::move(row)});
-    }
-    return rows;
+    const std::uint64_t place = place_of(run, row.count("ordinal"));
+    std::string settings = settings_text(run.description(), row, tie);
+    std::string mean_error =
+        tie.mean_error.empty() ? percent(row.number("mean_abs_error")) : tie.mean_error;
+    return {place, std::move(settings), std::move(mean_error), std::move(row)};
 }
 
+std::vector<std::string> bias_axes(const RunDescription& description)
+{
+    std::vector<std::string> axes;
+    std::ranges::copy_if(description.axes, std::back_inserter(axes),
+                         [](const std::string& axis) { return axis.starts_with("bias."); });
+    return axes;
+}
+
+/// SQL for ties: the first ordinal, the count, and of the mean error and each bias the smallest and
+/// the largest.
+std::string tie_query(const RunDescription& description, std::string_view order, std::size_t most)
+{
+    std::string ranges = ", min(mean_abs_error), max(mean_abs_error)";
+    for (const std::string& axis : bias_axes(description)) {
+        ranges += fmt::format(", min({0}), max({0})", sqlite::sql_name(axis));
+    }
+    std::string same = "error_rate, false_shadow, false_lit, map_bytes, \"case\"";
+    for (const std::string& axis : description.axes) {
+        same += axis.starts_with("bias.") ? std::string{} : ", " + sqlite::sql_name(axis);
+    }
+    return fmt::format(
+        "SELECT min(ordinal), count(*){} FROM results {} GROUP BY {} ORDER BY {} LIMIT {}", ranges,
+        measured, same, order, most);
+}
+
+std::string range_text(const std::string& low, const std::string& high)
+{
+    return low == high ? low : fmt::format("{} to {}", low, high);
+}
+
+std::optional<double> number_at(const sqlite::Statement& find, int column)
+{
+    const sqlite::ValueView cell = find.value(column);
+    const auto* const real = std::get_if<double>(&cell);
+    return real == nullptr ? std::nullopt : std::optional{*real};
+}
+
+std::vector<Tie> find_ties(const RunReader& run, std::string_view order, std::size_t most)
+{
+    const std::vector<std::string> axes = bias_axes(run.description());
+    sqlite::Statement find{run.database(), tie_query(run.description(), order, most)};
+    std::vector<Tie> ties;
+    while (find.step()) {
+        Tie tie{static_cast<std::uint64_t>(find.integer(0)),
+                static_cast<std::uint64_t>(find.integer(1))};
+        tie.mean_error = range_text(percent(number_at(find, 2)), percent(number_at(find, 3)));
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            const auto at = static_cast<int>(4 + 2 * i);
+            tie.ranges[axes[i]] =
+                range_text(short_text(find.value(at)), short_text(find.value(at + 1)));
+        }
+        ties.push_back(std::move(tie));
+    }
+    return ties;
+}
+
+/// Of equal error rates that with the smallest map is first.
 std::vector<OverviewRow> ranked_rows(const RunReader& run)
 {
-    std::vector<ResultRow> found = run.rows(
-        fmt::format("{} ORDER BY error_rate, ordinal LIMIT {}", measured, most_rows_shown));
-    const auto worst =
-        run.rows(fmt::format("{} ORDER BY error_rate DESC, ordinal DESC LIMIT 1", measured));
-    if (!worst.empty() && found.size() == most_rows_shown) {
-        found.back() = worst.front();
+    std::vector<Tie> ties = find_ties(run, "error_rate, map_bytes, min(ordinal)", most_rows_shown);
+    if (ties.size() == most_rows_shown) {
+        ties.back() = find_ties(run, "error_rate DESC, min(ordinal) DESC", 1).front();
     }
-    return named_rows(run, std::move(found));
+    std::vector<OverviewRow> rows;
+    for (const Tie& tie : ties) {
+        rows.push_back(named_row(
+            run, std::move(run.rows(fmt::format("WHERE ordinal = {}", tie.ordinal)).front()), tie));
+    }
+    return rows;
 }
 
 std::string rates_text(const ResultRow& row)
@@ -192,9 +277,10 @@ RunOverview read_overview(const RunReader& run)
     const PlanOutcome& outcome = run.outcome();
     overview.failed_count = outcome.failed;
     if (outcome.failed > 0) {
-        overview.failed = named_rows(
-            run, run.rows(fmt::format("WHERE status = 'failed' ORDER BY ordinal LIMIT {}",
-                                      most_rows_shown)));
+        for (ResultRow& row : run.rows(fmt::format(
+                 "WHERE status = 'failed' ORDER BY ordinal LIMIT {}", most_rows_shown))) {
+            overview.failed.push_back(named_row(run, std::move(row)));
+        }
     }
     const bool is_one = outcome.done == 1 && run.description().size == 1;
     if (!is_one) {
@@ -203,7 +289,7 @@ RunOverview read_overview(const RunReader& run)
     if (overview.rows.empty()) {
         return overview;
     }
-    overview.headline = overview.rows.front();
+    overview.headline = named_row(run, overview.rows.front().result);
     const std::string id = overview.headline->result.text("id");
     overview.detail = find_detail(run.folder(), id);
     if (is_one && overview.detail.is_null()) {

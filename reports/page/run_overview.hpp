@@ -14,7 +14,10 @@ namespace gnomon::reports {
 /// A configuration that a report names.
 struct OverviewRow {
     std::uint64_t row = 0; ///< its place among the run's configurations, from 0
-    std::string settings;  ///< "shadow_map.resolution = 2048, bias.constant = 0"; empty: one only
+    /// "shadow_map.resolution = 2048, bias.constant = 0.01 to 0.03 (9 configurations)", which have
+    /// the same errors; empty: one only.
+    std::string settings;
+    std::string mean_error; ///< "0.218 %", or "0.218 % to 0.258 %" of several configurations
     ResultRow result;
 };
 
@@ -23,7 +26,8 @@ struct RunOverview {
     std::string scene; ///< of the scene that all share; empty if they differ
     std::vector<std::string> sentences;
     std::vector<std::string> notes; ///< on its scenes
-    /// The configuration with the lowest error rate; empty if none was measured.
+    /// The configuration with the lowest error rate, of several that with the smallest map; empty
+    /// if none was measured.
     std::optional<OverviewRow> headline;
     Json detail; ///< what `compare --json` says of it; null if its layers were not kept
     /// Those of the headline table, lowest error rate first; the last has the highest.

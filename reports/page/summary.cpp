@@ -41,7 +41,7 @@ std::string table(const RunOverview& overview)
             grouped(row.result.count("false_shadow")),
             percent(row.result.number("false_shadow_rate")), grouped(row.result.count("false_lit")),
             percent(row.result.number("false_lit_rate")), percent(row.result.number("error_rate")),
-            percent(row.result.number("mean_abs_error")));
+            row.mean_error);
     }
     return text + "\n";
 }

@@ -257,6 +257,12 @@ describe("The Pareto front", () => {
     assert.equal(front.length, unbeaten.size);
   });
 
+  it("has of equal rows the one that costs least", () => {
+    const same = Float64Array.of(0.5, 0.5, 0.5);
+    assert.deepEqual(page.paretoFront(same, same, Float64Array.of(4, 1, 1)), [1]);
+    assert.deepEqual(page.paretoFront(same, same), [0]);
+  });
+
   it("is empty without rows", () => {
     assert.deepEqual(page.paretoFront(Float64Array.of(NaN), Float64Array.of(1)), []);
     assert.deepEqual(page.thinnedRows(Float64Array.of(NaN), Float64Array.of(1), 10), []);

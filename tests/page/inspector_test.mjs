@@ -61,8 +61,9 @@ function assertFacts(facts, pixel, told) {
   assert.equal(facts.x, String(pixel.x), told);
   assert.equal(facts.y, String(pixel.y), told);
   assert.equal(facts.class, classes[pixel.class], told);
-  assert.equal(facts.cause, causes[pixel.cause], told);
-  assert.equal(facts.label, labels[pixel.label], told);
+  const isScored = ["lit", "blocked"].includes(facts.class);
+  assert.equal(facts.cause, isScored ? causes[pixel.cause] : "\u2013", told);
+  assert.equal(facts.label, isScored ? labels[pixel.label] : "\u2013", told);
   for (const name of ["prim", "witness"]) {
     assert.equal(
       facts[name],
@@ -78,7 +79,8 @@ function assertFacts(facts, pixel, told) {
     "needed_bias_m",
     "needed_bias_texels",
   ]) {
-    const wanted = { nan: NaN, inf: Infinity, "-inf": -Infinity }[pixel[name]] ?? pixel[name];
+    const hasNone = name === "verdict" && facts.class === "background";
+    const wanted = hasNone ? NaN : ({ nan: NaN, inf: Infinity, "-inf": -Infinity }[pixel[name]] ?? pixel[name]);
     assert.equal(Math.fround(numberOf(facts[name])), wanted, `${told}: ${name} “${facts[name]}”`);
   }
 }
@@ -203,6 +205,17 @@ describe("The inspector", () => {
     await page.keyboard.press("Enter");
     await page.keyboard.press("0");
     assert.deepEqual(page.faults, []);
+  });
+
+  it("says of the sky that it has no verdict", async () => {
+    await page.getByLabel("Go to pixel").fill("0,0");
+    await page.getByLabel("Go to pixel").press("Enter");
+    await settle(page);
+    const { class: pixelClass, ...facts } = await readFacts(page);
+    assert.equal(pixelClass, "background");
+    for (const key of ["truth", "shown", "verdict", "cause", "label", "object"]) {
+      assert.equal(facts[key], "\u2013", key);
+    }
   });
 
   it("pins the pixel that a finger taps, and zooms with two", async () => {

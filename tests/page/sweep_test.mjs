@@ -53,6 +53,26 @@ describe("A small sweep with its pixels", () => {
 
   it("opens without a request, a message or an error", () => assert.deepEqual(page.faults, []));
 
+  it("opens with the least error first, and the columns that people need", async () => {
+    const headings = await page.locator(".rows thead button").evaluateAll((all) => all.map(({ textContent }) => textContent));
+    assert.deepEqual(headings.slice(0, 4), ["shadow_map.resolution", "bias.constant", "error_rate", "mean_abs_error"]);
+    assert.equal(headings.at(-1), "ordinal");
+    assert.equal(await page.locator(".rows th[aria-sort=ascending]").textContent(), "mean_abs_error");
+    const errors = (await cells(page, "mean_abs_error")).map(parseFloat);
+    assert.deepEqual(
+      errors,
+      [...errors].sort((a, b) => a - b),
+    );
+  });
+
+  it("has settings and error rate in sight on a phone", async () => {
+    const narrow = await openPage(makeReport("narrow sweep", "sweep", ...kept, "--quiet").page, { width: 390 });
+    const sight = await narrow.locator(".rows-scroll").boundingBox();
+    const heading = await narrow.locator(".rows thead button[data-column=mean_abs_error]").boundingBox();
+    assert.ok(heading.x + heading.width <= sight.x + sight.width, `${heading.x} + ${heading.width} of ${sight.width}`);
+    await narrow.close();
+  });
+
   it("shows every configuration, sorted as its headings are asked", async () => {
     assert.equal((await cells(page, "error_rate")).length, 9);
     const heading = page.locator(".rows thead button[data-column=false_shadow]");

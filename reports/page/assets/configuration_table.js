@@ -14,15 +14,19 @@ class ConfigurationTable {
     this.words = table.names.filter(
       (name) => (table.isText(name) && !["id", "curve"].includes(name)) || axes.includes(name),
     );
+    const errors = ["error_rate", "mean_abs_error"];
+    const outcomes = metrics.filter(({ is_outcome: isOutcome }) => isOutcome).map(({ name }) => name);
     const first = [
-      ...(table.has("ordinal") ? ["ordinal"] : []),
-      ...axes,
+      ...axes.filter((name) => !table.constants.has(name)),
       ...(hasFailures ? ["status", "message"] : []),
-      ...metrics.filter(({ is_outcome: isOutcome }) => isOutcome).map(({ name }) => name),
+      ...errors,
+      ...outcomes.filter((name) => !errors.includes(name)),
+      ...(table.has("ordinal") ? ["ordinal"] : []),
     ];
     this.rows = new RowTable(
       table,
       first.filter((name) => table.has(name) && !(table.constants.has(name) && name === "status")),
+      errors.findLast((name) => table.has(name)) ?? null,
       "All configurations of the sweep",
       onOpen,
     );

@@ -35,9 +35,11 @@ function nameElement(name, tag = "span") {
   return element(tag, { class: "name", title: name.length > 24 ? name.slice(0, 1000) : null, text: name });
 }
 
+const breakableParts = /[^._]*[._]|[^._]+/g;
+
 /** A name such as "shadow_map.resolution", which may break behind its dots and underscores. */
 function breakable(name) {
-  return name.split(/(?<=[._])/).flatMap((part, i) => (i === 0 ? [part] : [element("wbr"), part]));
+  return name.match(breakableParts).flatMap((part, i) => (i === 0 ? [part] : [element("wbr"), part]));
 }
 
 /** A control with its label before it. */

@@ -37,14 +37,14 @@ class ReportPage {
     await this.sweep.open();
   }
 
-  /** What a configuration is called: its place, its case, and the values of the axes. */
+  /** What a configuration is called: its place, its case, and the values of the axes, numbers to four digits. */
   async caption(row) {
     if (this.table.count === 1) {
       return "";
     }
     const names = [...(this.table.has("case") ? ["case"] : []), ...this.data.run.axes];
     const axes = await this.table.select(names);
-    const values = [...axes].map(([name, column]) => `${name} = ${column.at(row) ?? noValue}`);
+    const values = [...axes].map(([name, column]) => `${name} = ${column.isText ? column.at(row) : readable(column.at(row)).replaceAll(",", "")}`);
     return [`Configuration ${row}`, ...values].join(", ");
   }
 

@@ -28,9 +28,9 @@ class ParetoChart {
 
   async draw() {
     const names = ["false_shadow_rate", "false_lit_rate"];
-    const columns = await this.table.select([...names, ...this.axes]);
+    const columns = await this.table.select([...names, ...this.axes, "map_bytes"]);
     const [first, second] = names.map((name) => columns.get(name).values);
-    const front = paretoFront(first, second);
+    const front = paretoFront(first, second, columns.get("map_bytes")?.values);
     const dots = thinnedRows(first, second, mostDots);
     const pointsOf = (rows) => rows.map((row) => [first[row], second[row]]);
     const x = { label: "false-shadow rate", layout: rateLayout(), low: 0, high: 1 };

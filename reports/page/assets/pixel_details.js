@@ -15,11 +15,15 @@ function indexText(value, none) {
 }
 
 function truthText(pixelClass) {
-  return { [classLit]: "lit", [classBlocked]: "blocked" }[pixelClass] ?? "not scored";
+  const others = pixelClass === classBackground ? noValue : "not scored";
+  return { [classLit]: "lit", [classBlocked]: "blocked" }[pixelClass] ?? others;
 }
 
-/** What is wrong with the pixel's verdict at the bias. */
+/** The pixel's verdict at the bias, and what is wrong with it; of the background there is none. */
 function verdictText(image, index, bias) {
+  if (image.layers.class[index] === classBackground) {
+    return noValue;
+  }
   const isLit = image.isShownLit(index, bias);
   const pixelClass = image.layers.class[index];
   const wrong = { [`${classLit}${false}`]: ", false shadow", [`${classBlocked}${true}`]: ", false lit" };
@@ -39,12 +43,13 @@ function pixelFacts(image, index, bias) {
   const critical = value("critical_bias");
   const needs = pixelClass === classBlocked ? "Allowed bias" : "Needed bias";
   const object = value("object");
-  const name = (names, code) => (code === undefined ? noValue : spoken(names[code]));
+  const name = (names, code) =>
+    code === undefined || !isScored(pixelClass) ? noValue : spoken(names[code]);
   return [
     ["class", "Class", spoken(classNames[pixelClass])],
     ["truth", "Truth", truthText(pixelClass)],
     ["shown", image.hasCurve ? "Verdict (slider’s bias)" : "Verdict", verdictText(image, index, bias)],
-    ["verdict", "Verdict (job’s bias)", exact(value("verdict"))],
+    ["verdict", "Verdict (job’s bias)", pixelClass === classBackground ? noValue : exact(value("verdict"))],
     ["receiver_depth", "Receiver depth r", exact(value("receiver_depth"))],
     ["map_depth", "Map depth d", exact(value("map_depth"))],
     ["critical_bias", "Critical bias", exact(critical)],

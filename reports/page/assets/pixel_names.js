@@ -3,6 +3,7 @@
 const classNames = ["background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked"];
 const causeNames = ["none", "bias", "precision", "resolution", "coverage", "filter"];
 const labelNames = ["right", "acne", "peter_panning", "leak", "edge", "overshadow", "bleed"];
+const classBackground = 0;
 const classLit = 5;
 const classBlocked = 6;
 const noTriangle = 0xffffffff;

@@ -3,8 +3,10 @@
 const rowHeightPx = 32;
 const spareRows = 8;
 const rowsOnPaper = 40;
-const narrowestColumnPx = 104;
+const narrowestColumnPx = 72;
 const widestColumnPx = 280;
+const letterPx = 8.5;
+const cellPaddingPx = 30;
 
 /**
  * Orders rows by a column; what has no value stands last in either direction.
@@ -31,10 +33,11 @@ function sortRows(rows, column, descending) {
   });
 }
 
-/** A width in which most columns' headings can be read. */
-function columnWidthPx({ name, isText }) {
-  const wanted = Math.max(isText ? 160 : 0, 44 + 9 * name.length);
-  return Math.min(widestColumnPx, Math.max(narrowestColumnPx, wanted));
+/** A width in which texts can be read, and headings that break behind dots and underscores. */
+function columnWidthPx({ name, dictionary }) {
+  const longest = (texts) => texts.reduce((most, { length }) => Math.max(most, length), 0);
+  const letters = Math.max(longest(name.match(breakableParts)), longest(dictionary ?? []));
+  return Math.min(widestColumnPx, Math.max(narrowestColumnPx, cellPaddingPx + letterPx * letters));
 }
 
 /** A virtualised table; calls onOpen(row) at a click or Enter. */
@@ -42,11 +45,13 @@ class RowTable {
   /**
    * @param {Table} table
    * @param {string[]} columns  names of those that are shown
+   * @param {?string} sortedBy  the column by which rows ascend at first
    * @param {string} caption
    * @param {function(number)} onOpen
    */
-  constructor(table, columns, caption, onOpen) {
-    Object.assign(this, { table, shown: columns, onOpen, active: 0, open: -1, sorted: null });
+  constructor(table, columns, sortedBy, caption, onOpen) {
+    const sorted = sortedBy === null ? null : { name: sortedBy, descending: false };
+    Object.assign(this, { table, shown: columns, onOpen, active: 0, open: -1, sorted });
     this.rows = allRows(table.count);
     this.head = element("thead");
     this.body = element("tbody");
@@ -68,6 +73,9 @@ class RowTable {
 
   /** Decodes the shown columns and draws. */
   async load() {
+    if (this.columns === undefined) {
+      await this.order();
+    }
     this.columns = [...(await this.table.select(this.shown)).values()];
     this.drawHead();
     this.drawNow();

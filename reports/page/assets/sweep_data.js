@@ -139,14 +139,15 @@ function allRows(count) {
 
 /**
  * The rows of which no other has less of one without more of the other, by ascending first measure;
- * of equal rows the first.
+ * of equal rows that of the least cost, of these the first.
  * @param {TypedArray} first  (rows)
  * @param {TypedArray} second  (rows)
+ * @param {?TypedArray} costs  (rows)
  * @return {number[]}
  */
-function paretoFront(first, second) {
+function paretoFront(first, second, costs = null) {
   const rows = allRows(first.length).filter((row) => !Number.isNaN(first[row]) && !Number.isNaN(second[row]));
-  rows.sort((a, b) => first[a] - first[b] || second[a] - second[b] || a - b);
+  rows.sort((a, b) => first[a] - first[b] || second[a] - second[b] || costs?.[a] - costs?.[b] || a - b);
   const front = [];
   let least = Infinity;
   for (const row of rows) {

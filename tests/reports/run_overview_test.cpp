@@ -1,0 +1,77 @@
+// What a report says first of a run: the best configurations, of which several may be as good.
+
+#include "reports/page/run_overview.hpp"
+
+#include "example_comparison.hpp"
+#include "example_run.hpp"
+#include "reports/run/run_store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gnomon::reports {
+namespace {
+
+using testing::ElementsAre;
+
+/// Three maps at four biases, all with the same errors but for the last map's last bias.
+std::vector<std::string> tied_settings(const std::filesystem::path& folder,
+                                       const std::vector<std::uint64_t>& map_bytes)
+{
+    const ExampleRun run;
+    std::filesystem::create_directories(folder);
+    {
+        RunStore store{folder, RunStore::Access::write};
+        store.plan(run.description(), run.configurations());
+        const analysis::Metrics same = run.curve(0).rows.front().result.metrics;
+        const analysis::Metrics worse = run.curve(2).rows.back().result.metrics;
+        for (std::uint64_t number = 0; number < run.curves; ++number) {
+            analysis::FinishedCurve curve = run.curve(number);
+            curve.curve.map_bytes = map_bytes.at(number);
+            for (auto& row : curve.rows) {
+                row.result.metrics = same;
+            }
+            if (number == 2) {
+                curve.rows.back().result.metrics = worse;
+            }
+            store.record(curve);
+        }
+    }
+    std::vector<std::string> settings;
+    for (const OverviewRow& row : read_overview(RunReader{folder}).rows) {
+        settings.push_back(row.settings);
+    }
+    return settings;
+}
+
+TEST(RunOverview, GroupsBiasesWithTheSameErrorsAndPrefersTheSmallerMap)
+{
+    const TemporaryFolder folder;
+    EXPECT_THAT(tied_settings(folder / "run", {300, 100, 200}),
+                ElementsAre("case = noon, shadow_map.resolution = 257, bias.constant = 1e-06 to "
+                            "1.03e-06 (4 configurations)",
+                            "case = noon, shadow_map.resolution = 258, bias.constant = 1e-06 to "
+                            "1.02e-06 (3 configurations)",
+                            "case = noon, shadow_map.resolution = 256, bias.constant = 1e-06 to "
+                            "1.03e-06 (4 configurations)",
+                            "case = noon, shadow_map.resolution = 258, bias.constant = 1.03e-06"));
+}
+
+TEST(RunOverview, NamesOneConfigurationOfTheBestInFull)
+{
+    const TemporaryFolder folder;
+    (void)tied_settings(folder / "run", {300, 100, 200});
+    const RunOverview overview = read_overview(RunReader{folder / "run"});
+    ASSERT_TRUE(overview.headline);
+    EXPECT_EQ(overview.headline->row, 4U);
+    EXPECT_EQ(overview.headline->settings,
+              "case = noon, shadow_map.resolution = 257, bias.constant = 1e-06");
+}
+
+} // namespace
+} // namespace gnomon::reports
