@@ -47,11 +47,11 @@ constexpr std::string_view table_end = "</tbody></table></div>\n";
 std::string count_cells(const OverviewRow& overview)
 {
     const ResultRow& row = overview.result;
-    return number_cell(grouped(row.count("false_shadow"))) +
+    return number_cell(percent(row.number("error_rate"))) + number_cell(overview.mean_error) +
+           number_cell(grouped(row.count("false_shadow"))) +
            number_cell(percent(row.number("false_shadow_rate"))) +
            number_cell(grouped(row.count("false_lit"))) +
-           number_cell(percent(row.number("false_lit_rate"))) +
-           number_cell(percent(row.number("error_rate"))) + number_cell(overview.mean_error);
+           number_cell(percent(row.number("false_lit_rate")));
 }
 
 /// "" for one configuration, else its settings.
@@ -64,8 +64,8 @@ std::string headline_table(const RunOverview& overview)
 {
     std::string html = table_head(overview.rows.size() > 1 ? "Lowest error rates, and the highest"
                                                            : "Errors among the scored pixels",
-                                  {"configuration", "false shadow", "of lit", "false lit",
-                                   "of blocked", "error rate", "mean error"});
+                                  {"configuration", "error rate", "mean error", "false shadow",
+                                   "of lit", "false lit", "of blocked"});
     for (const OverviewRow& row : overview.rows) {
         const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
         html += fmt::format("<tr{}>{}{}</tr>\n", is_highest ? " class=\"highest\"" : "",
@@ -109,7 +109,7 @@ std::string bias_table(const ResultRow& row)
                                        {"fewest errors, to", "bias_curve.best_interval.hi"},
                                        {"smallest without acne", "bias_curve.acne_free"},
                                        {"largest without peter-panning", "bias_curve.panning_free"},
-                                       {"the same, but for what is lit without any bias",
+                                       {"largest that adds no new false light",
                                         "bias_curve.panning_free_beyond_zero"}}) {
         html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
     }

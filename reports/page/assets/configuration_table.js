@@ -15,11 +15,12 @@ class ConfigurationTable {
       (name) => (table.isText(name) && !["id", "curve"].includes(name)) || axes.includes(name),
     );
     const errors = ["error_rate", "mean_abs_error"];
+    const varying = axes.filter((name) => !table.constants.has(name));
+    const isNarrow = window.matchMedia("(max-width: 40rem)").matches;
     const outcomes = metrics.filter(({ is_outcome: isOutcome }) => isOutcome).map(({ name }) => name);
     const first = [
-      ...axes.filter((name) => !table.constants.has(name)),
+      ...(isNarrow ? [...errors, ...varying] : [...varying, ...errors]),
       ...(hasFailures ? ["status", "message"] : []),
-      ...errors,
       ...outcomes.filter((name) => !errors.includes(name)),
       ...(table.has("ordinal") ? ["ordinal"] : []),
     ];

@@ -3,10 +3,10 @@
 const rowHeightPx = 32;
 const spareRows = 8;
 const rowsOnPaper = 40;
-const narrowestColumnPx = 72;
+const narrowestColumnPx = 92;
 const widestColumnPx = 280;
-const letterPx = 8.5;
-const cellPaddingPx = 30;
+const letterPx = 9;
+const cellPaddingPx = 28;
 
 /**
  * Orders rows by a column; what has no value stands last in either direction.
