@@ -386,7 +386,7 @@ CurveMetrics describe_curve_metrics()
                {"the smallest bias with which no tap of a lit pixel is shadowed by its own sheet",
                 "the smallest bias with which no pixel is called acne: by side of one half",
                 "the largest bias below every blocked pixel's critical bias",
-                "the same without the pixels that are false lit without any bias"},
+                "the largest that adds no new false light to what is false lit without any bias"},
                [](const BiasBounds& bounds) -> const BiasLimits& { return bounds.strict; });
     add_allowances(all);
     add_recommended(all);

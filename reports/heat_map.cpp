@@ -46,7 +46,8 @@ constexpr std::array<Rgb, 9> diverging{{{0x08, 0x30, 0x6B},
                                         {0xD5, 0x5E, 0x00},
                                         {0x7A, 0x2E, 0x00}}};
 
-// Okabe and Ito's, by the values of causes and labels; the same in pages and figures.
+// By the values of causes and labels, the same in pages and figures: Okabe and Ito's, and for
+// labels some of Tol's beside them, so that no hue means a cause here and a label there.
 constexpr std::array<Rgb, 6> cause_colours{{no_error,
                                             {0xE6, 0x9F, 0x00},
                                             {0x00, 0x9E, 0x73},
@@ -55,11 +56,11 @@ constexpr std::array<Rgb, 6> cause_colours{{no_error,
                                             {0x00, 0x72, 0xB2}}};
 constexpr std::array<Rgb, 7> label_colours{{no_error,
                                             {0xD5, 0x5E, 0x00},
-                                            {0x00, 0x72, 0xB2},
-                                            {0x56, 0xB4, 0xE9},
-                                            {0x00, 0x9E, 0x73},
-                                            {0xE6, 0x9F, 0x00},
-                                            {0xCC, 0x79, 0xA7}}};
+                                            {0x33, 0x22, 0x88},
+                                            {0x00, 0x00, 0x00},
+                                            {0x88, 0x22, 0x55},
+                                            {0xF0, 0xE4, 0x42},
+                                            {0x8C, 0x8C, 0x8C}}};
 
 /// How a quantity becomes a colour.
 struct ColourScale {

@@ -92,7 +92,7 @@ std::string recommended_text(const ResultRow& row)
         return {};
     }
     return fmt::format("<p>The recommended bias is {:.3g} m along the light’s axis, {:.3g} texels, "
-                       "at the median receiver; it was made from {}.</p>\n",
+                       "at the median receiver; it is based on {}.</p>\n",
                        *metres, *texels, counted(static_cast<std::uint64_t>(*views), "view"));
 }
 
@@ -102,20 +102,20 @@ std::string bias_table(const ResultRow& row)
         return {};
     }
     std::string html = table_head("Constant biases, in depth units", {"bias", "value"});
-    for (const auto& [name, column] : {std::pair{"recommended", "bias_curve.recommended.bias"},
-                                       {"nearly as good, from", "bias_curve.recommended.low"},
-                                       {"nearly as good, to", "bias_curve.recommended.high"},
-                                       {"fewest errors, from", "bias_curve.best_interval.lo"},
-                                       {"fewest errors, to", "bias_curve.best_interval.hi"},
-                                       {"smallest without acne", "bias_curve.acne_free"},
-                                       {"largest without peter-panning", "bias_curve.panning_free"},
-                                       {"largest that adds no new false light",
-                                        "bias_curve.panning_free_beyond_zero"}}) {
+    for (const auto& [name, column] :
+         {std::pair{"recommended", "bias_curve.recommended.bias"},
+          {"nearly as good, from", "bias_curve.recommended.low"},
+          {"nearly as good, to", "bias_curve.recommended.high"},
+          {"fewest errors, from", "bias_curve.best_interval.lo"},
+          {"fewest errors, to", "bias_curve.best_interval.hi"},
+          {"smallest without acne", "bias_curve.acne_free"},
+          {"largest without peter-panning", "bias_curve.panning_free"},
+          {"largest that adds no new false light", "bias_curve.panning_free_beyond_zero"}}) {
         html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
     }
     html += table_end;
     html += recommended_text(row);
-    return html + fmt::format("<p>At the fewest, {} pixels are wrong.</p>\n",
+    return html + fmt::format("<p>At the best bias, {} pixels are wrong.</p>\n",
                               grouped(row.count("bias_curve.best_errors")));
 }
 
@@ -176,7 +176,7 @@ std::string figures_section(const ReportOptions& options, std::span<const std::s
     if (!options.no_figures.empty()) {
         html += fmt::format("<p>There are none: {}</p>\n", escaped(options.no_figures));
     } else if (pictures.empty()) {
-        html += "<p>There are none: nothing was measured that they could show.</p>\n";
+        html += "<p>There are none: nothing was measured that a figure could show.</p>\n";
     }
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const ReportFigure& figure = options.figures[i];
@@ -220,7 +220,8 @@ std::string objects_table(const Json& detail)
         }
     }
     if (objects.empty()) {
-        return "<p>No layers were kept of this configuration: by object nothing is known.</p>\n";
+        return "<p>Errors by object are not known: the layers of this configuration were not "
+               "kept.</p>\n";
     }
     const auto wrong = [](const Json* object) {
         return member(*object, "false_shadow") + member(*object, "false_lit");
@@ -244,7 +245,7 @@ std::string objects_table(const Json& detail)
     }
     html += table_end;
     if (objects.size() > most_objects) {
-        html += fmt::format("<p>{} more objects are in the data.</p>\n",
+        html += fmt::format("<p>{} more objects are in the page’s data.</p>\n",
                             grouped(objects.size() - most_objects));
     }
     return html;
@@ -256,8 +257,8 @@ std::string counts_table(std::string_view caption, const ResultRow& row,
     const std::uint64_t all = row.count("false_shadow") + row.count("false_lit");
     const bool with_amounts = has_amounts(row);
     std::string html = with_amounts
-                           ? table_head(caption, {"what", "pixels", "of the wrong", "amount [px]"})
-                           : table_head(caption, {"what", "pixels", "of the wrong"});
+                           ? table_head(caption, {"name", "pixels", "of wrong", "amount [px]"})
+                           : table_head(caption, {"name", "pixels", "of wrong"});
     for (const auto& [count_column, amount_column, name] : columns) {
         const std::uint64_t count = row.count(count_column);
         html +=
@@ -279,7 +280,7 @@ std::string objects_section(const RunOverview& overview)
     const OverviewRow& row = *overview.headline;
     return fmt::format("<section id=\"objects\" aria-labelledby=\"objects-heading\">\n"
                        "<h2 id=\"objects-heading\">By cause and by object</h2>\n"
-                       "<p id=\"objects-of\">Of <bdi>{}</bdi>.</p>\n",
+                       "<p id=\"objects-of\">For <bdi>{}</bdi>.</p>\n",
                        escaped(row_name(row))) +
            counts_table("By cause", row.result, cause_columns()) +
            counts_table("By name", row.result, label_columns()) + objects_table(overview.detail) +
@@ -295,22 +296,23 @@ std::string environment_section(const RunReader& run, const RunOverview& overvie
 {
     const RunDescription& description = run.description();
     const analysis::Environment& environment = description.environment;
-    std::string html = "<section id=\"environment\" aria-labelledby=\"environment-heading\">\n"
-                       "<h2 id=\"environment-heading\">Where, and how to repeat it</h2>\n<dl>\n";
+    std::string html =
+        "<section id=\"environment\" aria-labelledby=\"environment-heading\">\n"
+        "<h2 id=\"environment-heading\">Environment, and how to repeat it</h2>\n<dl>\n";
     html += definition(environment.is_of_gl() ? "GL" : "renderer", environment.gl_renderer) +
             (environment.is_of_gl() ? definition("GL version", environment.gl_version) : "") +
             definition("ray tracer", environment.embree) +
             definition("gnomon", environment.gnomon) + "</dl>\n";
-    html += fmt::format("<p>All of it:</p>\n<pre><code>{} --out RUN\ngnomon report RUN</code>"
+    html += fmt::format("<p>The whole run:</p>\n<pre><code>{} --out RUN\ngnomon report RUN</code>"
                         "</pre>\n",
                         escaped(run_command(description)));
     if (overview.headline) {
         const std::string command = compare_command(description, overview.headline->result);
-        html += command.empty() ? std::string{}
-                                : fmt::format("<p>One configuration, {}:</p>\n<pre><code>{}</code>"
-                                              "</pre>\n<h3>Its job</h3>\n<dl class=\"job\">\n",
-                                              overview.rows.size() > 1 ? "here the best" : "alone",
-                                              escaped(command));
+        html += command.empty()
+                    ? std::string{}
+                    : fmt::format("<p>One configuration{}:</p>\n<pre><code>{}</code>"
+                                  "</pre>\n<h3>Its job settings</h3>\n<dl class=\"job\">\n",
+                                  overview.rows.size() > 1 ? " (the best)" : "", escaped(command));
         for (const auto& [key, value] : job_settings(overview.headline->result)) {
             html += definition(key, value);
         }
@@ -409,7 +411,7 @@ std::string page_body(const RunReader& run, const RunOverview& overview,
            script_section("slope", "By the receiver's slope") +
            script_section("sweep", "All configurations") + objects_section(overview) +
            environment_section(run, overview) +
-           "<noscript><p>With JavaScript this page also shows every pixel, every bias and every "
+           "<noscript><p>With JavaScript, this page also shows every pixel, every bias and every "
            "configuration.</p></noscript>\n</main>\n";
 }
 

@@ -3,8 +3,8 @@
 #include "analysis/chain/cause.hpp"
 #include "reports/page/page_images.hpp"
 #include "reports/run/run_columns.hpp"
-#include "reports/run/run_notes.hpp"
 #include "reports/run/run_csv.hpp"
+#include "reports/run/run_notes.hpp"
 #include "reports/shell_text.hpp"
 #include "reports/text.hpp"
 
@@ -164,9 +164,9 @@ std::string completeness(const RunReader& run)
     std::string text =
         shard.count == 1
             ? std::string{}
-            : fmt::format("This is part {} of {} of a sweep of {}; `gnomon merge` unites them. ",
-                          shard.index, shard.count,
-                          counted(run.description().size, "configuration"));
+            : fmt::format(
+                  "This is part {} of {} of a sweep of {}; `gnomon merge` joins the parts. ",
+                  shard.index, shard.count, counted(run.description().size, "configuration"));
     text += fmt::format("{} of {} measured", grouped(outcome.done), counted(all, "configuration"));
     if (outcome.failed > 0) {
         text += fmt::format(", {} failed", grouped(outcome.failed));
@@ -186,7 +186,7 @@ void add_extremes(std::vector<std::string>& sentences, const std::vector<Overvie
     const OverviewRow& best = rows.front();
     const OverviewRow& worst = rows.back();
     if (rows.size() == 1) {
-        sentences.push_back(fmt::format("The one measured has {}, with {}.",
+        sentences.push_back(fmt::format("The one that was measured has {}, with {}.",
                                         rates_text(best.result), best.settings));
         return;
     }
@@ -210,7 +210,7 @@ void add_curve_verdict(std::vector<std::string>& sentences, const RunReader& run
     if (all > 0) {
         sentences.push_back(
             unserved == 0
-                ? fmt::format("In every one of {} some constant bias keeps both acne and "
+                ? fmt::format("In each of {} some constant bias keeps both acne and "
                               "peter-panning below 0.1 % of the scored pixels.",
                               counted(all, "bias curve"))
                 : fmt::format("In {} of {} no constant bias keeps both acne and peter-panning "
@@ -230,7 +230,7 @@ void add_findings(std::vector<std::string>& sentences, const Json& detail, bool 
     for (const Json& finding : *findings) {
         if (finding.is_string()) {
             const auto& words = finding.get_ref<const std::string&>();
-            sentences.push_back(is_first && !is_one ? "Of the best: " + words : words);
+            sentences.push_back(is_first && !is_one ? "The best: " + words : words);
             is_first = false;
         }
     }

@@ -7,7 +7,7 @@ import { loadScripts } from "./scripts.mjs";
 
 const page = loadScripts(
   ["numbers.js", "scales.js", "colours.js"],
-  ["okabeIto", "causeColours", "errorColours", "mixStops", "shareOnScale", "texelScale"],
+  ["okabeIto", "causeColours", "labelColours", "errorColours", "mixStops", "shareOnScale", "texelScale"],
 );
 const source = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), "utf8");
 
@@ -22,6 +22,18 @@ describe("Colours", () => {
       [...entries.matchAll(/"(\w+)": (\w+)/g)].map(([, cause, name]) => [cause, named[name]]),
     );
     assert.deepEqual(page.causeColours, causes);
+  });
+
+  it("of causes and names are those of heat maps, and all different", () => {
+    const heatMap = source("reports/heat_map.cpp");
+    const colours = (name) => {
+      const [, entries] = new RegExp(`${name}\\{\\{no_error,([^;]*);`).exec(heatMap);
+      return [...entries.matchAll(/0x(..), 0x(..), 0x(..)/g)].map(([, ...bytes]) => `#${bytes.join("")}`);
+    };
+    assert.deepEqual(Object.values(page.causeColours), colours("cause_colours"));
+    assert.deepEqual(Object.values(page.labelColours), colours("label_colours"));
+    const all = [...Object.values(page.causeColours), ...Object.values(page.labelColours)];
+    assert.equal(new Set(all).size, all.length);
   });
 
   it("of errors are those of the pictures", () => {

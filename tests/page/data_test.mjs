@@ -156,10 +156,10 @@ describe("The filter", () => {
   });
   it("says what it does not understand", async () => {
     await assert.rejects(keeps("< 5"), /no column before/);
-    await assert.rejects(keeps("false_lit <"), /no value behind/);
+    await assert.rejects(keeps("false_lit <"), /no value after/);
     await assert.rejects(keeps("falselit < 5"), /no column “falselit”/);
     await assert.rejects(keeps("false_lit < many"), /is a number/);
-    assert.throws(() => page.resolveColumn(["a.x", "b.x"], "x"), /may be a.x or b.x/);
+    assert.throws(() => page.resolveColumn(["a.x", "b.x"], "x"), /may mean a.x or b.x/);
     assert.equal(
       page.resolveColumn(["causes.resolution", "shadow_map.resolution"], "resolution"),
       "shadow_map.resolution",

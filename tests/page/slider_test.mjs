@@ -141,7 +141,7 @@ describe("The bias slider", () => {
     const job = sized(64, 48, "--builtin", "sphere-plane", "--set", "lookup.filter=hardware");
     const page = await openPage(makeReport("hardware", "compare", ...job).page);
     assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
-    assert.ok(await page.getByText("The filter hardware has no critical bias").isVisible());
+    assert.ok(await page.getByText("The hardware filter has no critical bias").isVisible());
     assert.deepEqual(page.faults, []);
     await page.close();
   });

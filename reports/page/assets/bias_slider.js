@@ -7,16 +7,16 @@ function biasGoals(image) {
   const best = low === null ? high : high === null ? low : (low + high) / 2;
   return [
     { name: "Job’s bias", bias: image.jobBias, reason: "" },
-    { name: "Best bias", bias: best, reason: "every bias is as good as any other" },
+    { name: "Best bias", bias: best, reason: "all biases are equally good" },
     {
       name: "Acne-free",
       bias: curve.acne_free,
-      reason: "no pixel counts as acne, or no bias removes it all",
+      reason: "there is no acne, or no bias removes all of it",
     },
     {
       name: "Panning-free",
       bias: curve.panning_free,
-      reason: "no pixel is blocked, or some are lit with every bias",
+      reason: "no pixel is blocked, or some are lit at every bias",
     },
   ];
 }
@@ -60,7 +60,7 @@ class BiasSlider {
       class: "problem",
       role: "alert",
       hidden: true,
-      text: "Type a number that a float32 can hold, such as 0.0012 or -3e-5.",
+      text: "Enter a number that a float32 can hold, such as 0.0012 or -3e-5.",
     });
     this.counts = element("p", { class: "bias-counts", role: "status", "aria-live": "polite" });
     this.amounts = element("p", { class: "bias-amounts", hidden: true });

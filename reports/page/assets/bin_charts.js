@@ -43,7 +43,7 @@ function rateChart(host, title, bins, x) {
 
 function neededChart(host, title, bins, x, step) {
   if (bins.every(({ needed }) => needed.p95 === null || needed.p95 === undefined)) {
-    const text = "The bias that lit pixels need is not known: the filter hardware weighs its taps in its own way.";
+    const text = "The bias that lit pixels need is not known: the hardware filter’s weights are up to the driver.";
     host.replaceChildren(element("p", { class: "hint", text }));
     return null;
   }
@@ -93,7 +93,7 @@ function depthErrorChart(host, bins, x) {
     title: "Depth error by light distance",
     summary:
       `Largest depth error ${readable(factor * largest)} ${unit}; ` +
-      `storing depths alone makes up for at most ${readable(factor * envelope)} ${unit}.`,
+      `storing depths alone accounts for at most ${readable(factor * envelope)} ${unit}.`,
     x,
     y: {
       label: `|stored − exact depth| [${unit}]`,

@@ -234,7 +234,7 @@ class PageChart {
       area.replaceChildren(
         element("p", {
           class: "hint",
-          text: "Charts are not drawn: Chart.js was not there when Gnomon was built. The data are below.",
+          text: "Charts are not drawn: Gnomon was built without Chart.js. The data are below.",
         }),
       );
       return;

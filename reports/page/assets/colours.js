@@ -1,4 +1,5 @@
-// Colours: Okabe and Ito's, which any colour vision can tell apart; the same for a thing everywhere.
+// Colours that any colour vision can tell apart: Okabe and Ito's, and for names of errors some of Tol's beside
+// them. The same for a thing everywhere.
 
 const okabeIto = {
   black: "#000000",
@@ -18,7 +19,7 @@ const errorColours = {
   unmatched: okabeIto.purple,
   indeterminate: okabeIto.black,
 };
-/** As in the figures. */
+/** As in the figures and in `--heat-map`. */
 const causeColours = {
   bias: okabeIto.orange,
   precision: okabeIto.green,
@@ -26,13 +27,14 @@ const causeColours = {
   coverage: okabeIto.purple,
   filter: okabeIto.blue,
 };
+/** As in `--heat-map`; none is that of a cause. */
 const labelColours = {
   acne: okabeIto.vermilion,
-  peter_panning: okabeIto.blue,
-  leak: okabeIto.sky,
-  edge: okabeIto.green,
-  overshadow: okabeIto.orange,
-  bleed: okabeIto.purple,
+  peter_panning: "#332288",
+  leak: okabeIto.black,
+  edge: "#882255",
+  overshadow: okabeIto.yellow,
+  bleed: "#8C8C8C",
 };
 const classColours = {
   background: "#E4E9F0",

@@ -101,7 +101,7 @@ class ConfigurationDetail {
         {},
         "Its pixels are in the ",
         element("a", { href: "#inspector", text: "pixel inspector" }),
-        ", and the charts by distance and angle are its own.",
+        ", and the charts by distance and angle belong to it.",
       );
     }
     if (values.get("status") !== "done") {
@@ -111,7 +111,7 @@ class ConfigurationDetail {
     return element(
       "div",
       {},
-      element("p", { text: "The page has not its pixels. This makes its layers:" }),
+      element("p", { text: "This configuration’s pixels were not stored. To create them, run:" }),
       command,
     );
   }

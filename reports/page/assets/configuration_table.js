@@ -56,7 +56,7 @@ class ConfigurationTable {
       this.paperNote,
       element("p", {
         class: "hint screen",
-        text: "Click a row, or press Enter on it, to see the configuration. Headings sort.",
+        text: "Click a row, or press Enter on it, to see the configuration. Click a heading to sort.",
       }),
     );
   }
@@ -87,7 +87,7 @@ class ConfigurationTable {
       this.field.setAttribute("aria-invalid", "false");
     } catch (error) {
       this.field.setAttribute("aria-invalid", "true");
-      this.said.textContent = `${error.message}; the rows are those of before.`;
+      this.said.textContent = `${error.message}; the rows are unchanged.`;
       this.said.classList.add("problem");
     }
   }

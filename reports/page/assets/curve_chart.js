@@ -49,7 +49,7 @@ class CurveChart {
     ];
     this.chart = new PageChart(host, {
       title: "Wrong pixels at every constant bias",
-      summary: `False shadow falls and false lit rises with the bias; fewest errors, ${grouped(image.detail.bias_curve.best_errors)} pixels, at the best bias.`,
+      summary: `As the bias grows, false shadow falls and false lit rises; the fewest errors, ${grouped(image.detail.bias_curve.best_errors)} pixels, are at the best bias.`,
       x: {
         label: "constant bias [depth units], the slider’s axis",
         name: "bias",
@@ -80,7 +80,7 @@ class CurveChart {
 function rerunChart(host, reruns) {
   const points = (name) => reruns.map((rerun) => [rerun.bias, rerun[name]]);
   return new PageChart(host, {
-    title: "Wrong pixels at other biases, as GL ran with them",
+    title: "Wrong pixels at other biases, measured by running GL with them",
     summary: `${reruns.length} biases from ${readable(reruns[0].bias)} to ${readable(reruns.at(-1).bias)}.`,
     x: { label: "constant bias [depth units]", name: "bias", layout: symlogLayout(1e-6) },
     y: { label: "share of the lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },

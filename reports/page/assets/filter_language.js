@@ -35,7 +35,7 @@ function parseFilter(text) {
       continue;
     }
     if (parts[i + 2] === undefined || parts[i + 2].isOperator) {
-      throw new Error(`“${parts[i].text} ${parts[i + 1].text}” has no value behind it`);
+      throw new Error(`“${parts[i].text} ${parts[i + 1].text}” has no value after it`);
     }
     terms.push({ name: parts[i].text, operator: parts[i + 1].text, value: parts[i + 2].text });
     i += 2;
@@ -64,7 +64,7 @@ function resolveColumn(names, name) {
     return keys[0];
   }
   if (ends.length !== 1) {
-    throw new Error(ends.length === 0 ? `no column “${name}”` : `“${name}” may be ${ends.join(" or ")}`);
+    throw new Error(ends.length === 0 ? `no column “${name}”` : `“${name}” may mean ${ends.join(" or ")}`);
   }
   return ends[0];
 }

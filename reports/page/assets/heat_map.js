@@ -164,7 +164,7 @@ class HeatMap {
       element(
         "details",
         { class: "chart-data" },
-        element("summary", { text: "Data, neighbouring values joined" }),
+        element("summary", { text: "Data, neighbouring values merged" }),
         table,
       ),
     );

@@ -1,8 +1,8 @@
 // The pixel inspector: two layers with a wipe between them, the bias slider and a pixel's numbers.
 
 const hardwareLine =
-  "The filter hardware has no critical bias: the weights are the driver’s own, so other biases are not " +
-  "known from this one lookup. The layers show the job’s bias.";
+  "The hardware filter has no critical bias: its weights are up to the driver, so one lookup says nothing about " +
+  "other biases. The layers show the job’s bias.";
 
 /** Fills section#inspector. */
 class Inspector {

@@ -147,7 +147,7 @@ function letTablesScroll() {
   }
 }
 
-/** Says in words why the page stays as it came. */
+/** Says in words why the page stays as it was written. */
 function reportFailure(text) {
   document.querySelector("main").prepend(element("p", { role: "alert", class: "problem", text }));
 }
@@ -156,7 +156,7 @@ async function startPage() {
   letTablesScroll();
   if (window.DecompressionStream === undefined || window.ResizeObserver === undefined) {
     reportFailure(
-      "This browser cannot unpack the page’s data (it has no DecompressionStream): the inspector and the interactive charts are left out. Any browser since 2023 has it.",
+      "This browser cannot unpack the page’s data (it has no DecompressionStream), so the inspector and the interactive charts are left out. Browsers released since 2023 have it.",
     );
     return;
   }
@@ -164,7 +164,7 @@ async function startPage() {
     await new ReportPage(JSON.parse(document.getElementById("gnomon-data").textContent)).open();
     document.documentElement.dataset.ready = "true";
   } catch (error) {
-    reportFailure(`The interactive parts of the page could not be made: ${error.message}`);
+    reportFailure(`The interactive parts of the page could not be built: ${error.message}`);
     throw error;
   }
 }

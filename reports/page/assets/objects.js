@@ -18,7 +18,7 @@ function objectTable(objects) {
   const wrong = (object) => object.false_shadow + object.false_lit;
   const seen = objects.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
   return sortedTable(
-    "Errors by object, most first",
+    "Errors by object, most errors first",
     columns,
     seen.map((object) => [
       object.object,
@@ -78,7 +78,7 @@ function kindTables({ causes, labels, cause_amounts: causeAmounts, label_amounts
     "div",
     { class: "side-by-side" },
     kindTable("Wrong pixels by cause", "cause", causes, isMore ? causeAmounts : null, causeColours),
-    kindTable("Wrong pixels by name", "called", labels, isMore ? labelAmounts : null, labelColours),
+    kindTable("Wrong pixels by name", "name", labels, isMore ? labelAmounts : null, labelColours),
   );
 }
 
@@ -107,7 +107,7 @@ class ObjectTables {
         element("p", { class: "caption name", text: caption }),
         element("p", {
           class: "hint",
-          text: "The page has no numbers by object of this configuration: its pixels were not kept. Its causes are in the sweep’s table.",
+          text: "Errors by object are not known for this configuration: its pixels were not stored. Its causes are listed below the table of all configurations.",
         }),
       );
     }

@@ -19,7 +19,7 @@ class ParetoChart {
       element("h3", { text: "Trading false shadow for false lit" }),
       element("p", {
         class: "hint",
-        text: "No configuration on the front has fewer errors of one kind without having more of the other.",
+        text: "For a configuration on the front, no other has fewer errors of one kind without more of the other.",
       }),
       this.host,
       this.list,

@@ -57,10 +57,10 @@ function pixelFacts(image, index, bias) {
     ["needed_bias_m", `${needs} [m]`, exact(value("needed_bias_m"))],
     ["needed_bias_texels", `${needs} [texels]`, exact(value("needed_bias_texels"))],
     ["cause", "Cause (job’s bias)", name(causeNames, value("cause"))],
-    ["label", "Called (job’s bias)", name(labelNames, value("label"))],
+    ["label", "Name (job’s bias)", name(labelNames, value("label"))],
     ["object", "Object", object === undefined || object === noObject ? noValue : image.objects[object]],
     ["prim", "Triangle", indexText(value("prim"), noTriangle)],
-    ["witness", "Witness, a blocking triangle", indexText(value("witness"), noTriangle)],
+    ["witness", "Witness (a blocking triangle)", indexText(value("witness"), noTriangle)],
     ["light_distance_m", "Light distance", lengthText(value("light_distance_m"), shortestFloat32)],
     ["map_error_m", "Depth error", lengthText(value("map_error_m"), readable)],
   ];
@@ -73,7 +73,7 @@ class PixelDetails {
     this.list = element("dl", { class: "facts" });
     this.hint = element("p", {
       class: "hint screen",
-      text: "Point at a pixel, or move the cursor with the arrow keys. A click or tap pins it. Ctrl and the wheel zoom.",
+      text: "Point at a pixel, or move the cursor with the arrow keys. Click or tap to pin it. Zoom with Ctrl and the wheel.",
     });
     this.said = element("p", { class: "visually-hidden", role: "status" });
     this.root = element("div", { class: "pixel" }, this.heading, this.hint, this.list, this.said);

@@ -46,7 +46,7 @@ function remedyTable({ remedies, pixels, false_shadow: shadow, false_lit: lit, .
     ...(hasViews ? worst(remedy) : []),
   ];
   const asItIs = ["the job as it is", null, shadow + lit, error(now), null, null, null, ...(hasViews ? [null, null] : [])];
-  return sortedTable("What leaves less error, by amount without softened borders", columns, [
+  return sortedTable("Changes that reduce the error (amounts leave out borders softened on purpose)", columns, [
     asItIs,
     ...remedies.map(row),
   ]);
@@ -92,7 +92,7 @@ class RemedySection {
     refill(
       this.section,
       element("p", { class: "caption name", text: caption }),
-      ...(remedies.length > 0 ? [remedyTable(detail)] : [element("p", { text: "Nothing that was measured leaves less." })]),
+      ...(remedies.length > 0 ? [remedyTable(detail)] : [element("p", { text: "No change that was measured reduces the error." })]),
       ...(slopes.length > 0 ? [slopeTable(slopes)] : []),
     );
   }

@@ -172,7 +172,7 @@ class AxisCharts {
     const spread = others.length === 0 ? "" : ` Median and range over ${others.join(", ")}.`;
     const whole = this.axes.get(axis.name).values.length;
     const joined =
-      whole > axis.values.length ? ` ${grouped(whole)} values are joined to ${axis.values.length}.` : "";
+      whole > axis.values.length ? ` ${grouped(whole)} values are merged into ${axis.values.length}.` : "";
     this.note.textContent = `${spread}${joined}`.trim();
     this.note.hidden = this.note.textContent === "";
   }
