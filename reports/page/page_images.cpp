@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -134,6 +135,29 @@ std::vector<NamedLayer> page_layers(LayerFile& file, const ImageLayers& image, c
     return layers;
 }
 
+/// How many pixels of a row or column are taken.
+int thinned_count(int count, int step)
+{
+    return (count + step - 1) / step;
+}
+
+LayerValues thinned(const LayerValues& values, scene::ImageSize size, int step)
+{
+    return std::visit(
+        [&](const auto& all) -> LayerValues {
+            std::remove_cvref_t<decltype(all)> taken;
+            for (int y = 0; y < size.height_px; y += step) {
+                for (int x = 0; x < size.width_px; x += step) {
+                    taken.push_back(
+                        all[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width_px) +
+                            static_cast<std::size_t>(x)]);
+                }
+            }
+            return taken;
+        },
+        values);
+}
+
 /// Whether two layers are the same bit by bit.
 bool are_equal(const LayerValues& a, const LayerValues& b)
 {
@@ -167,7 +191,7 @@ Json object_names(const Json& detail)
 
 /// @param pack  from layers to the JSON that names their blocks.
 template <typename Pack>
-Json image_entry(LayerFile& file, const Json& detail, const Pack& pack_layers)
+Json image_entry(LayerFile& file, const Json& detail, int step, const Pack& pack_layers)
 {
     const PixelRules rules{detail};
     const ImageLayers image{file, rules};
@@ -176,9 +200,15 @@ Json image_entry(LayerFile& file, const Json& detail, const Pack& pack_layers)
     Json frustum = rules.frustum;
     frustum["range_m"] = rules.light.range_m();
     frustum["inverse_range_per_m"] = 1.0 / rules.light.near_m - 1.0 / rules.light.far_m;
-    return {{"width", file.size().width_px},
-            {"height", file.size().height_px},
-            {"layers", pack_layers(page_layers(file, image, derive))},
+    std::vector<NamedLayer> layers = page_layers(file, image, derive);
+    for (NamedLayer& layer : layers) {
+        layer.values =
+            step == 1 ? std::move(layer.values) : thinned(layer.values, file.size(), step);
+    }
+    return {{"width", thinned_count(file.size().width_px, step)},
+            {"height", thinned_count(file.size().height_px, step)},
+            {"step", step},
+            {"layers", pack_layers(std::move(layers))},
             {"derive", derive},
             {"frustum", std::move(frustum)},
             {"outside", rules.outside},
@@ -243,7 +273,7 @@ Json find_detail(const std::filesystem::path& folder, std::string_view id)
     return detail.is_object() ? detail : Json(nullptr);
 }
 
-Json PageImages::read(const KeptImage& image)
+Json PageImages::read(const KeptImage& image, int step)
 {
     LayerFile file{pixels_path(folder_, image.id), std::string{kept_advice}};
     const Json detail = find_detail(folder_, image.id);
@@ -275,7 +305,7 @@ Json PageImages::read(const KeptImage& image)
             }
             return json;
         };
-        entry.update(image_entry(file, detail, pack_layers));
+        entry.update(image_entry(file, detail, step, pack_layers));
         return entry;
     } catch (const Json::exception&) {
         refuse_detail(detail_path(folder_, image.id));

@@ -43,7 +43,8 @@ public:
     /// named in "derive"; depth errors are rounded to 11 bits, by less than 0.05 %.
     /// @throws scene::InputError  one line, if a file of the run is damaged, or of another
     ///                            configuration than the database says.
-    [[nodiscard]] Json read(const KeptImage& image);
+    /// @param step  Every step-th pixel of every step-th row is taken, from the first on; 1: all.
+    [[nodiscard]] Json read(const KeptImage& image, int step = 1);
 
     /// Forgets the layers read last, whose blocks are gone.
     void forget() { last_.clear(); }

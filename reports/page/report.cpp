@@ -24,7 +24,7 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr std::size_t most_image_bytes = 11'000'000;
+constexpr int largest_step = 8; ///< a page of every eighth pixel fits whatever GL can draw
 
 std::string data_address(const std::filesystem::path& png)
 {
@@ -75,11 +75,11 @@ void require_kept(const std::vector<KeptImage>& kept, const ReportOptions& optio
 }
 
 /// The image, or null where its files are damaged and it was not asked for.
-Json read_image(PageImages& layers, const KeptImage& image, const ReportOptions& options,
+Json read_image(PageImages& layers, const KeptImage& image, int step, const ReportOptions& options,
                 ReportOutcome& outcome)
 {
     try {
-        return layers.read(image);
+        return layers.read(image, step);
     } catch (const scene::InputError& error) {
         if (!options.only.empty()) {
             throw;
@@ -89,7 +89,7 @@ Json read_image(PageImages& layers, const KeptImage& image, const ReportOptions&
     }
 }
 
-/// As many as fit, at least one.
+/// As many as fit, at least one: of it as many pixels as fit.
 Json read_images(const RunReader& run, const std::vector<KeptImage>& kept,
                  const ReportOptions& options, PackedBlocks& blocks, ReportOutcome& outcome)
 {
@@ -98,9 +98,16 @@ Json read_images(const RunReader& run, const std::vector<KeptImage>& kept,
     PageImages layers{run.folder(), blocks};
     for (const KeptImage& image : kept) {
         const std::size_t block_count = blocks.texts().size();
-        Json entry = read_image(layers, image, options, outcome);
-        if (!entry.is_null() && !images.empty() &&
-            blocks.byte_count() - before > most_image_bytes) {
+        const auto is_too_large = [&] {
+            return blocks.byte_count() - before > options.most_image_bytes;
+        };
+        Json entry = read_image(layers, image, 1, options, outcome);
+        for (int step = 2; images.empty() && is_too_large() && step <= largest_step; step *= 2) {
+            blocks.keep_first(block_count);
+            layers.forget();
+            entry = read_image(layers, image, step, options, outcome);
+        }
+        if (!entry.is_null() && !images.empty() && is_too_large()) {
             blocks.keep_first(block_count);
             layers.forget();
             ++outcome.images_left_out;

@@ -22,6 +22,7 @@ struct ReportOptions {
     std::vector<ReportFigure> figures;
     std::string no_figures;        ///< why there are none; empty if there are
     std::vector<std::string> only; ///< ids of the configurations to embed; empty: as many as fit
+    std::size_t most_image_bytes = 11'000'000; ///< of all layers, as the page has them
 };
 
 /// What was written.
@@ -38,9 +39,9 @@ void write_report_csv(const std::filesystem::path& folder, const std::filesystem
 
 /// Writes report.html and summary.md of a run into DIR, each atomically (docs/report.md).
 ///
-/// The page needs no network and no server. Its layers take 11 MB at most, those of the headline
-/// configuration first.
-/// Kept layers that are damaged are left out, unless `only` asks for them.
+/// The page needs no network and no server. Its layers take `most_image_bytes`, those of the
+/// headline configuration first; where these do not fit, every second, fourth or eighth pixel of
+/// them. Kept layers that are damaged are left out, unless `only` asks for them.
 /// @throws scene::InputError        if there is no run, it is damaged, or it does not hold the
 ///                                  layers of a configuration in `only`.
 /// @throws scene::EnvironmentError  if a file cannot be written.

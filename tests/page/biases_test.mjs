@@ -5,7 +5,15 @@ import { describe, it } from "node:test";
 import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
-  ["pixel_names.js", "bias_order.js", "bias_units.js", "bias_counts.js", "numbers.js", "slider_scale.js"],
+  [
+    "pixel_names.js",
+    "bias_order.js",
+    "bias_units.js",
+    "bias_counts.js",
+    "numbers.js",
+    "slider_scale.js",
+    "image_data.js",
+  ],
   [
     "criticalBiases",
     "previousBias",
@@ -14,6 +22,7 @@ const page = loadScripts(
     "biasLengthM",
     "neededBiases",
     "BiasCounts",
+    "PixelImage",
     "sortFloats",
     "SliderScale",
     "shortestFloat32",
@@ -186,5 +195,39 @@ describe("A share in percent", () => {
       "\u2013",
     ];
     assert.deepEqual(texts, wanted);
+  });
+});
+
+describe("Counts of an image of which every second pixel is stored", () => {
+  // A lit and a blocked pixel of four each.
+  const stored = {
+    row: 0,
+    width: 2,
+    height: 1,
+    step: 2,
+    frustum: {},
+    derive: {},
+    bias_constant: 0.5,
+    detail: { pixels: { lit: 4, blocked: 4 }, false_shadow: 3, false_lit: 1 },
+  };
+  const layers = {
+    class: Uint8Array.of(5, 6),
+    critical_bias: Float32Array.of(0.25, 0.75),
+    verdict: Float32Array.of(1, 0),
+  };
+  const image = new page.PixelImage(stored, layers);
+
+  it("are exact at the job's bias, and estimates at others", () => {
+    assert.deepEqual(image.countsAt(0.5), { falseShadow: 3, falseLit: 1 });
+    assert.ok(image.isCountedAt(0.5));
+    assert.deepEqual(image.countsAt(0), { falseShadow: 4, falseLit: 0 });
+    assert.deepEqual(image.countsAt(1), { falseShadow: 0, falseLit: 4 });
+    assert.ok(!image.isCountedAt(1));
+  });
+
+  it("are exact everywhere where all pixels are stored", () => {
+    const whole = new page.PixelImage({ ...stored, step: 1 }, layers);
+    assert.deepEqual(whole.countsAt(1), { falseShadow: 0, falseLit: 1 });
+    assert.ok(whole.isCountedAt(1));
   });
 });

@@ -14,6 +14,7 @@
 
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
+#include "example_page.hpp"
 #include "example_run.hpp"
 #include "page_blocks.hpp"
 
@@ -38,14 +39,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::string hostile = "</script><img src=x onerror=alert(1)> \"'&\u202e\U0001f600";
-
-ReadPage written_page(const std::filesystem::path& run, const std::filesystem::path& out)
-{
-    std::filesystem::create_directories(out);
-    write_report_csv(run, out);
-    write_report({run, out, {}, "python3-matplotlib is missing", {}});
-    return ReadPage{read_text(out / "report.html")};
-}
 
 /// The table's rows as the CSV file has them.
 std::vector<std::map<std::string, std::string>> table_rows(const ReadPage& page)
@@ -186,27 +179,6 @@ TEST(Report, OfARunThatFailedSaysSo)
     EXPECT_EQ(table_rows(page).at(0).at("message"), hostile);
 }
 
-/// A run of one comparison, with its layers.
-void keep_example(const std::filesystem::path& folder,
-                  const analysis::Comparison& comparison = example().comparison)
-{
-    ExampleRun run;
-    run.curves = 1;
-    run.biases = 1;
-    RunDescription description = run.description();
-    description.axes = {};
-    std::filesystem::create_directories(folder);
-    RunStore store{folder, RunStore::Access::write};
-    store.plan(description, run.configurations());
-    analysis::FinishedCurve curve = run.curve(0);
-    curve.rows.front().result.metrics = comparison.metrics;
-    store.record(curve);
-    const std::string id = run.configurations().front().id;
-    make_pixels_folder(folder);
-    write_file(detail_path(folder, id), comparison_json(comparison));
-    write_aov(pixels_path(folder, id), comparison, example().points);
-}
-
 TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
 {
     const TemporaryFolder folder;
@@ -256,6 +228,29 @@ analysis::Comparison with_critical_biases()
         .biases = analysis::BiasAnswers{
             criticals, std::move(curve), {}, {}, {zeros, zeros, zeros, zeros}, {}, 0}};
     return comparison;
+}
+
+TEST(Report, ThinsAnImageThatIsTooLargeForThePage)
+{
+    const TemporaryFolder folder;
+    keep_example(folder / "run");
+    const ReadPage whole = written_page(folder / "run", folder / "whole");
+    const auto& image = whole.data().at("images").at(0);
+    EXPECT_EQ(image.at("step"), 1);
+    const ReadPage page = written_page(folder / "run", folder / "out", 1);
+    const auto& thin = page.data().at("images").at(0);
+    EXPECT_EQ(thin.at("step"), 8);
+    EXPECT_EQ(thin.at("width"), 96 / 8);
+    EXPECT_EQ(thin.at("height"), 64 / 8);
+    EXPECT_EQ(thin.at("detail"), image.at("detail"));
+    for (const auto& [name, block] : thin.at("layers").items()) {
+        const auto taken = page.bits(block);
+        const auto all = whole.bits(image.at("layers").at(name));
+        ASSERT_EQ(taken.size(), 12U * 8U) << name;
+        for (std::size_t i = 0; i < taken.size(); ++i) {
+            EXPECT_EQ(taken[i], all[8 * (i / 12) * 96 + 8 * (i % 12)]) << name << ' ' << i;
+        }
+    }
 }
 
 TEST(Report, TellsEveryCriticalBiasByItsDistanceFromTheDepthsDifference)

@@ -143,12 +143,13 @@ class BiasSlider {
     const { image } = this;
     const { falseShadow, falseLit } = image.countsAt(this.bias);
     const { lit, blocked } = image.detail.pixels;
+    const about = image.isCountedAt(this.bias) ? "" : "about ";
     const part = (name, key, count, whole, noun) =>
       element(
         "span",
         { class: `count count-${key}` },
         element("span", { class: `swatch swatch-${key}`, "aria-hidden": "true" }),
-        `${name} `,
+        `${name} ${about}`,
         element("strong", { "data-count": key, text: grouped(count) }),
         ` of ${grouped(whole)} ${noun}, ${percent(rate(count, whole))}`,
       );

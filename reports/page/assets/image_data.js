@@ -11,6 +11,7 @@ class PixelImage {
       row: stored.row,
       width: stored.width,
       height: stored.height,
+      step: stored.step,
       layers,
       frustum: stored.frustum,
       objects: stored.objects,
@@ -68,12 +69,28 @@ class PixelImage {
     return bias === this.jobBias ? { shadow, light, isStored: true } : this.amounts.at(bias);
   }
 
+  /** Whether counts at a bias are exact: of thinned pixels at the job's alone. */
+  isCountedAt(bias) {
+    return this.step === 1 || bias === this.jobBias;
+  }
+
   /** Wrong pixels at a bias; of an image without a curve, at the job's. */
   countsAt(bias) {
-    if (this.counts !== null) {
-      return this.counts.at(bias);
+    if (this.counts === null || (this.step > 1 && bias === this.jobBias)) {
+      return { falseShadow: this.detail.false_shadow, falseLit: this.detail.false_lit };
     }
-    return { falseShadow: this.detail.false_shadow, falseLit: this.detail.false_lit };
+    const counts = this.counts.at(bias);
+    return this.step === 1 ? counts : this.countsOfAll(counts);
+  }
+
+  /** Estimates counts of all pixels from those of the thinned ones. */
+  countsOfAll({ falseShadow, falseLit }) {
+    const { lit, blocked } = this.detail.pixels;
+    const scaled = (count, part, whole) => (part === 0 ? 0 : Math.round((count * whole) / part));
+    return {
+      falseShadow: scaled(falseShadow, this.counts.lit.length, lit),
+      falseLit: scaled(falseLit, this.counts.blocked.length, blocked),
+    };
   }
 }
 

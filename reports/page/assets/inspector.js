@@ -4,6 +4,15 @@ const hardwareLine =
   "The hardware filter has no critical bias: its weights are up to the driver, so one lookup says nothing about " +
   "other biases. The layers show the job’s bias.";
 
+/** What is said of an image of which not all pixels are on the page. */
+function thinnedText({ step }) {
+  const nth = { 2: "second", 4: "fourth", 8: "eighth" }[step];
+  return (
+    `The image is too large for the page: every ${nth} pixel of every ${nth} row is shown. ` +
+    "Counts at the job’s bias are those of all pixels, at other biases they are estimates."
+  );
+}
+
 /** Fills section#inspector. */
 class Inspector {
   /** @param {HTMLElement} section */
@@ -19,6 +28,7 @@ class Inspector {
     });
     this.details = new PixelDetails();
     this.caption = element("p", { class: "caption name" });
+    this.thinned = element("p", { class: "hint thinned" });
     this.selects = element("div", { class: "bar" });
     this.legends = element("div", { class: "legends" });
     this.biasHost = element("div", { class: "bias-host" });
@@ -27,6 +37,7 @@ class Inspector {
     refill(
       section,
       this.caption,
+      this.thinned,
       this.selects,
       this.makeTools(),
       element(
@@ -81,6 +92,8 @@ class Inspector {
   show(image, caption) {
     this.image = image;
     this.caption.textContent = caption;
+    this.thinned.textContent = thinnedText(image);
+    this.thinned.hidden = image.step === 1;
     this.layers = imageLayers(image);
     this.painters = [new LayerPainter(image), new LayerPainter(image)];
     this.chosen = this.chosen.map((id, side) => (this.layerOf(id) ? id : ["gl", "errors"][side]));
@@ -207,7 +220,8 @@ class Inspector {
 
   goToPixel() {
     const match = /^\s*(\d+)\s*[,; ]\s*(\d+)\s*$/.exec(this.goTo.value);
-    const [x, y] = match === null ? [NaN, NaN] : [Number(match[1]), Number(match[2])];
+    const wanted = match === null ? [NaN, NaN] : [Number(match[1]), Number(match[2])];
+    const [x, y] = wanted.map((place) => Math.floor(place / this.image.step));
     const isInside = x < this.image.width && y < this.image.height;
     this.goTo.setAttribute("aria-invalid", String(!isInside && this.goTo.value !== ""));
     if (!isInside) {

@@ -66,6 +66,11 @@ function pixelFacts(image, index, bias) {
   ];
 }
 
+/** Where a pixel of the page is in the image that was measured. */
+function imagePlace({ step }, { x, y }) {
+  return [step * x, step * y];
+}
+
 /** The list of a pixel's numbers; `show` fills it. */
 class PixelDetails {
   constructor() {
@@ -93,9 +98,10 @@ class PixelDetails {
       this.heading.textContent = "Pixel";
       return;
     }
-    this.heading.textContent = `Pixel ${pixel.x}, ${pixel.y}${isPinned ? " (pinned)" : ""}`;
+    const [x, y] = imagePlace(image, pixel);
+    this.heading.textContent = `Pixel ${x}, ${y}${isPinned ? " (pinned)" : ""}`;
     const facts = pixelFacts(image, pixel.y * image.width + pixel.x, bias);
-    for (const [key, title, text] of [["x", "x", String(pixel.x)], ["y", "y", String(pixel.y)], ...facts]) {
+    for (const [key, title, text] of [["x", "x", String(x)], ["y", "y", String(y)], ...facts]) {
       this.set(key, title, text);
     }
   }
@@ -117,7 +123,7 @@ class PixelDetails {
     const facts = pixelFacts(image, pixel.y * image.width + pixel.x, bias);
     const told = facts.filter(([key]) => ["class", "shown", "critical_bias"].includes(key));
     this.said.textContent = [
-      `${pixel.x}, ${pixel.y}`,
+      imagePlace(image, pixel).join(", "),
       ...told.map(([, title, text]) => `${title} ${text}`),
     ].join("; ");
   }
