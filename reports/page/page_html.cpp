@@ -81,7 +81,6 @@ std::string limit_text(const ResultRow& row, std::string_view column)
     return limit ? fmt::format("{:.6g}", *limit) : std::string{"none"};
 }
 
-/// What the bias curve says of the headline configuration.
 /// What the recommended bias is in other units; empty where none is.
 std::string recommended_text(const ResultRow& row)
 {
@@ -96,6 +95,7 @@ std::string recommended_text(const ResultRow& row)
                        *metres, *texels, counted(static_cast<std::uint64_t>(*views), "view"));
 }
 
+/// What the bias curve says of the headline configuration.
 std::string bias_table(const ResultRow& row)
 {
     if (row.text("bias_source") != "curve") {
