@@ -205,8 +205,8 @@ TEST(PartRates, NameTheirDenominators)
         rates.push_back(rate_of(rate, counts));
     }
     // false shadow, false lit, both; their amounts: per lit, blocked, scored pixel.
-    const std::optional<double> none;
-    EXPECT_THAT(rates, ::testing::ElementsAre(0.25, none, 0.25, 0.375, none, 0.375));
+    const std::optional<double> no_rate;
+    EXPECT_THAT(rates, ::testing::ElementsAre(0.25, no_rate, 0.25, 0.375, no_rate, 0.375));
 }
 
 TEST(ErrorsByAngle, SplitTheQuarterTurnEvenly)
