@@ -5,6 +5,7 @@
 #include "cli/command_text.hpp"
 #include "cli/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/extreme_pixels.hpp"
 #include "cli/job_options.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/sweep_run.hpp"
@@ -15,6 +16,7 @@
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cstdio>
@@ -62,13 +64,19 @@ reports::Shard read_shard(const std::string& text)
     return shard;
 }
 
-bool keeps_pixels(const SweepOptions& options, std::uint64_t configurations)
+/// Of which configurations the layers are kept.
+enum class KeptPixels : std::uint8_t { none, extremes, all };
+
+KeptPixels kept_pixels(const SweepOptions& options, std::uint64_t configurations)
 {
     if (options.keeps_pixels && options.keeps_no_pixels) {
         throw scene::InputError("--keep-pixels and --no-keep-pixels exclude each other: give one");
     }
-    return options.keeps_pixels ||
-           (!options.keeps_no_pixels && configurations <= few_configurations);
+    if (options.keeps_no_pixels) {
+        return KeptPixels::none;
+    }
+    return options.keeps_pixels || configurations <= few_configurations ? KeptPixels::all
+                                                                        : KeptPixels::extremes;
 }
 
 /// The options that decide what is kept and computed where: whoever resumes needs them again.
@@ -162,9 +170,10 @@ void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
 
 void sweep(const SweepOptions& options)
 {
-    const scene::SweepSpace space{read_job_source(options.job), options.axes,
-                                  options.job.case_name};
-    const bool keeps = keeps_pixels(options, space.size());
+    const scene::JobSource source = read_job_source(options.job);
+    const scene::SweepSpace space{source, options.axes, options.job.case_name};
+    const KeptPixels kept = kept_pixels(options, space.size());
+    const bool keeps = kept == KeptPixels::all;
     const reports::Shard shard = read_shard(options.shard);
     if (options.is_dry_run) {
         return print_plan(options, space, keeps);
@@ -188,6 +197,12 @@ void sweep(const SweepOptions& options)
     run.session = options.session;
     const SweepOutcome outcome = run_sweep_command(space, run);
     print(outcome_text(options, outcome));
+    if (kept == KeptPixels::extremes && !outcome.is_interrupted && outcome.done > 0) {
+        const auto names =
+            keep_extreme_pixels(run.folder, space, source, options.job.case_name, options.session);
+        print(fmt::format("  pixels kept: of {}; --keep-pixels keeps those of all\n",
+                          fmt::join(names, ", ")));
+    }
     const int code = exit_code(outcome);
     explain(options, outcome, code);
     if (code != exit_codes::done) {
@@ -217,7 +232,8 @@ void add_sweep_command(CLI::App& program)
         ->needs(dry_run);
     command->add_flag("--keep-pixels", options->keeps_pixels,
                       "Keep every configuration's layers in RUN/pixels; the default for up to 20 "
-                      "configurations");
+                      "configurations. Of more, those of the best, the worst and the job's own are "
+                      "kept");
     command->add_flag("--no-keep-pixels", options->keeps_no_pixels, "Keep none");
     command
         ->add_option("--shard", options->shard,

@@ -59,8 +59,11 @@ std::string usage_error(const CLI::App& program, const CLI::ParseError& error)
     }
     const std::string& word = unknown.front();
     const bool is_option = word.starts_with('-');
-    const std::string nearest = scene::nearest_word(
-        word.substr(0, word.find('=')), is_option ? option_names(app) : command_names(app));
+    const bool is_letter = is_option && !word.starts_with("--"); // which is near to every word
+    const std::string nearest =
+        is_letter ? std::string{}
+                  : scene::nearest_word(word.substr(0, word.find('=')),
+                                        is_option ? option_names(app) : command_names(app));
     if (nearest.empty()) {
         return fmt::format("{}; see {}", error.what(), help);
     }

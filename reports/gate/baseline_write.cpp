@@ -9,21 +9,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace gnomon::reports {
 
 namespace {
 
-/// The run's results with the mask's name, by `name_mask`, where pixels were kept.
+/// The run's results with the mask's name, by `name_mask`, where the pixels of all were kept: those
+/// that a sweep keeps of its best and worst are others' in the next run.
 template <typename NameMask>
 analysis::GateEntries with_names(const GateRun& run, const NameMask& name_mask)
 {
     analysis::GateEntries results = run.results;
+    const bool keeps_all = std::ranges::none_of(
+        results.entries, [](const analysis::GateEntry& entry) { return entry.pixels.empty(); });
     for (analysis::GateEntry& entry : results.entries) {
-        if (!entry.pixels.empty()) {
-            entry.pixels = name_mask(read_wrong_pixels(run.folder, entry.pixels).mask);
-        }
+        entry.pixels =
+            keeps_all ? name_mask(read_wrong_pixels(run.folder, entry.pixels).mask) : std::string{};
     }
     return results;
 }

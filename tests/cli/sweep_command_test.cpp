@@ -60,6 +60,51 @@ TEST(Sweep, MakesUpForTheErrorsAtAnotherJobsBias)
     expect_same(RunCsv{run}, before);
 }
 
+constexpr const char* small_job = R"(
+[scene]
+builtin = "sphere-plane"
+[image]
+width = 48
+height = 27
+[shadow_map]
+resolution = 128
+[bias]
+constant = 0.002
+)";
+
+/// 22 configurations, with the job's own among them or not.
+std::vector<std::string> many_biases(const std::string& further)
+{
+    return {"--axis", "shadow_map.resolution=64,128", "--axis",
+            "bias.constant=0,0.0001,0.0002,0.0003,0.0004,0.0005,0.0006,0.0007,0.0008,0.01," +
+                further};
+}
+
+TEST(Sweep, KeepsThePixelsOfItsExtremesWhateverItsSize)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", small_job);
+    const auto swept_into = [&](const char* name, const std::string& further,
+                                const std::vector<std::string>& more) {
+        const path run = folder.path() / name;
+        return std::pair{run, swept(sweep(job, run, with(many_biases(further), more)))};
+    };
+    const auto [run, ending] = swept_into("own", "0.002", {});
+    EXPECT_THAT(ending.out, HasSubstr("pixels kept: of the best, the worst, the job's own"));
+    EXPECT_EQ(kept_images(run), 3U);
+    EXPECT_THAT(swept({"report", run}).out, HasSubstr("pixels of 3 configurations"));
+    const auto [others, without_own] = swept_into("others", "0.1", {});
+    EXPECT_THAT(without_own.out, HasSubstr("pixels kept: of the best, the worst;"));
+    EXPECT_EQ(kept_images(others), 2U);
+    const auto [none, silent] = swept_into("none", "0.1", {"--no-keep-pixels"});
+    EXPECT_THAT(silent.out, Not(HasSubstr("pixels kept")));
+    EXPECT_FALSE(std::filesystem::exists(none / "pixels"));
+    // A baseline has no masks of configurations that are the best or the worst of one run alone.
+    const path baseline = folder.path() / "baseline.json";
+    EXPECT_THAT(swept({"baseline", "save", run, "--baseline", baseline}).out,
+                HasSubstr("without masks of wrong pixels"));
+}
+
 TEST(Sweep, MakesUpForPixelsThatWereNotKept)
 {
     const TemporaryFolder folder;
