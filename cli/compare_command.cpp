@@ -10,6 +10,7 @@
 #include "cli/kept_pixels.hpp"
 #include "cli/origin_remedy.hpp"
 #include "cli/output_files.hpp"
+#include "cli/slow_work.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/aov_exr.hpp"
 #include "reports/case/case_write.hpp"
@@ -210,6 +211,30 @@ void write_light_view(const CompareOptions& options, const analysis::Comparison&
     }
 }
 
+/// Everything that is asked of GL and Embree, but for advice.
+analysis::Comparison measure(const CompareOptions& options, const scene::Job& job,
+                             const ComparisonSession& session, SlowWork& work)
+{
+    const analysis::Renderers renderers = announced(session.renderers(), work);
+    analysis::Comparison comparison = analysis::compare(job, session.file(), renderers);
+    write_light_view(options, comparison, renderers);
+    if (!options.case_folder.empty()) {
+        export_case(options.case_folder, comparison, session.file().defaults, renderers);
+    }
+    comparison.seconds.scene += session.scene_seconds();
+    comparison.seconds.bvh = session.bvh_seconds();
+    if (options.audit) {
+        comparison.float_audit = reference_rt::audit_float_methods(
+            session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
+            options.session.threads);
+    }
+    if (options.verify) {
+        work.now("verifying the bias curve");
+        verify(comparison, renderers);
+    }
+    return comparison;
+}
+
 void compare(const CompareOptions& options)
 {
     require_exact_truth(options);
@@ -228,25 +253,14 @@ void compare(const CompareOptions& options)
     session_options.audits = options.audit;
     session_options.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
                                                       : reference_rt::TruthMethod::plain;
+    std::optional<SlowWork> work{std::in_place, "reading the scene"};
     const ComparisonSession session{job, session_options};
-    analysis::Comparison comparison = analysis::compare(job, session.file(), session.renderers());
-    write_light_view(options, comparison, session.renderers());
-    if (!options.case_folder.empty()) {
-        export_case(options.case_folder, comparison, session.file().defaults, session.renderers());
-    }
-    comparison.seconds.scene += session.scene_seconds();
-    comparison.seconds.bvh = session.bvh_seconds();
-    if (options.audit) {
-        comparison.float_audit = reference_rt::audit_float_methods(
-            session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
-            options.session.threads);
-    }
-    if (options.verify) {
-        verify(comparison, session.renderers());
-    }
+    analysis::Comparison comparison = measure(options, job, session, *work);
     if (options.advise) {
+        work->now("trying remedies");
         advise(comparison, views, session, session_options);
     }
+    work.reset();
     if (run) {
         run->record(read_job_source(options.job), options.job.case_name, comparison,
                     session.file().defaults, job_text(options.job),

@@ -1,6 +1,7 @@
 #include "cli/report_command.hpp"
 
 #include "cli/figures.hpp"
+#include "cli/slow_work.hpp"
 #include "cli/standard_output.hpp"
 #include "reports/page/report.hpp"
 #include "reports/text.hpp"
@@ -10,6 +11,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -76,9 +78,13 @@ void report(const CommandOptions& options)
     report.out = options.out.empty() ? options.run : options.out;
     report.only = options.only;
     make_report_folder(report.out);
+    std::optional<SlowWork> work{std::in_place, "writing the CSV files"};
     reports::write_report_csv(report.folder, report.out);
+    work->now("drawing the figures");
     add_figures(report, options);
+    work->now("writing the page");
     const reports::ReportOutcome outcome = reports::write_report(report);
+    work.reset();
     for (const std::string& problem : outcome.problems) {
         fmt::print(stderr, "gnomon: pixels left out: {}\n", problem);
     }
