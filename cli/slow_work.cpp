@@ -12,8 +12,8 @@ namespace gnomon::cli {
 namespace {
 
 constexpr std::chrono::seconds patience{2};
-constexpr std::chrono::seconds terminal_interval{1};
-constexpr std::chrono::seconds pipe_interval{30};
+constexpr std::chrono::seconds live_interval{1};
+constexpr std::chrono::seconds log_interval{30};
 
 template <typename Result, typename... Arguments>
 std::function<Result(Arguments...)> announced_stage(std::function<Result(Arguments...)> stage,
@@ -62,12 +62,12 @@ void SlowWork::watch()
     const auto ends_within = [&](std::chrono::seconds time) {
         return changed_.wait_for(lock, time, [this] { return is_done_; });
     };
-    if (ends_within(is_terminal_ ? patience : pipe_interval)) {
+    if (ends_within(is_terminal_ ? patience : log_interval)) {
         return;
     }
     do {
         tell();
-    } while (!ends_within(is_terminal_ ? terminal_interval : pipe_interval));
+    } while (!ends_within(is_terminal_ ? live_interval : log_interval));
 }
 
 void SlowWork::tell()

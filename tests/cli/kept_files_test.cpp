@@ -26,8 +26,8 @@ std::vector<std::string> tiny(std::vector<std::string> arguments)
     return arguments;
 }
 
-Ending sweep(const std::string& scene, const std::string& folder,
-             std::vector<std::string> more = {})
+Ending sweep_scene(const std::string& scene, const std::string& folder,
+                   std::vector<std::string> more = {})
 {
     std::vector<std::string> arguments{
         "sweep",   "--builtin",       scene, "--out", folder, "--axis", "bias.constant=0.1,0.2",
@@ -67,15 +67,15 @@ TEST(KeptFiles, ARunOfAnotherSceneIsReplacedOnlyWhenAsked)
 {
     const TemporaryFolder folder;
     const std::string run = folder.path() / "run";
-    expect_done(sweep("wall", run));
+    expect_done(sweep_scene("wall", run));
     const std::string results = text_of(run + "/results.csv");
     expect_refused(
-        sweep("yard", run), 2,
+        sweep_scene("yard", run), 2,
         "run: holds results of another scene, wall: name another folder, or pass --force");
     EXPECT_EQ(text_of(run + "/results.csv"), results);
-    EXPECT_THAT(sweep("wall", run).out,
+    EXPECT_THAT(sweep_scene("wall", run).out,
                 HasSubstr("nothing was left to do")); // the plan stands, too
-    expect_done(sweep("yard", run, {"--force"}));
+    expect_done(sweep_scene("yard", run, {"--force"}));
     EXPECT_THAT(text_of(run + "/results.csv"), HasSubstr("yard"));
 }
 
@@ -83,15 +83,15 @@ TEST(KeptFiles, ARunOfTheSameSceneGoesOnWithOtherAxes)
 {
     const TemporaryFolder folder;
     const std::string run = folder.path() / "run";
-    expect_done(sweep("wall", run));
-    expect_done(sweep("wall", run, {"--axis", "bias.slope=0,1"}));
+    expect_done(sweep_scene("wall", run));
+    expect_done(sweep_scene("wall", run, {"--axis", "bias.slope=0,1"}));
 }
 
 TEST(KeptFiles, AComparisonReplacesASweepOrAnotherSceneOnlyWhenAsked)
 {
     const TemporaryFolder folder;
     const std::string swept = folder.path() / "swept";
-    expect_done(sweep("wall", swept));
+    expect_done(sweep_scene("wall", swept));
     expect_refused(gnomon(tiny({"compare", "--builtin", "wall", "--out", swept})), 2,
                    "holds a sweep, whose plan this would replace: name another folder, or pass "
                    "--force to replace it");
