@@ -163,6 +163,23 @@ describe("A sweep without its pixels", () => {
   });
 });
 
+describe("A heat map of many values", () => {
+  after(stopBrowser);
+  it("has values along both sides, downwards as its choice says", async () => {
+    const page = await openPage(makeReport("many biases", "sweep", ...manyBiases(40)).page);
+    await page.getByLabel("across", { exact: true }).selectOption("bias.constant");
+    await page.getByLabel("down", { exact: true }).selectOption("shadow_map.resolution");
+    const canvas = page.locator(".heat-canvas");
+    await canvas.waitFor();
+    assert.deepEqual(await page.locator(".heat-down span").allTextContents(), ["64", "128", "256", "512", "1,024"]);
+    assert.equal(await page.locator(".heat-across span").count(), 6);
+    await canvas.hover({ position: { x: 2, y: 2 } });
+    await page.getByText("bias.constant = 0.000001, shadow_map.resolution = 64: ").waitFor();
+    assert.deepEqual(page.faults, []);
+    await page.close();
+  });
+});
+
 describe("A large sweep", () => {
   after(stopBrowser);
   const sizes = isFull ? [10_000, 200_000] : [10_000];

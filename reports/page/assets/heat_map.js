@@ -3,6 +3,7 @@
 const mostTableColumns = 12;
 const mostTableRows = 24;
 const mostCanvasCells = 240;
+const mostHeatTicks = 6;
 
 /** Black or white, whichever is read more easily on a colour. */
 function inkOn([red, green, blue]) {
@@ -50,6 +51,19 @@ function heatTable(across, down, cells, title) {
   );
 }
 
+/** Values along a side of the canvas, where their cells are: the first, the last, and some between. */
+function heatTicks(axis, side) {
+  const last = axis.values.length - 1;
+  const count = Math.min(last + 1, mostHeatTicks);
+  const ticks = Array.from({ length: count }, (_, i) => {
+    const index = count > 1 ? Math.round((i * last) / (count - 1)) : 0;
+    const tick = element("span", { text: axisText(axis, axis.values[index]) });
+    tick.style.setProperty("--at", `${(100 * (index + 0.5)) / (last + 1)}%`);
+    return tick;
+  });
+  return element("div", { class: `heat-ticks heat-${side}`, "aria-hidden": "true" }, ...ticks);
+}
+
 /** A canvas of one pixel a cell, stretched; the cell under the pointer is told beneath. */
 function heatCanvas(across, down, cells, title) {
   const canvas = element("canvas", {
@@ -66,12 +80,12 @@ function heatCanvas(across, down, cells, title) {
       cell === null
         ? noValueColour
         : cssColour(mixStops(rateScale.stops, shareOnScale(rateScale, cell.median)));
-    context.fillRect(Math.floor(i / down.values.length), down.values.length - 1 - row, 1, 1);
+    context.fillRect(Math.floor(i / down.values.length), row, 1, 1);
   });
   const ends = (axis) => `from ${axisText(axis, axis.values[0])} to ${axisText(axis, axis.values.at(-1))}`;
   const told = element("p", {
     class: "hint",
-    text: `${across.name} ${ends(across)} to the right, ${down.name} ${ends(down)} upwards.`,
+    text: `${across.name} ${ends(across)} to the right, ${down.name} ${ends(down)} downwards.`,
   });
   told.append(element("span", { class: "screen", text: " Point at a cell for its number." }));
   canvas.addEventListener("pointermove", (event) => {
@@ -79,18 +93,22 @@ function heatCanvas(across, down, cells, title) {
       across.values.length - 1,
       Math.floor((event.offsetX / canvas.clientWidth) * across.values.length),
     );
-    const row =
-      down.values.length -
-      1 -
-      Math.min(
-        down.values.length - 1,
-        Math.floor((event.offsetY / canvas.clientHeight) * down.values.length),
-      );
+    const row = Math.min(
+      down.values.length - 1,
+      Math.floor((event.offsetY / canvas.clientHeight) * down.values.length),
+    );
     const cell = cells[column * down.values.length + row];
     const at = `${across.name} = ${axisText(across, across.values[column])}, ${down.name} = ${axisText(down, down.values[row])}`;
     told.textContent = `${at}: ${cell ? percent(cell.median) : noValue}`;
   });
-  return element("div", {}, canvas, told);
+  const framed = element(
+    "div",
+    { class: "heat-frame" },
+    heatTicks(down, "down"),
+    canvas,
+    heatTicks(across, "across"),
+  );
+  return element("div", {}, framed, told);
 }
 
 /** The part of section#sweep with the heat map of two axes. */
