@@ -7,6 +7,7 @@
 #include "cli/process.hpp"
 #include "reports/page/run_overview.hpp"
 #include "reports/run/pixels.hpp"
+#include "scene/error.hpp"
 #include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
@@ -30,9 +31,10 @@ Extreme extreme(std::string name, const reports::ResultRow& row)
     return {std::move(name), row.count("ordinal"), row.text("id")};
 }
 
-/// The id that the job has without axes; empty where the sweep has its cases alone, or the scene
-/// cannot be read.
-std::string own_id(scene::JobSource source, std::string_view case_name)
+/// The id that the job has without axes.
+/// @return  Empty where the sweep has its cases alone, or the job no keys that go together.
+/// @throws scene::InputError  if the job's scene cannot be read.
+std::string id_without_axes(scene::JobSource source, std::string_view case_name)
 {
     if (case_name.empty() && !source.cases.empty()) {
         return {};
@@ -50,6 +52,16 @@ std::string own_id(scene::JobSource source, std::string_view case_name)
         0, analysis::identify_scene(job, scene::content_hash(file.scene), file.defaults),
         [&](const analysis::Configuration& own) { id = own.id; });
     return id;
+}
+
+/// Likewise; empty, too, where the job's own scene cannot be read: axes may give others.
+std::string own_id(scene::JobSource source, std::string_view case_name)
+{
+    try {
+        return id_without_axes(std::move(source), case_name);
+    } catch (const scene::InputError&) {
+        return {};
+    }
 }
 
 std::vector<Extreme> find_extremes(const std::filesystem::path& folder, scene::JobSource source,

@@ -24,10 +24,14 @@ const CLI::App& command_below(const CLI::App& app, const std::string& name)
         }
         names.push_back(below->get_name());
     }
+    const std::string unknown = fmt::format("help: unknown command {}", scene::one_line(name));
+    if (names.empty()) {
+        throw scene::InputError(fmt::format("{}; {} has none below it", unknown, app.get_name()));
+    }
     const std::string nearest = scene::nearest_word(name, names);
-    throw scene::InputError(fmt::format("help: unknown command {}; {}", scene::one_line(name),
+    throw scene::InputError(fmt::format("{}; {}", unknown,
                                         nearest.empty()
-                                            ? fmt::format("{} has none below it", app.get_name())
+                                            ? std::string{"`gnomon --help` lists them"}
                                             : fmt::format("did you mean {}?", nearest)));
 }
 

@@ -7,6 +7,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/extreme_pixels.hpp"
 #include "cli/job_options.hpp"
+#include "cli/process.hpp"
 #include "cli/standard_output.hpp"
 #include "cli/sweep_run.hpp"
 #include "cli/sweep_text.hpp"
@@ -195,13 +196,16 @@ void sweep(const SweepOptions& options)
     run.command = command_text("sweep", options.job, options.axes) + flags_text(options);
     run.compare_command = command_text("compare", options.job);
     run.session = options.session;
-    const SweepOutcome outcome = run_sweep_command(space, run);
+    SweepOutcome outcome = run_sweep_command(space, run);
     print(outcome_text(options, outcome));
     if (kept == KeptPixels::extremes && !outcome.is_interrupted && outcome.done > 0) {
         const auto names =
             keep_extreme_pixels(run.folder, space, source, options.job.case_name, options.session);
-        print(fmt::format("  pixels kept: of {}; --keep-pixels keeps those of all\n",
-                          fmt::join(names, ", ")));
+        if (!names.empty()) {
+            print(fmt::format("  pixels kept: of {}; --keep-pixels keeps those of all\n",
+                              fmt::join(names, ", ")));
+        }
+        outcome.is_interrupted = is_interrupted();
     }
     const int code = exit_code(outcome);
     explain(options, outcome, code);

@@ -105,6 +105,20 @@ TEST(Sweep, KeepsThePixelsOfItsExtremesWhateverItsSize)
                 HasSubstr("without masks of wrong pixels"));
 }
 
+TEST(Sweep, KeepsThePixelsOfItsExtremesWhereTheJobsOwnSceneIsNotThere)
+{
+    const TemporaryFolder folder;
+    folder.write("there.obj", "v 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n");
+    const path job = folder.write("job.toml", R"(
+scene.file = "gone.obj"
+image.width = 48
+image.height = 27
+)");
+    const path run = folder.path() / "run";
+    swept(sweep(job, run, with(many_biases("0.1"), {"--axis", "scene.file=there.obj"})));
+    EXPECT_EQ(kept_images(run), 2U);
+}
+
 TEST(Sweep, MakesUpForPixelsThatWereNotKept)
 {
     const TemporaryFolder folder;
