@@ -1,12 +1,14 @@
 #include "cli/help_command.hpp"
 
 #include "cli/standard_output.hpp"
+#include "cli/usage_error.hpp"
 #include "scene/error.hpp"
 #include "scene/job_file.hpp"
 #include "scene/job_toml.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,12 +19,9 @@ namespace {
 /// @throws scene::InputError  naming the nearest command.
 const CLI::App& command_below(const CLI::App& app, const std::string& name)
 {
-    std::vector<std::string> names;
-    for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
-        if (below->get_name() == name) {
-            return *below;
-        }
-        names.push_back(below->get_name());
+    const std::vector<std::string> names = command_names(app);
+    if (std::ranges::find(names, name) != names.end()) {
+        return *app.get_subcommand(name);
     }
     const std::string unknown = fmt::format("help: unknown command {}", scene::one_line(name));
     if (names.empty()) {

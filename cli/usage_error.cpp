@@ -27,15 +27,6 @@ std::string full_name(const CLI::App& app)
                                        : full_name(*app.get_parent()) + " " + app.get_name();
 }
 
-std::vector<std::string> command_names(const CLI::App& app)
-{
-    std::vector<std::string> names;
-    for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
-        names.push_back(below->get_name());
-    }
-    return names;
-}
-
 std::vector<std::string> option_names(const CLI::App& app)
 {
     std::vector<std::string> names;
@@ -48,6 +39,15 @@ std::vector<std::string> option_names(const CLI::App& app)
 }
 
 } // namespace
+
+std::vector<std::string> command_names(const CLI::App& app)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
+        names.push_back(below->get_name());
+    }
+    return names;
+}
 
 std::string usage_error(const CLI::App& program, const CLI::ParseError& error)
 {

@@ -3,8 +3,12 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 namespace gnomon::cli {
+
+/// The commands below a command, or below the program.
+[[nodiscard]] std::vector<std::string> command_names(const CLI::App& app);
 
 /// What a wrong command line lacks or has too much of, in one line, with the nearest command or
 /// option where one is unknown.
