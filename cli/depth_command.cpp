@@ -43,6 +43,7 @@ struct DepthOptions {
     bool theory_only = false;
     bool plan = false;
     std::optional<double> max_error_m;
+    std::optional<double> tolerance_m;
     bool compare = false;
     bool json = false;
     std::optional<std::string> csv_path; ///< "": standard output
@@ -53,6 +54,8 @@ struct DepthOptions {
 // The textbook lesson's frustum.
 constexpr double default_near_m = 4;
 constexpr double default_far_m = 50;
+// Finer than double tells distances of a metre apart.
+constexpr double smallest_tolerance_m = 1e-15;
 
 scene::Projection projection_of(const DepthOptions& options)
 {
@@ -113,22 +116,32 @@ struct Driver {
     std::string version;
 };
 
-void print_study(const DepthOptions& options, const DepthStudy& study, const Driver& driver)
+std::vector<DepthErrorRow> rows_of(const DepthStudy& study, std::size_t samples)
 {
-    const std::vector<DepthErrorRow> rows =
-        study.measured ? study.measured->rows
-                       : analysis::formula_rows(study.mapping, study.coding,
-                                                static_cast<std::size_t>(options.samples));
+    if (study.measured) {
+        return study.measured->rows;
+    }
+    return study.tolerance
+               ? analysis::tolerance_rows(study.mapping, study.coding, samples, *study.tolerance)
+               : analysis::formula_rows(study.mapping, study.coding, samples);
+}
+
+void print_study(const DepthOptions& options, DepthStudy study, const Driver& driver)
+{
+    if (options.tolerance_m) {
+        study.tolerance =
+            analysis::constant_tolerance(study.mapping, study.coding, *options.tolerance_m);
+    }
+    const auto rows = rows_of(study, static_cast<std::size_t>(options.samples));
     if (!options.plot_path.empty()) {
         reports::write_drawing(options.plot_path,
                                reports::depth_plot(study, rows, driver.renderer));
     }
     if (options.csv_path && !options.csv_path->empty()) {
-        reports::write_file(*options.csv_path,
-                            reports::depth_csv(rows, study.measured.has_value()));
+        reports::write_file(*options.csv_path, reports::depth_csv(study, rows));
     }
     if (options.csv_path && options.csv_path->empty()) {
-        print(reports::depth_csv(rows, study.measured.has_value()));
+        print(reports::depth_csv(study, rows));
     } else if (options.json) {
         print(reports::depth_json(study, rows, driver.renderer, driver.version));
     } else {
@@ -230,10 +243,10 @@ void plan(const DepthOptions& options)
 void require_consistent(const DepthOptions& options)
 {
     if (options.plan || options.compare) {
-        if (options.csv_path || !options.plot_path.empty() || options.bits ||
+        if (options.csv_path || !options.plot_path.empty() || options.bits || options.tolerance_m ||
             !options.format.empty()) {
             throw scene::InputError("--plan and --compare look at every format: leave out --bits, "
-                                    "--format, --csv and --plot");
+                                    "--format, --tolerance, --csv and --plot");
         }
     }
     const DepthOptions defaults;
@@ -245,6 +258,12 @@ void require_consistent(const DepthOptions& options)
     }
     if (options.max_error_m && !options.plan) {
         throw scene::InputError("--max-error-m needs --plan");
+    }
+    if (options.tolerance_m && !(*options.tolerance_m >= smallest_tolerance_m &&
+                                 *options.tolerance_m <= scene::max_coordinate_m)) {
+        throw scene::InputError(fmt::format("--tolerance {}: must be {:g} to {:g} m",
+                                            *options.tolerance_m, smallest_tolerance_m,
+                                            scene::max_coordinate_m));
     }
     if (options.json && options.csv_path && options.csv_path->empty()) {
         throw scene::InputError(
@@ -326,12 +345,16 @@ void add_depth_command(CLI::App& program)
         ->excludes(compare_flag);
     command->add_option("--max-error-m", options->max_error_m,
                         "With --plan: the largest error, up to --far [m]");
+    command->add_option("--tolerance", options->tolerance_m,
+                        "A constant tolerance to hold against the format's error [m]; with "
+                        "--theory-only the samples show single codes, too");
     add_output_options(*command, *options);
     command->add_option("--device", options->device, "Use this EGL device (see `gnomon doctor`)");
     command->footer(
         "Examples:\n"
         "  gnomon depth --near 4 --far 50 --bits 16\n"
         "  gnomon depth --near 0.1 --far 1000 --format d32f --reversed --plot error.png\n"
+        "  gnomon depth --bits 32 --tolerance 1e-8 --theory-only --plot tolerance.svg\n"
         "  gnomon depth --near 0.5 --far 200 --compare\n"
         "  gnomon depth --plan --max-error-m 0.01 --far 200");
     command->callback([options] { run(*options); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 namespace gnomon::analysis {
 
@@ -31,22 +32,27 @@ double tolerance_at_depth(const DepthMapping& mapping, const DepthCoding& coding
     return half_step + 0.5 * std::min(half_float32_step(2 * depth - 1), 0x1p-25);
 }
 
+/// The window depths at which d or |z_ndc| is a power of two: between them float32's Δ is constant.
+std::vector<double> float_borders()
+{
+    std::vector<double> depths;
+    constexpr int smallest_exponent = -149;
+    for (int exponent = 0; exponent >= smallest_exponent; --exponent) {
+        const double power = std::ldexp(1.0, exponent);
+        depths.insert(depths.end(), {power, 0.5 + 0.5 * power, 0.5 - 0.5 * power});
+    }
+    return depths;
+}
+
 CoarsestDepth coarsest_float_depth(const DepthMapping& mapping, const DepthCoding& coding)
 {
     CoarsestDepth coarsest;
-    const auto include = [&](double depth) {
+    for (const double depth : float_borders()) {
         const CoarsestDepth here{mapping.zeta_m(depth), tolerance_at_depth(mapping, coding, depth)};
         if (here.tolerance * mapping.slope_m(here.zeta_m) >
             coarsest.tolerance * mapping.slope_m(coarsest.zeta_m)) {
             coarsest = here;
         }
-    };
-    constexpr int smallest_exponent = -149;
-    for (int exponent = 0; exponent >= smallest_exponent; --exponent) {
-        const double power = std::ldexp(1.0, exponent);
-        include(power);
-        include(0.5 + 0.5 * power);
-        include(0.5 - 0.5 * power);
     }
     return coarsest;
 }
@@ -73,6 +79,19 @@ CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& cod
 {
     return coding.is_float() ? coarsest_float_depth(mapping, coding)
                              : CoarsestDepth{mapping.far_m(), coding.half_step(1)};
+}
+
+std::vector<double> tolerance_borders_m(const DepthMapping& mapping, const DepthCoding& coding)
+{
+    std::vector<double> borders{mapping.near_m(), mapping.far_m()};
+    if (coding.is_float()) {
+        for (const double depth : float_borders()) {
+            borders.push_back(std::clamp(mapping.zeta_m(depth), mapping.near_m(), mapping.far_m()));
+        }
+    }
+    std::sort(borders.begin(), borders.end());
+    borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+    return borders;
 }
 
 double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m,

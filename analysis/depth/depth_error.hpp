@@ -4,6 +4,7 @@
 #include "analysis/depth/depth_mapping.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace gnomon::analysis {
 
@@ -46,6 +47,11 @@ struct CoarsestDepth {
 /// Evenly spaced codes: far. float32: Δ is constant between powers of two of d (and of z_ndc) and
 /// ζ² grows, so it is at one of them or at an end.
 [[nodiscard]] CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding);
+
+/// The distances between which Δ is constant, ascending from near to far [m]: these two alone for
+/// evenly spaced codes; for float32 also those where d or |z_ndc| is a power of two.
+[[nodiscard]] std::vector<double> tolerance_borders_m(const DepthMapping& mapping,
+                                                      const DepthCoding& coding);
 
 /// The largest error between near and far [m].
 ///

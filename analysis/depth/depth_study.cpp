@@ -4,9 +4,61 @@
 #include "analysis/depth/depth_error.hpp"
 #include "analysis/depth/transform_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::analysis {
+
+namespace {
+
+constexpr int detailed_codes = 8;
+constexpr int samples_per_code = 16;
+
+/// Distances across eight codes about a distance, moved to lie between near and far.
+void add_codes_about(std::vector<double>& distances_m, const DepthMapping& mapping,
+                     const DepthCoding& coding, double centre_m)
+{
+    const double width_m = detailed_codes * code_step_m(mapping, coding, centre_m);
+    const double last_start_m = std::max(mapping.near_m(), mapping.far_m() - width_m);
+    const double start_m = std::clamp(centre_m - 0.5 * width_m, mapping.near_m(), last_start_m);
+    constexpr int samples = detailed_codes * samples_per_code;
+    for (int i = 0; i <= samples; ++i) {
+        distances_m.push_back(std::min(start_m + width_m * i / samples, mapping.far_m()));
+    }
+}
+
+/// Where the tolerance begins to be too small, or the middle where that is nowhere between.
+double middle_m(const DepthMapping& mapping, const ConstantTolerance& tolerance)
+{
+    const double near_m = mapping.near_m();
+    const double far_m = mapping.far_m();
+    const double exceeded_from_m = tolerance.exceeded_from_m.value_or(near_m);
+    if (exceeded_from_m > near_m) {
+        return exceeded_from_m;
+    }
+    return near_m > 0 ? std::sqrt(near_m * far_m) : 0.5 * (near_m + far_m);
+}
+
+std::vector<double> even_distances_m(const DepthMapping& mapping, std::size_t count)
+{
+    std::vector<double> distances_m(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+        distances_m[i] = mapping.near_m() + share * (mapping.far_m() - mapping.near_m());
+    }
+    return distances_m;
+}
+
+std::vector<DepthErrorRow> rows_at(const std::vector<double>& distances_m,
+                                   const DepthMapping& mapping, const DepthCoding& coding)
+{
+    std::vector<DepthErrorRow> rows(distances_m.size());
+    std::transform(distances_m.begin(), distances_m.end(), rows.begin(),
+                   [&](double zeta_m) { return formula_row(mapping, coding, zeta_m); });
+    return rows;
+}
+
+} // namespace
 
 DepthTheory depth_theory(const DepthMapping& mapping, const DepthCoding& coding, double offset_m)
 {
@@ -39,13 +91,20 @@ DepthTheory depth_theory(const DepthMapping& mapping, const DepthCoding& coding,
 std::vector<DepthErrorRow> formula_rows(const DepthMapping& mapping, const DepthCoding& coding,
                                         std::size_t count)
 {
-    std::vector<DepthErrorRow> rows(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-        const double zeta_m = mapping.near_m() + share * (mapping.far_m() - mapping.near_m());
-        rows[i] = formula_row(mapping, coding, zeta_m);
+    return rows_at(even_distances_m(mapping, count), mapping, coding);
+}
+
+std::vector<DepthErrorRow> tolerance_rows(const DepthMapping& mapping, const DepthCoding& coding,
+                                          std::size_t count, const ConstantTolerance& tolerance)
+{
+    std::vector<double> distances_m = even_distances_m(mapping, count);
+    for (const double centre_m :
+         {mapping.near_m(), middle_m(mapping, tolerance), mapping.far_m()}) {
+        add_codes_about(distances_m, mapping, coding, centre_m);
     }
-    return rows;
+    std::sort(distances_m.begin(), distances_m.end());
+    distances_m.erase(std::unique(distances_m.begin(), distances_m.end()), distances_m.end());
+    return rows_at(distances_m, mapping, coding);
 }
 
 } // namespace gnomon::analysis

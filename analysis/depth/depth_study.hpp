@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/depth/constant_tolerance.hpp"
 #include "analysis/depth/depth_coding.hpp"
 #include "analysis/depth/depth_mapping.hpp"
 #include "analysis/depth/measured_error.hpp"
@@ -42,12 +43,21 @@ struct DepthStudy {
     double offset_m = 0;
     DepthTheory theory;
     std::optional<MeasuredDepthError> measured;
-    std::string not_measured_because; ///< "" if it was
+    std::string not_measured_because;                          ///< "" if it was
+    std::optional<ConstantTolerance> tolerance = std::nullopt; ///< if it was asked about one
 };
 
 /// What the formula makes of distances spread evenly from near to far: rows without GL's part.
 /// @param count  at least 2
 [[nodiscard]] std::vector<DepthErrorRow> formula_rows(const DepthMapping& mapping,
                                                       const DepthCoding& coding, std::size_t count);
+
+/// The same, and between them eight codes in detail, with 16 rows each: at near, at far, and where
+/// the tolerance begins to be too small, or in the middle (√(near·far)) if that is nowhere between.
+/// @return by growing distance, each once.
+[[nodiscard]] std::vector<DepthErrorRow> tolerance_rows(const DepthMapping& mapping,
+                                                        const DepthCoding& coding,
+                                                        std::size_t count,
+                                                        const ConstantTolerance& tolerance);
 
 } // namespace gnomon::analysis

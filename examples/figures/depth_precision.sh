@@ -37,6 +37,9 @@ done
 depth formula16 --bits 16 --theory-only --samples 262144 # the teeth near 50 m are 9 mm wide
 draw error-vs-z "$csv"/formula{8,12,16,20,24}.csv
 
+depth tolerance32 --bits 32 --tolerance 1e-8 --theory-only --samples 1024
+draw tolerance-vs-z "$csv/tolerance32.csv"
+
 depth d24 --format d24 --samples 2048
 depth d32f --format d32f --samples 2048
 depth d32f_reversed --format d32f --reversed --samples 2048

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/depth/measured_error.hpp"
+#include "analysis/depth/depth_study.hpp"
 
 #include <span>
 #include <string>
@@ -8,8 +8,8 @@
 namespace gnomon::reports {
 
 /// A line per sample under a header; docs/depth_precision.md names the columns. What was not
-/// measured is an empty cell.
-[[nodiscard]] std::string depth_csv(std::span<const analysis::DepthErrorRow> rows,
-                                    bool is_measured);
+/// measured is an empty cell; the column of the tolerance is there where the study has one.
+[[nodiscard]] std::string depth_csv(const analysis::DepthStudy& study,
+                                    std::span<const analysis::DepthErrorRow> rows);
 
 } // namespace gnomon::reports

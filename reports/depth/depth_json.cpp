@@ -107,6 +107,11 @@ Json depth_summary_json(const DepthStudy& study)
               {"theory", theory_json(study.theory)}};
     json["measured"] = study.measured ? measured_json(*study.measured) : Json();
     json["not_measured_because"] = study.measured ? Json() : Json(study.not_measured_because);
+    json["tolerance"] =
+        study.tolerance
+            ? Json{{"tolerance_m", study.tolerance->tolerance_m},
+                   {"exceeded_from_m", number_or_null(study.tolerance->exceeded_from_m)}}
+            : Json();
     json["tilt_deg"] = study.tilt_rad * 180 / std::numbers::pi;
     json["offset_m"] = study.offset_m;
     return json;

@@ -20,6 +20,7 @@ using analysis::DepthStudy;
 constexpr Rgb sawtooth_colour{150, 200, 235};
 constexpr Rgb measured_colour{0, 90, 150};
 constexpr Rgb envelope_colour{213, 94, 0};
+constexpr Rgb tolerance_colour{0, 158, 115};
 constexpr Rgb grid_colour{226, 226, 226};
 constexpr Rgb frame_colour{90, 90, 90};
 
@@ -27,6 +28,7 @@ constexpr double left_px = 110;
 constexpr double right_px = 1250;
 constexpr double top_px = 112;
 constexpr double bottom_px = 722;
+constexpr double tolerance_key_px = 220;
 constexpr std::size_t most_drawn_rows = 3000;
 constexpr int points_per_px = 6; // enough to follow a tooth that is a pixel wide
 
@@ -99,10 +101,16 @@ Axes make_axes(const DepthStudy& study, std::span<const DepthErrorRow> rows)
     for (const DepthErrorRow& row : rows) {
         largest_m = std::max(largest_m, std::abs(row.error_m));
     }
+    if (study.tolerance) {
+        largest_m = std::max(largest_m, study.tolerance->tolerance_m);
+    }
     // Two decades below the envelope's smallest end: teeth go down to 0 and must be cut somewhere.
     const double smallest_m =
         std::min(study.theory.envelope_at_near_m, study.theory.envelope_at_far_m);
-    const double low_m = std::max(smallest_m / 50, largest_m * 1e-6);
+    double low_m = std::max(smallest_m / 50, largest_m * 1e-6);
+    if (study.tolerance) {
+        low_m = std::min(low_m, 0.5 * study.tolerance->tolerance_m);
+    }
     const bool is_log = mapping.near_m() > 0 && mapping.far_m() > 100 * mapping.near_m();
     return {Axis{mapping.near_m(), mapping.far_m(), left_px, right_px, is_log},
             Axis{std::pow(10, std::floor(std::log10(low_m))), 1.8 * largest_m, bottom_px, top_px,
@@ -176,13 +184,24 @@ void add_measured(Drawing& drawing, std::span<const DepthErrorRow> rows, const A
     drawing.marks.insert(drawing.marks.end() - 1, std::move(dots));
 }
 
+/// The tolerance, and where the envelope exceeds it first.
+void add_tolerance(Drawing& drawing, const analysis::ConstantTolerance& tolerance, const Axes& axes)
+{
+    const double y = axes.y.px(tolerance.tolerance_m);
+    drawing.marks.emplace_back(Polyline{{{left_px, y}, {right_px, y}}, tolerance_colour, 2.4});
+    if (tolerance.exceeded_from_m) {
+        const double x = axes.x.px(*tolerance.exceeded_from_m);
+        drawing.marks.emplace_back(Polyline{{{x, y}, {x, bottom_px}}, tolerance_colour, 1.2});
+    }
+}
+
 void add_titles(Drawing& drawing, const DepthStudy& study, const std::string& gl_renderer)
 {
     drawing.labels.push_back(
         {{left_px - 62, 38},
          fmt::format("Depth error of {}: {}", study.format, range_text(study.mapping.range())),
          {21, true}});
-    double x = right_px - 700;
+    double x = right_px - 700 - (study.tolerance ? tolerance_key_px : 0);
     const auto key = [&](Rgb colour, double width_px, const std::string& text, double advance_px) {
         drawing.marks.emplace_back(
             Polyline{{{x, top_px - 20}, {x + 28, top_px - 20}}, colour, width_px});
@@ -191,6 +210,10 @@ void add_titles(Drawing& drawing, const DepthStudy& study, const std::string& gl
     };
     key(envelope_colour, 2.4, "formula's envelope", 220);
     key(sawtooth_colour, 3, "formula's sawtooth", 222);
+    if (study.tolerance) {
+        key(tolerance_colour, 2.4,
+            fmt::format("tolerance {}", metres(study.tolerance->tolerance_m)), tolerance_key_px);
+    }
     if (study.measured) {
         drawing.marks.emplace_back(
             Dots{{{x + 6, top_px - 20}, {x + 14, top_px - 20}, {x + 22, top_px - 20}},
@@ -214,6 +237,9 @@ Drawing depth_plot(const DepthStudy& study, std::span<const DepthErrorRow> rows,
     add_formulas(drawing, study, axes);
     if (study.measured) {
         add_measured(drawing, measured, axes);
+    }
+    if (study.tolerance) {
+        add_tolerance(drawing, *study.tolerance, axes);
     }
     add_border(drawing);
     add_titles(drawing, study, gl_renderer);

@@ -16,6 +16,7 @@ namespace gnomon::reports {
 namespace {
 
 using analysis::DepthErrorRow;
+using analysis::DepthMapping;
 using analysis::DepthStudy;
 using analysis::DepthTheory;
 using analysis::MeasuredDepthError;
@@ -53,6 +54,23 @@ std::string theory_text(const DepthStudy& study)
                                                   metres(t.separate_transform_at_far_m),
                                                   metres(t.premultiplied_transform_at_far_m)));
     return text;
+}
+
+/// What a constant tolerance covers, which is about storage alone.
+std::string tolerance_text(const DepthStudy& study)
+{
+    const auto& [tolerance_m, exceeded_from_m] = *study.tolerance;
+    const DepthMapping& mapping = study.mapping;
+    std::string covered = "more than the envelope at every distance";
+    if (exceeded_from_m) {
+        covered = *exceeded_from_m > mapping.near_m()
+                      ? fmt::format("less than the envelope from {} on", metres(*exceeded_from_m))
+                      : std::string{"less than the envelope from near on"};
+    }
+    return setting_line("tolerance", fmt::format("{}: {}", metres(tolerance_m), covered)) +
+           setting_line("", fmt::format("in depth units {:.3g} at near, {:.3g} at far",
+                                        tolerance_m / mapping.slope_m(mapping.near_m()),
+                                        tolerance_m / mapping.slope_m(mapping.far_m())));
 }
 
 std::string measured_text(const MeasuredDepthError& m)
@@ -137,6 +155,9 @@ std::string depth_table(const DepthStudy& study, std::span<const DepthErrorRow> 
                            : setting_line("not measured", study.not_measured_because);
     text += "\n";
     text += theory_text(study);
+    if (study.tolerance) {
+        text += tolerance_text(study);
+    }
     if (study.measured) {
         text += measured_text(*study.measured);
     }

@@ -107,6 +107,37 @@ TEST(DepthCommand, DrawsSvgAndPng)
     EXPECT_THAT(svg, HasSubstr("Depth error of u8"));
 }
 
+// The lesson's: near 4, far 50, 32 bits; ζ = √(2T(2^32 − 1)/0.23) = 19.3255 m.
+TEST(DepthCommand, HoldsAConstantToleranceAgainstTheSawtooth)
+{
+    const TemporaryFolder folder;
+    const std::vector<std::string> asked{"--bits",        "32",        "--tolerance", "1e-8",
+                                         "--theory-only", "--samples", "16"};
+    const Json tolerance = depth_json(asked).at("tolerance");
+    EXPECT_EQ(tolerance.at("tolerance_m"), 1e-8);
+    EXPECT_NEAR(tolerance.at("exceeded_from_m").get<double>(), 19.3255, 1e-4);
+    EXPECT_TRUE(depth_json({"--bits", "16", "--theory-only"}).at("tolerance").is_null());
+
+    const std::string plot = folder.path() / "plot.svg";
+    const std::string csv = folder.path() / "depth.csv";
+    std::vector<std::string> arguments{"depth", "--plot", plot, "--csv", csv};
+    arguments.insert(arguments.end(), asked.begin(), asked.end());
+    const Ending table = gnomon(arguments);
+    expect_done(table);
+    EXPECT_THAT(table.out, HasSubstr("less than the envelope from 19.33 m on"));
+    EXPECT_THAT(text_of(plot), HasSubstr("tolerance 1e-08 m"));
+    EXPECT_THAT(text_of(csv), HasSubstr("class,tolerance_m\n"));
+    EXPECT_THAT(text_of(csv), HasSubstr(",1e-08\n"));
+    // 16 evenly, and 129 at each of three places; near and far are both.
+    const std::string rows = text_of(csv);
+    EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 16 + 3 * 129 - 2);
+
+    EXPECT_THAT(gnomon({"depth", "--format", "d16", "--tolerance", "1", "--samples", "8"}).out,
+                HasSubstr("1 m: more than the envelope at every distance"));
+    EXPECT_THAT(gnomon({"depth", "--format", "d16", "--tolerance", "1e-9", "--samples", "8"}).out,
+                HasSubstr("less than the envelope from near on"));
+}
+
 TEST(DepthCommand, PlansANearPlane)
 {
     const Json json = depth_json({"--plan", "--max-error-m", "0.01", "--far", "200"});
@@ -199,6 +230,9 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--max-error-m", "1"}, "needs --plan");
     refused({"--compare", "--bits", "16"}, "leave out");
     refused({"--json", "--csv"}, "name a file");
+    refused({"--compare", "--tolerance", "1"}, "leave out");
+    refused({"--tolerance", "0"}, "--tolerance 0: must be 1e-15 to 1e+15 m");
+    refused({"--tolerance", "nan"}, "--tolerance nan: must be");
     refused({"--plot", "x.jpg"}, ".svg or .png");
 }
 

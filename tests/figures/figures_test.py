@@ -26,6 +26,7 @@ import measured_against_formula  # noqa: E402
 import reversed_float  # noqa: E402
 import shadow_errors_on_depth_error  # noqa: E402
 import tables  # noqa: E402
+import tolerance_vs_z  # noqa: E402
 
 
 def paths(*names):
@@ -123,6 +124,68 @@ class ErrorVsZ(unittest.TestCase):
             error_vs_z.draw(error_vs_z.read(paths("d32f")))
         with self.assertRaisesRegex(tables.InputError, "orthographic.csv: these depths are of no"):
             error_vs_z.draw(error_vs_z.read(paths("orthographic")))
+
+
+class ToleranceVsZ(unittest.TestCase):
+    def setUp(self):
+        self.tables = tolerance_vs_z.read(paths("tolerance32"))
+        self.figure = tolerance_vs_z.draw(self.tables)
+
+    def test_fails_where_the_envelope_exceeds_it(self):
+        self.assertEqual(self.tables.tolerance, 1e-8)
+        # sqrt(T/(AΔ)) with A = 0.23/m and Δ = 1/2/(2^32 - 1), to the eighth of a code between samples.
+        self.assertAlmostEqual(self.tables.exceeded_from, (2e-8 * (2**32 - 1) / 0.23)**0.5, delta=1e-8)
+        zeta, envelope = self.tables.envelope
+        self.assertTrue(numpy.all((envelope > 1e-8) == (zeta >= self.tables.exceeded_from)))
+
+    def test_shows_single_codes_with_their_sign_at_three_places(self):
+        self.assertEqual([name for name, *_ in self.tables.details],
+                         ["near", "where it begins to fail", "far"])
+        ratios = []
+        for name, zeta, error, envelope in self.tables.details:
+            with self.subTest(place=name):
+                stored = column("tolerance32", "formula_error_m",
+                                lambda row: zeta[0] <= float(row["zeta_m"]) <= zeta[-1])
+                assert_array_equal(error, stored)
+                # Sixteen samples a code: a tooth's tips are missed by an eighth at most.
+                self.assertGreater(error.max(), 0.87 * envelope[0])
+                self.assertLess(error.min(), -0.87 * envelope[0])
+                self.assertGreaterEqual(numpy.count_nonzero(numpy.diff(numpy.sign(error)) > 0), 7)
+                ratios.append(numpy.abs(error).max() / self.tables.tolerance)
+        self.assertLess(ratios[0], 0.05)
+        self.assertAlmostEqual(ratios[1], 1, delta=0.13)
+        self.assertGreater(ratios[2], 5.8)
+
+    def test_axes(self):
+        above, *below = self.figure.axes
+        self.assertEqual((above.get_xlim(), above.get_yscale()), ((4, 50), "log"))
+        self.assertEqual(legend_labels(self.figure.legends[0]),
+                         ["errors that it does not cover", "|error|, samples", "envelope (formula)",
+                          "tolerance"])
+        self.assertEqual([axes.get_ylabel() for axes in below], ["error of ζ [nm]"] * 3)
+        self.assertEqual([axes.get_xlabel() for axes in below],
+                         ["ζ − 4 m [nm]", "ζ − 19.33 m [nm]", "ζ − 50 m [µm]"])
+
+    def test_of_a_tolerance_that_holds_everywhere_shows_both_ends(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "larger.csv"
+            path.write_text((HERE / "tolerance32.csv").read_text().replace(",1e-08\n", ",1e-06\n"))
+            held = tolerance_vs_z.read([path])
+        self.assertIsNone(held.exceeded_from)
+        self.assertEqual([name for name, *_ in held.details], ["near", "far"])
+        tolerance_vs_z.draw(held)
+
+    def test_refuses_what_has_no_tolerance_or_no_single_codes(self):
+        for names, reason in ((("formula24",), "formula24.csv: no column tolerance_m"),
+                              (("tolerance32", "tolerance32"), "2 files given")):
+            with self.assertRaisesRegex(tables.InputError, reason):
+                tolerance_vs_z.read(paths(*names))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "even.csv"
+            lines = (HERE / "formula24.csv").read_text().splitlines()
+            path.write_text("\n".join([lines[0] + ",tolerance_m", *(line + ",1e-6" for line in lines[1:])]))
+            with self.assertRaisesRegex(tables.InputError, "even.csv: no place where single codes"):
+                tolerance_vs_z.read([path])
 
 
 class ReversedFloat(unittest.TestCase):
@@ -333,6 +396,7 @@ class CommandLine(unittest.TestCase):
     def test_draws_each_figure_the_same_twice(self):
         for name, inputs in (
             ("error-vs-z", ("formula8", "formula24")),
+            ("tolerance-vs-z", ("tolerance32",)),
             ("reversed-float", ("d24", "d32f", "d32f_reversed")),
             ("measured-against-formula", ("d16", "d24")),
             ("shadow-errors-on-depth-error", ("error_vs_z", "results")),

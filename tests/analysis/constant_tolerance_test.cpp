@@ -1,0 +1,117 @@
+#include "analysis/depth/constant_tolerance.hpp"
+
+#include "analysis/depth/code_density.hpp"
+#include "analysis/depth/depth_error.hpp"
+#include "analysis/depth/depth_study.hpp"
+#include "depth_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace gnomon::analysis {
+namespace {
+
+using scene::Projection;
+using test::all_mappings;
+using test::seed_range;
+
+TEST(ConstantTolerance, HoldsUpToWhereTheLessonsEnvelopeIsAsLarge)
+{
+    // A = 0.23/m, Δ = ½/(2^32 − 1): AΔζ² = 1e-8 m at 19.3255 m, less T/2 = 5e-9 m.
+    const DepthMapping mapping{seed_range()};
+    const double expected_m = std::sqrt(1e-8 * 2 * (0x1p32 - 1) / 0.23);
+    const auto tolerance = constant_tolerance(mapping, DepthCoding::unorm(32), 1e-8);
+    EXPECT_EQ(tolerance.tolerance_m, 1e-8);
+    ASSERT_TRUE(tolerance.exceeded_from_m);
+    EXPECT_NEAR(*tolerance.exceeded_from_m, expected_m, 1e-8);
+    EXPECT_NEAR(expected_m, 19.3255, 1e-4);
+}
+
+TEST(ConstantTolerance, IsTooSmallFromNearOnOrNowhere)
+{
+    for (const DepthMapping& mapping : all_mappings()) {
+        for (const auto& coding :
+             {DepthCoding::unorm(16), DepthCoding::unorm(32), DepthCoding::float32()}) {
+            EXPECT_FALSE(constant_tolerance(mapping, coding, 100).exceeded_from_m);
+            EXPECT_EQ(constant_tolerance(mapping, DepthCoding::unorm(16), 1e-12).exceeded_from_m,
+                      mapping.near_m());
+        }
+    }
+}
+
+TEST(ConstantTolerance, OfAnOrthographicProjectionIsAllOrNothing)
+{
+    const DepthMapping mapping{seed_range(Projection::orthographic)};
+    const DepthCoding coding = DepthCoding::unorm(16);
+    const double envelope_m = error_envelope_m(mapping, coding, 20);
+    EXPECT_FALSE(constant_tolerance(mapping, coding, 1.0001 * envelope_m).exceeded_from_m);
+    EXPECT_EQ(constant_tolerance(mapping, coding, 0.9999 * envelope_m).exceeded_from_m, 4);
+}
+
+// Before the distance no envelope is above the tolerance, and just behind it one is.
+TEST(ConstantTolerance, IsTheFirstDistanceThatTheEnvelopeExceeds)
+{
+    std::mt19937_64 random{20261125};
+    std::uniform_real_distribution<double> exponent{-8, 0};
+    int found = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        const double tolerance_m = std::pow(10, exponent(random));
+        for (const DepthMapping& mapping : all_mappings()) {
+            for (const auto& coding :
+                 {DepthCoding::unorm(16), DepthCoding::unorm(24), DepthCoding::float32()}) {
+                const auto from_m =
+                    constant_tolerance(mapping, coding, tolerance_m).exceeded_from_m;
+                const double end_m = from_m.value_or(mapping.far_m());
+                constexpr double rounding =
+                    1 + 1e-12; // a few roundings of doubles of both formulas
+                for (int i = 0; i < 500 && end_m > mapping.near_m(); ++i) {
+                    const double zeta_m = mapping.near_m() + (end_m - mapping.near_m()) * i / 500;
+                    ASSERT_LE(error_envelope_m(mapping, coding, zeta_m), tolerance_m * rounding)
+                        << tolerance_m << " m at " << zeta_m << " m, float " << coding.is_float()
+                        << ", reversed " << mapping.range().reversed;
+                }
+                if (from_m) {
+                    ++found;
+                    const double behind_m = std::min(*from_m * (1 + 1e-9), mapping.far_m());
+                    EXPECT_GE(error_envelope_m(mapping, coding, behind_m) * rounding, tolerance_m)
+                        << tolerance_m << " m, float " << coding.is_float();
+                }
+            }
+        }
+    }
+    EXPECT_GT(found, 1000);
+}
+
+TEST(ToleranceRows, ShowSingleCodesAtBothEndsAndWhereTheToleranceBeginsToBeTooSmall)
+{
+    const DepthMapping mapping{seed_range()};
+    const DepthCoding coding = DepthCoding::unorm(32);
+    const auto tolerance = constant_tolerance(mapping, coding, 1e-8);
+    const auto rows = tolerance_rows(mapping, coding, 64, tolerance);
+    EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+        return a.zeta_m <= b.zeta_m;
+    })) << "each distance once";
+    EXPECT_EQ(rows.front().zeta_m, 4);
+    EXPECT_EQ(rows.back().zeta_m, 50);
+    for (const double centre_m : {4.0, *tolerance.exceeded_from_m, 50.0}) {
+        const double width_m = 8.01 * code_step_m(mapping, coding, centre_m);
+        const auto near_it = std::count_if(rows.begin(), rows.end(), [&](const auto& row) {
+            return std::abs(row.zeta_m - centre_m) <= width_m;
+        });
+        EXPECT_GE(near_it, 129) << centre_m;
+    }
+    // In detail the teeth reach the envelope: 16 samples a code miss its height by 1/16 at most.
+    const auto highest =
+        std::max_element(rows.end() - 129, rows.end(), [](const auto& a, const auto& b) {
+            return std::abs(a.formula_error_m) < std::abs(b.formula_error_m);
+        });
+    EXPECT_GT(std::abs(highest->formula_error_m), (1 - 1.0 / 8) * 6.694e-8);
+}
+
+} // namespace
+} // namespace gnomon::analysis
