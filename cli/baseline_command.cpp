@@ -77,6 +77,13 @@ void add_baseline_command(CLI::App& program)
     CLI::App* command = program.add_subcommand(
         "baseline", "Save, list or compare the results that a run is held to (`gnomon gate`)");
     command->require_subcommand(1);
+    // Before its own commands, which take it over.
+    command->footer(
+        "Exit status: 0 done; 2 there is no run in RUN, or FILE is no baseline; 3 there "
+        "is no baseline; 4 FILE cannot be written; 5 the run is incomplete.\n\n"
+        "Examples:\n"
+        "  gnomon baseline save run --baseline baseline.json\n"
+        "  gnomon baseline diff baseline.json run");
     CLI::App* save = command->add_subcommand("save", "Save a run's results as a baseline");
     save->add_option("RUN", options->run, "The folder of a run, as `gnomon sweep --out` leaves it")
         ->required();
@@ -94,12 +101,6 @@ void add_baseline_command(CLI::App& program)
     diff->add_option("FILE", options->file, "The baseline")->required();
     diff->add_option("RUN", options->run, "The run to compare with it")->required();
     diff->callback([options] { compare_with_baseline(*options); });
-    command->footer(
-        "Exit status: 0 done; 2 there is no run in RUN, or FILE is no baseline; 3 there "
-        "is no baseline; 4 FILE cannot be written; 5 the run is incomplete.\n\n"
-        "Examples:\n"
-        "  gnomon baseline save run --baseline baseline.json\n"
-        "  gnomon baseline diff baseline.json run");
 }
 
 } // namespace gnomon::cli

@@ -27,7 +27,7 @@ const CLI::App& command_below(const CLI::App& app, const std::string& name)
     if (names.empty()) {
         throw scene::InputError(fmt::format("{}; {} has none below it", unknown, app.get_name()));
     }
-    const std::string nearest = scene::nearest_word(name, names);
+    const std::string nearest = scene::similar_word(name, names);
     throw scene::InputError(fmt::format("{}; {}", unknown,
                                         nearest.empty()
                                             ? std::string{"`gnomon --help` lists them"}

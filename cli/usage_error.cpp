@@ -59,16 +59,16 @@ std::string usage_error(const CLI::App& program, const CLI::ParseError& error)
     }
     const std::string& word = unknown.front();
     const bool is_option = word.starts_with('-');
-    const bool is_letter = is_option && !word.starts_with("--"); // which is near to every word
-    const std::string nearest =
-        is_letter ? std::string{}
-                  : scene::nearest_word(word.substr(0, word.find('=')),
-                                        is_option ? option_names(app) : command_names(app));
-    if (nearest.empty()) {
+    const std::vector<std::string> known = is_option ? option_names(app) : command_names(app);
+    if (known.empty()) { // no command of this one's own: an argument too many
         return fmt::format("{}; see {}", error.what(), help);
     }
-    return fmt::format("unknown {} {}; did you mean {}? {} lists them",
-                       is_option ? "option" : "command", scene::one_line(word), nearest, help);
+    const bool is_letter = is_option && !word.starts_with("--"); // which is near to every word
+    const std::string similar =
+        is_letter ? std::string{} : scene::similar_word(word.substr(0, word.find('=')), known);
+    return fmt::format("unknown {} {}; {}{} lists them", is_option ? "option" : "command",
+                       scene::one_line(word),
+                       similar.empty() ? "" : fmt::format("did you mean {}? ", similar), help);
 }
 
 } // namespace gnomon::cli

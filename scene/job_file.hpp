@@ -86,5 +86,8 @@ struct JobFile {
 /// The candidate that needs the fewest edits to become `word`; empty if there is none.
 [[nodiscard]] std::string nearest_word(std::string_view word,
                                        const std::vector<std::string>& candidates);
+/// The same where at most half of the longer one's letters are edited; else empty: nobody meant it.
+[[nodiscard]] std::string similar_word(std::string_view word,
+                                       const std::vector<std::string>& candidates);
 
 } // namespace gnomon::scene

@@ -6,6 +6,9 @@
 namespace gnomon::scene {
 namespace {
 
+// A word may come from a hostile file; beyond this length no candidate is near anyway.
+constexpr std::size_t longest_compared = 128;
+
 /// Insertions, deletions and substitutions that turn `from` into `to` (Levenshtein's distance).
 std::size_t edit_distance(std::string_view from, std::string_view to)
 {
@@ -27,8 +30,6 @@ std::size_t edit_distance(std::string_view from, std::string_view to)
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates)
 {
-    // A word may come from a hostile file; beyond this length no candidate is near anyway.
-    constexpr std::size_t longest_compared = 128;
     std::string nearest;
     std::size_t fewest = 0;
     for (const std::string& candidate : candidates) {
@@ -39,6 +40,14 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
         }
     }
     return nearest;
+}
+
+std::string similar_word(std::string_view word, const std::vector<std::string>& candidates)
+{
+    std::string nearest = nearest_word(word, candidates);
+    const std::size_t longer = std::max(word.size(), nearest.size());
+    return 2 * edit_distance(word.substr(0, longest_compared), nearest) <= longer ? nearest
+                                                                                  : std::string{};
 }
 
 } // namespace gnomon::scene

@@ -18,7 +18,9 @@ TEST(CommandLine, RefusesWrongUsage)
 {
     for (const Mistake& mistake : {
              Mistake{{}, "subcommand is required"},
-             {{"nonsense"}, "unknown command nonsense"},
+             {{"xyzzyq"}, "unknown command xyzzyq; `gnomon --help` lists them"},
+             {{"compare", "-q"}, "unknown option -q; `gnomon compare --help` lists them"},
+             {{"help", "xyzzyq"}, "help: unknown command xyzzyq; `gnomon --help` lists them"},
              {{"comprae"},
               "unknown command comprae; did you mean compare? `gnomon --help` lists them"},
              {{"baseline", "sav"},
@@ -27,7 +29,7 @@ TEST(CommandLine, RefusesWrongUsage)
              {{"help", "compare", "it"}, "help: unknown command it; compare has none below it"},
              {{"compare", "--pictur=a.png"},
               "unknown option --pictur=a.png; did you mean --picture?"},
-             {{"--nonsense"}, "unknown option --nonsense"},
+             {{"--versoin"}, "unknown option --versoin; did you mean --version?"},
              {{"compare", "--nonsense"}, "--nonsense"},
              {{"compare"}, "give a job file, a scene file, or --builtin NAME"},
              {{"compare", "job.toml", "--builtin", "wall"}, "exclude each other"},

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 namespace gnomon::reports {
@@ -89,6 +90,40 @@ TEST(ComparisonTable, ShowsADashForARateWithoutADenominator)
     comparison.metrics = {};
     EXPECT_THAT(comparison_table(comparison),
                 HasSubstr("false lit                   0          -  of 0 blocked\n"));
+}
+
+/// The lines of a table whose fewest errors are with biases from `lo` to `hi`.
+std::string with_best_biases(float lo, float hi)
+{
+    analysis::Comparison comparison = with_counts();
+    comparison.diagnosis.emplace();
+    comparison.diagnosis->biases.emplace(analysis::BiasAnswers{
+        .critical_bias = {},
+        .curve = {scene::Image<float>{{1, 1}}, scene::Image<scene::PixelClass>{{1, 1}}},
+        .best = {.interval = {lo, hi}, .errors = {}},
+        .bounds = {},
+        .map = {},
+        .slopes = {}});
+    return comparison_table(comparison);
+}
+
+TEST(ComparisonTable, TellsAnIntervalOfBiasesByTheEndsThatItHas)
+{
+    constexpr float none = std::numeric_limits<float>::infinity();
+    EXPECT_THAT(with_best_biases(0.002F, 0.003F),
+                HasSubstr("fewest errors (0) from 0.002 to 0.003\n"));
+    EXPECT_THAT(with_best_biases(-none, -0.1687F),
+                HasSubstr("fewest errors (0) with -0.1687 or less\n"));
+    EXPECT_THAT(with_best_biases(0.5F, none), HasSubstr("fewest errors (0) with 0.5 or more\n"));
+    EXPECT_THAT(with_best_biases(-none, none), HasSubstr("fewest errors (0) with any bias\n"));
+}
+
+TEST(ComparisonTable, ShowsNoMinusBeforeZero)
+{
+    EXPECT_THAT(with_best_biases(-0.0F, 0.5F), HasSubstr("fewest errors (0) from 0 to 0.5\n"));
+    analysis::Comparison comparison = with_counts();
+    comparison.view.bias = {-0.0F, -0.0F, -0.0F};
+    EXPECT_THAT(comparison_table(comparison), HasSubstr("constant 0, slope 0, normal 0 texels"));
 }
 
 TEST(ComparisonTable, IsNarrowAndHasNoTrailingBlanks)

@@ -294,5 +294,17 @@ TEST(NearestWord, NeedsTheFewestEdits)
     EXPECT_EQ(nearest_word("x", {}), "");
 }
 
+TEST(SimilarWord, IsTheNearestThatSomebodyMayHaveMeant)
+{
+    const std::vector<std::string> words{"compare", "tune", "gate"};
+    EXPECT_EQ(similar_word("comprae", words), "compare");
+    EXPECT_EQ(similar_word("comp", words), "compare");
+    EXPECT_EQ(similar_word("tu", words), "tune"); // half of the longer word's letters
+    EXPECT_EQ(similar_word("t", words), "");
+    EXPECT_EQ(similar_word("gaet", words), "gate"); // half of the letters
+    EXPECT_EQ(similar_word("xyzzyq", words), "");
+    EXPECT_EQ(similar_word("x", {}), "");
+}
+
 } // namespace
 } // namespace gnomon::scene::test

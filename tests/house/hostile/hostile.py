@@ -165,6 +165,12 @@ def run_of(gnomon):
     return prepare
 
 
+def aov_of(gnomon):
+    def prepare(d):
+        subprocess.run([gnomon, *compare("--aov", str(d / "a.exr"))], check=True, capture_output=True)
+    return prepare
+
+
 def bad_results(gnomon):
     """Cases, runs, baselines and tables of which something is damaged. What a change leaves sound may pass."""
     for what, change in DAMAGES.items():
@@ -177,6 +183,12 @@ def bad_results(gnomon):
             more = ["--baseline", "{d}/b.json"] if verb == "gate" else []
             yield Case(f"{verb}: database: {what}", [verb, "{d}/run", *more], (0, 2, 4, 5), "",
                        damaged(gnomon, run_of, "run/results.sqlite", change), is_quick=quick and verb == "status")
+        yield Case(f"merge: one database: {what}", ["merge", "{d}/all", "{d}/run"], (0, 2, 4, 5), "",
+                   damaged(gnomon, run_of, "run/results.sqlite", change))
+        # What a change leaves readable may be certified, or refuted.
+        codes = (0, 1, 2) if what in ("end cut", "middle") else (2,)
+        yield Case(f"certify: AOV: {what}", ["certify", "{d}/a.exr", "--builtin", "wall", *TINY], codes, "",
+                   damaged(gnomon, aov_of, "a.exr", change), is_quick=quick)
         yield Case(f"gate: baseline: {what}", ["gate", "{d}/run", "--baseline", "{d}/b.json"], (0, 1, 2, 3), "",
                    damaged(gnomon, run_of, "b.json", change))
         yield Case(f"figure: table: {what}", ["figure", "bias-curve", "{d}/run", "-o", "{d}/f.svg"], (0, 2, 4), "",
@@ -288,6 +300,13 @@ def others(gnomon):
     directional = ["--set", "light.type=directional", "--set", "light.direction=[0,-1,0.3]"]
     yield Case("directional: range of nothing", compare("--set", "shadow_map.near=1e-300", "--set",
                "shadow_map.far=2e-300", *directional, scene="yard"), (2,), "too close", is_quick=True)
+    yield Case("certify: of another job", ["certify", "{d}/a.exr", "--builtin", "yard", *TINY], (2,), "",
+               aov_of(gnomon))
+    yield Case("certify: no AOV", ["certify", "{d}/none.exr", "--builtin", "wall"], (2,), "none.exr")
+    yield Case("merge: into one of its runs", ["merge", "{d}/run", "{d}/run"], (2,), "", run_of(gnomon))
+    yield Case("merge: no run", ["merge", "{d}/all", "{d}/none"], (2,), "none", absent=("all",))
+    yield Case("merge: a run that is a file", ["merge", "{d}/all", "{d}/mine"], (2,), "mine", write("mine", b"mine"),
+               kept=("mine",), absent=("all",))
     for limit in (80, 200, 400, 800):
         yield Case(f"memory: {limit} MiB", ["compare", "--builtin", "sphere-plane", "--set",
                                             "shadow_map.resolution=4096"], (0, 2, 4), "", prepare=("limit", limit))
