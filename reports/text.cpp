@@ -16,19 +16,6 @@ bool starts_code_point(char c)
 
 } // namespace
 
-std::string grouped(std::uint64_t count)
-{
-    const std::string digits = std::to_string(count);
-    std::string text;
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && (digits.size() - i) % 3 == 0) {
-            text += ',';
-        }
-        text += digits[i];
-    }
-    return text;
-}
-
 std::string grouped_amount(double pixels)
 {
     if (pixels >= 99.95) {
@@ -83,11 +70,6 @@ std::string pad_right(std::string_view text, std::size_t columns)
 std::string pad_left(std::string_view text, std::size_t columns)
 {
     return std::string(columns - std::min(columns, text_columns(text)), ' ') + std::string{text};
-}
-
-std::string counted(std::uint64_t count, std::string_view noun)
-{
-    return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
 } // namespace gnomon::reports

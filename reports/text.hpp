@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/counted.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,8 +9,8 @@
 
 namespace gnomon::reports {
 
-/// A count with its thousands grouped: "1,048,578".
-[[nodiscard]] std::string grouped(std::uint64_t count);
+using scene::counted;
+using scene::grouped;
 
 /// An amount of pixels: whole and grouped from 100 on, else with as many decimals as make three
 /// digits, at most three: "367,864", "12.4", "0.003"; what is smaller "<0.001".
@@ -33,8 +35,5 @@ namespace gnomon::reports {
 /// The text followed, or preceded, by blanks up to `columns`.
 [[nodiscard]] std::string pad_right(std::string_view text, std::size_t columns);
 [[nodiscard]] std::string pad_left(std::string_view text, std::size_t columns);
-
-/// Counts of `count` things: "1 triangle", "2 triangles".
-[[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);
 
 } // namespace gnomon::reports

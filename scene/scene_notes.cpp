@@ -1,5 +1,6 @@
 #include "scene/scene_notes.hpp"
 
+#include "scene/counted.hpp"
 #include "scene/job.hpp"
 #include "scene/triangles.hpp"
 
@@ -14,16 +15,11 @@ namespace {
 
 using Notes = std::vector<SceneNote>;
 
-std::string number_of(std::uint64_t count, std::string_view noun)
-{
-    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 /// "1 material is", "2 materials are".
 std::string counted_with_verb(std::uint64_t count, std::string_view noun, std::string_view singular,
                               std::string_view plural)
 {
-    return fmt::format("{} {}", number_of(count, noun), count == 1 ? singular : plural);
+    return fmt::format("{} {}", counted(count, noun), count == 1 ? singular : plural);
 }
 
 void note(Notes& notes, std::string_view kind, std::uint64_t count, std::string text)
@@ -39,7 +35,7 @@ void note_camera(Notes& notes, std::uint64_t cameras, const SceneDefaults& defau
         note(notes, "unused_cameras", cameras,
              fmt::format("{} of the file cannot be used: the view frames the scene instead; give "
                          "one under [camera]",
-                         number_of(cameras, "camera")));
+                         counted(cameras, "camera")));
         return;
     }
     note(notes, "camera_from_file", 1, "the camera is the file's own");
@@ -57,7 +53,7 @@ void note_light(Notes& notes, std::uint64_t lights, const SceneDefaults& default
              fmt::format("{} of the file cannot be used (point lights, and spots of 180 degrees "
                          "and more, have no single shadow map): the default sun shines instead; "
                          "give a light under [light]",
-                         number_of(lights, "light")));
+                         counted(lights, "light")));
         return;
     }
     note(notes, "light_from_file", 1,
@@ -74,11 +70,11 @@ void note_alpha(Notes& notes, const ContentCounts& counts)
     note(notes, "alpha_mask", counts.masked_materials,
          fmt::format("{} cut out by alpha, but taken as solid: {}",
                      counted_with_verb(counts.masked_materials, "material", "is", "are"),
-                     number_of(counts.masked_objects, "object")));
+                     counted(counts.masked_objects, "object")));
     note(notes, "alpha_blend", counts.blended_materials,
          fmt::format("{} transparent, but taken as solid: {}",
                      counted_with_verb(counts.blended_materials, "material", "is", "are"),
-                     number_of(counts.blended_objects, "object")));
+                     counted(counts.blended_objects, "object")));
     note(notes, "alpha_zero", counts.clear_materials,
          fmt::format("{} a base alpha of 0, and would not be seen at all, but {} taken as solid",
                      counted_with_verb(counts.clear_materials, "material", "has", "have"),
@@ -114,7 +110,7 @@ void note_left_out(Notes& notes, const TriangleScene& scene)
          fmt::format("points and lines cast no shadow, and {} left out",
                      scene.ignored_primitives == 1
                          ? "one is"
-                         : fmt::format("{} are", scene.ignored_primitives)));
+                         : fmt::format("{} are", grouped(scene.ignored_primitives))));
     note(notes, "flat_triangles", scene.dropped_triangles,
          fmt::format("{} left out: no area is left in float32",
                      counted_with_verb(scene.dropped_triangles, "flat triangle", "is", "are")));

@@ -247,6 +247,17 @@ TEST(SceneNotes, CountWhatIsLeftOut)
                     "float32"));
 }
 
+TEST(SceneNotes, GroupTheThousandsOfACount)
+{
+    std::string flat;
+    for (int i = 0; i < 1200; ++i) {
+        flat += "f 1 1 2\n";
+    }
+    EXPECT_THAT(notes_of("a.obj", std::string{triangle_obj} + flat),
+                ElementsAre("flat_triangles 1200: 1,200 flat triangles are left out: no area is "
+                            "left in float32"));
+}
+
 TEST(RequiredExtensions, AreRefusedByNameUnlessTheyMoveNoTriangle)
 {
     for (const std::string extension :
