@@ -11,10 +11,11 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Where the envelope of a constant Δ is as large as the tolerance [m], of a perspective.
-double distance_of_error_m(const DepthMapping& mapping, double depth_tolerance, double tolerance_m)
+/// Where a perspective's envelope is as large as the tolerance [m].
+/// @param depth_error  Δ, the same at every distance.
+double distance_of_error_m(const DepthMapping& mapping, double depth_error, double tolerance_m)
 {
-    const double a = depth_tolerance * mapping.slope_m(1); // AΔ: the slope is Aζ²
+    const double a = depth_error * mapping.slope_m(1); // AΔ: the slope is Aζ²
     const double product = a * tolerance_m;
     return 2 * tolerance_m / (product + std::sqrt(product * product + 4 * product));
 }

@@ -52,8 +52,8 @@ struct DepthStudy {
 [[nodiscard]] std::vector<DepthErrorRow> formula_rows(const DepthMapping& mapping,
                                                       const DepthCoding& coding, std::size_t count);
 
-/// The same, and between them eight codes in detail, with 16 rows each: at near, at far, and where
-/// the tolerance begins to be too small, or in the middle (√(near·far)) if that is nowhere between.
+/// The same, and between them eight codes in detail, 129 rows: at near, at far, and where the
+/// tolerance begins to be too small, or in the middle (√(near·far)) if that is nowhere between.
 /// @return by growing distance, each once.
 [[nodiscard]] std::vector<DepthErrorRow> tolerance_rows(const DepthMapping& mapping,
                                                         const DepthCoding& coding,

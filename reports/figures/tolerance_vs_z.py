@@ -95,6 +95,8 @@ def _draw_range(axes, tables):
     axes.plot(*tables.dots, ".", color=style.SKY, markersize=2.5, label="|error|, samples")
     axes.plot(zeta, envelope, color=style.VERMILION, label="envelope (formula)")
     axes.axhline(tables.tolerance, color=style.BLUE, label="tolerance")
+    if tables.exceeded_from is not None:
+        axes.axvline(tables.exceeded_from, color=style.BLUE, linewidth=1, linestyle=":")
     axes.set_yscale("log")
     axes.set_xlim(zeta[0], zeta[-1])
     axes.set_ylim(0.1 * min(envelope[0], tables.tolerance), 2.2 * max(envelope[-1], tables.tolerance))

@@ -133,7 +133,7 @@ class ToleranceVsZ(unittest.TestCase):
 
     def test_fails_where_the_envelope_exceeds_it(self):
         self.assertEqual(self.tables.tolerance, 1e-8)
-        # sqrt(T/(AΔ)) with A = 0.23/m and Δ = 1/2/(2^32 - 1), to the eighth of a code between samples.
+        # sqrt(T/(AΔ)) with A = 0.23/m and Δ = 1/2/(2^32 - 1), to half a step between codes, 1e-8 m.
         self.assertAlmostEqual(self.tables.exceeded_from, (2e-8 * (2**32 - 1) / 0.23)**0.5, delta=1e-8)
         zeta, envelope = self.tables.envelope
         self.assertTrue(numpy.all((envelope > 1e-8) == (zeta >= self.tables.exceeded_from)))
