@@ -5,6 +5,7 @@
 #include "scene/import_gltf.hpp"
 #include "scene/import_mesh.hpp"
 #include "scene/import_names.hpp"
+#include "scene/import_ply.hpp"
 #include "scene/import_surface.hpp"
 #include "scene/import_text.hpp"
 
@@ -330,10 +331,14 @@ void write_imported_scene(const std::filesystem::path& scene_file, const ImportL
     keep_known_formats(importer);
     try {
         const OwnWords words = read_own_words(scene_file);
+        const bool is_ply = is_named(scene_file, {".ply"});
+        if (is_ply) {
+            require_whole_ply(scene_file);
+        }
         const aiScene& scene = read(importer, scene_file.string());
         require_triangles(words.gltf, scene);
-        if (is_named(scene_file, {".ply"})) {
-            require_faces(scene_file, scene);
+        if (is_ply) {
+            require_ply_faces(scene_file, scene);
         }
         write_scene(scene, words, limits, output);
     } catch (const UnsupportedContent& content) {

@@ -6,7 +6,13 @@
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::scene {
@@ -324,6 +330,68 @@ TEST(LostTriangles, OfPlyStripsAreRefused)
                             "0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n"),
         HasSubstr("it has triangle strips (element tristrips), which are not read; export faces "
                   "instead"));
+}
+
+/// A square's two triangles; the header names the format, and a property that nobody reads.
+std::string square_ply(std::string_view format, std::string_view data)
+{
+    return fmt::format(
+        "ply\nformat {} 1.0\ncomment a square\nelement vertex 4\nproperty float x\n"
+        "property float y\nproperty float z\nproperty uchar quality\nelement face 2\n"
+        "property list uchar ushort vertex_indices\nend_header\n{}",
+        format, data);
+}
+
+TEST(LostTriangles, OfAPlyFileThatIsCutOffAreRefused)
+{
+    const std::vector<std::string> lines{"0 0 0 1\n", "1 0 0 1\n", "1 1 0 1\n",
+                                         "0 1 0 1\n", "3 0 1 2\n", "3 0 2 3\n"};
+    std::string data;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        EXPECT_THAT(
+            refusal_of("a.ply", square_ply("ascii", data + "\ncomment none\n")),
+            HasSubstr(i < 4
+                          ? fmt::format("{} of 4 \"vertex\" lines are there: it is cut off", i)
+                          : fmt::format("{} of 2 \"face\" lines are there: it is cut off", i - 4)));
+        data += lines[i];
+    }
+    const TemporaryFolder folder;
+    EXPECT_EQ(load_scene_file(folder.write("whole.ply", square_ply("ascii", data)))
+                  .scene.triangles.size(),
+              2U);
+}
+
+TEST(LostTriangles, OfABinaryPlyFileAreRefusedWhereverItIsCut)
+{
+    for (const bool is_big : {false, true}) {
+        const std::string_view format = is_big ? "binary_big_endian" : "binary_little_endian";
+        const auto bytes_of = [&](auto value) {
+            auto bytes = std::bit_cast<std::array<char, sizeof value>>(value);
+            if (is_big) {
+                std::ranges::reverse(bytes);
+            }
+            return std::string(bytes.begin(), bytes.end());
+        };
+        std::string data;
+        for (const auto& [x, y] :
+             {std::pair{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 1.0F}, {0.0F, 1.0F}}) {
+            data += bytes_of(x) + bytes_of(y) + bytes_of(0.0F) + '\1';
+        }
+        for (const std::array<std::uint16_t, 3>& face :
+             {std::array<std::uint16_t, 3>{0, 1, 2}, std::array<std::uint16_t, 3>{0, 2, 3}}) {
+            data += '\3' + bytes_of(face[0]) + bytes_of(face[1]) + bytes_of(face[2]);
+        }
+        for (std::size_t length = 0; length < data.size(); ++length) {
+            EXPECT_THAT(refusal_of("a.ply", square_ply(format, data.substr(0, length))),
+                        HasSubstr("it is cut off"))
+                << format << ", " << length << " bytes of data";
+        }
+        const TemporaryFolder folder;
+        EXPECT_EQ(load_scene_file(folder.write("whole.ply", square_ply(format, data)))
+                      .scene.triangles.size(),
+                  2U)
+            << format;
+    }
 }
 
 /// An OBJ file of one polygon: the corners of a circle.
