@@ -183,29 +183,52 @@ void require_bind_matrices(const Json& gltf)
     }
 }
 
+constexpr std::size_t triangle_mode = 4; // the modes are GL's: strips and fans follow
+
+/// @return a third of the corners
+std::uint64_t whole_triangles(const Json& mesh, std::size_t corners)
+{
+    if (corners % 3 != 0) {
+        const Json& name = at(mesh, "name");
+        throw std::runtime_error{
+            fmt::format("mesh \"{}\" has {} indices, which are no whole number of triangles",
+                        name.is_string() ? name.get<std::string>() : "", corners)};
+    }
+    return corners / 3;
+}
+
 /// How many triangles a primitive's indices make.
 std::uint64_t triangle_count(const Json& gltf, const Json& mesh, const Json& primitive)
 {
-    constexpr std::size_t triangles = 4; // the modes are GL's: strips and fans follow
     constexpr std::size_t last_mode = 6;
     const Json& positions = positions_of(gltf, primitive);
     const Json& indices = at(primitive, "indices");
     const Json& corners = indices.is_null() ? positions : indexed(at(gltf, "accessors"), indices);
-    const std::size_t mode = number(at(primitive, "mode")).value_or(triangles);
+    const std::size_t mode = number(at(primitive, "mode")).value_or(triangle_mode);
     const std::size_t count = number(at(corners, "count")).value_or(0);
-    if (positions.is_null() || mode < triangles || mode > last_mode) {
+    if (positions.is_null() || mode < triangle_mode || mode > last_mode) {
         return 0;
     }
-    if (mode != triangles) {
+    if (mode != triangle_mode) {
         return count < 2 ? 0 : count - 2;
     }
-    if (count % 3 != 0) {
-        const Json& name = at(mesh, "name");
-        throw std::runtime_error{
-            fmt::format("mesh \"{}\" has {} indices, which are no whole number of triangles",
-                        name.is_string() ? name.get<std::string>() : "", count)};
+    return whole_triangles(mesh, count);
+}
+
+/// In glTF 1.0 meshes and accessors are named. An index out of range Assimp does not pass there.
+void require_whole_triangles_of_1_0(const Json& gltf)
+{
+    for (const Json& mesh : at(gltf, "meshes")) {
+        for_each_primitive(mesh, [&](const Json& primitive) {
+            const Json& indices = at(primitive, "indices");
+            if (indices.is_string() &&
+                number(at(primitive, "mode")).value_or(triangle_mode) == triangle_mode) {
+                const Json& accessor =
+                    at(at(gltf, "accessors"), indices.get_ref<const std::string&>());
+                (void)whole_triangles(mesh, number(at(accessor, "count")).value_or(0));
+            }
+        });
     }
-    return count / 3;
 }
 
 /// Which of the meshes stand in the scene that is shown.
@@ -267,9 +290,11 @@ GltfFacts read_gltf_facts(const std::filesystem::path& scene_file)
     facts.unread_extensions = unread_extensions(gltf);
     const auto required = texts(at(gltf, "extensionsRequired"));
     facts.requires_draco = std::ranges::find(required, draco) != required.end();
-    if (at(gltf, "meshes").is_array() && at(gltf, "nodes").is_array()) { // not so in glTF 1.0
+    if (at(gltf, "meshes").is_array() && at(gltf, "nodes").is_array()) {
         require_bind_matrices(gltf);
         facts.triangles = placed_triangles(gltf);
+    } else if (at(gltf, "meshes").is_object()) {
+        require_whole_triangles_of_1_0(gltf);
     }
     return facts;
 }

@@ -22,8 +22,8 @@ struct GltfFacts {
     bool requires_draco = false;
 };
 
-/// Reads the JSON of a .gltf or .glb file; of a file that is neither, or of glTF 1.0 but for its
-/// extensions, nothing is said.
+/// Reads the JSON of a .gltf or .glb file; of a file that is neither nothing is said, and of
+/// glTF 1.0 no number of triangles.
 /// @throws UnsupportedContent  naming an extension that the file requires, or a skin that Assimp
 ///                             crashes on.
 /// @throws std::runtime_error  naming a mesh whose indices make no whole number of triangles.

@@ -321,6 +321,15 @@ TEST(LostTriangles, AreRefusedWhereIndicesMakeNoWholeNumber)
                 HasSubstr("has 5 indices, which are no whole number of triangles"));
 }
 
+TEST(LostTriangles, AreRefusedInGltf10Too)
+{
+    const std::string text =
+        R"({"asset":{"version":"1.0"},"accessors":{"corners":{"count":35}},"meshes":{"m":)"
+        R"({"name":"box","primitives":[{"indices":"corners","mode":4}]}}})";
+    EXPECT_THAT(refusal_of("a.gltf", text),
+                HasSubstr("mesh \"box\" has 35 indices, which are no whole number of triangles"));
+}
+
 TEST(LostTriangles, OfPlyStripsAreRefused)
 {
     EXPECT_THAT(
