@@ -110,7 +110,8 @@ void add_errors(ConfigurationMetrics& metrics)
         [](const Metrics& of) { return number(of.false_shadow_rate); });
     add(outcome(measured("false_lit_rate", "", "`false_lit` / `pixels.blocked`"), "false-lit rate"),
         [](const Metrics& of) { return number(of.false_lit_rate); });
-    add(outcome(measured("error_rate", "", "both / (`pixels.lit` + `pixels.blocked`)"),
+    add(outcome(measured("error_rate", "",
+                         "(`false_shadow` + `false_lit`) / (`pixels.lit` + `pixels.blocked`)"),
                 "error rate"),
         [](const Metrics& of) { return number(of.error_rate); });
     add(outcome(measured("mean_abs_error", "",
@@ -246,12 +247,12 @@ void add_best(CurveMetrics& metrics)
     };
     add_end(
         "bias_curve.best_interval.lo",
-        "constant biases with the fewest errors, of all that differ in nothing else; this and all "
-        "below: [bias_curve.md](bias_curve.md)",
+        "the constant biases with the fewest errors, all else equal; for this and all below see "
+        "[bias_curve.md](bias_curve.md)",
         &BiasInterval::lo);
     add_end("bias_curve.best_interval.hi", "", &BiasInterval::hi);
     metrics.push_back(
-        {outcome(pixel_count("bias_curve.best_errors", "how many wrong pixels those have"),
+        {outcome(pixel_count("bias_curve.best_errors", "wrong pixels with any of them"),
                  "errors at the best bias [pixels]"),
          [](const CurveResult& curve) {
              return curve.best ? MetricValue{curve.best->errors.total()} : none;
@@ -281,12 +282,12 @@ void add_recommended(CurveMetrics& metrics)
         BiasLength Recommendation::*length;
     };
     for (const auto& [name, meaning, length] :
-         {Length{
-              "bias",
-              "the constant bias to take: the middle of the lowest broad valley of the amount of "
-              "error without softening; in metres along the light's axis and in texels at the "
-              "median receiver",
-              &Recommendation::bias},
+         {Length{"bias",
+                 "the recommended constant bias: the middle of the lowest broad valley of the "
+                 "amount of "
+                 "error without softening; in metres along the light's axis and in texels at the "
+                 "median receiver",
+                 &Recommendation::bias},
           Length{"low", "where that valley begins", &Recommendation::low},
           Length{"high", "and ends; without a value where nothing limits it",
                  &Recommendation::high}}) {
@@ -304,7 +305,7 @@ void add_recommended(CurveMetrics& metrics)
     metrics.push_back({MetricDescription{"bias_curve.recommended.views",
                                          MetricType::count,
                                          "",
-                                         "how many views it is made of",
+                                         "number of views it was derived from",
                                          {}},
                        [](const CurveResult& curve) {
                            return curve.recommended

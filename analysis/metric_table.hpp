@@ -31,7 +31,7 @@ enum class MetricType : std::uint8_t {
 /// What one number of a result is: everybody who writes, judges or describes it reads this.
 struct MetricDescription {
     std::string
-        name; ///< the way to it in `gnomon compare --json`, joined with dots; a column's name, too
+        name; ///< its path in `gnomon compare --json`, joined with dots; a column's name, too
     MetricType type = MetricType::number;
     std::string_view unit; ///< empty: a share, or none
     std::string meaning;   ///< with the denominator of a rate; Markdown

@@ -60,7 +60,7 @@ std::string section(std::string_view heading, std::string_view words, const Metr
 std::string document()
 {
     return "# Metrics\n\n"
-           "Every number that is measured of a configuration. Its name is the way to it in what "
+           "Every number that is measured of a configuration. Its name is its path in what "
            "`gnomon compare --json`\n"
            "[prints](json_schema.md), joined with dots: `pixels.lit` is `pixels` → `lit`; members "
            "of an array are counted\n"
@@ -76,7 +76,8 @@ std::string document()
            section("The map", "As fitted; not in the JSON, where `frustum` says more.",
                    map_metrics()) +
            section("The pixels", "With the configuration's own bias.", configuration_metrics()) +
-           section("The bias curve", "Of all constant biases at once; none for `hardware`.",
+           section("The bias curve",
+                   "Of all constant biases at once; not available for `hardware`.",
                    curve_metrics());
 }
 
