@@ -1,6 +1,6 @@
 #include "analysis/comparison.hpp"
 
-#include "analysis/chain/float_map.hpp"
+#include "analysis/causes/float_map.hpp"
 
 #include <fmt/format.h>
 

@@ -2,15 +2,15 @@
 
 #include "analysis/advice/remedy.hpp"
 #include "analysis/answers/diagnosis.hpp"
-#include "analysis/bias_reruns.hpp"
-#include "analysis/bias_verification.hpp"
-#include "analysis/chain/precision_kinds.hpp"
+#include "analysis/bias/bias_reruns.hpp"
+#include "analysis/bias/bias_verification.hpp"
+#include "analysis/causes/precision_kinds.hpp"
 #include "analysis/evaluate/evaluation.hpp"
-#include "analysis/metrics.hpp"
+#include "analysis/metrics/metrics.hpp"
 #include "analysis/renderers.hpp"
-#include "scene/job.hpp"
+#include "scene/import/scene_file.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
-#include "scene/scene_file.hpp"
 
 #include <cstdint>
 #include <optional>

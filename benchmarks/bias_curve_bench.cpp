@@ -1,10 +1,10 @@
-#include "analysis/bias_curve.hpp"
+#include "analysis/bias/bias_curve.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/lookup/critical_bias.hpp"
-#include "cli/renderers.hpp"
+#include "cli/compare/renderers.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
 #include "seconds_of.hpp"
 

@@ -1,8 +1,8 @@
-#include "analysis/chain/blocked_causes.hpp"
-#include "analysis/chain/lit_causes.hpp"
-#include "cli/renderers.hpp"
+#include "analysis/causes/blocked_causes.hpp"
+#include "analysis/causes/lit_causes.hpp"
+#include "cli/compare/renderers.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "subject.hpp"
 
 #include <benchmark/benchmark.h>

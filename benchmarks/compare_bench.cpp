@@ -1,6 +1,6 @@
 #include "analysis/comparison.hpp"
 #include "raw_embree.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "subject.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #include "raw_embree.hpp"
 
-#include "reference_rt/embree.hpp"
+#include "reference_rt/traversal/embree.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/image.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
 #include "scene/triangles.hpp"
 

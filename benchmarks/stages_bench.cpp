@@ -1,4 +1,4 @@
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "subject.hpp"
 
 #include <benchmark/benchmark.h>

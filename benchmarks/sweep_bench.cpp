@@ -2,9 +2,9 @@
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "raw_embree.hpp"
-#include "scene/job_file.hpp"
-#include "scene/job_source.hpp"
-#include "scene/sweep_space.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/source.hpp"
+#include "scene/job/sweep_space.hpp"
 #include "subject.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,5 +1,5 @@
 #include "raw_embree.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "subject.hpp"
 
 #include <benchmark/benchmark.h>

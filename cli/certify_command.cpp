@@ -2,8 +2,8 @@
 
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
-#include "cli/standard_output.hpp"
-#include "reference_rt/certificate.hpp"
+#include "cli/system/standard_output.hpp"
+#include "reference_rt/certificate/certificate.hpp"
 #include "reports/aov_read.hpp"
 #include "reports/exact_inputs.hpp"
 #include "scene/error.hpp"

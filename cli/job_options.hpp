@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/job_file.hpp"
-#include "scene/job_source.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/source.hpp"
 
 #include <CLI/CLI.hpp>
 

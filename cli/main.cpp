@@ -1,8 +1,8 @@
-#include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/process.hpp"
-#include "cli/standard_output.hpp"
-#include "cli/usage_error.hpp"
+#include "cli/program/commands.hpp"
+#include "cli/program/usage_error.hpp"
+#include "cli/system/process.hpp"
+#include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>

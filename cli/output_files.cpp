@@ -2,7 +2,7 @@
 
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

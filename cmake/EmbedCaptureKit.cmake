@@ -1,6 +1,6 @@
 # cmake -DFILES="a;b" -DOUTPUT=file.cpp -P EmbedCaptureKit.cmake: the files that `gnomon capture-kit`
 # writes, as string literals.
-set(body "// NOLINTBEGIN: generated\n#include \"cli/capture_kit_command.hpp\"\n\n")
+set(body "// NOLINTBEGIN: generated\n#include \"cli/evaluate/capture_kit_command.hpp\"\n\n")
 string(APPEND body "namespace gnomon::cli {\n\n")
 string(APPEND body "std::span<const KitFile> capture_kit_files()\n{\n    static const KitFile files[] = {\n")
 foreach(path IN LISTS FILES)

@@ -8,9 +8,11 @@ list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_target
 install(TARGETS gnomon_options ${gnomon_layer_targets} gnomon_images gnomon_openimageio
         EXPORT gnomon-targets)
 # The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
-install(FILES reference_rt/certificate.hpp reference_rt/exact_light.hpp
-              reference_rt/rounded_truth.hpp reference_rt/truth.hpp
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/reference_rt)
+foreach(header certificate/certificate.hpp light/exact_light.hpp rounded/rounded_truth.hpp truth.hpp)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES reference_rt/${header}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/reference_rt/${folder})
+endforeach()
 foreach(layer scene raster_gl analysis reports)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon
           FILES_MATCHING PATTERN "*.hpp" PATTERN shaders EXCLUDE)

@@ -2,7 +2,7 @@
 
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <string>
 #include <vector>

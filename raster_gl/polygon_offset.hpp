@@ -1,7 +1,7 @@
 #pragma once
 
 #include "raster_gl/context.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <vector>
 

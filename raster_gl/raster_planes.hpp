@@ -3,9 +3,9 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/shadow_map.hpp"
-#include "scene/depth_planes.hpp"
-#include "scene/depth_sample.hpp"
-#include "scene/raster_plane.hpp"
+#include "scene/depth/raster_plane.hpp"
+#include "scene/depth/sample.hpp"
+#include "scene/light/depth_planes.hpp"
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/program.hpp"
 #include "scene/image.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
 
 #include <cstdint>

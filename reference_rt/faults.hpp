@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference_rt/contact.hpp"
+#include "reference_rt/exact/contact.hpp"
 #include "scene/triangles.hpp"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "reference_rt/truth.hpp"
 
-#include "reference_rt/classify.hpp"
-#include "reference_rt/embree_scene.hpp"
-#include "reference_rt/predicates.hpp"
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/pixels/classify.hpp"
+#include "reference_rt/traversal/embree_scene.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

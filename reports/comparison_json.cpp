@@ -7,7 +7,7 @@
 #include "reports/json_values.hpp"
 #include "reports/metric_json.hpp"
 #include "reports/scene_notes_json.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <algorithm>
 #include <optional>

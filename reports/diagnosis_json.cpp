@@ -1,6 +1,6 @@
 #include "reports/diagnosis_json.hpp"
 
-#include "analysis/part_table.hpp"
+#include "analysis/metrics/part_table.hpp"
 #include "reports/advice_json.hpp"
 #include "reports/findings.hpp"
 #include "reports/json_values.hpp"

@@ -1,7 +1,7 @@
 #include "reports/diagnosis_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/ratio.hpp"
+#include "analysis/metrics/ratio.hpp"
 #include "reports/findings.hpp"
 #include "reports/remedy_words.hpp"
 #include "reports/table_lines.hpp"

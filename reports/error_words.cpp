@@ -1,8 +1,8 @@
 #include "reports/error_words.hpp"
 
-#include "analysis/bias_units.hpp"
-#include "analysis/quantiles.hpp"
-#include "analysis/ratio.hpp"
+#include "analysis/bias/bias_units.hpp"
+#include "analysis/metrics/quantiles.hpp"
+#include "analysis/metrics/ratio.hpp"
 #include "reports/text.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "reports/facing_normal.hpp"
 
-#include "scene/camera.hpp"
+#include "scene/view/camera.hpp"
 
 #include <glm/geometric.hpp>
 

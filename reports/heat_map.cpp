@@ -1,6 +1,6 @@
 #include "reports/heat_map.hpp"
 
-#include "analysis/chain/cause.hpp"
+#include "analysis/causes/cause.hpp"
 #include "reports/description.hpp"
 #include "reports/images/image_encoding.hpp"
 #include "reports/output_file.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/metric_table.hpp"
+#include "analysis/metrics/metric_table.hpp"
 #include "reports/json_values.hpp"
 
 #include <string_view>

@@ -1,7 +1,7 @@
 #include "reports/output_name.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

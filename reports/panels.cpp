@@ -1,7 +1,7 @@
 #include "reports/panels.hpp"
 
 #include "reports/facing_normal.hpp"
-#include "scene/camera.hpp"
+#include "scene/view/camera.hpp"
 
 #include <glm/geometric.hpp>
 

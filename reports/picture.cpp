@@ -4,7 +4,7 @@
 #include "reports/output_file.hpp"
 #include "reports/panels.hpp"
 #include "reports/text.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "reports/remedy_words.hpp"
 
 #include "analysis/advice/map_cost.hpp"
-#include "analysis/ratio.hpp"
+#include "analysis/metrics/ratio.hpp"
 #include "reports/text.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/scenes.hpp"
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/tune.hpp"
+#include "analysis/tune/tune.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #include "scene/load_scene.hpp"
 
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 
 namespace gnomon::scene {

@@ -1,7 +1,7 @@
 #include "scene/scene_notes.hpp"
 
 #include "scene/counted.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/triangles.hpp"
 
 #include <fmt/format.h>

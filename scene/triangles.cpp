@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <fmt/format.h>

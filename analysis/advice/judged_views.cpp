@@ -1,10 +1,10 @@
 #include "analysis/advice/judged_views.hpp"
 
-#include "analysis/quantiles.hpp"
+#include "analysis/metrics/quantiles.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "scene/error.hpp"
-#include "scene/nearby_views.hpp"
-#include "scene/view_settings.hpp"
+#include "scene/view/nearby.hpp"
+#include "scene/view/settings.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "analysis/metrics.hpp"
+#include "analysis/metrics/metrics.hpp"
 #include "analysis/renderers.hpp"
-#include "scene/job.hpp"
+#include "scene/import/scene_file.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
-#include "scene/scene_file.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/bias_curve.hpp"
-#include "scene/job.hpp"
+#include "analysis/bias/bias_curve.hpp"
+#include "scene/job/job.hpp"
 
 #include <string>
 

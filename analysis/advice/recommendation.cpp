@@ -1,7 +1,7 @@
 #include "analysis/advice/recommendation.hpp"
 
-#include "analysis/advice/bias_valley.hpp"
-#include "analysis/bias_units.hpp"
+#include "analysis/bias/bias_units.hpp"
+#include "analysis/bias/bias_valley.hpp"
 
 namespace gnomon::analysis {
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "analysis/advice/pasted_bias.hpp"
-#include "analysis/amounts.hpp"
-#include "analysis/bias_curve.hpp"
-#include "scene/job.hpp"
-#include "scene/light_frustum.hpp"
+#include "analysis/bias/bias_curve.hpp"
+#include "analysis/metrics/amounts.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/frustum.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "analysis/advice/remedies.hpp"
 
 #include "analysis/advice/map_cost.hpp"
-#include "analysis/ratio.hpp"
+#include "analysis/metrics/ratio.hpp"
 
 #include <fmt/format.h>
 

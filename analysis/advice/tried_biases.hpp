@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/amounts.hpp"
+#include "analysis/metrics/amounts.hpp"
 
 #include <span>
 #include <vector>

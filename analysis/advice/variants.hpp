@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "analysis/advice/view_outcome.hpp"
 
-#include "analysis/ratio.hpp"
+#include "analysis/metrics/ratio.hpp"
 
 #include <algorithm>
 

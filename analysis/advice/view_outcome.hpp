@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/bias_curve.hpp"
-#include "analysis/metrics.hpp"
+#include "analysis/bias/bias_curve.hpp"
+#include "analysis/metrics/metrics.hpp"
 
 #include <cstddef>
 #include <optional>

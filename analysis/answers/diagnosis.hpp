@@ -1,13 +1,13 @@
 #pragma once
 
-#include "analysis/bias_answers.hpp"
-#include "analysis/bias_rows.hpp"
-#include "analysis/breakdown.hpp"
-#include "analysis/error_parts.hpp"
-#include "analysis/gaps.hpp"
+#include "analysis/bias/bias_answers.hpp"
+#include "analysis/bias/bias_rows.hpp"
+#include "analysis/metrics/breakdown.hpp"
+#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/gaps.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #include "analysis/answers/exact_light_cache.hpp"
 
-#include "analysis/chain/blocked_causes.hpp"
-#include "analysis/chain/lit_causes.hpp"
+#include "analysis/causes/blocked_causes.hpp"
+#include "analysis/causes/lit_causes.hpp"
 
 #include <algorithm>
 #include <cmath>

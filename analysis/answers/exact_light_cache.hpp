@@ -1,17 +1,17 @@
 #pragma once
 
 #include "analysis/answers/judged_receivers.hpp"
-#include "analysis/chain/cause_inputs.hpp"
-#include "analysis/chain/cause_memory.hpp"
-#include "analysis/chain/pixel_causes.hpp"
-#include "analysis/gaps.hpp"
-#include "analysis/map_errors.hpp"
-#include "analysis/quantiles.hpp"
+#include "analysis/causes/cause_inputs.hpp"
+#include "analysis/causes/cause_memory.hpp"
+#include "analysis/causes/pixel_causes.hpp"
+#include "analysis/metrics/gaps.hpp"
+#include "analysis/metrics/map_errors.hpp"
+#include "analysis/metrics/quantiles.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "analysis/renderers.hpp"
-#include "scene/exact_light.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
+#include "scene/light/exact_light.hpp"
 
 #include <cstdint>
 #include <limits>

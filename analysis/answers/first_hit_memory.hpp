@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/exact_light.hpp"
-#include "scene/job.hpp"
-#include "scene/light_frustum.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/exact_light.hpp"
+#include "scene/light/frustum.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "analysis/answers/first_hit_memory.hpp"
-#include "analysis/blocker_gaps.hpp"
-#include "analysis/breakdown.hpp"
-#include "analysis/error_parts.hpp"
-#include "analysis/metrics.hpp"
+#include "analysis/metrics/blocker_gaps.hpp"
+#include "analysis/metrics/breakdown.hpp"
+#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/metrics.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "scene/layers.hpp"
-#include "scene/light_frustum.hpp"
+#include "scene/light/frustum.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "analysis/answers/lookup_answers.hpp"
 
-#include "analysis/bias_answers.hpp"
+#include "analysis/bias/bias_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "analysis/map_errors.hpp"
+#include "analysis/metrics/map_errors.hpp"
 #include "analysis/pixel_runs.hpp"
 
 #include <algorithm>

@@ -1,18 +1,18 @@
 #pragma once
 
 #include "analysis/advice/recommendation.hpp"
-#include "analysis/amount_rows.hpp"
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/exact_light_cache.hpp"
-#include "analysis/bias_rows.hpp"
-#include "analysis/chain/cause_inputs.hpp"
-#include "analysis/chain/pixel_causes.hpp"
+#include "analysis/bias/amount_rows.hpp"
+#include "analysis/bias/bias_rows.hpp"
+#include "analysis/bias/slope_curves.hpp"
+#include "analysis/causes/cause_inputs.hpp"
+#include "analysis/causes/pixel_causes.hpp"
+#include "analysis/metrics/softening.hpp"
 #include "analysis/renderers.hpp"
-#include "analysis/slope_curves.hpp"
-#include "analysis/softening.hpp"
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/results.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
 
 #include <cstdint>

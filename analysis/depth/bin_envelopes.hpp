@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/breakdown.hpp"
-#include "scene/job.hpp"
-#include "scene/light_frustum.hpp"
+#include "analysis/metrics/breakdown.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/frustum.hpp"
 
 #include <vector>
 

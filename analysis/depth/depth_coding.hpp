@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/depth/split_depth.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <cstdint>
 

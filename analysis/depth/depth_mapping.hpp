@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/depth/split_depth.hpp"
-#include "scene/depth_range.hpp"
+#include "scene/light/depth_range.hpp"
 
 namespace gnomon::analysis {
 

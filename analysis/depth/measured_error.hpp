@@ -3,7 +3,7 @@
 #include "analysis/depth/depth_coding.hpp"
 #include "analysis/depth/depth_mapping.hpp"
 #include "analysis/depth/texel_class.hpp"
-#include "scene/depth_sample.hpp"
+#include "scene/depth/sample.hpp"
 
 #include <cstddef>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/depth/depth_coding.hpp"
-#include "scene/depth_sample.hpp"
+#include "scene/depth/sample.hpp"
 
 #include <array>
 #include <cstddef>

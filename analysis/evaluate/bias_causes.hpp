@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/evaluate/evaluation.hpp"
-#include "scene/case_layers.hpp"
+#include "scene/case/layers.hpp"
 #include "scene/layers.hpp"
 
 namespace gnomon::analysis {

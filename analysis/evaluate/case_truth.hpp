@@ -1,9 +1,9 @@
 #pragma once
 
-#include "scene/exact_light.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
-#include "scene/rounded_receivers.hpp"
+#include "scene/light/exact_light.hpp"
+#include "scene/view/rounded_receivers.hpp"
 
 #include <cstddef>
 #include <functional>

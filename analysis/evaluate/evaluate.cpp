@@ -7,8 +7,8 @@
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "scene/error.hpp"
-#include "scene/job_file.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

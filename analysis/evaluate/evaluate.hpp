@@ -2,9 +2,9 @@
 
 #include "analysis/comparison.hpp"
 #include "analysis/evaluate/case_truth.hpp"
-#include "scene/case_file.hpp"
-#include "scene/case_layers.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/case/file.hpp"
+#include "scene/case/layers.hpp"
+#include "scene/import/scene_file.hpp"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/breakdown.hpp"
-#include "analysis/chain/cause.hpp"
-#include "analysis/quantiles.hpp"
+#include "analysis/causes/cause.hpp"
+#include "analysis/metrics/breakdown.hpp"
+#include "analysis/metrics/quantiles.hpp"
 #include "scene/image.hpp"
 #include "scene/vec.hpp"
 

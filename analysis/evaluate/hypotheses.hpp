@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/case_space.hpp"
+#include "scene/case/space.hpp"
 #include "scene/vec.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "analysis/evaluate/surface_check.hpp"
 
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -2,10 +2,10 @@
 
 #include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/position_check.hpp"
-#include "scene/case_file.hpp"
-#include "scene/case_layers.hpp"
-#include "scene/rounded_receivers.hpp"
+#include "scene/case/file.hpp"
+#include "scene/case/layers.hpp"
 #include "scene/triangles.hpp"
+#include "scene/view/rounded_receivers.hpp"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 #include "analysis/evaluate/view_check.hpp"
 
 #include "analysis/receiver_geometry.hpp"
-#include "scene/camera.hpp"
+#include "scene/view/camera.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "analysis/gate/gate_entries.hpp"
 
-#include "analysis/chain/cause.hpp"
+#include "analysis/causes/cause.hpp"
 #include "analysis/gate/gate_metrics.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/error_parts.hpp"
 #include "analysis/gate/gate_filter.hpp"
+#include "analysis/metrics/error_parts.hpp"
 #include "analysis/renderers.hpp"
 
 #include <cstddef>

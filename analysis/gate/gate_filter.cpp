@@ -1,7 +1,7 @@
 #include "analysis/gate/gate_filter.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/part_table.hpp"
+#include "analysis/metrics/part_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/chain/cause.hpp"
-#include "analysis/error_parts.hpp"
+#include "analysis/causes/cause.hpp"
+#include "analysis/metrics/error_parts.hpp"
 
 #include <optional>
 #include <string>

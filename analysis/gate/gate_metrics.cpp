@@ -1,6 +1,6 @@
 #include "analysis/gate/gate_metrics.hpp"
 
-#include "analysis/part_table.hpp"
+#include "analysis/metrics/part_table.hpp"
 
 #include <fmt/format.h>
 

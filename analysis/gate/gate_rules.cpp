@@ -1,6 +1,6 @@
 #include "analysis/gate/gate_rules.hpp"
 
-#include "analysis/chain/cause.hpp"
+#include "analysis/causes/cause.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <fmt/format.h>

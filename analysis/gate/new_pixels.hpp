@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/chain/cause.hpp"
+#include "analysis/causes/cause.hpp"
 #include "analysis/gate/gate_entries.hpp"
 #include "analysis/gate/gate_filter.hpp"
 #include "scene/image.hpp"

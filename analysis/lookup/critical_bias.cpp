@@ -1,6 +1,6 @@
 #include "analysis/lookup/critical_bias.hpp"
 
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/bias_order.hpp"
 #include "analysis/pixel_runs.hpp"
 #include "scene/infinity.hpp"
 #include "scene/widest_vectors.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/lookup_rule.hpp"
 #include "scene/image.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 #include "scene/layers.hpp"
 #include "scene/vec.hpp"
 

@@ -1,6 +1,6 @@
 #include "analysis/lookup/exact_lookup.hpp"
 
-#include "analysis/amounts.hpp"
+#include "analysis/metrics/amounts.hpp"
 #include "scene/infinity.hpp"
 
 #include <tbb/parallel_for.h>

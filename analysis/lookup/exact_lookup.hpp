@@ -3,7 +3,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
-#include "scene/exact_light.hpp"
+#include "scene/light/exact_light.hpp"
 
 #include <cstddef>
 #include <span>

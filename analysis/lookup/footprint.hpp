@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/exact_light.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/exact_light.hpp"
 #include "scene/vec.hpp"
 
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/footprint.hpp"
 #include "scene/infinity.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <cstddef>
 #include <span>

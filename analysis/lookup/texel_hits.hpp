@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/texel_index.hpp"
-#include "scene/exact_light.hpp"
+#include "scene/light/exact_light.hpp"
 
 #include <functional>
 #include <span>

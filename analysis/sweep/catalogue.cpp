@@ -2,8 +2,8 @@
 
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/job_file.hpp"
-#include "scene/job_keys.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include "analysis/sweep/results.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/scene_identity.hpp"
-#include "scene/job.hpp"
-#include "scene/sweep_space.hpp"
+#include "scene/job/job.hpp"
+#include "scene/job/sweep_space.hpp"
 
 #include <cstdint>
 #include <functional>

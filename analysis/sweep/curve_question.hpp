@@ -2,7 +2,7 @@
 
 #include "analysis/sweep/results.hpp"
 #include "analysis/sweep/runner.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <cstdint>
 #include <string>

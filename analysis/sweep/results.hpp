@@ -1,14 +1,14 @@
 #pragma once
 
 #include "analysis/advice/recommendation.hpp"
-#include "analysis/bias_curve.hpp"
-#include "analysis/bias_limits.hpp"
-#include "analysis/bias_verification.hpp"
-#include "analysis/breakdown.hpp"
-#include "analysis/chain/cause.hpp"
-#include "analysis/error_parts.hpp"
-#include "analysis/gaps.hpp"
-#include "analysis/metrics.hpp"
+#include "analysis/bias/bias_curve.hpp"
+#include "analysis/bias/bias_limits.hpp"
+#include "analysis/bias/bias_verification.hpp"
+#include "analysis/causes/cause.hpp"
+#include "analysis/metrics/breakdown.hpp"
+#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/gaps.hpp"
+#include "analysis/metrics/metrics.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -4,8 +4,8 @@
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/results.hpp"
-#include "scene/job.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/import/scene_file.hpp"
+#include "scene/job/job.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,6 @@
 #include "analysis/sweep/scene_identity.hpp"
 
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <optional>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "analysis/sweep/stage_keys.hpp"
 
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <map>
 #include <string_view>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <string>
 

@@ -1,13 +1,13 @@
 // How much of what the camera sees lies in shadow? GL says what is seen, rays say what is shadowed.
 //
 //     shadow_share [SCENE]          e.g. shadow_share columns
-#include "analysis/metrics.hpp"
+#include "analysis/metrics/metrics.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/receivers.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/builtin_scenes.hpp"
-#include "scene/job.hpp"
+#include "scene/builtin/scenes.hpp"
+#include "scene/job/job.hpp"
 
 #include <cinttypes>
 #include <cstdio>

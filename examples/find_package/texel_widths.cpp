@@ -1,8 +1,8 @@
 // How wide is a shadow-map texel where the camera looks? Prints the answer for a built-in scene.
 //
 //     texel_widths [SCENE]          e.g. texel_widths yard
-#include "scene/builtin_scenes.hpp"
-#include "scene/job.hpp"
+#include "scene/builtin/scenes.hpp"
+#include "scene/job/job.hpp"
 
 #include <cstdio>
 #include <exception>

@@ -1,7 +1,7 @@
 #include "reports/case/case_image_file.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
 #include "reports/case/case_read.hpp"
 
 #include "reports/case/case_image_file.hpp"
-#include "scene/job_file.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/toml.hpp"
 #include "scene/triangles.hpp"
 
 #include <fmt/format.h>

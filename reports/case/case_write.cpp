@@ -6,8 +6,8 @@
 #include "reports/images/image_encoding.hpp"
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
-#include "scene/job_file.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "analysis/depth/texel_class.hpp"
 #include "reports/json_values.hpp"
-#include "scene/depth_range.hpp"
+#include "scene/light/depth_range.hpp"
 
 #include <string>
 #include <vector>

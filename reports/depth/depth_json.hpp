@@ -3,7 +3,7 @@
 #include "analysis/depth/depth_study.hpp"
 #include "analysis/depth/texel_class.hpp"
 #include "reports/json_values.hpp"
-#include "scene/depth_range.hpp"
+#include "scene/light/depth_range.hpp"
 
 #include <span>
 #include <string>

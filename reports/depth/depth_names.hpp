@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/depth_range.hpp"
+#include "scene/light/depth_range.hpp"
 
 #include <string>
 #include <string_view>

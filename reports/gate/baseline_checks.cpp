@@ -1,7 +1,7 @@
 #include "reports/gate/baseline_checks.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/part_table.hpp"
+#include "analysis/metrics/part_table.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include "reports/json_values.hpp"
 #include "reports/run/error_parts_json.hpp"
 #include "reports/run/run_columns.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_names.hpp"
 #include "reports/text.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

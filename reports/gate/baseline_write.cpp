@@ -5,7 +5,7 @@
 #include "reports/gate/pixel_mask.hpp"
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/text.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

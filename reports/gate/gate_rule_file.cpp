@@ -3,8 +3,8 @@
 #include "reports/gate/gate_rule_values.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
-#include "scene/job_file.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/toml.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #include "reports/run/error_parts_json.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,7 +3,7 @@
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/gate_sentences.hpp"
 #include "reports/text.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

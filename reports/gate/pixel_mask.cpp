@@ -6,7 +6,7 @@
 #include "reports/output_file.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>

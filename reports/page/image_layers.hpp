@@ -3,8 +3,8 @@
 #include "reports/images/layer_file.hpp"
 #include "reports/json_values.hpp"
 #include "scene/image.hpp"
-#include "scene/job.hpp"
-#include "scene/light_frustum.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/frustum.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <cstddef>

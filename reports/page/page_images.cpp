@@ -1,10 +1,10 @@
 #include "reports/page/page_images.hpp"
 
-#include "analysis/bias_units.hpp"
+#include "analysis/bias/bias_units.hpp"
 #include "reports/page/image_layers.hpp"
 #include "reports/run/pixels.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

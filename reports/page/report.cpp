@@ -1,6 +1,6 @@
 #include "reports/page/report.hpp"
 
-#include "analysis/metric_table.hpp"
+#include "analysis/metrics/metric_table.hpp"
 #include "reports/output_file.hpp"
 #include "reports/page/base64.hpp"
 #include "reports/page/page_html.hpp"
@@ -11,7 +11,7 @@
 #include "reports/run/run_csv.hpp"
 #include "reports/run/run_schema.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

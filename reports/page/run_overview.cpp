@@ -1,6 +1,6 @@
 #include "reports/page/run_overview.hpp"
 
-#include "analysis/chain/cause.hpp"
+#include "analysis/causes/cause.hpp"
 #include "reports/page/page_images.hpp"
 #include "reports/run/run_columns.hpp"
 #include "reports/run/run_csv.hpp"

@@ -4,7 +4,7 @@
 #include "reports/run/run_plan.hpp"
 #include "reports/run/run_schema.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

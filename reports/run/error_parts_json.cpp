@@ -1,7 +1,7 @@
 #include "reports/run/error_parts_json.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/error_parts.hpp"
+#include "analysis/metrics/error_parts.hpp"
 #include "reports/json_values.hpp"
 
 #include <optional>

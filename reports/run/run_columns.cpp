@@ -1,11 +1,11 @@
 #include "reports/run/run_columns.hpp"
 
-#include "analysis/metric_table.hpp"
-#include "analysis/part_table.hpp"
+#include "analysis/metrics/metric_table.hpp"
+#include "analysis/metrics/part_table.hpp"
 #include "reports/run/error_parts_json.hpp"
-#include "scene/job_keys.hpp"
-#include "scene/job_toml.hpp"
-#include "scene/sweep_space.hpp"
+#include "scene/job/keys.hpp"
+#include "scene/job/sweep_space.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/breakdown.hpp"
+#include "analysis/metrics/breakdown.hpp"
 #include "analysis/sweep/results.hpp"
 #include "reports/run/sqlite.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "reports/run/leftovers.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "reports/run/run_columns.hpp"
 #include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "reports/run/run_recorder.hpp"
 
 #include "reports/run/run_columns.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "reports/run/run_schema.hpp"
 
-#include "analysis/part_table.hpp"
+#include "analysis/metrics/part_table.hpp"
 #include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
-#include "scene/sweep_space.hpp"
+#include "scene/job/sweep_space.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,7 +4,7 @@
 #include "reports/shell_text.hpp"
 #include "reports/text.hpp"
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 

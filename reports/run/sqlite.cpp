@@ -1,7 +1,7 @@
 #include "reports/run/sqlite.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job_toml.hpp"
+#include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
 #include <sqlite3.h>

@@ -1,9 +1,9 @@
-#include "analysis/amount_rows.hpp"
-#include "analysis/bias_order.hpp"
-#include "analysis/bias_verification.hpp"
+#include "analysis/bias/amount_rows.hpp"
+#include "analysis/bias/bias_order.hpp"
+#include "analysis/bias/bias_verification.hpp"
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "analysis/metrics.hpp"
+#include "analysis/metrics/metrics.hpp"
 #include "gl_case.hpp"
 
 #include <fmt/format.h>

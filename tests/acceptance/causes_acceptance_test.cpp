@@ -1,6 +1,6 @@
 #include "closed_form.hpp"
 #include "compared.hpp"
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/scenes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "scene/job.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/job.hpp"
 
 #include <cmath>
 #include <string>

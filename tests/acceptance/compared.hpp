@@ -1,10 +1,10 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "cli/renderers.hpp"
+#include "cli/compare/renderers.hpp"
 #include "gl_case.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
 
 #include <memory>

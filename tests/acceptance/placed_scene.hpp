@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/job.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/import/scene_file.hpp"
+#include "scene/job/job.hpp"
 
 #include <ostream>
 #include <string>

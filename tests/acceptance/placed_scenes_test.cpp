@@ -2,7 +2,7 @@
 #include "compared.hpp"
 #include "placed_scene.hpp"
 
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/scenes.hpp"
 
 #include <fmt/format.h>
 

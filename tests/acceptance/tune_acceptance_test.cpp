@@ -1,7 +1,7 @@
 #include "analysis/advice/map_cost.hpp"
-#include "analysis/advice/tune.hpp"
+#include "analysis/tune/tune.hpp"
 #include "compared.hpp"
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/scenes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // Amounts at many biases from one lookup, against counting each pixel's taps at each bias by
 // itself.
 
-#include "analysis/amount_rows.hpp"
+#include "analysis/bias/amount_rows.hpp"
 
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/bias_order.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 

@@ -1,4 +1,4 @@
-#include "analysis/bias_curve.hpp"
+#include "analysis/bias/bias_curve.hpp"
 
 #include "analysis/radix_sort.hpp"
 #include "curve_case.hpp"

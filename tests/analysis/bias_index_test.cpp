@@ -1,4 +1,4 @@
-#include "analysis/bias_index.hpp"
+#include "analysis/bias/bias_index.hpp"
 #include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>

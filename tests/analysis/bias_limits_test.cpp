@@ -1,4 +1,4 @@
-#include "analysis/bias_limits.hpp"
+#include "analysis/bias/bias_limits.hpp"
 
 #include "curve_case.hpp"
 #include "scene/infinity.hpp"

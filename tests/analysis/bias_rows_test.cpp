@@ -1,10 +1,10 @@
 // Counts at many biases from one lookup, against counting each bias by itself.
 
-#include "analysis/bias_rows.hpp"
+#include "analysis/bias/bias_rows.hpp"
 
-#include "analysis/amount_rows.hpp"
-#include "analysis/bias_order.hpp"
-#include "analysis/metrics.hpp"
+#include "analysis/bias/amount_rows.hpp"
+#include "analysis/bias/bias_order.hpp"
+#include "analysis/metrics/metrics.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 

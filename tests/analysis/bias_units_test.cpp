@@ -1,6 +1,6 @@
-#include "analysis/bias_units.hpp"
+#include "analysis/bias/bias_units.hpp"
 
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/bias_order.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "analysis/advice/bias_valley.hpp"
+#include "analysis/bias/bias_valley.hpp"
 
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/bias_order.hpp"
 #include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>

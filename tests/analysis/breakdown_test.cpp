@@ -1,6 +1,6 @@
-#include "analysis/breakdown.hpp"
+#include "analysis/metrics/breakdown.hpp"
 
-#include "analysis/part_table.hpp"
+#include "analysis/metrics/part_table.hpp"
 #include "scene/infinity.hpp"
 
 #include <gmock/gmock.h>

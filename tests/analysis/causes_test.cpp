@@ -1,6 +1,6 @@
-#include "analysis/bias_rows.hpp"
-#include "analysis/chain/blocked_causes.hpp"
-#include "analysis/chain/lit_causes.hpp"
+#include "analysis/bias/bias_rows.hpp"
+#include "analysis/causes/blocked_causes.hpp"
+#include "analysis/causes/lit_causes.hpp"
 
 #include "fake_light.hpp"
 #include "scene/infinity.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/acne_free.hpp"
-#include "analysis/bias_curve.hpp"
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/acne_free.hpp"
+#include "analysis/bias/bias_curve.hpp"
+#include "analysis/bias/bias_order.hpp"
 
 #include <cmath>
 #include <cstdint>

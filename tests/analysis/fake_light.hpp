@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/exact_light.hpp"
+#include "scene/light/exact_light.hpp"
 #include "scene/vec.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/runner.hpp"
-#include "scene/job_source.hpp"
+#include "scene/job/source.hpp"
 #include "sweep_world.hpp"
 
 #include <fmt/format.h>

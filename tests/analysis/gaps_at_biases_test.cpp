@@ -1,6 +1,6 @@
 // Peter-panning gaps at many biases from one sorted list, against measuring each bias by itself.
 
-#include "analysis/bias_rows.hpp"
+#include "analysis/bias/bias_rows.hpp"
 
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/gaps.hpp"
+#include "analysis/metrics/gaps.hpp"
 
 #include "fake_light.hpp"
 

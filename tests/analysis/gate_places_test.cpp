@@ -1,7 +1,7 @@
-#include "analysis/error_parts.hpp"
 #include "analysis/gate/baseline_update.hpp"
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/gate/new_pixels.hpp"
+#include "analysis/metrics/error_parts.hpp"
 
 #include "gate_case.hpp"
 

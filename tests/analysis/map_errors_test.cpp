@@ -1,4 +1,4 @@
-#include "analysis/map_errors.hpp"
+#include "analysis/metrics/map_errors.hpp"
 
 #include "fake_light.hpp"
 

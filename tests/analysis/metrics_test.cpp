@@ -1,4 +1,4 @@
-#include "analysis/metrics.hpp"
+#include "analysis/metrics/metrics.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/bias_order.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "analysis/slope_curves.hpp"
+#include "analysis/bias/slope_curves.hpp"
 
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/bias_order.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

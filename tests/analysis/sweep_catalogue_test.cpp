@@ -2,7 +2,7 @@
 
 #include "analysis/sweep/catalogue.hpp"
 
-#include "scene/job_source.hpp"
+#include "scene/job/source.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

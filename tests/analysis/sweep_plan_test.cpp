@@ -5,7 +5,7 @@
 #include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "random_requests.hpp"
-#include "scene/job_source.hpp"
+#include "scene/job/source.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/metrics.hpp"
+#include "analysis/metrics/metrics.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 #include "fake_light.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/import/scene_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

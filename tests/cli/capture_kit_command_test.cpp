@@ -1,6 +1,6 @@
 #include "child_process.hpp"
 
-#include "cli/capture_kit_command.hpp"
+#include "cli/evaluate/capture_kit_command.hpp"
 #include "run_folder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,10 +1,10 @@
 #include "cli/certify_command.hpp"
 
 #include "analysis/comparison.hpp"
-#include "reference_rt/certificate_pixel.hpp"
+#include "reference_rt/certificate/pixel.hpp"
 #include "reports/aov_exr.hpp"
 #include "scene/error.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-#include "cli/control_group.hpp"
+#include "cli/system/control_group.hpp"
 
 #include <gtest/gtest.h>
 

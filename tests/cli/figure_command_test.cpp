@@ -1,6 +1,6 @@
 #include "child_process.hpp"
-#include "cli/captured_process.hpp"
-#include "cli/figures.hpp"
+#include "cli/report/figures.hpp"
+#include "cli/system/captured_process.hpp"
 #include "run_folder.hpp"
 
 #include <fmt/format.h>

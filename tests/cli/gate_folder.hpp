@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/ratio.hpp"
+#include "analysis/metrics/ratio.hpp"
 
 #include "child_process.hpp"
 #include "example_run.hpp"

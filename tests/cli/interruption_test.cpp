@@ -1,6 +1,6 @@
 #include "child_process.hpp"
 
-#include "cli/process.hpp"
+#include "cli/system/process.hpp"
 #include "reports/output_file.hpp"
 
 #include <fmt/format.h>

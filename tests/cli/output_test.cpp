@@ -1,6 +1,6 @@
 #include "child_process.hpp"
 
-#include "cli/memory.hpp"
+#include "cli/system/memory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

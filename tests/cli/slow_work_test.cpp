@@ -1,6 +1,6 @@
 // What commands say while they work.
 
-#include "cli/slow_work.hpp"
+#include "cli/system/slow_work.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
-# The certificate shares no code with what it certifies: its files include nothing else of
+# The certificate shares no code with what it certifies: its folder includes nothing else of
 # reference_rt, and nothing else there includes them. Run as cmake -DROOT=<checkout> -P this file.
 cmake_minimum_required(VERSION 3.25)
 
-set(own "^(certificate[a-z_]*|rational_geometry)\\.[ch]pp$")
+set(own "^certificate/")
 set(own_count 0)
-file(GLOB sources ${ROOT}/reference_rt/*.hpp ${ROOT}/reference_rt/*.cpp)
+file(GLOB_RECURSE sources ${ROOT}/reference_rt/*.hpp ${ROOT}/reference_rt/*.cpp)
 foreach(source ${sources})
-  cmake_path(GET source FILENAME name)
+  cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${ROOT}/reference_rt OUTPUT_VARIABLE name)
   string(REGEX MATCH "${own}" is_own "${name}")
   if(is_own)
     math(EXPR own_count "${own_count} + 1")

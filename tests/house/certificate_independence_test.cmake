@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 # expect(FILE INCLUDE PATTERN): PATTERN is what the check says of FILE, or PASSES.
 function(expect file include pattern)
   file(REMOVE_RECURSE ${WORK})
-  file(WRITE ${WORK}/reference_rt/certificate.hpp "#include \"scene/job.hpp\"\n")
+  file(WRITE ${WORK}/reference_rt/certificate/certificate.hpp "#include \"scene/job/job.hpp\"\n")
   file(WRITE ${WORK}/reference_rt/${file} "${include}\n")
   execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${CHECK}
                   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -19,14 +19,14 @@ function(expect file include pattern)
   endif()
 endfunction()
 
-expect(certificate_pixel.cpp "#include \"reference_rt/rational_geometry.hpp\"" PASSES)
-expect(truth.cpp "#include \"reference_rt/contact.hpp\"" PASSES)
-expect(certificate.cpp "#include \"reference_rt/contact.hpp\""
-       "certificate.cpp: the certificate may not include reference_rt/contact.hpp")
-expect(rational_geometry.cpp "  #  include <reference_rt/predicates.hpp>"
-       "rational_geometry.cpp: the certificate may not include reference_rt/predicates.hpp")
-expect(truth.cpp "#include \"reference_rt/rational_geometry.hpp\""
-       "truth.cpp: only the certificate may include reference_rt/rational_geometry.hpp")
+expect(certificate/pixel.cpp "#include \"reference_rt/certificate/rational_geometry.hpp\"" PASSES)
+expect(truth.cpp "#include \"reference_rt/exact/contact.hpp\"" PASSES)
+expect(certificate/certificate.cpp "#include \"reference_rt/exact/contact.hpp\""
+       "certificate/certificate.cpp: the certificate may not include reference_rt/exact/contact.hpp")
+expect(certificate/rational_geometry.cpp "  #  include <reference_rt/exact/predicates.hpp>"
+       "certificate/rational_geometry.cpp: the certificate may not include reference_rt/exact/predicates.hpp")
+expect(truth.cpp "#include \"reference_rt/certificate/rational_geometry.hpp\""
+       "truth.cpp: only the certificate may include reference_rt/certificate/rational_geometry.hpp")
 
 file(REMOVE_RECURSE ${WORK})
 execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${CHECK} RESULT_VARIABLE status

@@ -1,9 +1,9 @@
 #include "example_comparison.hpp"
 #include "example_run.hpp"
 
-#include "analysis/metric_table.hpp"
+#include "analysis/metrics/metric_table.hpp"
 #include "csv_table.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <gtest/gtest.h>
 

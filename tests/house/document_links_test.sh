@@ -14,7 +14,7 @@ expect()
     mkdir -p "$work_folder/docs" "$work_folder/scene"
     printf '# Formulas\n\n## Driver bound, B\n' > "$work_folder/docs/formulas.md"
     printf '# Read me\n%s\n' "$2" > "$work_folder/README.md"
-    printf '/// %s\n' "$3" > "$work_folder/scene/job.hpp"
+    printf '/// %s\n' "$3" > "$work_folder/scene/job/job.hpp"
     output=$(bash "$script" "$work_folder" 2>&1) || status=$?
     if [ "$output" != "$1" ] || { [ -z "$1" ] && [ "$status" -ne 0 ]; } ||
         { [ -n "$1" ] && [ "$status" -eq 0 ]; }; then
@@ -27,6 +27,6 @@ expect "" "[a](docs/formulas.md#driver-bound-b) [b](#read-me) [c](https://exampl
     "Source: docs/formulas.md#driver-bound-b."
 expect "README.md: docs/lost.md does not exist" "[a](docs/lost.md)" ""
 expect "README.md: docs/formulas.md has no heading #lost" "[a](docs/formulas.md#lost)" ""
-expect "scene/job.hpp: docs/lost.md does not exist" "[a](#read-me)" "docs/lost.md"
-expect "scene/job.hpp: docs/formulas.md has no heading #lost" "[a](#read-me)" \
+expect "scene/job/job.hpp: docs/lost.md does not exist" "[a](#read-me)" "docs/lost.md"
+expect "scene/job/job.hpp: docs/formulas.md has no heading #lost" "[a](#read-me)" \
     "docs/formulas.md#lost"

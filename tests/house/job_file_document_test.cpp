@@ -1,5 +1,5 @@
-#include "scene/builtin_scenes.hpp"
-#include "scene/job_file.hpp"
+#include "scene/builtin/scenes.hpp"
+#include "scene/job/file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 # expect(NAME FILE CONTENT PATTERN): PATTERN is what the check says of FILE, or PASSES.
 function(expect name file content pattern)
   file(REMOVE_RECURSE ${WORK})
-  file(WRITE ${WORK}/scene/job.hpp "#pragma once\n\n#include <string>\n")
+  file(WRITE ${WORK}/scene/job/job.hpp "#pragma once\n\n#include <string>\n")
   file(WRITE ${WORK}/${file} "${content}")
   execute_process(
     COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${CHECK}
@@ -24,28 +24,28 @@ endfunction()
 
 set(pragma "#pragma once\n")
 expect("a layer includes the ground floor" raster_gl/lookup.hpp
-       "${pragma}#include \"raster_gl/context.hpp\"\n#include \"scene/job.hpp\"\n" PASSES)
+       "${pragma}#include \"raster_gl/context.hpp\"\n#include \"scene/job/job.hpp\"\n" PASSES)
 expect("the program meets everybody" cli/main.cpp
        "#include \"raster_gl/lookup.hpp\"\n#include \"reports/table.hpp\"\n" PASSES)
-expect("a library belongs to its layer" reference_rt/embree.hpp
+expect("a library belongs to its layer" reference_rt/traversal/embree.hpp
        "${pragma}#include <embree3/rtcore.h>\n" PASSES)
 expect("the truth must not know the measurement" reference_rt/truth.cpp
        "#include \"raster_gl/lookup.hpp\"\n" "truth.cpp: reference_rt may not include raster_gl")
 expect("the measurement must not know the truth" raster_gl/lookup.cpp
        "#include \"reference_rt/truth.hpp\"\n" "raster_gl may not include reference_rt")
-expect("the ground floor knows nobody" scene/job.cpp
-       "#include \"analysis/metrics.hpp\"\n" "scene may not include analysis")
-expect("analysis knows no renderer" analysis/metrics.cpp
+expect("the ground floor knows nobody" scene/job/job.cpp
+       "#include \"analysis/metrics/metrics.hpp\"\n" "scene may not include analysis")
+expect("analysis knows no renderer" analysis/metrics/metrics.cpp
        "  #  include \"raster_gl/lookup.hpp\"\n" "analysis may not include raster_gl")
 expect("reports know no runner" reports/table.cpp
        "#include \"cli/compare.hpp\"\n" "reports may not include cli")
-expect("a folder that is no layer" scene/job.cpp
+expect("a folder that is no layer" scene/job/job.cpp
        "#include \"helpers/text.hpp\"\n" "does not start with a layer's folder")
-expect("a header without its folder" scene/job.cpp
+expect("a header without its folder" scene/job/job.cpp
        "#include \"job.hpp\"\n" "does not start with a layer's folder")
 expect("angle brackets do not hide a layer" reference_rt/truth.cpp
        "#include <raster_gl/lookup.hpp>\n" "own headers are included with quotes")
-expect("analysis calls no GL" analysis/metrics.cpp
+expect("analysis calls no GL" analysis/metrics/metrics.cpp
        "#include <epoxy/gl.h>\n" "only raster_gl may include <epoxy/gl.h>")
 expect("reports call no Embree" reports/table.cpp
        "#include <embree4/rtcore.h>\n" "only reference_rt may include <embree4/rtcore.h>")

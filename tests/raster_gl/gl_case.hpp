@@ -5,7 +5,7 @@
 #include "raster_gl/lookup.hpp"
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
 
 #include <gtest/gtest.h>

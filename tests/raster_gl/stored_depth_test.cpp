@@ -1,7 +1,7 @@
 #include "gl_case.hpp"
 
 #include "raster_gl/clip_positions.hpp"
-#include "scene/driver_bound.hpp"
+#include "scene/depth/driver_bound.hpp"
 
 #include <algorithm>
 #include <bit>

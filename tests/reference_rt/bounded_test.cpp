@@ -1,5 +1,5 @@
-#include "reference_rt/bounded.hpp"
-#include "reference_rt/wide.hpp"
+#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/wide.hpp"
 
 #include <boost/multiprecision/gmp.hpp>
 #include <gtest/gtest.h>

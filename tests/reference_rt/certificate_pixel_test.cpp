@@ -1,6 +1,6 @@
-#include "reference_rt/certificate_pixel.hpp"
+#include "reference_rt/certificate/pixel.hpp"
 
-#include "scene/light.hpp"
+#include "scene/light/light.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

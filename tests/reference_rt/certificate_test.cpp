@@ -1,7 +1,7 @@
-#include "reference_rt/certificate.hpp"
+#include "reference_rt/certificate/certificate.hpp"
 
 #include "claims.hpp"
-#include "reference_rt/certificate_pixel.hpp"
+#include "reference_rt/certificate/pixel.hpp"
 #include "scene_fixture.hpp"
 
 #include <gmock/gmock.h>

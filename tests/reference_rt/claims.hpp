@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference_rt/certificate.hpp"
+#include "reference_rt/certificate/certificate.hpp"
 #include "scene/layers.hpp"
 
 namespace gnomon::reference_rt::test {

@@ -1,4 +1,4 @@
-#include "reference_rt/contact.hpp"
+#include "reference_rt/exact/contact.hpp"
 
 #include <gtest/gtest.h>
 

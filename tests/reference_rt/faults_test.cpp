@@ -1,4 +1,4 @@
-#include "reference_rt/embree_scene.hpp"
+#include "reference_rt/traversal/embree_scene.hpp"
 
 #include "claims.hpp"
 #include "scene_fixture.hpp"

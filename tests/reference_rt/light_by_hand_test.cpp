@@ -1,5 +1,5 @@
 #include "light_fixture.hpp"
-#include "reference_rt/critical_bias.hpp"
+#include "reference_rt/light/critical_bias.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "light_oracle.hpp"
-#include "reference_rt/exact_light.hpp"
+#include "reference_rt/light/exact_light.hpp"
 #include "scene_fixture.hpp"
 
 #include <random>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "exact_oracle.hpp"
-#include "reference_rt/texel_rays.hpp"
-#include "scene/exact_light.hpp"
-#include "scene/job.hpp"
+#include "reference_rt/light/texel_rays.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/exact_light.hpp"
 
 #include <functional>
 #include <limits>

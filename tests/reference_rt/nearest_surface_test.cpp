@@ -1,4 +1,4 @@
-#include "reference_rt/rounded_truth.hpp"
+#include "reference_rt/rounded/rounded_truth.hpp"
 
 #include "scene_fixture.hpp"
 

@@ -1,4 +1,4 @@
-#include "reference_rt/predicates.hpp"
+#include "reference_rt/exact/predicates.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "reference_rt/predicates.hpp"
-#include "reference_rt/terms.hpp"
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/exact/terms.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reference_rt/rational_geometry.hpp"
+#include "reference_rt/certificate/rational_geometry.hpp"
 
 #include "exact_oracle.hpp"
 

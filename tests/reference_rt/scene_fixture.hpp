@@ -1,9 +1,9 @@
 #pragma once
 
 #include "reference_rt/truth.hpp"
-#include "scene/camera.hpp"
-#include "scene/light.hpp"
+#include "scene/light/light.hpp"
 #include "scene/triangles.hpp"
+#include "scene/view/camera.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -1,8 +1,8 @@
-// A metric that is added to the table is in every output. In place of analysis/metric_list.cpp,
-// this program's lists hold one more.
+// A metric that is added to the table is in every output. In place of
+// analysis/metrics/metric_list.cpp, this program's lists hold one more.
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/metric_table.hpp"
+#include "analysis/metrics/metric_table.hpp"
 #include "reports/comparison_json.hpp"
 #include "reports/gate/gate_run.hpp"
 #include "reports/page/report.hpp"

@@ -1,7 +1,7 @@
 #include "reports/comparison_json.hpp"
 
 #include "example_comparison.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "example_run.hpp"
 
 #include "example_comparison.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 

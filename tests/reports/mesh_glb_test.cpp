@@ -1,9 +1,9 @@
 #include "reports/case/mesh_glb.hpp"
 
 #include "reports/output_file.hpp"
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/scenes.hpp"
+#include "scene/import/scene_file.hpp"
 #include "scene/load_scene.hpp"
-#include "scene/scene_file.hpp"
 #include "scene/triangles.hpp"
 
 #include <gtest/gtest.h>

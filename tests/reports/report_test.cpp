@@ -1,6 +1,6 @@
 #include "reports/page/report.hpp"
 
-#include "analysis/bias_order.hpp"
+#include "analysis/bias/bias_order.hpp"
 #include "reports/aov_exr.hpp"
 #include "reports/comparison_json.hpp"
 #include "reports/images/layer_file.hpp"

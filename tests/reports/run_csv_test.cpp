@@ -6,7 +6,7 @@
 #include "example_comparison.hpp"
 #include "example_run.hpp"
 #include "scene/error.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

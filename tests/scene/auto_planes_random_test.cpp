@@ -1,5 +1,5 @@
-#include "scene/light_frustum.hpp"
-#include "scene/view_clip.hpp"
+#include "scene/light/frustum.hpp"
+#include "scene/view/clip.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

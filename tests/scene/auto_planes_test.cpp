@@ -1,4 +1,4 @@
-#include "scene/light_frustum.hpp"
+#include "scene/light/frustum.hpp"
 
 #include <gtest/gtest.h>
 

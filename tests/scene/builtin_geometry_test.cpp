@@ -1,7 +1,7 @@
 #include "mesh_checks.hpp"
 
-#include "scene/builtin_objects.hpp"
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/objects.hpp"
+#include "scene/builtin/scenes.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "scene/builtin_scenes.hpp"
+#include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "scene/camera.hpp"
+#include "scene/view/camera.hpp"
 
 #include "scene/error.hpp"
 

@@ -1,6 +1,6 @@
-#include "scene/case_file.hpp"
+#include "scene/case/file.hpp"
 
-#include "scene/case_space.hpp"
+#include "scene/case/space.hpp"
 #include "scene/error.hpp"
 #include "scene_file_fixture.hpp"
 

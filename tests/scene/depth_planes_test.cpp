@@ -1,7 +1,7 @@
-#include "scene/depth_planes.hpp"
+#include "scene/light/depth_planes.hpp"
 
+#include "scene/depth/raster_plane.hpp"
 #include "scene/error.hpp"
-#include "scene/raster_plane.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

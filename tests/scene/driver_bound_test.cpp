@@ -1,4 +1,4 @@
-#include "scene/driver_bound.hpp"
+#include "scene/depth/driver_bound.hpp"
 
 #include <gtest/gtest.h>
 

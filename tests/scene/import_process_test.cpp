@@ -1,8 +1,8 @@
 #include "scene/error.hpp"
-#include "scene/import_names.hpp"
-#include "scene/import_polygon.hpp"
-#include "scene/import_process.hpp"
-#include "scene/import_stream.hpp"
+#include "scene/import/names.hpp"
+#include "scene/import/polygon.hpp"
+#include "scene/import/process.hpp"
+#include "scene/import/stream.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

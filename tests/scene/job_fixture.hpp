@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/error.hpp"
-#include "scene/job_file.hpp"
+#include "scene/job/file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

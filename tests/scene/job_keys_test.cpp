@@ -2,8 +2,8 @@
 
 #include "job_fixture.hpp"
 
-#include "scene/builtin_scenes.hpp"
-#include "scene/job_keys.hpp"
+#include "scene/builtin/scenes.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "scene/nearby_views.hpp"
+#include "scene/view/nearby.hpp"
 
 #include "scene/error.hpp"
 

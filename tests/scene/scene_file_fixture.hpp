@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/error.hpp"
-#include "scene/scene_file.hpp"
+#include "scene/import/scene_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "scene/import_assimp.hpp"
+#include "scene/import/assimp.hpp"
 #include "scene_file_fixture.hpp"
 
 #include <glm/geometric.hpp>

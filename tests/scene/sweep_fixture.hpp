@@ -1,7 +1,7 @@
 #pragma once
 
 #include "job_fixture.hpp"
-#include "scene/sweep_space.hpp"
+#include "scene/job/sweep_space.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
 #include "scene/error.hpp"
-#include "scene/job.hpp"
+#include "scene/job/job.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

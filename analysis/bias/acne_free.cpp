@@ -1,0 +1,323 @@
+#include "analysis/bias/acne_free.hpp"
+
+#include "analysis/pixel_runs.hpp"
+#include "analysis/radix_sort.hpp"
+#include "scene/infinity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+
+namespace gnomon::analysis {
+
+using scene::infinity;
+using scene::PixelClass;
+
+namespace {
+
+/// Smallest bias with at most `allowed` of the ascending critical biases above it.
+float smallest_leaving(const std::vector<float>& criticals, std::uint64_t allowed)
+{
+    return criticals.size() <= allowed ? -infinity : criticals[criticals.size() - 1 - allowed];
+}
+
+/// The bias from which on a pixel is no acne; −∞ if it never is.
+class AcneEnd {
+public:
+    explicit AcneEnd(const AcneInputs& inputs) : inputs_{inputs} {}
+
+    [[nodiscard]] float of(std::size_t pixel, std::span<const float> criticals) const
+    {
+        const TapSet& own = inputs_.causes.filters[pixel].own;
+        std::array<double, scene::most_taps> weights; // filled as far as it is read
+        inputs_.taps->weights(pixel, weights);
+        const float wrong_until = first_end(pixel, criticals);
+        ShadowingTaps shadowing;
+        for (std::size_t t = 0; t < criticals.size(); ++t) {
+            if (criticals[t] >= wrong_until) {
+                (own[t] ? shadowing.own : shadowing.others) += weights[t];
+            }
+        }
+        if (label_of_lit(Cause::resolution, shadowing) == Label::acne) {
+            return wrong_until; // as a rule
+        }
+        std::array<std::size_t, scene::most_taps> order; // of the taps, the last one lit first
+        const auto taps = std::span{order}.first(criticals.size());
+        for (std::size_t t = 0; t < taps.size(); ++t) {
+            taps[t] = t;
+        }
+        std::ranges::sort(taps, std::greater<>{}, [&](std::size_t t) { return criticals[t]; });
+        std::size_t next = 0;
+        while (next < taps.size() && criticals[taps[next]] >= wrong_until) {
+            ++next;
+        }
+        while (next < taps.size()) {
+            const float until = criticals[taps[next]];
+            for (; next < taps.size() && criticals[taps[next]] == until; ++next) {
+                (own[taps[next]] ? shadowing.own : shadowing.others) += weights[taps[next]];
+            }
+            if (label_of_lit(Cause::resolution, shadowing) == Label::acne) {
+                return until;
+            }
+        }
+        return -infinity;
+    }
+
+private:
+    /// The bias from which on the pixel is on the right side.
+    [[nodiscard]] float first_end(std::size_t pixel, std::span<const float> criticals) const
+    {
+        if (!inputs_.has_fractions) {
+            return inputs_.critical_bias[pixel];
+        }
+        std::array<float, scene::most_taps> copy{};
+        const auto last = std::ranges::copy(criticals, copy.begin()).out;
+        const auto middle =
+            copy.begin() + static_cast<std::ptrdiff_t>(deciding_rank(criticals.size()));
+        std::nth_element(copy.begin(), middle, last);
+        return *middle;
+    }
+
+    const AcneInputs& inputs_;
+};
+
+/// How many values fall into each of equal ranges of sort keys.
+class KeyHistogram {
+public:
+    static constexpr unsigned digit_bits = 16;
+
+    /// @param prefix  Of the values that are counted, the upper half of their key; beyond 16 bits:
+    ///                all are, by their upper half.
+    explicit KeyHistogram(std::uint32_t prefix) : prefix_{prefix}, counts_(1U << digit_bits) {}
+
+    static constexpr std::uint32_t no_prefix = 1U << digit_bits;
+
+    void add(float value)
+    {
+        const std::uint32_t key = sort_key(value);
+        if (prefix_ == no_prefix) {
+            ++counts_[key >> digit_bits];
+        } else if (key >> digit_bits == prefix_) {
+            ++counts_[key & (no_prefix - 1)];
+        }
+    }
+    void add(const KeyHistogram& other)
+    {
+        std::ranges::transform(counts_, other.counts_, counts_.begin(), std::plus<>{});
+    }
+
+    struct Place {
+        std::uint32_t digit = 0;
+        std::uint64_t above = 0; ///< of the digit's values, that many are larger
+    };
+    /// Where the value lies of which `larger` are larger. Precondition: there are more than that.
+    [[nodiscard]] Place find(std::uint64_t larger) const
+    {
+        std::uint32_t digit = no_prefix - 1;
+        for (; counts_[digit] <= larger; --digit) {
+            larger -= counts_[digit];
+        }
+        return {digit, larger};
+    }
+    [[nodiscard]] std::uint64_t total() const
+    {
+        std::uint64_t sum = 0;
+        for (const std::uint64_t count : counts_) {
+            sum += count;
+        }
+        return sum;
+    }
+
+private:
+    std::uint32_t prefix_;
+    std::vector<std::uint64_t> counts_;
+};
+
+/// Histograms that are filled in one pass.
+struct KeyHistograms {
+    std::vector<KeyHistogram> all;
+
+    void add(float value)
+    {
+        for (KeyHistogram& histogram : all) {
+            histogram.add(value);
+        }
+    }
+    void add(const KeyHistograms& other)
+    {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i].add(other.all[i]);
+        }
+    }
+};
+
+/// What one pass over the taps finds.
+struct AcneTally {
+    std::vector<float> ends; ///< of each pixel that can be acne: from there on it is none
+    KeyHistograms own_taps;  ///< the critical biases of the taps by which lit pixels are acne
+
+    void add(const AcneTally& other)
+    {
+        ends.insert(ends.end(), other.ends.begin(), other.ends.end());
+        own_taps.add(other.own_taps);
+    }
+};
+
+/// Lookups of several texels. Their taps' critical biases are not kept: a lookup of 9 × 9 taps has
+/// 75 million on a screen.
+class AcneOfTaps {
+public:
+    explicit AcneOfTaps(const AcneInputs& inputs)
+        : inputs_{inputs},
+          largest_{inputs.has_fractions ? inputs.classes.size() : scene::ImageSize{0, 0}, -infinity}
+    {
+        const AcneTally none{{}, {{KeyHistogram{KeyHistogram::no_prefix}}}};
+        tally_ = sum_over_runs(
+            inputs.classes.pixel_count(), none,
+            [&](std::size_t first, std::size_t last, AcneTally& sum) { tally(first, last, sum); });
+        radix_sort(tally_.ends);
+    }
+
+    [[nodiscard]] const std::vector<float>& ends() const { return tally_.ends; }
+
+    /// The smallest biases with at most so many own taps above them.
+    [[nodiscard]] std::vector<float> smallest_leaving(std::span<const std::uint64_t> taps) const
+    {
+        const KeyHistogram& upper = tally_.own_taps.all.front();
+        const std::uint64_t all = upper.total();
+        KeyHistograms lower;
+        std::vector<KeyHistogram::Place> places;
+        std::uint32_t lowest = KeyHistogram::no_prefix;
+        for (const std::uint64_t larger : taps) {
+            places.push_back(larger < all ? upper.find(larger) : KeyHistogram::Place{});
+            lower.all.emplace_back(places.back().digit);
+            lowest = larger < all ? std::min(lowest, places.back().digit) : lowest;
+        }
+        lower = count_from(lowest, lower);
+        std::vector<float> biases;
+        for (std::size_t i = 0; i < taps.size(); ++i) {
+            const auto key = [&] {
+                const std::uint32_t digit = lower.all[i].find(places[i].above).digit;
+                return (places[i].digit << KeyHistogram::digit_bits) + digit;
+            };
+            biases.push_back(taps[i] < all ? value_of_key(key()) : -infinity);
+        }
+        return biases;
+    }
+
+private:
+    [[nodiscard]] bool has_acne(std::size_t pixel) const
+    {
+        return inputs_.classes[pixel] == PixelClass::lit &&
+               inputs_.causes.pixels[pixel].if_partial == Cause::resolution &&
+               inputs_.causes.filters[pixel].own.any();
+    }
+
+    /// Calls `visit(pixel, critical)` for the own taps of the pixels that `wants(pixel)`.
+    template <typename Wants, typename Visit>
+    void visit_own(std::size_t first, std::size_t last, const Wants& wants,
+                   const Visit& visit) const
+    {
+        inputs_.taps->visit(first, last, wants,
+                            [&](std::size_t pixel, std::span<const float> criticals) {
+                                visit(pixel, inputs_.causes.filters[pixel].own, criticals);
+                            });
+    }
+
+    void tally(std::size_t first, std::size_t last, AcneTally& sum)
+    {
+        const AcneEnd end{inputs_};
+        KeyHistogram& histogram = sum.own_taps.all.front();
+        visit_own(
+            first, last, [&](std::size_t pixel) { return has_acne(pixel); },
+            [&](std::size_t pixel, const TapSet& own, std::span<const float> criticals) {
+                for (std::size_t t = 0; t < criticals.size() && inputs_.has_fractions; ++t) {
+                    if (own[t]) {
+                        histogram.add(criticals[t]);
+                        largest_[pixel] = std::max(largest_[pixel], criticals[t]);
+                    }
+                }
+                if (inputs_.causes.pixels[pixel].if_wrong == Cause::resolution) {
+                    if (const float until = end.of(pixel, criticals); until != -infinity) {
+                        sum.ends.push_back(until);
+                    }
+                }
+            });
+    }
+
+    /// Fills the histograms: of pixels that have such taps with the lowest prefix or above it.
+    [[nodiscard]] KeyHistograms count_from(std::uint32_t lowest, const KeyHistograms& zero) const
+    {
+        return sum_over_runs(
+            inputs_.classes.pixel_count(), zero,
+            [&](std::size_t first, std::size_t last, KeyHistograms& sum) {
+                visit_own(
+                    first, last,
+                    [&](std::size_t pixel) {
+                        return has_acne(pixel) &&
+                               sort_key(largest_[pixel]) >> KeyHistogram::digit_bits >= lowest;
+                    },
+                    [&](std::size_t, const TapSet& own, std::span<const float> criticals) {
+                        for (std::size_t t = 0; t < criticals.size(); ++t) {
+                            if (own[t]) {
+                                sum.add(criticals[t]);
+                            }
+                        }
+                    });
+            });
+    }
+
+    const AcneInputs& inputs_;
+    scene::Image<float> largest_; ///< critical bias of each pixel's own taps
+    AcneTally tally_;
+};
+
+/// Of lookups of one texel: of each lit pixel that can be acne its critical bias, ascending.
+std::vector<float> acne_criticals(const AcneInputs& inputs)
+{
+    std::vector<float> criticals;
+    for (std::size_t i = 0; i < inputs.classes.pixel_count(); ++i) {
+        if (is_acne_if_shadowed(inputs.causes.pixels[i], inputs.classes[i])) {
+            criticals.push_back(inputs.critical_bias[i]);
+        }
+    }
+    radix_sort(criticals);
+    return criticals;
+}
+
+std::vector<AcneFree> smallest_leaving(const std::vector<float>& ends,
+                                       std::span<const std::uint64_t> allowed_pixels)
+{
+    std::vector<AcneFree> found;
+    for (const std::uint64_t allowed : allowed_pixels) {
+        const float bias = smallest_leaving(ends, allowed);
+        found.push_back({bias, bias});
+    }
+    return found;
+}
+
+} // namespace
+
+std::vector<AcneFree> find_acne_free(const AcneInputs& inputs,
+                                     std::span<const std::uint64_t> allowed_pixels)
+{
+    if (inputs.taps == nullptr) {
+        return smallest_leaving(acne_criticals(inputs), allowed_pixels);
+    }
+    const AcneOfTaps acne{inputs};
+    std::vector<AcneFree> found = smallest_leaving(acne.ends(), allowed_pixels);
+    if (inputs.has_fractions) {
+        std::vector<std::uint64_t> allowed_taps;
+        for (const std::uint64_t allowed : allowed_pixels) {
+            allowed_taps.push_back(allowed * inputs.taps->taps_each());
+        }
+        const auto by_tap = acne.smallest_leaving(allowed_taps);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            found[i].by_tap = by_tap[i];
+        }
+    }
+    return found;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "analysis/bias/bias_curve.hpp"
+#include "analysis/lookup/tap_criticals.hpp"
+#include "analysis/metrics/amounts.hpp"
+#include "scene/image.hpp"
+#include "scene/pixel_class.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// The amounts of error at each bias: sums of a pcfK lookup's taps, as integers.
+/// @param biases  Ascending.
+/// @throws std::invalid_argument  if they do not.
+[[nodiscard]] std::vector<ErrorAmounts> sum_amounts(const scene::Image<scene::PixelClass>& classes,
+                                                    const TapCriticals& taps,
+                                                    std::span<const float> biases);
+/// The same of a lookup with one comparison, whose amounts are its counts.
+[[nodiscard]] std::vector<ErrorAmounts> sum_amounts(const BiasCurve& curve,
+                                                    std::span<const float> biases);
+
+/// How many taps of each scored pixel are lit at each bias; 0 elsewhere.
+[[nodiscard]] std::vector<scene::Image<std::uint8_t>>
+count_lit_taps(const scene::Image<scene::PixelClass>& classes, const TapCriticals& taps,
+               std::span<const float> biases);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "analysis/bias/bias_curve.hpp"
+#include "analysis/causes/cause.hpp"
+#include "analysis/causes/pixel_causes.hpp"
+#include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/tap_criticals.hpp"
+#include "analysis/metrics/amounts.hpp"
+#include "analysis/metrics/gaps.hpp"
+#include "scene/image.hpp"
+#include "scene/layers.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Each wrong or partial pixel's cause and label with one constant bias, how many there are of each
+/// that are wrong, and the amounts of all.
+struct CauseLayers {
+    scene::Image<Cause> cause;
+    scene::Image<Label> label;
+    CauseCounts counts;
+    CauseAmounts amounts;
+};
+
+/// Wrong pixels, and amounts of error, by cause and label with one constant bias.
+struct BiasRow {
+    ErrorCounts errors;
+    CauseCounts causes;
+    CauseAmounts amounts;
+};
+
+/// What rows are counted from; images of one size.
+struct BiasRowInputs {
+    const scene::Image<scene::PixelClass>& classes;
+    const scene::LookupLayers& deciding;      ///< from `deciding_samples`
+    const scene::Image<float>& critical_bias; ///< with the rule's slope; or `criticals_of_verdicts`
+    const PixelCauses& causes;
+    LookupRule rule;
+    const TapCriticals* taps = nullptr; ///< with the rule's slope; nullptr where one texel is read
+    /// Whether `deciding` has the verdicts, and `critical_bias` no more than they say: of one bias.
+    bool verdicts_are_given = false;
+};
+
+/// The counts and amounts at each bias, from one pass over the pixels: those that GL's own run with
+/// that bias would give.
+/// @param curve    Of the inputs' critical biases and classes.
+/// @param amounts  Of all errors, at each bias.
+/// @param biases   Ascending, 0 or normal.
+/// @throws std::invalid_argument  if the images differ in size, the biases do not ascend, or one is
+///                                neither 0 nor normal.
+[[nodiscard]] std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& curve,
+                                              std::span<const ErrorAmounts> amounts,
+                                              std::span<const float> biases);
+
+/// The wrong and partial pixels of one bias, one by one.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] CauseLayers classify_errors(const BiasRowInputs& inputs, float bias);
+
+/// A pixel whose shadow the bias detaches, once it is at least `critical_bias`.
+struct PanningGap {
+    float critical_bias = 0;
+    PixelGap gap;
+};
+
+/// The peter-panning lengths at each bias.
+/// @param biases  Ascending.
+[[nodiscard]] std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps,
+                                             std::span<const float> biases);
+
+} // namespace gnomon::analysis

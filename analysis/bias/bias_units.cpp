@@ -1,0 +1,118 @@
+#include "analysis/bias/bias_units.hpp"
+
+#include "analysis/bias/bias_order.hpp"
+#include "analysis/depth/depth_mapping.hpp"
+#include "analysis/pixel_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::PixelClass;
+
+bool is_perspective(const scene::LightFrustum& frustum)
+{
+    return frustum.projection == scene::Projection::perspective;
+}
+
+/// A of DESIGN §6: 1/ζ = 1/near − A·depth [1/m].
+double inverse_distance_range(const scene::LightFrustum& frustum)
+{
+    return 1.0 / frustum.near_m - 1.0 / frustum.far_m;
+}
+
+void require_same_sizes(const BiasMapInputs& inputs)
+{
+    const scene::ImageSize size = inputs.classes.size();
+    if (inputs.criticals.size() != size || inputs.lookup.samples.size() != size ||
+        inputs.zeta_m.size() != size) {
+        throw std::invalid_argument("map_biases: inputs: the images differ in size");
+    }
+}
+
+} // namespace
+
+double bias_length_m(const scene::LightFrustum& frustum, double bias, double zeta_m)
+{
+    if (std::isinf(bias)) {
+        return bias;
+    }
+    if (!is_perspective(frustum)) {
+        return bias * frustum.range_m();
+    }
+    const double relative = inverse_distance_range(frustum) * bias * zeta_m;
+    if (relative <= -1.0) {
+        return -std::numeric_limits<double>::infinity();
+    }
+    return relative * zeta_m / (1.0 + relative);
+}
+
+double bias_of_length(const scene::LightFrustum& frustum, double length_m, double zeta_m)
+{
+    if (!is_perspective(frustum)) {
+        return length_m / frustum.range_m();
+    }
+    return length_m < zeta_m
+               ? length_m / (inverse_distance_range(frustum) * zeta_m * (zeta_m - length_m))
+               : std::numeric_limits<double>::infinity();
+}
+
+double depth_per_metre(const scene::LightFrustum& frustum, double zeta_m)
+{
+    return is_perspective(frustum) ? 1.0 / (inverse_distance_range(frustum) * zeta_m * zeta_m)
+                                   : 1.0 / frustum.range_m();
+}
+
+double depth_step(scene::DepthFormat format, float depth)
+{
+    if (!format.is_float()) {
+        return 1.0 / (std::ldexp(1.0, format.bits) - 1.0);
+    }
+    const float normal = std::max(std::abs(depth), std::numeric_limits<float>::min());
+    return std::ldexp(1.0, std::ilogb(normal) - 23);
+}
+
+double depth_step_length_m(const scene::LightFrustum& frustum, scene::DepthFormat format,
+                           double zeta_m)
+{
+    const double depth = DepthMapping{frustum.depth_range()}.depth(zeta_m);
+    return bias_length_m(frustum, depth_step(format, static_cast<float>(depth)), zeta_m);
+}
+
+BiasMap map_biases(const BiasMapInputs& inputs)
+{
+    require_same_sizes(inputs);
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    const scene::ImageSize size = inputs.classes.size();
+    BiasMap map{scene::Image<float>{size, none}, scene::Image<float>{size, none},
+                scene::Image<float>{size, none}, scene::Image<float>{size, none}};
+    const auto fill = [&](std::size_t i) {
+        const float critical = inputs.criticals[i];
+        const bool allows_all = critical == std::numeric_limits<float>::infinity();
+        const bool is_allowed = inputs.classes[i] == PixelClass::blocked && !allows_all;
+        const double bias{is_allowed ? previous_bias(critical) : critical};
+        const double zeta_m{inputs.zeta_m[i]};
+        const double length_m = bias_length_m(inputs.frustum, bias, zeta_m);
+        const double texel_m = inputs.frustum.texel_width_m(zeta_m, inputs.resolution_texels);
+        const float depth = inputs.lookup.samples[i].receiver_depth;
+        map.depth[i] = static_cast<float>(bias);
+        map.metres[i] = static_cast<float>(length_m);
+        map.texels[i] = static_cast<float>(length_m / texel_m);
+        map.steps[i] = static_cast<float>(bias / depth_step(inputs.depth_format, depth));
+    };
+    for_each_run(inputs.classes.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            if (scene::is_scored(inputs.classes[i])) {
+                fill(i);
+            }
+        }
+    });
+    return map;
+}
+
+} // namespace gnomon::analysis

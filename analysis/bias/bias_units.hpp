@@ -1,0 +1,73 @@
+#pragma once
+
+#include "scene/image.hpp"
+#include "scene/job/job.hpp"
+#include "scene/layers.hpp"
+
+namespace gnomon::analysis {
+
+/// How many metres along the light's axis a constant bias moves a receiver at ζ towards the light.
+///
+///     directional:  b · (far − near)        spot:  A b ζ² / (1 + A b ζ),   A = 1/near − 1/far
+///
+/// Reversed depth gives the same lengths.
+/// @param bias    Depth units; any sign; an infinite bias gives an infinite length.
+/// @param zeta_m  Light distance of the receiver [m]; > 0 for a spot.
+/// @return  [m]; −∞ where a negative bias moves a spot's receiver beyond every distance.
+/// Source: DESIGN §6 with Δ = −b; docs/bias_curve.md#units.
+[[nodiscard]] double bias_length_m(const scene::LightFrustum& frustum, double bias, double zeta_m);
+
+/// The inverse of `bias_length_m`: the constant bias that moves a receiver at ζ by that length.
+///
+///     directional:  length / (far − near)    spot:  length / (A ζ (ζ − length))
+///
+/// @param length_m  [m], at least 0.
+/// @return  Infinite where a spot's receiver would be moved to the light or beyond it.
+[[nodiscard]] double bias_of_length(const scene::LightFrustum& frustum, double length_m,
+                                    double zeta_m);
+
+/// Depth units per metre along the light's axis at ζ, always positive.
+///
+///     directional:  1 / (far − near)        spot:  1 / (A ζ²)
+[[nodiscard]] double depth_per_metre(const scene::LightFrustum& frustum, double zeta_m);
+
+/// The smallest step of a depth format, GL's unit of polygon offset: the difference of neighbouring
+/// depths.
+///
+///     n-bit unorm:  1 / (2^n − 1)        d32f:  2^(e − 23), e the exponent of the depth
+///
+/// @param depth  Decides the step of d32f; 0 and subnormal depths have the smallest normal's step.
+/// Source: OpenGL 4.6 §14.6.5; docs/bias_curve.md#units.
+[[nodiscard]] double depth_step(scene::DepthFormat format, float depth);
+
+/// How many metres along the light's axis such a step is at ζ.
+[[nodiscard]] double depth_step_length_m(const scene::LightFrustum& frustum,
+                                         scene::DepthFormat format, double zeta_m);
+
+/// Per pixel the bias that it needs (lit: the smallest with which it is lit) or allows (blocked:
+/// the largest with which it stays shadowed), in four units; NaN where the pixel is not scored.
+///
+/// −∞ and +∞ stay what they are: a lit pixel needs no bias or none helps; a blocked pixel allows
+/// none, or every one.
+struct BiasMap {
+    scene::Image<float> depth;  ///< depth units
+    scene::Image<float> metres; ///< along the light's axis at the receiver [m]
+    scene::Image<float> texels; ///< those metres over the world width of a texel at the receiver
+    scene::Image<float> steps;  ///< over the format's smallest step at the receiver's depth
+};
+
+/// What a bias map is made of; all images of one size, which the caller keeps alive.
+struct BiasMapInputs {
+    const scene::Image<float>& criticals;
+    const scene::Image<scene::PixelClass>& classes;
+    const scene::LookupLayers& lookup;
+    const scene::Image<float>& zeta_m; ///< light distance of each receiver [m]
+    const scene::LightFrustum& frustum;
+    int resolution_texels;
+    scene::DepthFormat depth_format;
+};
+
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] BiasMap map_biases(const BiasMapInputs& inputs);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,60 @@
+#include "analysis/bias/slope_curves.hpp"
+
+#include "analysis/bias/bias_units.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::analysis {
+
+double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
+                           scene::Filter filter, double zeta_m)
+{
+    return scene::filter_width_texels(filter) * frustum.texel_width_m(zeta_m, resolution_texels) *
+           depth_per_metre(frustum, zeta_m);
+}
+
+std::vector<float> default_slopes(double per_footprint)
+{
+    constexpr std::array<double, 5> multiples{0.25, 0.5, 1.0, 2.0, 4.0};
+    std::vector<float> slopes{0.0F};
+    for (const double multiple : multiples) {
+        const auto slope = static_cast<float>(multiple * per_footprint);
+        if (!(slope > 0.0F) || !std::isnormal(slope)) {
+            throw std::invalid_argument(fmt::format(
+                "default_slopes: per_footprint: {} does not give normal, positive float32 slopes",
+                per_footprint));
+        }
+        slopes.push_back(slope);
+    }
+    return slopes;
+}
+
+SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
+{
+    LookupRule rule = inputs.rule;
+    rule.slope = slope;
+    scene::Image<float> criticals = critical_biases(inputs.samples, rule);
+    BiasCurve curve{criticals, inputs.classes};
+    const BestBiases best = find_best_biases(curve);
+    std::optional<TapCriticals> taps;
+    if (inputs.lookup != nullptr) {
+        taps.emplace(*inputs.lookup, *inputs.map_depths, rule);
+    }
+    const auto acne_free = [&](std::span<const std::uint64_t> allowed_pixels) {
+        return find_acne_free({inputs.classes, criticals, inputs.causes, taps ? &*taps : nullptr,
+                               rule.promises().has_fractions()},
+                              allowed_pixels);
+    };
+    const BiasBounds bounds =
+        find_bias_bounds(curve, criticals, inputs.classes, acne_free, inputs.forgive);
+    return {slope, std::move(criticals), std::move(curve), best, bounds};
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,325 @@
+#include "analysis/causes/blocked_causes.hpp"
+
+#include "analysis/causes/own_sheets.hpp"
+#include "analysis/causes/pixel_squares.hpp"
+#include "analysis/lookup/texel_hits.hpp"
+#include "analysis/metrics/amounts.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gnomon::analysis {
+
+using scene::Outside;
+
+namespace {
+
+/// A repair: whether it brings a pixel to the right side of one half, and whether to 1/256.
+struct Repair {
+    bool of_wrong = false;
+    bool of_partial = false;
+};
+
+class BlockedCauses {
+public:
+    BlockedCauses(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
+                  PixelCauses& causes, CauseMemory* memory)
+        : inputs_{inputs},
+          wanted_{wanted},
+          causes_{causes},
+          memory_{memory},
+          rule_{inputs.rule()},
+          footprint_{inputs.lookup, inputs.resolution_texels},
+          is_mean_depth_{inputs.promises().compares == scene::FilterPromises::Compares::mean_depth}
+    {
+    }
+
+    void find()
+    {
+        explain_in_squares(
+            causes_.pixels.size(), footprint_.tap_count(),
+            [&](std::size_t pixel) { return wanted_[pixel] != 0 && !recall(pixel); },
+            [&](std::span<const std::size_t> pixels) { explain(pixels); });
+    }
+
+private:
+    [[nodiscard]] bool is_lit_unbiased(std::size_t pixel) const
+    {
+        return scene::is_lit(inputs_.unbiased.samples[pixel].verdict);
+    }
+
+    /// Takes over what is remembered of the pixel; false if that is not enough.
+    [[nodiscard]] bool recall(std::size_t pixel) const
+    {
+        if (memory_ == nullptr) {
+            return false;
+        }
+        const auto own = memory_->own(pixel);
+        if (own && !*own && !is_lit_unbiased(pixel)) {
+            causes_.pixels[pixel] = {};
+            return true;
+        }
+        causes_.pixels[pixel] = memory_->known(pixel);
+        return memory_->knows(pixel);
+    }
+
+    void explain(std::span<const std::size_t> pixels)
+    {
+        std::vector<std::size_t> open;
+        std::vector<Tap> taps;
+        for (const std::size_t pixel : pixels) {
+            taps.clear();
+            footprint_.append_taps(inputs_.unbiased.texels[pixel], taps);
+            if (!rule_.is_policy(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
+                open.push_back(pixel);
+                continue;
+            }
+            if (inputs_.lookup.outside == Outside::lit) {
+                set(pixel, Cause::coverage);
+            }
+            remember(pixel, false);
+        }
+        explain_by_stored_depths(open);
+    }
+
+    void set(std::size_t pixel, Cause cause)
+    {
+        causes_.pixels[pixel].if_wrong = cause;
+        causes_.pixels[pixel].if_partial = cause;
+    }
+    void remember(std::size_t pixel, bool own)
+    {
+        if (memory_ == nullptr) {
+            return;
+        }
+        memory_->remember_own(pixel, own);
+        if (!causes_.pixels[pixel].is_of_bias_alone()) {
+            memory_->remember(pixel, causes_.pixels[pixel]);
+        }
+    }
+
+    /// V1, and what follows where it does not repair.
+    void explain_by_stored_depths(std::span<const std::size_t> pixels)
+    {
+        const TracedLookups lookups = trace_lookups(inputs_, inputs_.unbiased, pixels);
+        auto asked = shadowing_taps(inputs_, inputs_.unbiased, lookups);
+        for (std::size_t i = 0; i < pixels.size() && is_mean_depth_; ++i) {
+            asked[i].set(footprint_.centre_tap(inputs_.unbiased.texels[pixels[i]]));
+        }
+        const auto own = own_taps(inputs_.light, lookups, asked);
+        Open open;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const Repair by_v1 = repair_by_v1(lookups, i, own[i]);
+            if (by_v1.of_wrong && by_v1.of_partial) {
+                remember(pixels[i], false);
+            } else {
+                open.pixels.push_back(pixels[i]);
+                open.by_bias.push_back(by_v1);
+                open.own.push_back(own[i]);
+                open.not_asked.push_back(~asked[i]);
+            }
+        }
+        explain_by_exact_depths(std::move(open));
+    }
+
+    [[nodiscard]] Repair repair_by_v1(const TracedLookups& lookups, std::size_t i,
+                                      const TapSet& own) const
+    {
+        const std::size_t pixel = lookups.pixel(i);
+        double lit{inputs_.unbiased.samples[pixel].verdict};
+        if (is_mean_depth_) {
+            const bool is_repaired = lit < 0.5 && !sees_own_at_centre(pixel, own);
+            return {is_repaired, is_repaired};
+        }
+        const auto taps = lookups.taps_of(i);
+        double own_weight = 0;
+        double weight = 0;
+        for (std::size_t t = 0; t < taps.size(); ++t) {
+            weight += taps[t].weight;
+            own_weight += own[t] ? taps[t].weight : 0;
+        }
+        lit += own_weight / weight;
+        return {lit < 0.5, lit <= partial_above};
+    }
+    [[nodiscard]] bool sees_own_at_centre(std::size_t pixel, const TapSet& own) const
+    {
+        return own[footprint_.centre_tap(inputs_.unbiased.texels[pixel])];
+    }
+
+    /// What V1 does not repair.
+    struct Open {
+        std::vector<std::size_t> pixels;
+        std::vector<Repair> by_bias;
+        std::vector<TapSet> own;       ///< of the taps that were asked about
+        std::vector<TapSet> not_asked; ///< the others
+    };
+
+    void explain_by_exact_depths(Open open)
+    {
+        const TracedLookups lookups = trace_lookups(inputs_, inputs_.unbiased, open.pixels);
+        const auto others = own_taps(inputs_.light, lookups, open.not_asked);
+        for (std::size_t i = 0; i < open.own.size(); ++i) {
+            open.own[i] |= others[i];
+        }
+        const auto by_v2 = repairs_by_v2(lookups, open.own);
+        const auto by_filter = repairs_by_centre(lookups, open.own);
+        std::vector<std::size_t> lost; // texels do not help
+        std::vector<std::size_t> lost_place;
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            const std::size_t pixel = lookups.pixel(i);
+            const Cause beyond = by_filter[i] ? Cause::filter : Cause::coverage;
+            const auto cause = [&](bool by_bias, bool by_exact) {
+                return by_bias ? Cause::none : (by_exact ? Cause::precision : beyond);
+            };
+            causes_.pixels[pixel].if_wrong = cause(open.by_bias[i].of_wrong, by_v2[i].of_wrong);
+            causes_.pixels[pixel].if_partial =
+                cause(open.by_bias[i].of_partial, by_v2[i].of_partial);
+            if (causes_.pixels[pixel].if_wrong == Cause::coverage ||
+                causes_.pixels[pixel].if_partial == Cause::coverage) {
+                lost.push_back(pixel);
+                lost_place.push_back(i);
+            }
+        }
+        explain_by_truth(lookups, open.own, lost, lost_place);
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            remember(lookups.pixel(i), open.own[i].any());
+        }
+    }
+
+    [[nodiscard]] std::vector<Repair> repairs_by_v2(const TracedLookups& lookups,
+                                                    std::span<const TapSet> own) const
+    {
+        const auto half = exact_critical_biases(rule_, lookups, inputs_.light, LitShare::half, own);
+        const auto any =
+            inputs_.promises().has_fractions()
+                ? exact_critical_biases(rule_, lookups, inputs_.light, LitShare::any, own)
+                : half;
+        std::vector<Repair> repairs;
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            const bool accepts = !is_mean_depth_ || !sees_own_at_centre(lookups.pixel(i), own[i]);
+            repairs.push_back({accepts && half[i] > 0, accepts && any[i] > 0});
+        }
+        return repairs;
+    }
+
+    /// V2n.
+    [[nodiscard]] std::vector<bool> repairs_by_centre(const TracedLookups& lookups,
+                                                      std::span<const TapSet> own) const
+    {
+        std::vector<bool> repairs(lookups.size(), false);
+        if (inputs_.promises().has_one_tap()) {
+            return repairs; // V2 asked that
+        }
+        std::vector<std::size_t> centres;
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            centres.push_back(footprint_.centre_tap(inputs_.unbiased.texels[lookups.pixel(i)]));
+        }
+        const auto critical = exact_tap_biases(rule_, lookups, inputs_.light, centres);
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            repairs[i] = critical[i] > 0 && !own[i][centres[i]];
+        }
+        return repairs;
+    }
+
+    /// V3 and V4.
+    /// @param places  of the pixels among the lookups.
+    void explain_by_truth(const TracedLookups& lookups, std::span<const TapSet> own,
+                          std::span<const std::size_t> pixels, std::span<const std::size_t> places)
+    {
+        const auto crossed = inputs_.light.are_crossed(pixels);
+        std::vector<std::size_t> between_texels;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const bool is_shadowed = inputs_.is_uncovered(footprint_, pixels[i])
+                                         ? inputs_.lookup.outside == Outside::shadowed
+                                         : crossed[i] != 0;
+            if (is_shadowed) {
+                PixelCause& pixel = causes_.pixels[pixels[i]];
+                for (Cause* cause : {&pixel.if_wrong, &pixel.if_partial}) {
+                    *cause = *cause == Cause::coverage ? Cause::resolution : *cause;
+                }
+                between_texels.push_back(places[i]);
+            }
+        }
+        look_around(lookups, own, between_texels);
+    }
+
+    /// Sets `sees` where some texel at or around the taps, of those that do not see the own sheet,
+    /// sees the blocker, or anything as near to the light.
+    /// @param places  among the lookups.
+    void look_around(const TracedLookups& lookups, std::span<const TapSet> own,
+                     std::span<const std::size_t> places)
+    {
+        std::vector<std::size_t> pixels;
+        std::vector<scene::Texel> texels;
+        std::vector<std::size_t> ends;
+        for (const std::size_t place : places) {
+            const std::size_t pixel = lookups.pixel(place);
+            const auto taps = lookups.taps_of(place);
+            for (std::size_t t = 0; t < taps.size(); ++t) {
+                if (taps[t].is_inside && !own[place][t]) {
+                    texels.push_back(taps[t].texel);
+                }
+            }
+            const auto ring = footprint_.ring(inputs_.unbiased.texels[pixel]);
+            texels.insert(texels.end(), ring.begin(), ring.end());
+            pixels.push_back(pixel);
+            ends.push_back(texels.size());
+        }
+        const TexelHits hits{inputs_.light, texels, scene::HitDetail::placed};
+        const auto blockers = inputs_.light.find_blockers(pixels);
+        std::vector<std::vector<scene::SheetQuery>> nearer(pixels.size());
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const double middle_m = 0.5 * (blockers[i].zeta_m + blockers[i].receiver_zeta_m);
+            for (; next < ends[i]; ++next) {
+                const scene::TexelHit& hit = hits[texels[next]];
+                if (hit.zeta_m < middle_m) {
+                    nearer[i].push_back({pixels[i], texels[next], hit.triangle});
+                }
+            }
+        }
+        find_seen(std::move(nearer));
+    }
+
+    /// One texel of each pixel after the other: mostly the first is not its own sheet.
+    void find_seen(std::vector<std::vector<scene::SheetQuery>> nearer)
+    {
+        std::erase_if(nearer, [](const auto& queries) { return queries.empty(); });
+        while (!nearer.empty()) {
+            std::vector<scene::SheetQuery> asked;
+            for (auto& queries : nearer) {
+                asked.push_back(queries.back());
+                queries.pop_back();
+            }
+            const auto own = inputs_.light.are_own_sheets(asked);
+            for (std::size_t i = 0; i < nearer.size(); ++i) {
+                if (own[i] == 0) {
+                    causes_.pixels[asked[i].pixel].sees = true;
+                    nearer[i].clear();
+                }
+            }
+            std::erase_if(nearer, [](const auto& queries) { return queries.empty(); });
+        }
+    }
+
+    const CauseInputs& inputs_;
+    const scene::Image<std::uint8_t>& wanted_;
+    PixelCauses& causes_;
+    CauseMemory* memory_;
+    LookupRule rule_;
+    Footprint footprint_;
+    bool is_mean_depth_;
+};
+
+} // namespace
+
+void find_blocked_causes(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
+                         PixelCauses& causes, CauseMemory* memory)
+{
+    require_cause_inputs(inputs);
+    BlockedCauses{inputs, wanted, causes, memory}.find();
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,21 @@
+#include "analysis/causes/cause_inputs.hpp"
+
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+void require_cause_inputs(const CauseInputs& inputs)
+{
+    const scene::ImageSize size = inputs.truth.pixel_class.size();
+    for (const scene::LookupLayers* layers : {&inputs.job, &inputs.unbiased}) {
+        if (layers->samples.size() != size || layers->texels.size() != size) {
+            throw std::invalid_argument("causes: the lookup is not of the truth's size");
+        }
+    }
+    const scene::ImageSize map{inputs.resolution_texels, inputs.resolution_texels};
+    if (!inputs.promises().has_one_tap() && inputs.map_depths.size() != map) {
+        throw std::invalid_argument("causes: map_depths is not of the map's size");
+    }
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,174 @@
+#include "analysis/causes/lit_causes.hpp"
+
+#include "analysis/causes/own_sheets.hpp"
+#include "analysis/causes/pixel_squares.hpp"
+#include "analysis/metrics/amounts.hpp"
+#include "analysis/pixel_runs.hpp"
+
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+using scene::Outside;
+using scene::PixelClass;
+
+namespace {
+
+class LitCauses {
+public:
+    LitCauses(const CauseInputs& inputs, PixelCauses& causes, CauseMemory* memory)
+        : inputs_{inputs},
+          causes_{causes},
+          memory_{memory},
+          rule_{inputs.rule()},
+          footprint_{inputs.lookup, inputs.resolution_texels}
+    {
+    }
+
+    void find()
+    {
+        if (memory_ != nullptr) {
+            recall();
+        }
+        explain_in_squares(
+            causes_.pixels.size(), footprint_.tap_count(),
+            [&](std::size_t pixel) {
+                return is_asked(pixel) && (memory_ == nullptr || !memory_->knows(pixel));
+            },
+            [&](std::span<const std::size_t> pixels) { explain(pixels); });
+    }
+
+private:
+    /// Whether V1 leaves it wrong or partial.
+    [[nodiscard]] bool is_asked(std::size_t pixel) const
+    {
+        const double shadow = 1 - double{inputs_.unbiased.samples[pixel].verdict};
+        return (static_cast<unsigned>(inputs_.truth.pixel_class[pixel] == PixelClass::lit) &
+                static_cast<unsigned>(shadow > partial_above)) != 0;
+    }
+    [[nodiscard]] bool is_wrong_unbiased(std::size_t pixel) const
+    {
+        return !scene::is_lit(inputs_.unbiased.samples[pixel].verdict);
+    }
+
+    /// Takes over what is remembered. Without branches: which pixels are wrong is hardly to be
+    /// foreseen.
+    void recall()
+    {
+        constexpr PixelCause right;
+        for_each_run(causes_.pixels.pixel_count(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t pixel = first; pixel != last; ++pixel) {
+                causes_.pixels[pixel] = *(is_asked(pixel) ? &memory_->known(pixel) : &right);
+            }
+        });
+    }
+
+    void explain(std::span<const std::size_t> pixels)
+    {
+        std::vector<std::size_t> open;
+        std::vector<Tap> taps;
+        for (const std::size_t pixel : pixels) {
+            taps.clear();
+            footprint_.append_taps(inputs_.unbiased.texels[pixel], taps);
+            if (rule_.is_policy(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
+                set(pixel, Cause::coverage);
+                causes_.pixels[pixel].exact_critical_bias = scene::infinity;
+                if (!causes_.filters.empty()) {
+                    causes_.filters[pixel] = {scene::infinity, scene::infinity, false, {}};
+                }
+            } else {
+                // V3: nothing crosses the segment, so only a policy can shadow.
+                const bool is_lit = !inputs_.is_uncovered(footprint_, pixel) ||
+                                    inputs_.lookup.outside == Outside::lit;
+                set(pixel, is_lit ? Cause::resolution : Cause::coverage);
+                open.push_back(pixel);
+            }
+        }
+        explain_by_texels(open);
+        if (memory_ != nullptr) {
+            for (const std::size_t pixel : pixels) {
+                memory_->remember(pixel, causes_.pixels[pixel]);
+            }
+        }
+    }
+
+    /// @param beyond  The cause where neither exact depths nor the centre texel repair.
+    void set(std::size_t pixel, Cause beyond)
+    {
+        causes_.pixels[pixel].if_wrong = is_wrong_unbiased(pixel) ? beyond : Cause::none;
+        causes_.pixels[pixel].if_partial = beyond;
+    }
+
+    void explain_by_texels(std::span<const std::size_t> pixels)
+    {
+        const TracedLookups unbiased = trace_lookups(inputs_, inputs_.unbiased, pixels);
+        const bool is_moved = &inputs_.job != &inputs_.unbiased;
+        const OwnTaps found =
+            is_moved ? find_own(trace_lookups(inputs_, inputs_.job, pixels)) : find_own(unbiased);
+        const auto half = exact_critical_biases(rule_, unbiased, inputs_.light, LitShare::half);
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            causes_.pixels[pixels[i]].exact_critical_bias = half[i];
+            causes_.pixels[pixels[i]].sees = found.own[i][0];
+        }
+        if (!causes_.filters.empty()) {
+            explain_filter(unbiased, found, half);
+        }
+    }
+
+    /// Taps of the job's lookup, and those of them that see the receiver's own sheet.
+    struct OwnTaps {
+        std::vector<TapSet> asked;
+        std::vector<TapSet> own;
+    };
+    [[nodiscard]] OwnTaps find_own(const TracedLookups& lookups) const
+    {
+        // What is remembered of a single tap must not depend on what is stored.
+        const bool asks_all = inputs_.asks_below_zero || inputs_.promises().has_one_tap();
+        const TapSet all = TapSet{}.set() >> (scene::most_taps - inputs_.promises().tap_count());
+        auto asked = asks_all ? std::vector<TapSet>(lookups.size(), all)
+                              : shadowing_taps(inputs_, inputs_.job, lookups);
+        auto own = own_taps(inputs_.light, lookups, asked);
+        return {std::move(asked), std::move(own)};
+    }
+
+    void explain_filter(const TracedLookups& lookups, const OwnTaps& found,
+                        std::span<const float> half)
+    {
+        const bool has_fractions = inputs_.promises().has_fractions();
+        const auto full = has_fractions
+                              ? exact_critical_biases(rule_, lookups, inputs_.light, LitShare::full)
+                              : std::vector<float>{half.begin(), half.end()};
+        std::vector<std::size_t> centres;
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            centres.push_back(footprint_.centre_tap(inputs_.unbiased.texels[lookups.pixel(i)]));
+        }
+        const auto centre = exact_tap_biases(rule_, lookups, inputs_.light, centres);
+        std::vector<TapSet> asked(lookups.size());
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            asked[i][centres[i]] = inputs_.asks_below_zero || centre[i] > 0;
+        }
+        const auto centre_own = own_taps(inputs_.light, lookups, asked);
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            causes_.filters[lookups.pixel(i)] = {full[i], centre[i], centre_own[i].any(),
+                                                 found.own[i],
+                                                 (found.asked[i] & ~found.own[i]).any()};
+        }
+    }
+
+    const CauseInputs& inputs_;
+    PixelCauses& causes_;
+    CauseMemory* memory_;
+    LookupRule rule_;
+    Footprint footprint_;
+};
+
+} // namespace
+
+void find_lit_causes(const CauseInputs& inputs, PixelCauses& causes, CauseMemory* memory)
+{
+    require_cause_inputs(inputs);
+    LitCauses{inputs, causes, memory}.find();
+}
+
+} // namespace gnomon::analysis

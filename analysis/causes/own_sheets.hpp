@@ -1,0 +1,29 @@
+#pragma once
+
+#include "analysis/causes/cause_inputs.hpp"
+#include "analysis/lookup/exact_lookup.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// The lookups of pixels, traced.
+/// @param layers  where they look: the inputs' `job` or `unbiased`.
+[[nodiscard]] TracedLookups trace_lookups(const CauseInputs& inputs,
+                                          const scene::LookupLayers& layers,
+                                          std::span<const std::size_t> pixels);
+
+/// For each lookup the taps that shadow without bias, by the depths that GL stored.
+[[nodiscard]] std::vector<TapSet> shadowing_taps(const CauseInputs& inputs,
+                                                 const scene::LookupLayers& layers,
+                                                 const TracedLookups& lookups);
+
+/// For each lookup the taps whose texels see the receiver's own sheet (DESIGN §4).
+/// @param asked  the taps in question, by lookup.
+[[nodiscard]] std::vector<TapSet> own_taps(const scene::ExactLight& light,
+                                           const TracedLookups& lookups,
+                                           std::span<const TapSet> asked);
+
+} // namespace gnomon::analysis

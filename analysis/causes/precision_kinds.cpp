@@ -1,0 +1,119 @@
+#include "analysis/causes/precision_kinds.hpp"
+
+#include "analysis/causes/own_sheets.hpp"
+
+namespace gnomon::analysis {
+
+using scene::PixelClass;
+
+namespace {
+
+class FloatVerdicts {
+public:
+    FloatVerdicts(const CauseInputs& floats, const scene::Bias& bias)
+        : floats_{floats},
+          footprint_{floats.lookup, floats.resolution_texels},
+          rule_{floats.rule()},
+          bias_{bias}
+    {
+    }
+
+    /// Whether the pixel's only comparison is right.
+    [[nodiscard]] bool repairs(std::size_t pixel) const
+    {
+        const float r = floats_.unbiased.samples[pixel].receiver_depth;
+        return rule_.is_lit(r, compared_depth(pixel), kept_bias(pixel)) == is_lit_truth(pixel);
+    }
+
+    /// Whether its taps' verdicts are on the right side of one half.
+    /// @param own  those that count as lit.
+    [[nodiscard]] bool repairs(std::size_t pixel, std::span<const Tap> taps,
+                               const TapSet& own) const
+    {
+        const float r = floats_.unbiased.samples[pixel].receiver_depth;
+        double lit = 0;
+        double all = 0;
+        for (std::size_t t = 0; t < taps.size(); ++t) {
+            const float depth = taps[t].is_inside ? depth_at(taps[t].texel) : rule_.outside_depth();
+            all += taps[t].weight;
+            lit += own[t] || rule_.is_lit(r, depth, kept_bias(pixel)) ? taps[t].weight : 0;
+        }
+        return (lit >= 0.5 * all) == is_lit_truth(pixel);
+    }
+
+    [[nodiscard]] bool is_lit_truth(std::size_t pixel) const
+    {
+        return floats_.truth.pixel_class[pixel] == PixelClass::lit;
+    }
+
+private:
+    [[nodiscard]] float depth_at(const scene::Texel& texel) const
+    {
+        // The map's rows are counted from the top, texels from the bottom.
+        return floats_.map_depths(texel.x, floats_.resolution_texels - 1 - texel.y);
+    }
+    /// The only tap's, or as GL interpolated it.
+    [[nodiscard]] float compared_depth(std::size_t pixel) const
+    {
+        const float looked_up = floats_.unbiased.samples[pixel].map_depth;
+        if (!floats_.promises().has_one_tap()) {
+            return looked_up;
+        }
+        const Tap tap = footprint_.taps(floats_.unbiased.texels[pixel]).front();
+        return tap.is_inside ? depth_at(tap.texel) : looked_up;
+    }
+    /// V2's: the job's for a lit pixel, as the lookup added it.
+    [[nodiscard]] float kept_bias(std::size_t pixel) const
+    {
+        const float slope_term = bias_.slope * floats_.job.samples[pixel].tan_theta;
+        return is_lit_truth(pixel) ? bias_.constant + slope_term : 0;
+    }
+
+    const CauseInputs& floats_;
+    Footprint footprint_;
+    LookupRule rule_;
+    scene::Bias bias_;
+};
+
+} // namespace
+
+std::vector<std::size_t> wrong_by_precision(const scene::Image<Cause>& causes,
+                                            const scene::TruthLayers& truth,
+                                            const scene::LookupLayers& lookup)
+{
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < causes.pixel_count(); ++i) {
+        const bool is_lit_truth = truth.pixel_class[i] == PixelClass::lit;
+        if (causes[i] == Cause::precision &&
+            scene::is_lit(lookup.samples[i].verdict) != is_lit_truth) {
+            pixels.push_back(i);
+        }
+    }
+    return pixels;
+}
+
+PrecisionKinds find_precision_kinds(const CauseInputs& floats, std::span<const std::size_t> pixels,
+                                    const scene::Bias& bias)
+{
+    const FloatVerdicts map{floats, bias};
+    PrecisionKinds kinds;
+    const auto add = [&](bool is_repaired) { ++(is_repaired ? kinds.format : kinds.transform); };
+    if (!floats.promises().has_fractions()) {
+        for (const std::size_t pixel : pixels) {
+            add(map.repairs(pixel));
+        }
+        return kinds;
+    }
+    const TracedLookups lookups = trace_lookups(floats, floats.unbiased, pixels);
+    std::vector<TapSet> asked(lookups.size()); // of blocked pixels, whose own taps count as lit
+    for (std::size_t i = 0; i < lookups.size(); ++i) {
+        asked[i] = map.is_lit_truth(lookups.pixel(i)) ? TapSet{} : TapSet{}.set();
+    }
+    const auto own = own_taps(floats.light, lookups, asked);
+    for (std::size_t i = 0; i < lookups.size(); ++i) {
+        add(map.repairs(lookups.pixel(i), lookups.taps_of(i), own[i]));
+    }
+    return kinds;
+}
+
+} // namespace gnomon::analysis

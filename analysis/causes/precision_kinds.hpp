@@ -1,0 +1,35 @@
+#pragma once
+
+#include "analysis/causes/cause.hpp"
+#include "analysis/causes/cause_inputs.hpp"
+#include "scene/image.hpp"
+#include "scene/job/job.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Wrong pixels of cause `precision`, by what of it is to blame (DESIGN §4).
+struct PrecisionKinds {
+    std::uint64_t format = 0;    ///< right with the same map of 32-bit floats
+    std::uint64_t transform = 0; ///< by float32 matrices and interpolated positions
+};
+
+/// The wrong pixels of cause `precision`.
+[[nodiscard]] std::vector<std::size_t> wrong_by_precision(const scene::Image<Cause>& causes,
+                                                          const scene::TruthLayers& truth,
+                                                          const scene::LookupLayers& lookup);
+
+/// Compares them as V1 does, with V2's bias, in the same map drawn as d32f.
+/// @param floats  of that map: its `job` has the job's tan θ, its `unbiased` and `map_depths` are
+///                the float map's (`linear`: without `map_depths`).
+/// @param pixels  from `wrong_by_precision`.
+/// @param bias    the job's.
+[[nodiscard]] PrecisionKinds find_precision_kinds(const CauseInputs& floats,
+                                                  std::span<const std::size_t> pixels,
+                                                  const scene::Bias& bias);
+
+} // namespace gnomon::analysis

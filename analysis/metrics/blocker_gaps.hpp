@@ -1,0 +1,36 @@
+#pragma once
+
+#include "analysis/bias/bias_limits.hpp"
+#include "analysis/receiver_geometry.hpp"
+#include "scene/image.hpp"
+#include "scene/light/exact_light.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace gnomon::analysis {
+
+/// World distances from blocked receivers to their blockers, found when first asked for. They
+/// depend on scene, camera and light alone: one memory serves all maps.
+class BlockerGaps {
+public:
+    explicit BlockerGaps(scene::ImageSize size);
+
+    /// Finds those of the pixels that are not known yet.
+    /// @param pixels  blocked in truth.
+    void find(const scene::ExactLight& light, std::span<const std::size_t> pixels);
+    /// From P to its blocker [m]. Precondition: it was found.
+    [[nodiscard]] double gap_m(std::size_t pixel) const { return gaps_m_[pixel]; }
+
+private:
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    scene::Image<double> gaps_m_;
+};
+
+/// Forgives gaps of at most the pixel's own width. The arguments must outlive what is returned.
+[[nodiscard]] ForgiveGaps forgive_footprints(BlockerGaps& gaps, const scene::ExactLight& light,
+                                             const ReceiverGeometry& geometry);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,316 @@
+#include "analysis/metrics/breakdown.hpp"
+
+#include "analysis/metrics/amounts.hpp"
+#include "analysis/pixel_runs.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::PixelClass;
+
+/// Counts the pixels of a part by their verdicts.
+class PartTally {
+public:
+    explicit PartTally(int taps) : shadow_{taps}, light_{taps} {}
+
+    void add(PixelClass pixel_class, float verdict)
+    {
+        const bool is_lit = scene::is_lit(verdict);
+        if (pixel_class == PixelClass::lit) {
+            ++counts_.lit;
+            counts_.false_shadow += is_lit ? 0 : 1;
+            shadow_.add(1 - double{verdict});
+        } else {
+            ++counts_.blocked;
+            counts_.false_lit += is_lit ? 1 : 0;
+            light_.add(double{verdict});
+        }
+    }
+    [[nodiscard]] PartCounts counts() const
+    {
+        PartCounts counts = counts_;
+        counts.shadow_amount = shadow_.value();
+        counts.light_amount = light_.value();
+        return counts;
+    }
+
+private:
+    PartCounts counts_;
+    AmountSum shadow_;
+    AmountSum light_;
+};
+
+void require_bins(std::string_view function, int bins)
+{
+    if (bins < 1 || bins > Binning::most_bins) {
+        throw std::invalid_argument(
+            fmt::format("{}: bins: {} is not from 1 to {}", function, bins, Binning::most_bins));
+    }
+}
+
+void require_size(std::string_view function, scene::ImageSize size, scene::ImageSize expected)
+{
+    if (size != expected) {
+        throw std::invalid_argument(fmt::format("{}: the images differ in size", function));
+    }
+}
+
+struct Range {
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -std::numeric_limits<double>::infinity();
+};
+
+Range scored_range(const scene::Image<PixelClass>& classes, const scene::Image<float>& zeta_m)
+{
+    Range range;
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (!scene::is_scored(classes[i])) {
+            continue;
+        }
+        if (!std::isfinite(zeta_m[i])) {
+            throw std::invalid_argument(fmt::format(
+                "bin_by_distance: zeta_m: that of scored pixel {} is {}", i, zeta_m[i]));
+        }
+        range.lower = std::min(range.lower, double{zeta_m[i]});
+        range.upper = std::max(range.upper, double{zeta_m[i]});
+    }
+    return range;
+}
+
+/// The value's bin; the quotient may round across an edge, and the edges decide.
+std::uint8_t bin_of(const Binning& binning, double value)
+{
+    if (!(binning.upper > binning.lower)) {
+        return 0;
+    }
+    const int last = binning.bins - 1;
+    const double position =
+        (value - binning.lower) / (binning.upper - binning.lower) * binning.bins;
+    int i = std::min(static_cast<int>(std::max(position, 0.0)), last);
+    while (i > 0 && value < binning.edge(i)) {
+        --i;
+    }
+    while (i < last && value >= binning.edge(i + 1)) {
+        ++i;
+    }
+    return static_cast<std::uint8_t>(i);
+}
+
+/// Puts each scored pixel into the bin of its value.
+template <typename ValueOf>
+void fill(Binning& binning, const scene::Image<PixelClass>& classes, const ValueOf& value_of)
+{
+    constexpr std::uint8_t no_bin = 255;
+    scene::Image<std::uint8_t> bin{classes.size(), no_bin};
+    for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            if (scene::is_scored(classes[i])) {
+                bin[i] = bin_of(binning, value_of(i));
+            }
+        }
+    });
+    std::array<std::size_t, no_bin + std::size_t{1}> next{}; // where each bin's next pixel goes
+    for (const std::uint8_t each : bin) {
+        ++next[each];
+    }
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    binning.image = classes.size();
+    binning.pixels.resize(next[no_bin]);
+    for (std::size_t i = 0; i < bin.pixel_count(); ++i) {
+        if (bin[i] != no_bin) {
+            binning.pixels[next[bin[i]]++] = static_cast<std::uint32_t>(i);
+        }
+    }
+    binning.ends.assign(next.begin(), next.begin() + binning.bins);
+}
+
+/// What a bin's pixels are measured by.
+struct BinValues {
+    std::vector<float> lit; ///< critical biases
+    std::vector<float> blocked;
+    std::vector<float> map_error_m;
+};
+
+BinValues gather(const Binning& binning, std::size_t bin, const BreakdownInputs& inputs)
+{
+    const auto pixels = binning.pixels_of(bin);
+    // Without branches: every value is written to both lists, and stays where the list then grows.
+    BinValues values{
+        std::vector<float>(pixels.size() + 1), std::vector<float>(pixels.size() + 1), {}};
+    std::size_t lit = 0;
+    std::size_t blocked = 0;
+    for (const std::uint32_t i : pixels) {
+        values.lit[lit] = inputs.criticals[i];
+        values.blocked[blocked] = inputs.criticals[i];
+        const std::size_t is_lit = inputs.classes[i] == PixelClass::lit ? 1 : 0;
+        lit += is_lit;
+        blocked += 1 - is_lit;
+    }
+    values.lit.resize(lit);
+    values.blocked.resize(blocked);
+    if (!inputs.map_error_m.empty()) {
+        values.map_error_m.resize(pixels.size());
+        std::ranges::transform(pixels, values.map_error_m.begin(),
+                               [&](std::uint32_t i) { return inputs.map_error_m[i]; });
+    }
+    return values;
+}
+
+PartCounts count_at(const BinValues& values, float bias)
+{
+    const auto is_lit = [&](float critical) { return critical <= bias; };
+    const auto count = [&](const std::vector<float>& criticals) {
+        return static_cast<std::uint64_t>(std::ranges::count_if(criticals, is_lit));
+    };
+    const std::uint64_t false_shadow = values.lit.size() - count(values.lit);
+    const std::uint64_t false_lit = count(values.blocked);
+    return {values.lit.size(),
+            values.blocked.size(),
+            false_shadow,
+            false_lit,
+            static_cast<double>(false_shadow),
+            static_cast<double>(false_lit)};
+}
+
+/// Replaces the amounts by those of so many lit taps.
+void set_amounts(PartCounts& counts, std::span<const std::uint32_t> pixels,
+                 const BreakdownInputs& inputs, const scene::Image<std::uint8_t>& lit_taps)
+{
+    std::array<std::uint64_t, 2> lit{}; // by whether the truth is lit
+    for (const std::uint32_t i : pixels) {
+        lit[inputs.classes[i] == PixelClass::lit ? 1 : 0] += lit_taps[i];
+    }
+    const auto taps = static_cast<std::uint64_t>(inputs.taps);
+    counts.shadow_amount =
+        static_cast<double>(counts.lit * taps - lit[1]) / static_cast<double>(taps);
+    counts.light_amount = static_cast<double>(lit[0]) / static_cast<double>(taps);
+}
+
+/// The bin without its counts; reorders the values.
+ErrorBin measure_spread(const Binning& binning, std::size_t bin, BinValues& values)
+{
+    return {binning.edge(static_cast<int>(bin)),
+            binning.edge(static_cast<int>(bin) + 1),
+            {},
+            find_quantiles(std::span{values.lit}),
+            find_quantiles(std::span{values.map_error_m})};
+}
+
+void require_inputs(const Binning& binning, const BreakdownInputs& inputs)
+{
+    const scene::ImageSize size = inputs.classes.size();
+    for (const scene::ImageSize other :
+         {binning.image, inputs.lookup.samples.size(), inputs.criticals.size(),
+          inputs.map_error_m.empty() ? size : inputs.map_error_m.size()}) {
+        require_size("errors_by_bin", other, size);
+    }
+}
+
+} // namespace
+
+double Binning::edge(int i) const
+{
+    return std::lerp(lower, upper, static_cast<double>(i) / bins);
+}
+
+Binning bin_by_distance(const scene::Image<PixelClass>& classes, const scene::Image<float>& zeta_m,
+                        int bins)
+{
+    require_bins("bin_by_distance", bins);
+    require_size("bin_by_distance", zeta_m.size(), classes.size());
+    const Range range = scored_range(classes, zeta_m);
+    Binning binning;
+    if (range.lower <= range.upper) {
+        binning.lower = range.lower;
+        binning.upper = range.upper;
+        binning.bins = range.lower < range.upper ? bins : 1;
+    }
+    fill(binning, classes, [&](std::size_t i) { return double{zeta_m[i]}; });
+    return binning;
+}
+
+Binning bin_by_angle(const scene::Image<PixelClass>& classes, const scene::LookupLayers& lookup,
+                     int bins)
+{
+    require_bins("bin_by_angle", bins);
+    require_size("bin_by_angle", lookup.samples.size(), classes.size());
+    Binning binning;
+    binning.upper = std::numbers::pi / 2;
+    binning.bins = bins;
+    fill(binning, classes,
+         [&](std::size_t i) { return std::atan(double{lookup.samples[i].tan_theta}); });
+    return binning;
+}
+
+std::vector<std::vector<ErrorBin>>
+errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases,
+              std::span<const scene::Image<std::uint8_t>> lit_taps)
+{
+    require_inputs(binning, inputs);
+    const auto bins = static_cast<std::size_t>(binning.bins);
+    std::vector<std::vector<ErrorBin>> result(biases.size(), std::vector<ErrorBin>(bins));
+    tbb::parallel_for(std::size_t{0}, bins, [&](std::size_t bin) {
+        BinValues values = gather(binning, bin, inputs);
+        const ErrorBin spread = measure_spread(binning, bin, values);
+        for (std::size_t i = 0; i < biases.size(); ++i) {
+            result[i][bin] = spread;
+            result[i][bin].counts = count_at(values, biases[i]);
+            if (!lit_taps.empty()) {
+                set_amounts(result[i][bin].counts, binning.pixels_of(bin), inputs, lit_taps[i]);
+            }
+        }
+    });
+    return result;
+}
+
+std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInputs& inputs)
+{
+    require_inputs(binning, inputs);
+    std::vector<ErrorBin> bins(static_cast<std::size_t>(binning.bins));
+    tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t bin) {
+        BinValues values = gather(binning, bin, inputs);
+        bins[bin] = measure_spread(binning, bin, values);
+        PartTally tally{inputs.taps};
+        for (const std::uint32_t i : binning.pixels_of(bin)) {
+            tally.add(inputs.classes[i], inputs.lookup.samples[i].verdict);
+        }
+        bins[bin].counts = tally.counts();
+    });
+    return bins;
+}
+
+std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& classes,
+                                           const scene::LookupLayers& lookup,
+                                           const scene::Image<std::uint32_t>& triangles,
+                                           const scene::TriangleScene& scene, int taps)
+{
+    if (lookup.samples.size() != classes.size() || triangles.size() != classes.size()) {
+        throw std::invalid_argument("errors_by_object: the images differ in size");
+    }
+    std::vector<PartTally> tallies(scene.objects.size(), PartTally{taps});
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (scene::is_scored(classes[i])) {
+            tallies[scene.object_of(triangles[i])].add(classes[i], lookup.samples[i].verdict);
+        }
+    }
+    std::vector<ObjectErrors> errors;
+    for (std::size_t i = 0; i < tallies.size(); ++i) {
+        errors.push_back({scene.objects[i].name, tallies[i].counts()});
+    }
+    return errors;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,108 @@
+#pragma once
+
+#include "analysis/metrics/quantiles.hpp"
+#include "scene/image.hpp"
+#include "scene/layers.hpp"
+#include "scene/triangles.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Scored pixels of one part of the image, and how many of them are wrong.
+struct PartCounts {
+    std::uint64_t lit = 0;          ///< truth lit
+    std::uint64_t blocked = 0;      ///< truth blocked
+    std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
+    std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
+    double shadow_amount = 0;       ///< Σ (1 − verdict) over the lit [px]
+    double light_amount = 0;        ///< Σ verdict over the blocked [px]
+
+    friend bool operator==(const PartCounts&, const PartCounts&) = default;
+};
+
+/// What is broken down; all images of one size, which the caller keeps alive.
+struct BreakdownInputs {
+    const scene::Image<scene::PixelClass>& classes;
+    const scene::LookupLayers& lookup;
+    const scene::Image<float>& criticals;   ///< critical bias, depth units
+    const scene::Image<float>& map_error_m; ///< stored minus exact ζ [m]; NaN: none; may be empty
+    int taps = 1; ///< the verdicts' fractions are multiples of 1/taps; 0: any
+};
+
+/// The pixels whose value lies in [lower, upper), the last bin's in [lower, upper].
+struct ErrorBin {
+    double lower = 0;
+    double upper = 0;
+    PartCounts counts;
+    std::optional<Quantiles> needed_bias; ///< of the lit pixels' finite critical biases
+    std::optional<Quantiles> map_error_m; ///< of the scored pixels that have one, signed [m]
+    /// By distance: what storing depths alone may do to `map_error_m` [m].
+    std::optional<double> envelope_m;
+};
+
+/// Bins of equal width, and which scored pixels fall into each.
+struct Binning {
+    double lower = 0;
+    double upper = 0;
+    int bins = 0;
+    scene::ImageSize image;
+    std::vector<std::uint32_t> pixels; ///< those of the first bin, of the second, …
+    std::vector<std::size_t> ends;     ///< of each bin's pixels
+    static constexpr int most_bins = 254;
+
+    [[nodiscard]] std::span<const std::uint32_t> pixels_of(std::size_t bin) const
+    {
+        const std::size_t first = bin == 0 ? 0 : ends[bin - 1];
+        return std::span{pixels}.subspan(first, ends[bin] - first);
+    }
+
+    /// The i-th bin's lower edge.
+    [[nodiscard]] double edge(int i) const;
+};
+
+/// By light distance ζ [m], over the range of the scored pixels; one bin if they are all equally
+/// far, none if there are none.
+/// @throws std::invalid_argument  if `bins` is not in [1, 254], the images differ in size, or a
+///                                scored pixel's ζ is not finite.
+[[nodiscard]] Binning bin_by_distance(const scene::Image<scene::PixelClass>& classes,
+                                      const scene::Image<float>& zeta_m, int bins = 32);
+
+/// By the receiver's angle θ between geometric normal and light [rad], from 0 to π/2, 5 degrees a
+/// bin unless told otherwise.
+/// @throws std::invalid_argument  as `bin_by_distance`.
+[[nodiscard]] Binning bin_by_angle(const scene::Image<scene::PixelClass>& classes,
+                                   const scene::LookupLayers& lookup, int bins = 18);
+
+/// The errors of each bin. Needed bias and map error do not depend on the bias: they are found once
+/// for all of `biases`.
+/// @param biases    Verdicts are those of these constant biases, by the critical biases.
+/// @param lit_taps  Of a pcfK lookup, for each bias how many taps of each pixel are lit; empty for
+///                  one comparison.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] std::vector<std::vector<ErrorBin>>
+errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases,
+              std::span<const scene::Image<std::uint8_t>> lit_taps = {});
+/// The same with the lookup's own verdicts.
+[[nodiscard]] std::vector<ErrorBin> errors_by_bin(const Binning& binning,
+                                                  const BreakdownInputs& inputs);
+
+struct ObjectErrors {
+    std::string name;
+    PartCounts counts;
+};
+
+/// By object that receives the light: one entry an object of the scene, in its order, also for
+/// those that no pixel shows.
+/// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
+/// @param taps       As in `BreakdownInputs`.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] std::vector<ObjectErrors>
+errors_by_object(const scene::Image<scene::PixelClass>& classes, const scene::LookupLayers& lookup,
+                 const scene::Image<std::uint32_t>& triangles, const scene::TriangleScene& scene,
+                 int taps);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "analysis/bias/bias_rows.hpp"
+#include "analysis/causes/cause.hpp"
+#include "scene/image.hpp"
+#include "scene/pixel_class.hpp"
+#include "scene/triangles.hpp"
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// One of the bands of light distances ζ [m]: octaves [2^k, 2^(k + 1)) and, as a directional
+/// light's ζ may be below 0, [-2^(k + 1), -2^k); beside 0 [0, 2^-10) and [-2^-10, 0). The outermost
+/// hold all that is 2^50 or more. Bands are the same in every run, wherever its near plane and its
+/// pixels lie.
+struct ZetaBand {
+    int place = 0; ///< in the order of ζ; 0 begins at ζ = 0
+    static constexpr int first_octave = -10;
+    static constexpr int last_octave = 50;
+    static constexpr int highest = last_octave - first_octave + 1;
+    static constexpr int lowest = -1 - highest;
+
+    /// Negative infinity for the lowest.
+    [[nodiscard]] double lower_m() const;
+    /// Infinite for the highest.
+    [[nodiscard]] double upper_m() const;
+    friend auto operator<=>(const ZetaBand&, const ZetaBand&) = default;
+};
+
+/// @param zeta_m  Anything but NaN.
+[[nodiscard]] ZetaBand zeta_band_of(float zeta_m);
+
+/// Wrong and partial pixels of one kind.
+struct KindOfError {
+    bool is_false_lit = false; ///< of blocked pixels; else of lit ones
+    Cause cause = Cause::none;
+    Label label = Label::none;
+    std::uint64_t pixels = 0; ///< that are wrong
+    double amount = 0;        ///< by which wrong and partial ones are off, the label's share [px]
+
+    friend bool operator==(const KindOfError&, const KindOfError&) = default;
+};
+
+/// Scored pixels of the objects of one name in one band of light distance, and how many of them
+/// are wrong, by how much.
+struct ErrorPart {
+    std::string object;
+    ZetaBand band;
+    std::uint64_t lit = 0;           ///< truth lit
+    std::uint64_t blocked = 0;       ///< truth blocked
+    std::vector<KindOfError> errors; ///< those that exist; by side, cause and label
+
+    friend bool operator==(const ErrorPart&, const ErrorPart&) = default;
+};
+
+/// Which part each scored pixel is of.
+struct PartMap {
+    static constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();
+    /// Scenes with more parts than this in view have none: they would fill the store.
+    static constexpr std::size_t most_parts = 512;
+
+    scene::Image<std::uint16_t> part; ///< index into `parts`; `none` where nothing is scored
+    std::vector<ErrorPart> parts;     ///< by object and band, without errors; may be empty
+};
+
+/// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
+/// @param zeta_m     Light distance of the scored pixels [m], as `light_distances_m` has it.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] PartMap find_parts(const scene::Image<scene::PixelClass>& classes,
+                                 const scene::Image<std::uint32_t>& triangles,
+                                 const scene::Image<float>& zeta_m,
+                                 const scene::TriangleScene& scene);
+
+/// The parts with their errors at each of several biases.
+/// @param biases  Ascending, 0 or normal.
+/// @throws std::invalid_argument  as `count_rows`.
+[[nodiscard]] std::vector<std::vector<ErrorPart>>
+count_parts(const PartMap& map, const BiasRowInputs& inputs, std::span<const float> biases);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "analysis/metrics/blocker_gaps.hpp"
+#include "analysis/metrics/quantiles.hpp"
+#include "analysis/receiver_geometry.hpp"
+#include "scene/light/frustum.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Peter-panning of one pixel as a length.
+struct PixelGap {
+    float metres = 0; ///< from P to its blocker
+    float texels = 0; ///< in texels' world widths at P
+};
+
+/// Peter-panning as a length; empty if nothing pans.
+struct Gaps {
+    std::optional<Quantiles> metres;
+    std::optional<Quantiles> texels;
+};
+
+/// @param pixels  blocked in truth; their gaps must be known.
+[[nodiscard]] std::vector<PixelGap> gaps_of_pixels(const BlockerGaps& gaps,
+                                                   std::span<const std::size_t> pixels,
+                                                   const ReceiverGeometry& geometry,
+                                                   const scene::LightFrustum& frustum,
+                                                   int resolution_texels);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,89 @@
+#include "analysis/metrics/map_errors.hpp"
+
+#include "analysis/bias/bias_units.hpp"
+#include "analysis/depth/depth_mapping.hpp"
+#include "analysis/lookup/footprint.hpp"
+#include "analysis/pixel_runs.hpp"
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+namespace {
+
+/// The texel that holds the point.
+scene::Texel texel_at(const scene::Vec2f& point)
+{
+    return {static_cast<int>(point.x), static_cast<int>(point.y)};
+}
+
+} // namespace
+
+CentreHits::CentreHits(const CauseInputs& inputs)
+    : CentreHits{inputs, [&](std::span<const scene::Texel> texels) {
+                     return inputs.light.first_hits(texels, scene::HitDetail::placed);
+                 }}
+{
+}
+
+CentreHits::CentreHits(const CauseInputs& inputs, const FindFirstHits& find)
+    : CentreHits{find_centres(inputs), find}
+{
+}
+
+CentreHits::CentreHits(const Centres& centres, const FindFirstHits& find)
+    : seen_(centres.pixels.size()),
+      hits_{centres.texels, find}
+{
+    for_each_run(seen_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            const std::size_t hit = hits_.number_of(centres.texels[i]);
+            seen_[i] = {centres.pixels[i], static_cast<std::uint32_t>(hit)};
+        }
+    });
+}
+
+CentreHits::Centres CentreHits::find_centres(const CauseInputs& inputs)
+{
+    const auto& classes = inputs.truth.pixel_class;
+    const Footprint footprint{inputs.lookup, inputs.resolution_texels};
+    Centres centres;
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
+            centres.pixels.push_back(static_cast<std::uint32_t>(i));
+            centres.texels.push_back(texel_at(inputs.unbiased.texels[i]));
+        }
+    }
+    return centres;
+}
+
+scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHits& hits,
+                                       const scene::LightFrustum& frustum,
+                                       scene::DepthFormat format)
+{
+    const DepthMapping mapping{frustum.depth_range()};
+    const float farthest = inputs.rule().farthest_depth();
+    scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
+                                 std::numeric_limits<float>::quiet_NaN()};
+    const auto& seen = hits.seen();
+    for_each_run(seen.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            const scene::TexelHit& hit = hits.hit(seen[i]);
+            const float stored =
+                inputs.stored_depth(inputs.unbiased, seen[i].pixel, hits.texel(seen[i]));
+            // The farthest depth stands for nothing, unless what is seen rounds to it.
+            const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
+                                                             depth_step(format, farthest);
+            if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
+                errors_m[seen[i].pixel] =
+                    static_cast<float>(mapping.zeta_m(double{stored}) - hit.zeta_m);
+            }
+        }
+    });
+    return errors_m;
+}
+
+} // namespace gnomon::analysis

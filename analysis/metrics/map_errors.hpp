@@ -1,0 +1,65 @@
+#pragma once
+
+#include "analysis/causes/cause_inputs.hpp"
+#include "analysis/lookup/texel_hits.hpp"
+#include "scene/image.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/frustum.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What the light sees through the centre texel of each scored pixel that has one; it does not
+/// depend on what the map stores.
+class CentreHits {
+public:
+    /// @throws std::invalid_argument  as `find_causes` does.
+    explicit CentreHits(const CauseInputs& inputs);
+    /// @param find  gives the first hits of texels, placed, as the inputs' light does.
+    CentreHits(const CauseInputs& inputs, const FindFirstHits& find);
+
+    /// A pixel, and the number of its texel's hit.
+    struct Seen {
+        std::uint32_t pixel = 0;
+        std::uint32_t hit = 0;
+    };
+    [[nodiscard]] const std::vector<Seen>& seen() const { return seen_; }
+    [[nodiscard]] const TexelHits& hits() const { return hits_; }
+    [[nodiscard]] const scene::TexelHit& hit(const Seen& seen) const
+    {
+        return hits_.by_number(seen.hit);
+    }
+    [[nodiscard]] const scene::Texel& texel(const Seen& seen) const
+    {
+        return hits_.texel(seen.hit);
+    }
+
+private:
+    /// Pixels, and the texel of each.
+    struct Centres {
+        std::vector<std::uint32_t> pixels;
+        std::vector<scene::Texel> texels;
+    };
+
+    CentreHits(const Centres& centres, const FindFirstHits& find);
+    static Centres find_centres(const CauseInputs& inputs);
+
+    std::vector<Seen> seen_; ///< by pixel
+    TexelHits hits_;
+};
+
+/// The depth error of the map at each scored pixel's centre texel: light distance that the stored
+/// depth stands for, less the exact one of what the light sees through the texel's centre [m].
+///
+/// NaN where the pixel is not scored, where there is no texel, or where either sees nothing.
+/// @param hits  of the same inputs, whatever their stored depths.
+/// Source: DESIGN §6.
+[[nodiscard]] scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
+                                                     const CentreHits& hits,
+                                                     const scene::LightFrustum& frustum,
+                                                     scene::DepthFormat format);
+
+} // namespace gnomon::analysis

@@ -1,0 +1,185 @@
+#include "analysis/metrics/metrics.hpp"
+
+#include "analysis/metrics/ratio.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+namespace gnomon::analysis {
+
+namespace {
+
+using scene::PixelClass;
+
+/// Pixels per leaf of the reduction. It fixes the order in which the absolute errors are added, so
+/// that their sum has the same bits for any number of threads.
+constexpr std::size_t pixels_per_leaf = 32768;
+constexpr std::size_t no_pixel = std::numeric_limits<std::size_t>::max();
+
+/// What one part of the image adds to the metrics.
+struct Tally {
+    explicit Tally(int taps) : amount{AmountSum{taps}, AmountSum{taps}} {}
+
+    /// By class, and by whether the verdict is lit: one histogram answers classes and errors.
+    std::array<std::array<std::uint64_t, 2>, scene::pixel_class_count> by_verdict{};
+    std::array<std::uint64_t, scene::class_reason_count> by_reason{};
+    /// By whether the truth is lit: of scored pixels.
+    std::array<AmountSum, 2> amount;
+    std::uint64_t partial = 0;
+    double unassigned = 0;
+    std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
+
+    /// Without branches that depend on the image, for classes change from pixel to pixel.
+    void add(std::size_t pixel, PixelClass pixel_class, scene::ClassReason reason, float verdict)
+    {
+        ++by_verdict[static_cast<std::size_t>(pixel_class)][scene::is_lit(verdict) ? 1 : 0];
+        ++by_reason[static_cast<std::size_t>(reason)];
+        const bool is_verdict = verdict >= 0.0F && verdict <= 1.0F;
+        if (scene::is_scored(pixel_class) & !is_verdict) [[unlikely]] {
+            first_bad_pixel = std::min(first_bad_pixel, pixel);
+        }
+        const float truth = pixel_class == PixelClass::lit ? 1.0F : 0.0F;
+        const double error = std::abs(static_cast<double>(verdict) - static_cast<double>(truth));
+        const double scored_error = scene::is_scored(pixel_class) & is_verdict ? error : 0.0;
+        amount[pixel_class == PixelClass::lit ? 1 : 0].add(scored_error);
+        const bool is_right = scene::is_lit(verdict) == (pixel_class == PixelClass::lit);
+        partial += static_cast<std::uint64_t>(is_right & (scored_error > partial_above));
+        unassigned += scored_error <= partial_above ? scored_error : 0.0;
+    }
+
+    void add(const Tally& other)
+    {
+        for (std::size_t i = 0; i < by_verdict.size(); ++i) {
+            by_verdict[i][0] += other.by_verdict[i][0];
+            by_verdict[i][1] += other.by_verdict[i][1];
+        }
+        for (std::size_t i = 0; i < by_reason.size(); ++i) {
+            by_reason[i] += other.by_reason[i];
+        }
+        amount[0].add(other.amount[0]);
+        amount[1].add(other.amount[1]);
+        partial += other.partial;
+        unassigned += other.unassigned;
+        first_bad_pixel = std::min(first_bad_pixel, other.first_bad_pixel);
+    }
+
+    [[nodiscard]] std::uint64_t count(PixelClass pixel_class, bool verdict_is_lit) const
+    {
+        return by_verdict[static_cast<std::size_t>(pixel_class)][verdict_is_lit ? 1 : 0];
+    }
+};
+
+void require_same_size(const scene::TruthLayers& truth, const scene::LookupLayers& lookup)
+{
+    const scene::ImageSize size = truth.pixel_class.size();
+    if (truth.reason.size() != size || lookup.samples.size() != size) {
+        throw std::invalid_argument(
+            fmt::format("measure: the layers differ in size: classes {}x{}, reasons {}x{}, "
+                        "lookup {}x{}",
+                        size.width_px, size.height_px, truth.reason.size().width_px,
+                        truth.reason.size().height_px, lookup.samples.size().width_px,
+                        lookup.samples.size().height_px));
+    }
+}
+
+Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& lookup, int taps)
+{
+    const auto count = [&](const tbb::blocked_range<std::size_t>& pixels, Tally tally) {
+        for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
+            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict);
+        }
+        return tally;
+    };
+    const auto join = [](Tally left, const Tally& right) {
+        left.add(right);
+        return left;
+    };
+    return tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<std::size_t>{0, truth.pixel_class.pixel_count(), pixels_per_leaf},
+        Tally{taps}, count, join);
+}
+
+} // namespace
+
+std::uint64_t ClassCounts::scored() const
+{
+    return of(PixelClass::lit) + of(PixelClass::blocked);
+}
+
+ClassCounts& ClassCounts::operator+=(const ClassCounts& other)
+{
+    total += other.total;
+    std::ranges::transform(by_class, other.by_class, by_class.begin(), std::plus<>{});
+    std::ranges::transform(by_reason, other.by_reason, by_reason.begin(), std::plus<>{});
+    return *this;
+}
+
+std::uint64_t ClassCounts::surface() const
+{
+    return total - of(PixelClass::background);
+}
+
+bool has_fractions(const Metrics& metrics)
+{
+    return metrics.amounts.partial > 0 || metrics.amounts.unassigned > 0 ||
+           metrics.amounts.shadow != static_cast<double>(metrics.false_shadow) ||
+           metrics.amounts.light != static_cast<double>(metrics.false_lit);
+}
+
+ClassCounts count_classes(const scene::TruthLayers& truth)
+{
+    ClassCounts counts;
+    counts.total = truth.pixel_class.pixel_count();
+    for (std::size_t i = 0; i < truth.pixel_class.pixel_count(); ++i) {
+        ++counts.by_class[static_cast<std::size_t>(truth.pixel_class[i])];
+        ++counts.by_reason[static_cast<std::size_t>(truth.reason[i])];
+    }
+    return counts;
+}
+
+Metrics make_metrics(const ClassCounts& pixels, const VerdictErrors& errors)
+{
+    Metrics metrics;
+    metrics.pixels = pixels;
+    metrics.false_shadow = errors.false_shadow;
+    metrics.false_lit = errors.false_lit;
+    const std::uint64_t scored = pixels.scored();
+    metrics.false_shadow_rate = ratio(errors.false_shadow, pixels.of(PixelClass::lit));
+    metrics.false_lit_rate = ratio(errors.false_lit, pixels.of(PixelClass::blocked));
+    metrics.error_rate = ratio(errors.false_shadow + errors.false_lit, scored);
+    metrics.amounts = errors.amounts;
+    metrics.shadow_amount_rate = ratio(errors.amounts.shadow, pixels.of(PixelClass::lit));
+    metrics.light_amount_rate = ratio(errors.amounts.light, pixels.of(PixelClass::blocked));
+    metrics.mean_abs_error = ratio(errors.amounts.total(), scored);
+    return metrics;
+}
+
+Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup, int taps)
+{
+    require_same_size(truth, lookup);
+    const Tally tally = tally_layers(truth, lookup, taps);
+    if (tally.first_bad_pixel != no_pixel) {
+        throw std::domain_error(
+            fmt::format("measure: lookup: the verdict of scored pixel {} is {}, not in [0, 1]",
+                        tally.first_bad_pixel, lookup.samples[tally.first_bad_pixel].verdict));
+    }
+    ClassCounts pixels;
+    pixels.total = truth.pixel_class.pixel_count();
+    for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
+        pixels.by_class[i] = tally.by_verdict[i][0] + tally.by_verdict[i][1];
+    }
+    pixels.by_reason = tally.by_reason;
+    return make_metrics(pixels, {tally.count(PixelClass::lit, false),
+                                 tally.count(PixelClass::blocked, true),
+                                 {tally.amount[1].value(), tally.amount[0].value(), tally.partial,
+                                  tally.unassigned}});
+}
+
+} // namespace gnomon::analysis

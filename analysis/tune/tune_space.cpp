@@ -1,0 +1,136 @@
+#include "analysis/tune/tune_space.hpp"
+
+#include "analysis/advice/map_cost.hpp"
+#include "analysis/bias/slope_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace gnomon::analysis {
+
+using scene::DepthFormat;
+using scene::Filter;
+using scene::Fit;
+using scene::FrustumSettings;
+using scene::Job;
+
+namespace {
+
+bool is_same_fit(const FrustumSettings& a, const FrustumSettings& b)
+{
+    return a.fit == b.fit && a.near_m == b.near_m && a.far_m == b.far_m;
+}
+
+std::set<int> resolutions(const Job& job, const TuneLimits& limits)
+{
+    std::set<int> texels;
+    for (int size = 256; size <= limits.max_resolution_texels; size *= 2) {
+        texels.insert(size);
+    }
+    if (job.shadow_map.resolution_texels <= limits.max_resolution_texels) {
+        texels.insert(job.shadow_map.resolution_texels);
+    }
+    return texels;
+}
+
+std::vector<DepthFormat> formats(const Job& job)
+{
+    using Kind = DepthFormat::Kind;
+    std::vector<DepthFormat> tried{{Kind::d16, 16}, {Kind::d24, 24}, {Kind::d32f, 32}};
+    if (std::ranges::find(tried, job.shadow_map.depth_format) == tried.end()) {
+        tried.push_back(job.shadow_map.depth_format);
+    }
+    return tried;
+}
+
+} // namespace
+
+std::uint64_t MapSize::bytes() const
+{
+    scene::ShadowMapSettings map;
+    map.resolution_texels = resolution_texels;
+    map.depth_format = format;
+    return map_bytes(map);
+}
+
+std::vector<MapSize> map_sizes(const Job& job, const TuneLimits& limits)
+{
+    std::vector<MapSize> sizes;
+    for (const int resolution : resolutions(job, limits)) {
+        for (const DepthFormat format : formats(job)) {
+            sizes.push_back({resolution, format});
+        }
+    }
+    std::ranges::stable_sort(sizes, {}, &MapSize::bytes);
+    return sizes;
+}
+
+std::vector<FrustumSettings> frusta(const Job& job)
+{
+    std::vector<FrustumSettings> tried;
+    const auto add = [&](const FrustumSettings& frustum) {
+        if (std::ranges::none_of(
+                tried, [&](const FrustumSettings& known) { return is_same_fit(known, frustum); })) {
+            tried.push_back(frustum);
+        }
+    };
+    const FrustumSettings& own = job.shadow_map.frustum;
+    add(own);
+    for (const Fit fit : {own.fit, Fit::scene, Fit::camera}) {
+        FrustumSettings fitted = own;
+        fitted.fit = fit;
+        fitted.near_m.reset();
+        fitted.far_m.reset();
+        add(fitted);
+    }
+    return tried;
+}
+
+std::vector<scene::Cull> other_culls(const Job& job)
+{
+    std::vector<scene::Cull> culls{scene::Cull::none, scene::Cull::front, scene::Cull::back};
+    std::erase(culls, job.shadow_map.cull);
+    return culls;
+}
+
+std::vector<Filter> tuned_filters(const Job& job)
+{
+    std::vector<Filter> filters{Filter::nearest, Filter::linear, Filter::pcf3, Filter::pcf5};
+    if (std::ranges::find(filters, job.lookup.filter) == filters.end()) {
+        filters.push_back(job.lookup.filter);
+    }
+    std::ranges::stable_sort(filters, {}, &tap_count);
+    return filters;
+}
+
+std::vector<double> normal_offsets(const Job& job, Filter filter)
+{
+    std::set<double> tried{0.0, 1.0, job.bias.normal_texels};
+    if (!scene::promises(filter).has_fractions()) {
+        tried.insert(2.0);
+    }
+    return {tried.begin(), tried.end()};
+}
+
+std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrustum& frustum,
+                           int resolution_texels)
+{
+    // A spot's at the geometric mean of near and far.
+    const double zeta_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
+    const double depth = depth_per_footprint(frustum, resolution_texels, filter, zeta_m);
+    std::set<double> tried{0.0, job.bias.slope};
+    for (const float slope : default_slopes(depth)) {
+        const bool is_the_unit = slope == static_cast<float>(depth);
+        if (!scene::promises(filter).has_fractions() || is_the_unit) {
+            // Printed with few digits, and then exactly what is recommended.
+            tried.insert(std::stod(fmt::format("{:.4g}", slope)));
+        }
+    }
+    return {tried.begin(), tried.end()};
+}
+
+} // namespace gnomon::analysis

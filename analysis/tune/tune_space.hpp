@@ -1,0 +1,39 @@
+#pragma once
+
+#include "analysis/tune/tune_limits.hpp"
+#include "scene/job/job.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Resolutions and formats to try.
+struct MapSize {
+    int resolution_texels = 0;
+    scene::DepthFormat format;
+
+    [[nodiscard]] std::uint64_t bytes() const;
+    friend bool operator==(const MapSize&, const MapSize&) = default;
+};
+/// Powers of two from 256 up and the job's own, in d16, d24, d32f and the job's own format: from
+/// the fewest bytes, of as many the smaller resolution first.
+[[nodiscard]] std::vector<MapSize> map_sizes(const scene::Job& job, const TuneLimits& limits);
+
+/// The job's fit, near and far; the same with near and far fitted; and fitted to the scene and to
+/// what the camera sees. Each once.
+[[nodiscard]] std::vector<scene::FrustumSettings> frusta(const scene::Job& job);
+
+/// What else to draw into a map than the job does.
+[[nodiscard]] std::vector<scene::Cull> other_culls(const scene::Job& job);
+
+/// Those with a bias curve, and the job's own: by taps.
+[[nodiscard]] std::vector<scene::Filter> tuned_filters(const scene::Job& job);
+
+/// Normal offsets to try [texels], and slopes for a map; of a filter whose verdicts are fractions
+/// few, for each costs as much as a hundred others.
+[[nodiscard]] std::vector<double> normal_offsets(const scene::Job& job, scene::Filter filter);
+[[nodiscard]] std::vector<double> slopes(const scene::Job& job, scene::Filter filter,
+                                         const scene::LightFrustum& frustum, int resolution_texels);
+
+} // namespace gnomon::analysis

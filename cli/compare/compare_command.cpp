@@ -1,0 +1,327 @@
+#include "cli/compare/compare_command.hpp"
+
+#include "analysis/advice/advise.hpp"
+#include "cli/compare/compare_run.hpp"
+#include "cli/compare/comparison_session.hpp"
+#include "cli/compare/exported_case.hpp"
+#include "cli/compare/kept_pixels.hpp"
+#include "cli/compare/origin_remedy.hpp"
+#include "cli/job_options.hpp"
+#include "cli/output_files.hpp"
+#include "cli/sweep/command_text.hpp"
+#include "cli/system/slow_work.hpp"
+#include "cli/system/standard_output.hpp"
+#include "cli/tune/advice_options.hpp"
+#include "reports/aov_exr.hpp"
+#include "reports/case/case_write.hpp"
+#include "reports/comparison_json.hpp"
+#include "reports/comparison_table.hpp"
+#include "reports/depth_map_exr.hpp"
+#include "reports/heat_map.hpp"
+#include "reports/picture.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+using reports::OutputKind;
+
+struct CompareOptions {
+    JobOptions job;
+    bool json = false;
+    std::string aov_path;
+    std::string picture_path;
+    std::string depth_map_path;
+    std::vector<std::string> heat_maps; ///< NAME=FILE
+    std::string folder;                 ///< RUN
+    std::string case_folder;            ///< of --export-case
+    bool force = false;
+    std::string truth = "exact";
+    bool audit = false;
+    bool advise = false;
+    AdviceOptions advice;
+    bool verify = false;
+    SessionOptions session;
+};
+
+struct HeatMapFile {
+    reports::HeatMap kind;
+    std::string path;
+};
+
+std::vector<HeatMapFile> heat_map_files(const CompareOptions& options)
+{
+    std::vector<HeatMapFile> files;
+    for (const std::string& text : options.heat_maps) {
+        const std::size_t equals = text.find('=');
+        const auto kind = reports::heat_map_from_name(text.substr(0, equals));
+        if (!kind || equals == std::string::npos || equals + 1 == text.size()) {
+            throw scene::InputError(
+                fmt::format("--heat-map {}: must be NAME=FILE.png with NAME one of {}", text,
+                            fmt::join(reports::heat_map_names(), ", ")));
+        }
+        files.push_back({*kind, text.substr(equals + 1)});
+    }
+    return files;
+}
+
+std::vector<OutputOption> outputs(const CompareOptions& options)
+{
+    std::vector<OutputOption> all{{"--aov", options.aov_path, OutputKind::layers},
+                                  {"--picture", options.picture_path, OutputKind::picture},
+                                  {"--depth-map", options.depth_map_path, OutputKind::layers}};
+    for (const HeatMapFile& file : heat_map_files(options)) {
+        all.push_back({"--heat-map", file.path, OutputKind::picture});
+    }
+    return all;
+}
+
+/// Fails before the work, not after it.
+void require_new_outputs(const CompareOptions& options)
+{
+    const InputFile job{"JOB", options.job.job_path};
+    require_outputs(outputs(options), {&job, 1});
+    if (!options.case_folder.empty()) {
+        for (const std::string_view name : reports::case_files()) {
+            require_absent(std::filesystem::path{options.case_folder} / name, options.force,
+                           "name another folder");
+        }
+    }
+}
+
+void write_outputs(const CompareOptions& options, const analysis::Comparison& comparison)
+{
+    if (!options.aov_path.empty()) {
+        reports::write_aov(options.aov_path, comparison, points_of(comparison));
+    }
+    if (!options.picture_path.empty()) {
+        reports::write_picture(options.picture_path, comparison);
+    }
+    for (const HeatMapFile& file : heat_map_files(options)) {
+        reports::write_heat_map(file.path, comparison, file.kind);
+    }
+    print(options.json ? reports::comparison_json(comparison)
+                       : reports::comparison_table(comparison));
+}
+
+/// @throws scene::EnvironmentError  if GL saw what neither snapping nor depth resolution explains.
+void require_no_mismatch(const analysis::Comparison& comparison)
+{
+    const auto count = comparison.metrics.pixels.of(scene::ClassReason::mismatch);
+    if (count > 0) {
+        throw scene::EnvironmentError{fmt::format(
+            "{} pixels mismatch: GL's triangle is neither a first hit nor explained by snapping or "
+            "depth resolution; report it with the job and the output of `gnomon doctor`",
+            count)};
+    }
+}
+
+/// @throws scene::EnvironmentError  if verdicts are not what the critical biases say.
+void require_no_difference(std::string_view lookups, std::uint64_t differences,
+                           std::uint64_t verdicts)
+{
+    if (differences > 0) {
+        throw scene::EnvironmentError{fmt::format(
+            "{} of {} verdicts of GL's {} are not those of the bias curve: its numbers do not "
+            "hold for this driver; report it with the job and the output of `gnomon doctor`",
+            differences, verdicts, lookups)};
+    }
+}
+
+void require_no_difference(const analysis::Comparison& comparison)
+{
+    if (const auto& own = comparison.held) {
+        require_no_difference("lookup", own->differences, own->lit + own->shadowed);
+    }
+    if (const auto& reruns = comparison.verification) {
+        require_no_difference("reruns", reruns->differences(), reruns->verdicts());
+    }
+}
+
+/// What the exact truth alone can answer.
+void require_exact_truth(const CompareOptions& options)
+{
+    if (options.audit && options.truth != "exact") {
+        throw scene::InputError{
+            "--audit needs --truth exact: it counts where float methods differ"};
+    }
+    if (!options.folder.empty() && options.truth != "exact") {
+        throw scene::InputError{"--out needs --truth exact: a run holds causes and bias curves"};
+    }
+    if (!options.case_folder.empty() && options.truth != "exact") {
+        throw scene::InputError{"--export-case needs --truth exact: the case leaves out what is "
+                                "not exact"};
+    }
+    if (!options.heat_maps.empty() && options.truth != "exact") {
+        throw scene::InputError{"--heat-map needs --truth exact: without it there are no causes"};
+    }
+    if (options.advise && options.truth != "exact") {
+        throw scene::InputError{"--advise needs --truth exact: advice follows from the causes"};
+    }
+    if (options.advice.any() && !options.advise) {
+        throw scene::InputError{
+            "--views, --lights and --all-cases need --advise: they are the views "
+            "that advice is made from"};
+    }
+    if (options.verify && options.truth != "exact") {
+        throw scene::InputError{"--verify needs --truth exact: without it there is no bias curve"};
+    }
+}
+
+void verify(analysis::Comparison& comparison, const analysis::Renderers& renderers)
+{
+    comparison.verification = analysis::verify_comparison(comparison, renderers);
+    if (!comparison.verification) {
+        fmt::print(stderr, "gnomon: --verify: the hardware filter has no critical biases to hold "
+                           "GL to; its other biases are GL's own reruns\n");
+    }
+}
+
+/// A job without scored pixels has nothing to be mended.
+void advise(analysis::Comparison& comparison, const analysis::ViewRequest& request,
+            const ComparisonSession& session, const SessionOptions& options)
+{
+    if (comparison.metrics.pixels.scored() > 0) {
+        const auto views =
+            analysis::judge_views(comparison.job, session.file(), session.renderers(), request);
+        analysis::advise(comparison, views, session.file(), session.renderers());
+        advise_origin(comparison, session, options);
+    }
+}
+
+void write_light_view(const CompareOptions& options, const analysis::Comparison& comparison,
+                      const analysis::Renderers& renderers)
+{
+    if (!options.depth_map_path.empty()) {
+        renderers.draw_shadow_map(comparison.job, comparison.view);
+        reports::write_depth_map(options.depth_map_path, comparison, renderers.read_map_depths());
+    }
+}
+
+/// Everything that is asked of GL and Embree, but for advice.
+analysis::Comparison measure(const CompareOptions& options, const scene::Job& job,
+                             const ComparisonSession& session, SlowWork& work)
+{
+    const analysis::Renderers renderers = announced(session.renderers(), work);
+    analysis::Comparison comparison = analysis::compare(job, session.file(), renderers);
+    write_light_view(options, comparison, renderers);
+    if (!options.case_folder.empty()) {
+        export_case(options.case_folder, comparison, session.file().defaults, renderers);
+    }
+    comparison.seconds.scene += session.scene_seconds();
+    comparison.seconds.bvh = session.bvh_seconds();
+    if (options.audit) {
+        comparison.float_audit = reference_rt::audit_float_methods(
+            session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
+            options.session.threads);
+    }
+    if (options.verify) {
+        work.now("verifying the bias curve");
+        verify(comparison, renderers);
+    }
+    return comparison;
+}
+
+void compare(const CompareOptions& options)
+{
+    require_exact_truth(options);
+    require_new_outputs(options);
+    const scene::JobFile job_file = read_job(options.job);
+    const scene::Job& job = job_file.job;
+    const analysis::ViewRequest views = view_request(options.advice, options.job);
+    if (!options.advice.all_cases) {
+        note_ignored_cases("compare", options.job, job_file);
+    }
+    std::optional<CompareRun> run;
+    if (!options.folder.empty()) {
+        run.emplace(options.folder, options.force);
+    }
+    SessionOptions session_options = options.session;
+    session_options.audits = options.audit;
+    session_options.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
+                                                      : reference_rt::TruthMethod::plain;
+    std::optional<SlowWork> work{std::in_place, "reading the scene"};
+    const ComparisonSession session{job, session_options};
+    analysis::Comparison comparison = measure(options, job, session, *work);
+    if (options.advise) {
+        work->now("trying remedies");
+        advise(comparison, views, session, session_options);
+    }
+    work.reset();
+    if (run) {
+        run->record(read_job_source(options.job), options.job.case_name, comparison,
+                    session.file().defaults, job_text(options.job),
+                    command_text("compare", options.job));
+    }
+    write_outputs(options, comparison);
+    require_no_mismatch(comparison);
+    require_no_difference(comparison);
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& program)
+{
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = program.add_subcommand(
+        "compare", "Compare a scene's GL shadow map with shadow rays, pixel by pixel");
+    add_job_options(*command, options->job);
+    command->add_flag("--json", options->json, "Print the result as JSON (docs/json_schema.md)");
+    command->add_option("--aov", options->aov_path,
+                        "Write every layer into one EXR file (docs/aov.md)");
+    command->add_option("--picture", options->picture_path,
+                        "Write a labelled picture: GL's shadows, the true ones, the errors (PNG)");
+    command->add_option("--depth-map", options->depth_map_path,
+                        "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
+    command
+        ->add_option(
+            "--heat-map", options->heat_maps,
+            "NAME=FILE.png: a picture of needed-bias, depth-error, amount, cause or label, "
+            "with the same colours for the same values in every image; repeatable")
+        ->allow_extra_args(false);
+    command->add_option("--out", options->folder,
+                        "RUN, a folder for the result with all its layers, as of `gnomon sweep`");
+    command->add_option("--export-case", options->case_folder,
+                        "DIR, a folder for GL's shadows as a case for `gnomon evaluate` "
+                        "(docs/evaluate.md)");
+    command->add_flag("--force", options->force,
+                      "Let --export-case replace a case, and --out another scene's run or a sweep");
+    command
+        ->add_option("--truth", options->truth,
+                     "exact: every scored pixel is proven; float: plain Embree rays, for comparing "
+                     "speed")
+        ->check(CLI::IsMember({"exact", "float"}))
+        ->capture_default_str();
+    command->add_flag("--audit", options->audit,
+                      "Count the pixels that each usual float method for shadow rays gets wrong");
+    command->add_flag(
+        "--advise", options->advise,
+        "Run GL again with the changes that suit the errors, and print what they give");
+    add_advice_options(*command, options->advice);
+    command->add_flag("--verify", options->verify,
+                      "Run GL again with biases that put the bias curve to the test, and compare "
+                      "every verdict; exit status 4 if one differs");
+    add_session_options(*command, options->session);
+    command->footer("Examples:\n"
+                    "  gnomon compare --builtin sphere-plane\n"
+                    "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
+                    "  gnomon compare job.toml --set shadow_map.resolution=2048 --json\n"
+                    "  gnomon compare job.toml --case noon --aov noon.exr\n"
+                    "  gnomon compare job.toml --advise --views 4");
+    command->callback([options] { compare(*options); });
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,77 @@
+#include "cli/compare/compare_run.hpp"
+
+#include "analysis/answers/finished_curve.hpp"
+#include "analysis/sweep/catalogue.hpp"
+#include "cli/compare/kept_pixels.hpp"
+#include "reports/run/run_notes.hpp"
+#include "scene/error.hpp"
+#include "scene/job/sweep_space.hpp"
+#include "scene/job/toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::cli {
+
+namespace {
+
+/// The defaults of keys that another renderer's case leaves out say nothing of that renderer.
+void keep_given(std::vector<std::pair<std::string, std::string>>& parameters,
+                const std::vector<std::string>& given)
+{
+    std::erase_if(parameters, [&](const auto& parameter) {
+        return std::ranges::find(given, parameter.first) == given.end();
+    });
+}
+
+} // namespace
+
+CompareRun::CompareRun(std::filesystem::path folder, bool may_replace)
+    : folder_{std::move(folder)},
+      other_scenes_{may_replace ? reports::OtherScenes::replaced : reports::OtherScenes::refused},
+      lock_{folder_},
+      store_{folder_, reports::RunStore::Access::write}
+{
+    if (!may_replace && store_.description().size > 1) {
+        throw scene::InputError(fmt::format(
+            "--out {}: holds a sweep, whose plan this would replace: name another folder, or pass "
+            "--force to replace it",
+            scene::one_line(folder_.string())));
+    }
+}
+
+void CompareRun::record(scene::JobSource source, std::string_view case_name,
+                        const analysis::Comparison& comparison,
+                        const scene::SceneDefaults& defaults, std::string job_text,
+                        const std::string& command)
+{
+    source.sweep = {};
+    if (case_name.empty()) {
+        source.cases.clear();
+    }
+    const scene::SweepSpace space{std::move(source), {}, case_name};
+    const analysis::SweepCatalogue catalogue{space, true, GNOMON_VERSION};
+    std::vector<analysis::Configuration> configurations;
+    catalogue.describe(0, analysis::identify_scene(comparison.job, comparison.scene.hash, defaults),
+                       [&](const analysis::Configuration& configuration) {
+                           configurations.push_back(configuration);
+                       });
+    if (comparison.evaluation) {
+        keep_given(configurations.front().parameters, comparison.evaluation->given_keys);
+    }
+    const analysis::Configuration& own = configurations.front();
+    // Another driver's results in the folder are replaced, not mixed with.
+    reports::RunDescription description{comparison.environment, {},      1,      {},
+                                        std::move(job_text),    command, command};
+    reports::add_notes(description.notes, comparison.scene.name, comparison.scene.notes, 1);
+    store_.plan(description, configurations, reports::Environments::several, other_scenes_);
+    keep_pixels(folder_, own.id, comparison);
+    store_.record(analysis::finish_compared(comparison, own.curve, 0));
+    store_.write_csv();
+}
+
+} // namespace gnomon::cli

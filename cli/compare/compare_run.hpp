@@ -1,0 +1,40 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "reports/run/run_lock.hpp"
+#include "reports/run/run_store.hpp"
+#include "scene/job/source.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gnomon::cli {
+
+/// The RUN folder of a single comparison: a sweep of one configuration that keeps its pixels.
+class CompareRun {
+public:
+    /// Takes the folder before the work is done.
+    /// @throws scene::InputError, scene::EnvironmentError  as `RunLock` and `RunStore` do.
+    /// @param may_replace  a sweep, and results of another scene.
+    CompareRun(std::filesystem::path folder, bool may_replace);
+
+    /// Records the comparison, its layers and the CSV files.
+    /// @param source    of the comparison's job; its sweep is left aside.
+    /// @param defaults  that the comparison's scene brings along.
+    /// @param job_text, command  as in `reports::RunDescription`.
+    /// @throws scene::InputError        if the folder holds results of another scene that may not
+    /// be replaced.
+    /// @throws scene::EnvironmentError  if the disk fails.
+    void record(scene::JobSource source, std::string_view case_name,
+                const analysis::Comparison& comparison, const scene::SceneDefaults& defaults,
+                std::string job_text, const std::string& command);
+
+private:
+    std::filesystem::path folder_;
+    reports::OtherScenes other_scenes_;
+    reports::RunLock lock_;
+    reports::RunStore store_;
+};
+
+} // namespace gnomon::cli

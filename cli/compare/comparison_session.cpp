@@ -1,0 +1,35 @@
+#include "cli/compare/comparison_session.hpp"
+
+#include "cli/system/memory.hpp"
+#include "cli/system/stopwatch.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+scene::SceneFile load_checked(const scene::Job& job)
+{
+    require_memory(job);
+    return scene::load_scene(job.scene);
+}
+
+} // namespace
+
+ComparisonSession::ComparisonSession(const scene::Job& job, const SessionOptions& options)
+    : file_{timed(scene_s_, [&] { return load_checked(job); })},
+      context_{options.device},
+      hands_{context_, file_.scene, options}
+{
+}
+
+void add_session_options(CLI::App& command, SessionOptions& options)
+{
+    command.add_option(
+        "--device", options.device,
+        "EGL device, as `gnomon doctor` numbers them; default: the first that works");
+    command.add_option("--threads", options.threads, "Threads of the reference; 0: all cores")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+}
+
+} // namespace gnomon::cli

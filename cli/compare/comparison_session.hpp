@@ -1,0 +1,40 @@
+#pragma once
+
+#include "cli/compare/scene_hands.hpp"
+#include "raster_gl/context.hpp"
+#include "scene/load_scene.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace gnomon::cli {
+
+/// A job's scene, loaded by both renderers, for any number of comparisons.
+class ComparisonSession {
+public:
+    /// @throws scene::InputError  before memory is taken, if the job needs more than there is; and
+    ///                            as `scene::load_scene` does.
+    /// @throws scene::EnvironmentError  if GL or Embree fails.
+    ComparisonSession(const scene::Job& job, const SessionOptions& options);
+
+    [[nodiscard]] const scene::SceneFile& file() const { return file_; }
+    [[nodiscard]] const reference_rt::ReferenceScene& reference() const
+    {
+        return hands_.reference();
+    }
+    [[nodiscard]] const raster_gl::Context& context() const { return context_; }
+    /// Valid as long as the session.
+    [[nodiscard]] const analysis::Renderers& renderers() const { return hands_.renderers(); }
+    [[nodiscard]] double scene_seconds() const { return scene_s_; }
+    [[nodiscard]] double bvh_seconds() const { return hands_.bvh_seconds(); }
+
+private:
+    double scene_s_ = 0;
+    scene::SceneFile file_;
+    raster_gl::Context context_;
+    SceneHands hands_;
+};
+
+/// Adds --device and --threads.
+void add_session_options(CLI::App& command, SessionOptions& options);
+
+} // namespace gnomon::cli

@@ -1,0 +1,32 @@
+#include "cli/compare/exported_case.hpp"
+
+#include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
+#include "cli/compare/kept_pixels.hpp"
+#include "reports/case/case_write.hpp"
+#include "scene/view/settings.hpp"
+
+namespace gnomon::cli {
+
+void export_case(const std::filesystem::path& folder, const analysis::Comparison& comparison,
+                 const scene::SceneDefaults& defaults, const analysis::Renderers& renderers)
+{
+    const scene::Job& job = comparison.job;
+    reports::CaseExtras extras{points_of(comparison),
+                               scene::resolve_camera(job, *comparison.triangles, defaults),
+                               scene::resolve_light(job, defaults),
+                               {},
+                               {}};
+    renderers.draw_shadow_map(job, comparison.view);
+    if (!scene::promises(job.lookup.filter).has_one_tap()) {
+        extras.map_depths = renderers.read_map_depths();
+    }
+    if (!analysis::can_derive_unbiased(job, comparison.view)) {
+        scene::View unbiased = comparison.view;
+        unbiased.bias = {};
+        extras.unmoved = renderers.look_up(job, unbiased);
+    }
+    reports::write_case(folder, comparison, extras);
+}
+
+} // namespace gnomon::cli

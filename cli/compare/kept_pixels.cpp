@@ -1,0 +1,29 @@
+#include "cli/compare/kept_pixels.hpp"
+
+#include "reference_rt/truth.hpp"
+#include "reports/aov_exr.hpp"
+#include "reports/comparison_json.hpp"
+#include "reports/output_file.hpp"
+#include "reports/run/pixels.hpp"
+
+namespace gnomon::cli {
+
+scene::Image<scene::Vec3f> points_of(const analysis::Comparison& comparison)
+{
+    return comparison.evaluation
+               ? comparison.evaluation->points
+               : reference_rt::receiver_points(*comparison.triangles, comparison.view,
+                                               comparison.receivers.triangle);
+}
+
+void keep_pixels(const std::filesystem::path& folder, std::string_view id,
+                 const analysis::Comparison& comparison)
+{
+    const auto points = points_of(comparison);
+    reports::make_pixels_folder(folder);
+    // The image last: whoever finds it finds both.
+    reports::write_file(reports::detail_path(folder, id), reports::comparison_json(comparison));
+    reports::write_aov(reports::pixels_path(folder, id), comparison, points);
+}
+
+} // namespace gnomon::cli

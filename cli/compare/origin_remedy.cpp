@@ -1,0 +1,36 @@
+#include "cli/compare/origin_remedy.hpp"
+
+#include "analysis/advice/map_cost.hpp"
+#include "scene/moved_scene.hpp"
+
+#include <fmt/format.h>
+
+namespace gnomon::cli {
+
+void advise_origin(analysis::Comparison& comparison, const ComparisonSession& session,
+                   const SessionOptions& options)
+{
+    const auto& kinds = comparison.precision_kinds;
+    if (!kinds || kinds->transform <= kinds->format) {
+        return;
+    }
+    const auto moved = scene::move_origin_near(comparison.job, session.file());
+    if (!moved) {
+        return;
+    }
+    const SceneHands hands{session.context(), moved->file.scene, options};
+    const analysis::Comparison there =
+        analysis::compare(moved->job, moved->file, hands.renderers());
+    comparison.advice.push_back(
+        {{fmt::format("# move the scene's origin to [{}, {}, {}]", moved->origin.x, moved->origin.y,
+                      moved->origin.z)},
+         {{there.metrics.false_shadow, there.metrics.false_lit},
+          there.metrics.amounts,
+          there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0},
+         there.metrics.error_rate,
+         analysis::map_bytes(comparison.job.shadow_map),
+         analysis::tap_count(comparison.job.lookup.filter),
+         analysis::MeasuredBy::rerun});
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,114 @@
+#include "cli/compare/renderers.hpp"
+
+#include "raster_gl/clip_positions.hpp"
+#include "reference_rt/light/exact_light.hpp"
+
+#include <stdexcept>
+
+namespace gnomon::cli {
+
+GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleScene& triangles)
+    : context_{context},
+      box_{triangles.bounds()},
+      scene_{context, triangles},
+      shadow_map_pass_{context, raster_gl::UnormCodes::dropped},
+      lookup_pass_{context}
+{
+    select_receivers(0);
+}
+
+void GlRenderer::select_receivers(std::size_t slot)
+{
+    while (receivers_.size() <= slot) {
+        receivers_.push_back({std::make_unique<raster_gl::ReceiverPass>(context_), nullptr});
+    }
+    slot_ = slot;
+}
+
+scene::ReceiverLayers GlRenderer::draw_receivers(const scene::View& view)
+{
+    Receivers& receivers = receivers_[slot_];
+    receivers.buffer = &receivers.pass->render(scene_, view, box_);
+    return {raster_gl::read_triangles(context_, *receivers.buffer)};
+}
+
+std::vector<scene::Vec4f> GlRenderer::receiver_clip_positions(const scene::View& view) const
+{
+    return raster_gl::capture_clip_positions(
+        context_, scene_,
+        scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box_)});
+}
+
+void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
+{
+    shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, job.shadow_map);
+}
+
+scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View& view)
+{
+    const raster_gl::ReceiverBuffer* receivers = receivers_[slot_].buffer;
+    if (receivers == nullptr || shadow_map_ == nullptr) {
+        throw std::invalid_argument("GlRenderer::look_up: draw receivers and shadow map first");
+    }
+    lookup_pass_.render(scene_, *receivers, *shadow_map_, job.lookup, view);
+    return lookup_pass_.read();
+}
+
+scene::Image<float> GlRenderer::read_map_depths() const
+{
+    if (shadow_map_ == nullptr) {
+        throw std::invalid_argument("GlRenderer::read_map_depths: draw the shadow map first");
+    }
+    return raster_gl::read_shader_depths(context_, *shadow_map_);
+}
+
+scene::Image<float> GlRenderer::read_float_depths(const scene::Job& job, const scene::View& view,
+                                                  scene::TexelRows rows)
+{
+    scene::ShadowMapSettings floats = job.shadow_map;
+    floats.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+    shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, floats, rows);
+    return raster_gl::read_shader_depths(context_, *shadow_map_, rows);
+}
+
+analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& facts,
+                                   const reference_rt::ReferenceScene& reference,
+                                   const reference_rt::TruthOptions& options)
+{
+    analysis::Renderers renderers;
+    renderers.draw_receivers = [&gl](const scene::View& view) { return gl.draw_receivers(view); };
+    renderers.select_receivers = [&gl](std::size_t slot) { gl.select_receivers(slot); };
+    renderers.draw_shadow_map = [&gl](const scene::Job& job, const scene::View& view) {
+        gl.draw_shadow_map(job, view);
+    };
+    renderers.look_up = [&gl](const scene::Job& job, const scene::View& view) {
+        return gl.look_up(job, view);
+    };
+    renderers.find_truth = [&gl, &reference, subpixel_bits = facts.subpixel_bits, options](
+                               const scene::View& view, const scene::ReceiverLayers& receivers) {
+        const reference_rt::RasterFacts raster{subpixel_bits, gl.receiver_clip_positions(view)};
+        return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
+    };
+    renderers.read_map_depths = [&gl] { return gl.read_map_depths(); };
+    renderers.read_float_depths = [&gl](const scene::Job& job, const scene::View& view,
+                                        scene::TexelRows rows) {
+        return gl.read_float_depths(job, view, rows);
+    };
+    if (options.method == reference_rt::TruthMethod::exact) {
+        renderers.make_exact_light =
+            [&reference, threads = options.threads](const scene::Job& job, const scene::View& view,
+                                                    const scene::ReceiverLayers& receivers) {
+                return reference_rt::make_exact_light(reference, view, receivers.triangle,
+                                                      job.shadow_map.resolution_texels,
+                                                      job.shadow_map.cull, threads);
+            };
+    }
+    const bool is_float = options.method == reference_rt::TruthMethod::plain;
+    renderers.truth_method = is_float ? "float" : "exact";
+    renderers.subpixel_bits = facts.subpixel_bits;
+    renderers.environment = {facts.renderer, facts.version, reference_rt::embree_version(),
+                             GNOMON_VERSION};
+    return renderers;
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,223 @@
+#include "cli/gate/gate_command.hpp"
+
+#include "analysis/gate/gate_judgement.hpp"
+#include "analysis/gate/gate_rules.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/gate/gate_outputs.hpp"
+#include "cli/gate/gate_update.hpp"
+#include "cli/output_files.hpp"
+#include "cli/system/standard_output.hpp"
+#include "reports/gate/baseline_read.hpp"
+#include "reports/gate/gate_json.hpp"
+#include "reports/gate/gate_junit.hpp"
+#include "reports/gate/gate_names.hpp"
+#include "reports/gate/gate_report.hpp"
+#include "reports/gate/gate_rule_file.hpp"
+#include "reports/gate/gate_run.hpp"
+#include "reports/gate/gate_table.hpp"
+#include "reports/gate/kept_wrong_pixels.hpp"
+#include "reports/gate/pixel_mask.hpp"
+#include "reports/output_file.hpp"
+#include "reports/run/sqlite.hpp"
+#include "scene/error.hpp"
+#include "scene/job/toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+struct GateOptions {
+    std::string run;
+    std::string baseline;
+    std::string rules;
+    std::string pictures;
+    std::string junit;
+    std::string update;
+    bool allows_environment = false;
+    bool allows_ci_update = false;
+    bool json = false;
+    bool github = false;
+};
+
+/// The run cannot be held to this baseline: says so, in JUnit's file too, and ends the program.
+[[noreturn]] void end_without_baseline(const GateOptions& options, const std::string& problem)
+{
+    fmt::print(stderr, "gnomon: {}\n", problem);
+    if (!options.junit.empty()) {
+        reports::write_file(options.junit, reports::gate_junit_refusal(options.baseline, problem));
+    }
+    throw CLI::RuntimeError{exit_codes::other_environment};
+}
+
+void require_environment(const GateOptions& options, const reports::GateReport& report)
+{
+    if (options.allows_environment) {
+        return;
+    }
+    std::string problem;
+    if (!report.outcome.is_same_renderer) {
+        problem = fmt::format("baseline of {}; run of {}",
+                              reports::renderer_text(report.baseline.environment),
+                              reports::renderer_text(report.run.results.environment));
+    } else if (report.run.has_several_environments) {
+        problem = "the run's results come from several environments";
+    } else {
+        return;
+    }
+    end_without_baseline(
+        options,
+        fmt::format("{}: {}: save a baseline of this environment, or pass --allow-environment",
+                    scene::one_line(options.baseline), problem));
+}
+
+/// A rule that matches nothing protects nothing. While results are missing it may be for that.
+void require_matches(const reports::GateReport& report)
+{
+    if (report.outcome.unmatched_rules.empty() ||
+        report.verdict == analysis::GateVerdict::incomplete) {
+        return;
+    }
+    const analysis::GateRule& rule = report.rules[report.outcome.unmatched_rules.front()];
+    throw scene::InputError(
+        fmt::format("{}: rule \"{}\" matches nothing: no configuration is as `where` and `job` say "
+                    "and has {}; correct it, or say optional = true",
+                    rule.place, rule.id, rule.metric));
+}
+
+void end_as_verdict(analysis::GateVerdict verdict)
+{
+    if (verdict != analysis::GateVerdict::pass) {
+        throw CLI::RuntimeError{verdict == analysis::GateVerdict::regression
+                                    ? exit_codes::negative
+                                    : exit_codes::incomplete};
+    }
+}
+
+/// The file's rules, or the default ones. Whatever a file asks, it must be asked of something.
+std::vector<analysis::GateRule> rules_of(const GateOptions& options)
+{
+    if (options.rules.empty()) {
+        return analysis::default_gate_rules();
+    }
+    std::vector<analysis::GateRule> rules = reports::read_gate_rules(options.rules);
+    const bool judges_scored = std::ranges::any_of(rules, [](const analysis::GateRule& rule) {
+        return rule.metric == analysis::scored_pixels_metric && rule.where.empty() &&
+               rule.job != analysis::JobState::unchanged &&
+               rule.severity == analysis::Severity::fail && (rule.min || rule.judges_change());
+    });
+    if (!judges_scored) {
+        std::ranges::move(analysis::tested_rules(), std::back_inserter(rules));
+    }
+    return rules;
+}
+
+/// Reads all that the gate needs; ends the program with exit status 3 where a part of the baseline
+/// is missing.
+reports::GateReport read_report(const GateOptions& options)
+{
+    reports::GateReport report;
+    report.rules = rules_of(options);
+    try {
+        report.run = reports::read_gate_run(options.run, reports::curve_points_of(report.rules));
+    } catch (const reports::sqlite::DamagedDatabase& error) {
+        throw scene::EnvironmentError{error.what()}; // not a job or baseline that is bad
+    }
+    report.baseline_file = options.baseline;
+    if (options.update.empty()) {
+        try {
+            report.baseline = reports::read_baseline(options.baseline);
+            reports::require_masks(options.baseline, report.baseline);
+        } catch (const reports::BaselineMissing& error) {
+            end_without_baseline(options, error.what());
+        }
+    }
+    return report;
+}
+
+void gate(const GateOptions& options)
+{
+    require_outputs(std::array{OutputOption{"--junit", options.junit, reports::OutputKind::junit}},
+                    std::array{InputFile{"the baseline", options.baseline},
+                               InputFile{"the rules", options.rules}});
+    reports::GateReport report = read_report(options);
+    if (!options.update.empty()) {
+        return update_baseline({options.baseline, options.update, options.allows_ci_update},
+                               report.run);
+    }
+    report.outcome = analysis::judge_run(report.baseline, report.run.results, report.rules,
+                                         reports::NewPixelFinder{options.baseline, options.run});
+    report.verdict =
+        analysis::gate_verdict(report.outcome, report.rules, report.run.status.is_complete());
+    require_environment(options, report);
+    require_matches(report);
+    draw_gate_pictures(report, options.pictures);
+    if (!options.junit.empty()) {
+        reports::write_file(options.junit, reports::gate_junit(report));
+    }
+    if (options.github) {
+        print_for_github(report);
+    } else {
+        print(options.json ? reports::gate_json(report) : reports::gate_table(report));
+    }
+    end_as_verdict(report.verdict);
+}
+
+} // namespace
+
+void add_gate_command(CLI::App& program)
+{
+    auto options = std::make_shared<GateOptions>();
+    CLI::App* command = program.add_subcommand(
+        "gate", "Hold a run to a baseline: nothing may be worse than it was");
+    command
+        ->add_option("RUN", options->run, "The folder of a run, as `gnomon sweep --out` leaves it")
+        ->required();
+    command
+        ->add_option("--baseline", options->baseline, "FILE, as `gnomon baseline save` writes it")
+        ->required();
+    command->add_option(
+        "--rules", options->rules,
+        "FILE of rules (docs/gate.md); default: no error may grow, in number or amount");
+    command->add_flag("--allow-environment", options->allows_environment,
+                      "Compare with a baseline of another renderer, too");
+    command->add_option("--pictures", options->pictures,
+                        "DIR for pictures of pixels that became wrong; default: RUN/gate");
+    CLI::Option* update =
+        command
+            ->add_option("--update", options->update,
+                         "Take the run's results into the baseline instead of judging them: "
+                         "configurations that it lacks, those that changed, or all")
+            ->check(CLI::IsMember({"missing", "changed", "all"}));
+    command->add_flag("--allow-ci-update", options->allows_ci_update,
+                      "Let --update write where CI is set");
+    CLI::Option* json =
+        command->add_flag("--json", options->json, "Print it as JSON (docs/gate.md)")
+            ->excludes(update);
+    command->add_option("--junit", options->junit, "Also write it to FILE as JUnit XML")
+        ->excludes(update);
+    command
+        ->add_flag("--github", options->github,
+                   "Also annotate a build of GitHub Actions, and write its step summary")
+        ->excludes(json)
+        ->excludes(update);
+    command->footer(
+        "Exit status: 0 pass; 1 regression; 2 there is no run in RUN, or a baseline, mask "
+        "or rule is bad; 3 there is no baseline, a mask of it is missing, or it is of "
+        "another environment; 4 the run cannot be read; 5 results are missing.\n\nExamples:\n"
+        "  gnomon gate run --baseline baseline.json\n"
+        "  gnomon gate run --baseline baseline.json --rules gate.toml --json\n"
+        "  gnomon gate run --baseline baseline.json --github --junit gate.xml\n"
+        "  gnomon gate run --baseline baseline.json --update changed");
+    command->callback([options] { gate(*options); });
+}
+
+} // namespace gnomon::cli

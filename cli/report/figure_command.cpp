@@ -1,0 +1,84 @@
+#include "cli/report/figure_command.hpp"
+
+#include "cli/report/figures.hpp"
+#include "cli/system/standard_output.hpp"
+#include "reports/output_name.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+struct FigureOptions {
+    std::string name;
+    std::vector<std::string> inputs;
+    std::string output;
+    bool lists = false;
+};
+
+std::string figure_list()
+{
+    std::string text;
+    for (const FigureKind& kind : figure_kinds()) {
+        text += fmt::format("{:<30}{}  {}\n", kind.name, kind.input, kind.description);
+    }
+    return text;
+}
+
+void check(const FigureOptions& options)
+{
+    if (options.name.empty()) {
+        throw scene::InputError("figure: which one? `gnomon figure --list` names them");
+    }
+    const auto kinds = figure_kinds();
+    if (std::none_of(kinds.begin(), kinds.end(),
+                     [&](const FigureKind& kind) { return kind.name == options.name; })) {
+        throw scene::InputError(fmt::format(
+            "figure: there is no \"{}\"; `gnomon figure --list` names them", options.name));
+    }
+    if (options.inputs.empty()) {
+        throw scene::InputError(
+            fmt::format("figure {}: of what? give a run's folder or CSV files", options.name));
+    }
+    if (options.output.empty()) {
+        throw scene::InputError(
+            fmt::format("figure {}: where to? give -o FILE.pdf, .svg or .png", options.name));
+    }
+    reports::require_output_name(options.output, reports::OutputKind::figure);
+}
+
+void figure(const FigureOptions& options)
+{
+    if (options.lists) {
+        print(figure_list());
+        return;
+    }
+    check(options);
+    draw_figure(options.name, options.inputs, options.output);
+}
+
+} // namespace
+
+void add_figure_command(CLI::App& program)
+{
+    auto options = std::make_shared<FigureOptions>();
+    CLI::App* command =
+        program.add_subcommand("figure", "Draw a figure from CSV files, for print or the web");
+    command->add_option("NAME", options->name, "One that --list names");
+    command->add_option("RUN|CSV", options->inputs,
+                        "A folder of `gnomon sweep` or `compare --out`, or CSV files");
+    command->add_option("-o,--output", options->output, "The file: .pdf, .svg or .png");
+    command->add_flag("--list", options->lists, "Name the figures");
+    command->footer("Needs Debian's python3-matplotlib and python3-pandas.\n\nExamples:\n"
+                    "  gnomon figure bias-curve run -o bias_curve.pdf\n"
+                    "  gnomon figure error-vs-z d16.csv d24.csv -o error_vs_z.svg");
+    command->callback([options] { figure(*options); });
+}
+
+} // namespace gnomon::cli

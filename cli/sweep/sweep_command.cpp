@@ -1,0 +1,266 @@
+#include "cli/sweep/sweep_command.hpp"
+
+#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/cost.hpp"
+#include "cli/compare/comparison_session.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/job_options.hpp"
+#include "cli/sweep/command_text.hpp"
+#include "cli/sweep/extreme_pixels.hpp"
+#include "cli/sweep/sweep_run.hpp"
+#include "cli/sweep/sweep_text.hpp"
+#include "cli/system/process.hpp"
+#include "cli/system/standard_output.hpp"
+#include "reports/run/run_status.hpp"
+#include "reports/shell_text.hpp"
+#include "reports/text.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+/// Sweeps of at most so many configurations keep their pixels unless told otherwise.
+constexpr std::uint64_t few_configurations = 20;
+
+struct SweepOptions {
+    JobOptions job;
+    std::vector<std::string> axes;
+    std::string folder;
+    std::string shard = "1/1";
+    std::string retry;
+    bool is_dry_run = false;
+    bool json = false;
+    bool keeps_pixels = false;
+    bool keeps_no_pixels = false;
+    bool verifies = false;
+    bool is_quiet = false;
+    bool allows_mixed = false;
+    bool force = false;
+    SessionOptions session;
+};
+
+/// "2/5" as the second of five.
+reports::Shard read_shard(const std::string& text)
+{
+    reports::Shard shard;
+    const char* const end = text.data() + text.size();
+    const auto [slash, index_error] = std::from_chars(text.data(), end, shard.index);
+    const bool has_slash = index_error == std::errc{} && slash != end && *slash == '/';
+    const auto [stop, count_error] = std::from_chars(has_slash ? slash + 1 : end, end, shard.count);
+    if (!has_slash || count_error != std::errc{} || stop != end || shard.index < 1 ||
+        shard.index > shard.count || shard.count > 10'000) {
+        throw scene::InputError(fmt::format(
+            "--shard {}: must be k/n, the k-th of n parts, counted from 1: e.g. --shard 2/5",
+            text));
+    }
+    return shard;
+}
+
+/// Of which configurations the layers are kept.
+enum class KeptPixels : std::uint8_t { none, extremes, all };
+
+KeptPixels kept_pixels(const SweepOptions& options, std::uint64_t configurations)
+{
+    if (options.keeps_pixels && options.keeps_no_pixels) {
+        throw scene::InputError("--keep-pixels and --no-keep-pixels exclude each other: give one");
+    }
+    if (options.keeps_no_pixels) {
+        return KeptPixels::none;
+    }
+    return options.keeps_pixels || configurations <= few_configurations ? KeptPixels::all
+                                                                        : KeptPixels::extremes;
+}
+
+/// The options that decide what is kept and computed where: whoever resumes needs them again.
+std::string flags_text(const SweepOptions& options)
+{
+    std::string text;
+    text += options.keeps_pixels ? " --keep-pixels" : "";
+    text += options.keeps_no_pixels ? " --no-keep-pixels" : "";
+    text += options.verifies ? " --verify" : "";
+    text += options.allows_mixed ? " --allow-mixed" : "";
+    text += options.session.device ? fmt::format(" --device {}", *options.session.device) : "";
+    text +=
+        options.session.threads > 0 ? fmt::format(" --threads {}", options.session.threads) : "";
+    return text;
+}
+
+void print_plan(const SweepOptions& options, const scene::SweepSpace& space, bool keeps)
+{
+    const analysis::SweepCatalogue catalogue{space, keeps, GNOMON_VERSION};
+    const auto& requests = catalogue.requests();
+    const auto plan = analysis::make_plan(requests, analysis::camera_slots(requests));
+    SweepSummary summary;
+    summary.configurations = space.size();
+    for (const analysis::Refusal& refusal : catalogue.refusals()) {
+        summary.refused += refusal.ordinals.size();
+        summary.first_refusal = catalogue.refusals().front().message;
+    }
+    summary.counts = plan.counts(requests);
+    summary.estimated_seconds = analysis::estimate_seconds(plan, requests);
+    summary.estimated_bytes = analysis::estimate_bytes(plan, requests);
+    print(options.json ? plan_json(summary) : plan_text(space, summary));
+}
+
+/// What was done, for people.
+std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcome)
+{
+    std::string text = fmt::format("{} of {} done", reports::grouped(outcome.done),
+                                   reports::counted(outcome.configurations, "configuration"));
+    if (outcome.failed > 0) {
+        text += fmt::format(", {} failed", reports::grouped(outcome.failed));
+    }
+    text += fmt::format(": {}/results.csv\n  now: {}\n", options.folder,
+                        outcome.counts.configurations > 0 ? counts_text(outcome.counts)
+                                                          : "nothing was left to do");
+    if (outcome.repeated > 0) {
+        text += fmt::format("  {} the same as an earlier one (equal id) and not computed twice\n",
+                            outcome.repeated == 1
+                                ? std::string{"1 configuration is"}
+                                : reports::grouped(outcome.repeated) + " configurations are");
+    }
+    if (options.verifies) {
+        text += fmt::format("  verified: {}\n", reports::verification_text(outcome.checks));
+    }
+    if (outcome.retired > 0) {
+        text +=
+            fmt::format("  {} of an earlier sweep stay in results.sqlite, not in the CSV files\n",
+                        reports::counted(outcome.retired, "result"));
+    }
+    return text;
+}
+
+int exit_code(const SweepOutcome& outcome)
+{
+    if (outcome.is_interrupted) {
+        return exit_codes::interrupted;
+    }
+    if (outcome.done < outcome.configurations) {
+        return exit_codes::incomplete;
+    }
+    return outcome.checks.are_passed() ? exit_codes::done : exit_codes::environment_failed;
+}
+
+/// Why the sweep did not end with 0.
+void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
+{
+    if (outcome.is_interrupted) {
+        fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
+    } else if (code == exit_codes::incomplete) {
+        fmt::print(stderr, "gnomon: {} failed; `gnomon status {}` says why{}\n",
+                   reports::counted(outcome.failed, "configuration"),
+                   reports::shell_text({options.folder}),
+                   outcome.retriable > 0 ? ", --retry failed tries again" : "");
+        if (outcome.failed > outcome.retriable) {
+            fmt::print(stderr, "gnomon: {}\n",
+                       reports::useless_retry_text(outcome.failed - outcome.retriable));
+        }
+    } else if (code == exit_codes::environment_failed) {
+        fmt::print(stderr, "gnomon: {}\n", reports::failed_checks_text(outcome.checks));
+    }
+}
+
+void sweep(const SweepOptions& options)
+{
+    const scene::JobSource source = read_job_source(options.job);
+    const scene::SweepSpace space{source, options.axes, options.job.case_name};
+    const KeptPixels kept = kept_pixels(options, space.size());
+    const bool keeps = kept == KeptPixels::all;
+    const reports::Shard shard = read_shard(options.shard);
+    if (options.is_dry_run) {
+        return print_plan(options, space, keeps);
+    }
+    if (options.folder.empty()) {
+        throw scene::InputError("no --out RUN: name the folder for the results, or ask what would "
+                                "be done with --dry-run");
+    }
+    SweepRunOptions run;
+    run.folder = options.folder;
+    run.shard = shard;
+    run.keeps_pixels = keeps;
+    run.verifies = options.verifies;
+    run.retries_failed = !options.retry.empty();
+    run.is_quiet = options.is_quiet;
+    run.allows_mixed = options.allows_mixed;
+    run.may_replace = options.force;
+    run.job_text = job_text(options.job);
+    run.command = command_text("sweep", options.job, options.axes) + flags_text(options);
+    run.compare_command = command_text("compare", options.job);
+    run.session = options.session;
+    SweepOutcome outcome = run_sweep_command(space, run);
+    print(outcome_text(options, outcome));
+    if (kept == KeptPixels::extremes && !outcome.is_interrupted && outcome.done > 0) {
+        const auto names =
+            keep_extreme_pixels(run.folder, space, source, options.job.case_name, options.session);
+        if (!names.empty()) {
+            print(fmt::format("  pixels kept: of {}; --keep-pixels keeps those of all\n",
+                              fmt::join(names, ", ")));
+        }
+        outcome.is_interrupted = is_interrupted();
+    }
+    const int code = exit_code(outcome);
+    explain(options, outcome, code);
+    if (code != exit_codes::done) {
+        throw CLI::RuntimeError{code};
+    }
+}
+
+} // namespace
+
+void add_sweep_command(CLI::App& program)
+{
+    auto options = std::make_shared<SweepOptions>();
+    CLI::App* command = program.add_subcommand(
+        "sweep", "Compare a scene over any ranges of settings; resumes where it was stopped");
+    add_job_options(*command, options->job);
+    command
+        ->add_option("--axis", options->axes,
+                     "KEY=VALUES adds an axis or replaces the job's: 512,1024,2048 or "
+                     "{from=1e-6, to=0.1, count=50, scale=\"log\"}")
+        ->allow_extra_args(false);
+    command->add_option("--out", options->folder,
+                        "RUN, the folder for the results (docs/sweep.md)");
+    CLI::Option* const dry_run =
+        command->add_flag("--dry-run", options->is_dry_run,
+                          "Print what would be done, and roughly how long it takes, and stop");
+    command->add_flag("--json", options->json, "With --dry-run: print the plan as JSON")
+        ->needs(dry_run);
+    command->add_flag("--keep-pixels", options->keeps_pixels,
+                      "Keep every configuration's layers in RUN/pixels; the default for up to 20 "
+                      "configurations. Of more, those of the best, the worst and the job's own are "
+                      "kept");
+    command->add_flag("--no-keep-pixels", options->keeps_no_pixels, "Keep none");
+    command
+        ->add_option("--shard", options->shard,
+                     "k/n: compute the k-th of n parts; `gnomon merge` unites them")
+        ->capture_default_str();
+    command->add_option("--retry", options->retry, "failed: compute failed configurations again")
+        ->check(CLI::IsMember({"failed"}));
+    command->add_flag("--verify", options->verifies,
+                      "Run GL again with biases that put each bias curve to the test, and compare "
+                      "every verdict; also of what is done already");
+    command->add_flag("--allow-mixed", options->allows_mixed,
+                      "Go on in a RUN that holds results of another driver or version");
+    command->add_flag("--force", options->force, "Replace what RUN holds of another scene");
+    command->add_flag("--quiet", options->is_quiet, "No progress on stderr");
+    add_session_options(*command, options->session);
+    command->footer(
+        "Exit status: 0 all are done; 4 all are, but GL and the truth, or the bias curve, disagree "
+        "where they must not; 5 some failed; 130 interrupted.\n\nExamples:\n"
+        "  gnomon sweep job.toml --out run\n"
+        "  gnomon sweep --builtin columns --out run --axis shadow_map.resolution=512,1024,2048 "
+        "--axis 'bias.constant={from=1e-6, to=0.1, count=200, scale=\"log\"}'\n"
+        "  gnomon sweep job.toml --dry-run");
+    command->callback([options] { sweep(*options); });
+}
+
+} // namespace gnomon::cli

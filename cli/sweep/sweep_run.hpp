@@ -1,0 +1,51 @@
+#pragma once
+
+#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/plan.hpp"
+#include "cli/compare/scene_hands.hpp"
+#include "reports/run/run_store.hpp"
+#include "scene/job/sweep_space.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+
+/// How a sweep is run.
+struct SweepRunOptions {
+    std::filesystem::path folder; ///< RUN
+    reports::Shard shard;
+    bool keeps_pixels = false;
+    bool verifies = false; ///< holds every curve to GL's reruns, those done before too
+    bool retries_failed = false;
+    bool is_quiet = false;
+    bool allows_mixed = false; ///< results of several environments in one run
+    bool may_replace = false;  ///< results of other scenes
+    std::string job_text;
+    std::string command;
+    std::string compare_command; ///< as in `reports::RunDescription`
+    SessionOptions session;
+};
+
+/// How a sweep ended.
+struct SweepOutcome {
+    std::uint64_t configurations = 0; ///< of this part of the sweep
+    std::uint64_t done = 0;           ///< of them, those of earlier runs included
+    std::uint64_t failed = 0;
+    std::uint64_t retriable = 0; ///< of the failed, those that may pass when tried again
+    std::uint64_t repeated = 0;  ///< the same as others, which serve them too
+    std::uint64_t retired = 0;   ///< results of an earlier plan that stay in the database
+    analysis::PlanCounts counts; ///< the work that was done now
+    reports::RunChecks checks;   ///< of all that is done
+    bool is_interrupted = false;
+};
+
+/// Runs what RUN does not hold yet of a sweep, records it there and writes the CSV files.
+/// @throws scene::InputError        if another process writes there, or nothing can be computed.
+/// @throws scene::EnvironmentError  if GL, Embree or the disk fails; what was recorded stays.
+[[nodiscard]] SweepOutcome run_sweep_command(const scene::SweepSpace& space,
+                                             const SweepRunOptions& options);
+
+} // namespace gnomon::cli

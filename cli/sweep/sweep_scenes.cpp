@@ -1,0 +1,46 @@
+#include "cli/sweep/sweep_scenes.hpp"
+
+#include "analysis/sweep/stage_keys.hpp"
+#include "scene/load_scene.hpp"
+
+namespace gnomon::cli {
+
+SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options)
+    : context_{context},
+      options_{options}
+{
+}
+
+void SweepScenes::read(const scene::Job& job)
+{
+    std::string key = analysis::stage_keys(job).scene;
+    if (file_ != nullptr && key == key_) {
+        return;
+    }
+    hands_.reset(); // refers to the file
+    file_.reset();
+    file_ = std::make_unique<scene::SceneFile>(scene::load_scene(job.scene));
+    key_ = std::move(key);
+}
+
+SweepScenes::Content SweepScenes::content(const scene::Job& job)
+{
+    read(job);
+    Content content{scene::content_hash(file_->scene), file_->defaults, {}};
+    for (const scene::LeftToFile left :
+         {scene::LeftToFile{false, false}, {false, true}, {true, false}, {true, true}}) {
+        content.notes[left] = scene::scene_notes(file_->scene, file_->defaults, left);
+    }
+    return content;
+}
+
+analysis::OpenScene SweepScenes::open(const scene::Job& job)
+{
+    read(job);
+    if (!hands_) {
+        hands_.emplace(context_, file_->scene, options_);
+    }
+    return {file_.get(), &hands_->renderers()};
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "analysis/sweep/runner.hpp"
+#include "cli/compare/scene_hands.hpp"
+#include "raster_gl/context.hpp"
+#include "scene/import/scene_file.hpp"
+#include "scene/job/job.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+
+/// The scenes of a sweep, one in memory at a time.
+class SweepScenes {
+public:
+    /// The context must outlive this.
+    SweepScenes(const raster_gl::Context& context, const SessionOptions& options);
+
+    /// What of a scene decides its sweep's ids, and what is to be said of it.
+    struct Content {
+        std::string hash; ///< `scene::content_hash`
+        scene::SceneDefaults defaults;
+        /// By what a job may leave to the file.
+        std::map<scene::LeftToFile, std::vector<scene::SceneNote>> notes;
+    };
+    /// That of the job's scene, which it reads unless it is the last one read.
+    /// @throws scene::InputError  as `scene::load_scene` does.
+    [[nodiscard]] Content content(const scene::Job& job);
+    /// Hands the job's scene to both renderers; the one before it goes.
+    /// @throws scene::InputError, scene::EnvironmentError  as `ComparisonSession` does.
+    [[nodiscard]] analysis::OpenScene open(const scene::Job& job);
+
+private:
+    void read(const scene::Job& job);
+
+    const raster_gl::Context& context_;
+    SessionOptions options_;
+    std::string key_; ///< of the scene in memory
+    std::unique_ptr<scene::SceneFile> file_;
+    std::optional<SceneHands> hands_;
+};
+
+} // namespace gnomon::cli

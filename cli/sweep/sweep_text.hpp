@@ -1,0 +1,36 @@
+#pragma once
+
+#include "analysis/sweep/plan.hpp"
+#include "scene/job/sweep_space.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace gnomon::cli {
+
+/// What a sweep will do, or has done.
+struct SweepSummary {
+    std::uint64_t configurations = 0; ///< of the whole sweep
+    std::uint64_t refused = 0;        ///< of them, because their keys do not go together
+    std::string first_refusal;        ///< what it says; empty if none is refused
+    analysis::PlanCounts counts;      ///< of the work at hand
+    double estimated_seconds = 0;
+    std::uint64_t estimated_bytes = 0;
+};
+
+/// "1,000 bias.constant × 5 shadow_map.resolution × 2 cases".
+[[nodiscard]] std::string axes_text(const scene::SweepSpace& space);
+
+/// The axes' values at a point, the case's name first: "noon, shadow_map.resolution 512".
+/// @param with_bias  also the constant bias.
+[[nodiscard]] std::string point_text(const scene::SweepSpace& space, const scene::SweepPoint& point,
+                                     bool with_bias);
+
+/// The plan for people, and as JSON.
+[[nodiscard]] std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summary);
+[[nodiscard]] std::string plan_json(const SweepSummary& summary);
+
+/// How often each stage runs: "2 truths, 10 receiver passes, …".
+[[nodiscard]] std::string counts_text(const analysis::PlanCounts& counts);
+
+} // namespace gnomon::cli

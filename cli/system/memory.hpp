@@ -1,0 +1,41 @@
+#pragma once
+
+#include "scene/job/job.hpp"
+
+#include <cstdint>
+
+namespace gnomon::cli {
+
+/// Memory that new work may take [bytes]: MemAvailable, or what `ulimit -v` or the control groups
+/// leave if that is less; 0 if unknown.
+[[nodiscard]] std::uint64_t available_memory_bytes();
+
+/// Memory that an image and a shadow map of the job's sizes take, on the GPU and off it [bytes].
+[[nodiscard]] std::uint64_t needed_memory_bytes(const scene::Job& job);
+
+/// Lets memory that is freed stay with the process, for what is allocated next. GL by software
+/// makes a texture for every shadow map, and the system clears what it hands out page by page: of a
+/// long sweep that took a tenth. Does nothing where the C library is not glibc.
+class FreedMemoryKeeper {
+public:
+    FreedMemoryKeeper() = default;
+    FreedMemoryKeeper(const FreedMemoryKeeper&) = delete;
+    FreedMemoryKeeper& operator=(const FreedMemoryKeeper&) = delete;
+    /// Gives back what it kept.
+    ~FreedMemoryKeeper();
+
+    /// Keeps freed memory from now on if the process will be small: if what it holds and what it
+    /// needs is at most 0.6 GiB together.
+    void keep(std::uint64_t needed_bytes);
+    /// Gives everything back, and keeps no more, once the process holds more than 1.2 GiB. To be
+    /// called now and then.
+    void limit();
+
+private:
+    bool keeps_ = false;
+};
+
+/// @throws scene::InputError  if the job needs more than is available; before any of it is taken.
+void require_memory(const scene::Job& job);
+
+} // namespace gnomon::cli

@@ -1,0 +1,151 @@
+#include "cli/tune/tune_command.hpp"
+
+#include "analysis/advice/map_cost.hpp"
+#include "analysis/tune/tune.hpp"
+#include "cli/compare/comparison_session.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/job_options.hpp"
+#include "cli/system/standard_output.hpp"
+#include "cli/tune/advice_options.hpp"
+#include "reports/tune_report.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace gnomon::cli {
+namespace {
+
+struct TuneOptions {
+    JobOptions job;
+    SessionOptions session;
+    std::string max_false_shadow = "0.1%";
+    std::string max_false_lit = "0.5%";
+    std::string max_false_shadow_count = "100%";
+    std::string max_false_lit_count = "100%";
+    int max_resolution = 4096;
+    bool json = false;
+    bool verbose = false;
+    bool quiet = false;
+    AdviceOptions advice;
+};
+
+/// "0.1%" or "0.001" as a fraction.
+double read_rate(std::string_view option, const std::string& text)
+{
+    const bool is_percent = text.ends_with('%');
+    double value = 0;
+    const char* const end = text.data() + text.size() - (is_percent ? 1 : 0);
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    const double rate = is_percent ? value / 100 : value;
+    if (error != std::errc{} || stop != end || !(rate >= 0 && rate <= 1)) {
+        throw scene::InputError(fmt::format(
+            "{} {}: must be a share from 0 to 1, or from 0% to 100%, e.g. 0.1%", option, text));
+    }
+    return rate;
+}
+
+/// Tells on stderr how far the search is: the first setting of each map that takes more memory, or,
+/// where it is verbose, every setting.
+class TuneProgress {
+public:
+    explicit TuneProgress(const TuneOptions& options) : options_{options} {}
+
+    void tell(const analysis::TunedSetting& setting)
+    {
+        const std::uint64_t bytes = analysis::map_bytes(setting.map);
+        const bool is_new = bytes != bytes_;
+        bytes_ = bytes;
+        if (!options_.quiet && (options_.verbose || is_new)) {
+            fmt::print(stderr, "gnomon tune: {}\n", reports::tuned_setting_line(setting));
+        }
+    }
+
+private:
+    const TuneOptions& options_;
+    std::uint64_t bytes_ = 0;
+};
+
+reports::TuneDetail detail_of(const TuneOptions& options)
+{
+    if (options.quiet) {
+        return reports::TuneDetail::answer;
+    }
+    return options.verbose ? reports::TuneDetail::tried : reports::TuneDetail::found;
+}
+
+void tune(const TuneOptions& options)
+{
+    const analysis::TuneLimits limits{
+        read_rate("--max-false-shadow", options.max_false_shadow),
+        read_rate("--max-false-lit", options.max_false_lit),
+        read_rate("--max-false-shadow-count", options.max_false_shadow_count),
+        read_rate("--max-false-lit-count", options.max_false_lit_count), options.max_resolution};
+    const scene::JobFile job_file = read_job(options.job);
+    const analysis::ViewRequest request = view_request(options.advice, options.job);
+    if (!options.advice.all_cases) {
+        note_ignored_cases("tune", options.job, job_file);
+    }
+    const ComparisonSession session{job_file.job, options.session};
+    const analysis::JudgedViews views =
+        analysis::judge_views(job_file.job, session.file(), session.renderers(), request);
+    TuneProgress progress{options};
+    const analysis::TuneResult result =
+        analysis::tune(job_file.job, session.file(), session.renderers(), views, limits,
+                       [&](const analysis::TunedSetting& setting) { progress.tell(setting); });
+    print(options.json ? reports::tune_json(result, limits)
+                       : reports::tune_text(result, limits, detail_of(options)));
+    if (!result.meets_limits()) {
+        throw CLI::RuntimeError{exit_codes::negative};
+    }
+}
+
+} // namespace
+
+void add_tune_command(CLI::App& program)
+{
+    auto options = std::make_shared<TuneOptions>();
+    CLI::App* command = program.add_subcommand(
+        "tune", "Recommend the cheapest shadow map whose errors stay below your limits");
+    add_job_options(*command, options->job);
+    command
+        ->add_option("--max-false-shadow", options->max_false_shadow,
+                     "Largest amount of shadow on lit pixels, as a share of them, without what a "
+                     "filter softens on purpose")
+        ->capture_default_str();
+    command
+        ->add_option("--max-false-lit", options->max_false_lit,
+                     "Largest amount of light on blocked pixels, the same")
+        ->capture_default_str();
+    command
+        ->add_option("--max-false-shadow-count", options->max_false_shadow_count,
+                     "Largest share of the lit pixels whose verdict may be below one half")
+        ->capture_default_str();
+    command
+        ->add_option("--max-false-lit-count", options->max_false_lit_count,
+                     "Largest share of the blocked pixels whose verdict may be one half or more")
+        ->capture_default_str();
+    command->add_option("--max-resolution", options->max_resolution, "Largest map [texels]")
+        ->check(CLI::Range(1, 16384))
+        ->capture_default_str();
+    add_advice_options(*command, options->advice);
+    command->add_flag("--json", options->json, "Print the result as JSON (docs/tune.md)");
+    command->add_flag("--verbose", options->verbose, "Print every setting that was tried");
+    command->add_flag("--quiet", options->quiet,
+                      "Print nothing but the recommended keys, and no progress");
+    add_session_options(*command, options->session);
+    command->footer("Exit status: 0 a setting meets the limits; 1 none does.\n\nExamples:\n"
+                    "  gnomon tune --builtin columns\n"
+                    "  gnomon tune job.toml --views 8\n"
+                    "  gnomon tune job.toml --max-false-shadow 0.05% --max-false-lit 1% "
+                    "--max-resolution 2048");
+    command->callback([options] { tune(*options); });
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,156 @@
+#include "reference_rt/certificate/boxes.hpp"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::reference_rt::certificate {
+
+using scene::Vec3d;
+
+namespace {
+
+constexpr double unit_roundoff = 0x1p-53;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// A point in doubles, and how far each of its coordinates can be from the exact one.
+struct Enclosure {
+    Vec3d centre{0};
+    double radius = 0;
+};
+
+double largest_of(const Vec3d& v)
+{
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// |numerator − centre·weight| ≤ radius·weight, exactly.
+bool is_within(const Rational& numerator, const Rational& weight, double centre, double radius)
+{
+    const Rational error = numerator - Rational{centre} * weight;
+    const Rational limit = Rational{radius} * weight;
+    return (limit - error).sign() >= 0 && (limit + error).sign() >= 0;
+}
+
+/// Encloses a finite point; the radius is checked exactly, and infinite where the check fails.
+Enclosure enclose(const Point& point)
+{
+    const double weight = point.weight.rounded();
+    const std::array<const Rational*, 3> numerators{&point.vector.x, &point.vector.y,
+                                                    &point.vector.z};
+    Enclosure result;
+    for (int axis = 0; axis < 3; ++axis) {
+        result.centre[axis] = numerators[static_cast<std::size_t>(axis)]->rounded() / weight;
+    }
+    // Two conversions and a quotient round by a few ulp; the smallest normal covers underflow.
+    result.radius = 16 * unit_roundoff * largest_of(result.centre) + 0x1p-1022;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isfinite(result.centre[axis]) ||
+            !is_within(*numerators[static_cast<std::size_t>(axis)], point.weight,
+                       result.centre[axis], result.radius)) {
+            return {Vec3d{0}, unbounded};
+        }
+    }
+    return result;
+}
+
+Vec3d rounded(const Vector& v)
+{
+    return {v.x.rounded(), v.y.rounded(), v.z.rounded()};
+}
+
+} // namespace
+
+SegmentBounds::SegmentBounds(const Point& start, const Point& end, double largest_m)
+{
+    const Enclosure from = enclose(start);
+    start_ = from.centre;
+    // M bounds every coordinate below, r the error of the start, q that of the direction.
+    double m = std::max(largest_m, largest_of(start_));
+    const double r = from.radius;
+    double q = 0;
+    if (end.weight.sign() == 0) {
+        direction_ = rounded(end.vector);
+        // Directions are doubles, which `rounded` keeps; the relative term is for any other.
+        q = 4 * unit_roundoff * largest_of(direction_);
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool is_finite = direction_[axis] == 0;
+            lower_[axis] = is_finite || direction_[axis] > 0 ? start_[axis] : -unbounded;
+            upper_[axis] = is_finite || direction_[axis] < 0 ? start_[axis] : unbounded;
+        }
+    } else {
+        const Enclosure to = enclose(end);
+        direction_ = to.centre - start_;
+        m = std::max(m, largest_of(to.centre));
+        // Both ends are off, and their difference is rounded.
+        q = r + to.radius + 2 * unit_roundoff * m;
+        lower_ = glm::min(start_, to.centre) - to.radius;
+        upper_ = glm::max(start_, to.centre) + to.radius;
+    }
+    // Moving a bound by r rounds it by at most u·2M twice.
+    const double margin = 2 * r + 8 * unit_roundoff * m;
+    lower_ -= margin;
+    upper_ += margin;
+    // In a coordinate plane the line is D_i (c_j − A_j) − D_j (c_i − A_i) = 0 for a corner c. With
+    // |c − A| ≤ 2M it is off by 4Mq for the direction, (|D_i| + |D_j|) r for the start, 7u (|D_i| +
+    // |D_j|) M for rounding, and by 4Mq where the sign of D chooses the wrong corner.
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3;
+        const int j = (k + 2) % 3;
+        const double extent = std::abs(direction_[i]) + std::abs(direction_[j]) + 2 * q;
+        planes_[static_cast<std::size_t>(k)] = {
+            i, j, 16 * m * q + 2 * extent * (r + 8 * unit_roundoff * m)};
+    }
+}
+
+bool SegmentBounds::may_meet(const Vec3d& lower, const Vec3d& upper) const
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if (upper[axis] < lower_[axis] || lower[axis] > upper_[axis]) {
+            return false;
+        }
+    }
+    // A comparison with NaN, which an infinite radius can lead to, rejects nothing.
+    return std::ranges::all_of(planes_, [&](const Plane& plane) {
+        const auto [i, j, slack] = plane;
+        const double di = direction_[i];
+        const double dj = direction_[j];
+        const double highest = di * ((di >= 0 ? upper[j] : lower[j]) - start_[j]) -
+                               dj * ((dj >= 0 ? lower[i] : upper[i]) - start_[i]);
+        const double lowest = di * ((di >= 0 ? lower[j] : upper[j]) - start_[j]) -
+                              dj * ((dj >= 0 ? upper[i] : lower[i]) - start_[i]);
+        return !(highest < -slack || lowest > slack);
+    });
+}
+
+TriangleBoxes::TriangleBoxes(const scene::TriangleScene& scene,
+                             std::span<const scene::TriangleRange> ranges)
+{
+    for (const scene::TriangleRange& range : ranges) {
+        for (std::uint32_t i = 0; i < range.count; ++i) {
+            const std::uint32_t triangle = range.first + i;
+            const auto [a, b, c] = scene.corners(triangle);
+            entries_.push_back(
+                {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), triangle});
+            for (const scene::Vec3f& corner : {a, b, c}) {
+                largest_m_ = std::max(largest_m_, largest_of(Vec3d{corner}));
+            }
+        }
+    }
+}
+
+std::vector<std::uint32_t> TriangleBoxes::candidates(const Point& start, const Point& end) const
+{
+    const SegmentBounds segment{start, end, largest_m_};
+    std::vector<std::uint32_t> result;
+    for (const Entry& entry : entries_) {
+        if (segment.may_meet(Vec3d{entry.lower}, Vec3d{entry.upper})) {
+            result.push_back(entry.triangle);
+        }
+    }
+    return result;
+}
+
+} // namespace gnomon::reference_rt::certificate

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "reference_rt/certificate/rational_geometry.hpp"
+#include "scene/triangles.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::reference_rt::certificate {
+
+/// The doubles that are certain to enclose a segment from a finite point to one that may be at
+/// infinity.
+class SegmentBounds {
+public:
+    /// @param largest_m  no smaller than any coordinate of the boxes that are tested [m].
+    SegmentBounds(const Point& start, const Point& end, double largest_m);
+
+    /// False only if the segment certainly misses the closed box.
+    [[nodiscard]] bool may_meet(const scene::Vec3d& lower, const scene::Vec3d& upper) const;
+
+private:
+    struct Plane {
+        int i = 0; ///< the two axes of a coordinate plane
+        int j = 0;
+        double slack = 0;
+    };
+
+    scene::Vec3d start_;
+    scene::Vec3d direction_;
+    scene::Vec3d lower_;
+    scene::Vec3d upper_;
+    std::array<Plane, 3> planes_;
+};
+
+/// The boxes of some of a scene's triangles: the one shortcut that the certificate takes.
+class TriangleBoxes {
+public:
+    TriangleBoxes(const scene::TriangleScene& scene, std::span<const scene::TriangleRange> ranges);
+
+    /// The triangles, in order, that the segment is not certain to miss by their boxes.
+    [[nodiscard]] std::vector<std::uint32_t> candidates(const Point& start, const Point& end) const;
+
+private:
+    struct Entry {
+        scene::Vec3f lower;
+        scene::Vec3f upper;
+        std::uint32_t triangle = 0;
+    };
+
+    std::vector<Entry> entries_;
+    double largest_m_ = 0;
+};
+
+} // namespace gnomon::reference_rt::certificate

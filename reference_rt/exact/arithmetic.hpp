@@ -1,0 +1,183 @@
+#pragma once
+
+#include "reference_rt/exact/contact.hpp"
+#include "reference_rt/exact/dyadic.hpp"
+#include "scene/vec.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+/// Two arithmetics for the same formulas: doubles that carry a proven error bound, and exact
+/// numbers. A formula is written once, for any of them.
+namespace gnomon::reference_rt {
+
+/// u: half the distance from 1 to the next double.
+inline constexpr double unit_roundoff = 0x1p-53;
+
+/// A value computed in double, and its permanent: the same expression with every term positive.
+///
+/// `roundings` is the largest number of roundings on the way from an input to the value, which the
+/// compiler counts: 0 for an input, 1 for a difference of inputs, one more for each operation. Then
+///
+///     |value − exact| <= γ_k · permanent,   γ_k = ku/(1 − ku),   k = roundings
+///
+/// as every term of the expanded polynomial is multiplied by at most k factors (1 + e), |e| <= u.
+/// Source: docs/truth.md#the-filter.
+template <int roundings>
+struct Filtered {
+    double value = 0;
+    double permanent = 0;
+
+    Filtered() = default;
+    Filtered(double value_in, double permanent_in) : value{value_in}, permanent{permanent_in} {}
+    /// Fewer roundings than the type allows.
+    template <int fewer>
+    requires(fewer < roundings) Filtered(const Filtered<fewer>& other)
+        : value{other.value},
+          permanent{other.permanent}
+    {
+    }
+
+    /// Bound of |value − exact|. Two units more than γ_k pay for the roundings of the permanent and
+    /// of this product.
+    [[nodiscard]] double error() const { return (roundings + 2) * unit_roundoff * permanent; }
+
+    /// The exact value's sign, where this value proves it. A permanent of 0 proves a zero: every
+    /// term is.
+    [[nodiscard]] std::optional<Sign> certain_sign() const
+    {
+        const double bound = error();
+        if (value > bound) {
+            return 1;
+        }
+        if (value < -bound) {
+            return -1;
+        }
+        return permanent == 0 ? std::optional<Sign>{0} : std::nullopt;
+    }
+};
+
+template <int a, int b>
+[[nodiscard]] auto operator+(const Filtered<a>& p, const Filtered<b>& q)
+{
+    return Filtered<std::max(a, b) + 1>{p.value + q.value, p.permanent + q.permanent};
+}
+template <int a, int b>
+[[nodiscard]] auto operator-(const Filtered<a>& p, const Filtered<b>& q)
+{
+    return Filtered<std::max(a, b) + 1>{p.value - q.value, p.permanent + q.permanent};
+}
+template <int a, int b>
+[[nodiscard]] auto operator*(const Filtered<a>& p, const Filtered<b>& q)
+{
+    return Filtered<a + b + 1>{p.value * q.value, p.permanent * q.permanent};
+}
+
+/// Double arithmetic with error bounds.
+struct FilterField {
+    [[nodiscard]] static Filtered<0> number(double x) { return {x, std::abs(x)}; }
+    /// A difference of inputs is a leaf of the permanent: |fl(a − b)|, not |a| + |b|, which would
+    /// make the filter fail far from the origin.
+    [[nodiscard]] static Filtered<1> difference(double a, double b)
+    {
+        return {a - b, std::abs(a - b)};
+    }
+};
+
+/// Exact arithmetic.
+struct ExactField {
+    [[nodiscard]] static Dyadic number(double x) { return Dyadic{x}; }
+    [[nodiscard]] static Dyadic difference(double a, double b) { return Dyadic{a} - Dyadic{b}; }
+};
+
+template <typename Number>
+struct Vec3 {
+    Number x, y, z;
+};
+/// Clang before 17 deduces no aggregate's arguments by itself.
+template <typename Number>
+Vec3(Number, Number, Number) -> Vec3<Number>;
+
+template <typename Field>
+[[nodiscard]] auto vector(const scene::Vec3d& v)
+{
+    return Vec3{Field::number(v.x), Field::number(v.y), Field::number(v.z)};
+}
+template <typename Field>
+[[nodiscard]] auto difference(const scene::Vec3d& a, const scene::Vec3d& b)
+{
+    return Vec3{Field::difference(a.x, b.x), Field::difference(a.y, b.y),
+                Field::difference(a.z, b.z)};
+}
+template <typename A, typename B>
+[[nodiscard]] auto dot(const Vec3<A>& a, const Vec3<B>& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <typename A, typename B>
+[[nodiscard]] auto cross(const Vec3<A>& a, const Vec3<B>& b)
+{
+    return Vec3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <typename A, typename B>
+[[nodiscard]] auto operator+(const Vec3<A>& a, const Vec3<B>& b)
+{
+    return Vec3{a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <typename A, typename B>
+[[nodiscard]] auto operator*(const A& s, const Vec3<B>& a)
+{
+    return Vec3{s * a.x, s * a.y, s * a.z};
+}
+
+/// How the signs of a run were decided.
+struct SignCounts {
+    std::uint64_t filtered = 0; ///< in double, by the error bound
+    std::uint64_t exact = 0;    ///< in integers
+
+    SignCounts& operator+=(const SignCounts& other)
+    {
+        filtered += other.filtered;
+        exact += other.exact;
+        return *this;
+    }
+};
+
+/// True when no product of the components with coordinates can underflow, and with it the error
+/// bound: each is 0 or at least 2^-96. Every float32 is tame as well (docs/truth.md#the-filter).
+[[nodiscard]] inline bool is_tame(const scene::Vec3d& v)
+{
+    // Without branches, for loops over lanes.
+    const auto fits = [](double x) {
+        return static_cast<int>(x == 0) | static_cast<int>(std::abs(x) >= 0x1p-96);
+    };
+    return (fits(v.x) & fits(v.y) & fits(v.z)) != 0;
+}
+
+/// The sign of `formula(Field{})` where the filter proves it; never when the inputs are not tame.
+template <typename Formula>
+[[nodiscard]] std::optional<Sign> filtered_sign(SignCounts& counts, bool is_tame,
+                                                const Formula& formula)
+{
+    const auto sign = is_tame ? formula(FilterField{}).certain_sign() : std::nullopt;
+    counts.filtered += sign ? 1U : 0U;
+    return sign;
+}
+template <typename Formula>
+[[nodiscard]] Sign exact_sign(SignCounts& counts, const Formula& formula)
+{
+    ++counts.exact;
+    return formula(ExactField{}).sign();
+}
+/// The sign of `formula(Field{})`: in double if that proves it, else exactly.
+template <typename Formula>
+[[nodiscard]] Sign sign_of(SignCounts& counts, bool is_tame, const Formula& formula)
+{
+    const auto sign = filtered_sign(counts, is_tame, formula);
+    return sign ? *sign : exact_sign(counts, formula);
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/exact/wide.hpp"
+#include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/texel_rays.hpp"
+#include "scene/light/exact_light.hpp"
+
+#include <array>
+
+namespace gnomon::reference_rt {
+
+/// What four texels count for at a receiver, row by row from the lower left one:
+///
+///     (1 − x)(1 − y), x(1 − y), (1 − x)y, xy,   x = uv·n − ½ less the lower left texel's, in [0,
+///     1]
+///
+/// uv is where P exactly is on the map: ½(X·P)/(W·P) + ½ and Y alike, with X, Y and W rows of the
+/// float32 `light_clip_from_world`.
+class BilinearWeights {
+public:
+    /// All arguments must outlive it. Precondition: the hit's δ is not 0.
+    BilinearWeights(const ClipRows& rows, const Receiver& hit, scene::Texel first,
+                    int resolution_texels)
+        : rows_{rows},
+          hit_{hit},
+          first_{first},
+          resolution_{resolution_texels}
+    {
+    }
+
+    [[nodiscard]] std::array<Bounded, 4> bounded() const;
+    /// Bounded far more closely, at a cost; not at all where the hit is not tame.
+    [[nodiscard]] std::array<Wide, 4> sharp() const;
+    [[nodiscard]] std::array<Fraction, 4> exact() const;
+
+private:
+    /// What W·P counts for in 2 x W·P = n X·P + (n − 1 − 2·texel) W·P.
+    [[nodiscard]] double base(int texel) const
+    {
+        return static_cast<double>(resolution_) - 1 - 2 * static_cast<double>(texel);
+    }
+
+    const ClipRows& rows_;
+    const Receiver& hit_;
+    scene::Texel first_;
+    int resolution_;
+};
+
+} // namespace gnomon::reference_rt

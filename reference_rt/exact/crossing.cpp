@@ -1,0 +1,84 @@
+#include "reference_rt/exact/crossing.hpp"
+
+#include "reference_rt/exact/terms.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace gnomon::reference_rt {
+
+using scene::Light;
+using scene::LightType;
+using scene::Vec3d;
+using scene::Vec4d;
+
+namespace {
+
+/// plus − minus: the form in which a sum of two rows is exact input.
+struct RowDifference {
+    Vec4d plus, minus;
+};
+
+/// Side of the crossing from the plane that a row is.
+Sign crossing_side(const Receiver& receiver, const Corners& s, const Light& light,
+                   const RowDifference& row, SignCounts& counts)
+{
+    const bool is_sun = light.type == LightType::directional;
+    const auto formula = [&]<typename Field>(Field field) {
+        const scene::Ray& ray = receiver.ray();
+        const auto axis = difference<Field>(Vec3d{row.plus}, Vec3d{row.minus});
+        const auto offset = Field::difference(row.plus.w, row.minus.w);
+        const auto [delta, nu] = plane_hit(field, receiver);
+        const auto at_point = delta * (dot(axis, vector<Field>(ray.origin)) + offset) +
+                              nu * dot(axis, vector<Field>(ray.direction));
+        const auto at_light = dot(axis, vector<Field>(is_sun ? -light.direction : light.position)) +
+                              Field::number(is_sun ? 0.0 : 1.0) * offset;
+        const auto normal = normal_of<Field>(s);
+        return dot(normal, towards<Field>(light, s[0])) * at_point -
+               scaled_side(field, receiver, normal, s[0]) * at_light;
+    };
+    return receiver.delta_sign * light_side(s, light, counts) *
+           sign_of(counts, receiver.is_tame(), formula);
+}
+
+} // namespace
+
+bool crosses_in_range(const Receiver& receiver, const Corners& s, const Light& light,
+                      const LightDepth& depth, SignCounts& counts)
+{
+    const ClipRows& rows = depth.rows();
+    const Vec4d none{0.0};
+    const RowDifference nearer{rows.z, depth.is_reversed() ? none : -rows.w};
+    const RowDifference farther{rows.w, rows.z};
+    const Sign lower = crossing_side(receiver, s, light, nearer, counts);
+    if (lower < 0) {
+        return false;
+    }
+    const Sign upper = crossing_side(receiver, s, light, farther, counts);
+    // Their sum is W or 2W: not all 0, the crossing is in front of the light.
+    return upper >= 0 && lower + upper > 0;
+}
+
+double way_to_crossing(const Receiver& receiver, const Corners& s, const Light& light)
+{
+    const bool is_sun = light.type == LightType::directional;
+    const auto heights = [&]<typename Field>(Field field) {
+        const auto normal = normal_of<Field>(s);
+        const auto [delta, nu] = plane_hit(field, receiver);
+        return std::pair{scaled_side(field, receiver, normal, s[0]),
+                         delta * dot(normal, towards<Field>(light, s[0]))};
+    };
+    if (receiver.is_tame()) {
+        const auto [point, change] = heights(FilterField{});
+        const Bounded height{point.value, point.error()};
+        const Bounded fall{-change.value, change.error()};
+        const Bounded way = height / (is_sun ? fall : height + fall);
+        if (way.error <= 0x1p-42 * std::abs(way.value)) {
+            return way.value;
+        }
+    }
+    const auto [height, change] = heights(ExactField{});
+    return Dyadic::quotient(height, (is_sun ? Dyadic{} : height) - change);
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,229 @@
+#pragma once
+
+#include "reference_rt/exact/arithmetic.hpp"
+#include "reference_rt/exact/contact.hpp"
+#include "scene/light/light.hpp"
+#include "scene/triangles.hpp"
+#include "scene/vec.hpp"
+#include "scene/view/camera.hpp"
+
+#include <array>
+#include <cstdint>
+
+/// Exact answers about exact inputs: each sign is decided in double where the error bound allows,
+/// else in integers. What the signs mean is decided in contact.hpp.
+namespace gnomon::reference_rt {
+
+/// A triangle's corners; float32 values held as doubles, hence exact.
+using Corners = std::array<scene::Vec3d, 3>;
+[[nodiscard]] inline Corners corners_of(const scene::TriangleScene& scene, std::uint32_t triangle)
+{
+    const auto corners = scene.corners(triangle);
+    return {scene::Vec3d{corners[0]}, scene::Vec3d{corners[1]}, scene::Vec3d{corners[2]}};
+}
+
+/// A pixel's ray.
+struct CameraRay {
+    scene::Ray ray{};    ///< E, d
+    bool is_tame = true; ///< may the filter be asked (arithmetic.hpp)
+
+    CameraRay() = default;
+    /// Copies each number by itself: wider loads would wait for the stores that just made them.
+    explicit CameraRay(const scene::Ray& ray_in)
+        : ray{{ray_in.origin.x, ray_in.origin.y, ray_in.origin.z},
+              {ray_in.direction.x, ray_in.direction.y, ray_in.direction.z}},
+          is_tame{reference_rt::is_tame(ray.origin) && reference_rt::is_tame(ray.direction)}
+    {
+    }
+};
+
+/// (b − a) × (c − a).
+template <typename Field>
+[[nodiscard]] auto normal_of(const Corners& t)
+{
+    return cross(difference<Field>(t[1], t[0]), difference<Field>(t[2], t[0]));
+}
+
+using FilteredNormal = decltype(normal_of<FilterField>({}));
+
+/// What of a triangle T = (a, b, c) does not depend on the ray.
+struct Facet {
+    Facet() = default;
+    Facet(std::uint32_t triangle_in, const Corners& corners_in)
+        : triangle{triangle_in},
+          corners{corners_in},
+          normal{normal_of<FilterField>(corners)}
+    {
+    }
+
+    std::uint32_t triangle = scene::no_triangle;
+    Corners corners{};
+    FilteredNormal normal{}; ///< n
+};
+
+/// ν of the plane of T for rays from E: n·(a − E).
+[[nodiscard]] inline Filtered<8> nu_of(const Facet& facet, const scene::Vec3d& eye)
+{
+    return dot(facet.normal, difference<FilterField>(facet.corners[0], eye));
+}
+
+/// How far along a ray the plane of T is, and the bound of that number's error: infinite where δ is
+/// hardly known.
+struct PlaneDistance {
+    double t = 0; ///< ν/δ
+    double t_error = std::numeric_limits<double>::infinity();
+};
+[[nodiscard]] inline PlaneDistance plane_distance(const Filtered<7>& delta, const Filtered<8>& nu,
+                                                  bool is_tame)
+{
+    const double inverse = 1 / delta.value;
+    const double t = nu.value * inverse;
+    // |ν̂/δ̂ − ν/δ| <= (|ν̂ − ν| + |ν̂/δ̂||δ̂ − δ|)/|δ|, and |δ| >= 7/8 |δ̂|; the inverse and the
+    // product round.
+    const double error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
+                         3 * unit_roundoff * std::abs(t);
+    const bool is_known = std::abs(delta.value) > 8 * delta.error();
+    return {t, (is_known & is_tame) ? error : std::numeric_limits<double>::infinity()};
+}
+
+/// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of
+/// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
+struct Receiver {
+    Receiver() = default;
+    /// Facet and ray must outlive the receiver.
+    Receiver(const Facet& facet_in, const CameraRay& ray_in, SignCounts& counts)
+        : Receiver{facet_in, ray_in, nu_of(facet_in, ray_in.ray.origin), counts}
+    {
+    }
+    /// @param nu_in  ν, which all rays from one eye share.
+    Receiver(const Facet& facet_in, const CameraRay& ray_in, const Filtered<8>& nu_in,
+             SignCounts& counts)
+        : facet{&facet_in},
+          camera_ray{&ray_in},
+          delta{dot(facet->normal, vector<FilterField>(ray_in.ray.direction))},
+          nu{nu_in}
+    {
+        const auto sign = filtered_sign(counts, is_tame(), [&](auto) { return delta; });
+        delta_sign = sign ? *sign : exact_delta_sign(counts);
+        const PlaneDistance distance = plane_distance(delta, nu, is_tame());
+        t = distance.t;
+        t_error = distance.t_error;
+    }
+    Receiver(const Facet&&, const CameraRay&, SignCounts&) = delete;
+    Receiver(const Facet&, const CameraRay&&, SignCounts&) = delete;
+
+    [[nodiscard]] std::uint32_t triangle() const { return facet->triangle; }
+    [[nodiscard]] const Corners& corners() const { return facet->corners; }
+    [[nodiscard]] const scene::Ray& ray() const { return camera_ray->ray; }
+    [[nodiscard]] bool is_tame() const { return camera_ray->is_tame; }
+
+    /// P rounded [m]; its error is a few roundings of E and of t·d, and t's.
+    [[nodiscard]] scene::Vec3d point() const { return ray().origin + t * ray().direction; }
+
+    const Facet* facet = nullptr;          ///< T; not owned
+    const CameraRay* camera_ray = nullptr; ///< not owned
+    Filtered<7> delta;
+    Filtered<8> nu;
+    Sign delta_sign = 0; ///< exact
+    double t = 0;        ///< ν/δ
+    /// Bound of the error of `t`; infinite where δ is hardly known.
+    double t_error = std::numeric_limits<double>::infinity();
+
+private:
+    [[nodiscard]] Sign exact_delta_sign(SignCounts& counts) const;
+};
+
+/// P − origin to within 2^-50 of its size, however badly δ is conditioned.
+/// Precondition: δ is not 0.
+[[nodiscard]] scene::Vec3d exact_offset(const Receiver& receiver, const scene::Vec3d& origin);
+/// P rounded, to within a few roundings of its size.
+/// Precondition: δ is not 0.
+[[nodiscard]] scene::Vec3d sharp_point(const Receiver& receiver);
+/// E + t·d − origin to within 2^-50 of its size.
+[[nodiscard]] scene::Vec3d exact_offset(const scene::Ray& ray, double t,
+                                        const scene::Vec3d& origin);
+
+/// The side on which a ray's line passes the edge from u to v: ((u − E) × (v − u))·d.
+[[nodiscard]] Sign passing_side(const CameraRay& ray, const scene::Vec3d& u, const scene::Vec3d& v,
+                                SignCounts& counts);
+
+/// True when the ray's line meets the closed triangle at one point.
+[[nodiscard]] bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts);
+
+/// True when ν/δ > near. Precondition: δ is not 0.
+[[nodiscard]] bool is_beyond(const Receiver& hit, double near, SignCounts& counts);
+
+/// −1 when hit a comes before b on their common ray, 1 when after, 0 at the same point.
+[[nodiscard]] Sign compare_distance(const Receiver& a, const Receiver& b, SignCounts& counts);
+
+/// True when S lies in the plane of T.
+[[nodiscard]] bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts);
+
+/// Side of the light from the plane of a triangle.
+[[nodiscard]] Sign light_side(const Corners& corners, const scene::Light& light,
+                              SignCounts& counts);
+[[nodiscard]] Sign light_side(const Facet& facet, const scene::Light& light, SignCounts& counts);
+
+/// True when the light is behind, or in the plane of, the side of T that the camera sees.
+/// @param light_side  of the light from the plane of T.
+[[nodiscard]] constexpr bool is_attached(const Receiver& receiver, Sign light_side)
+{
+    // Towards the camera is −d, and n·(−d) = −δ.
+    return light_side != -receiver.delta_sign;
+}
+
+/// True when P is outside a spot's cone (DESIGN §7); never for other lights.
+[[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,
+                                   SignCounts& counts);
+
+/// Side of P from the plane through the light and the edge (u, v): ε(u, v) below.
+[[nodiscard]] Sign point_side(const Receiver& receiver, const scene::Vec3d& u,
+                              const scene::Vec3d& v, const scene::Light& light, SignCounts& counts);
+
+/// How S meets the open segment from P to the light: its five signs, as far as they are needed.
+///
+/// With g(x) = L − x, or −ℓ for a directional light that travels along ℓ:
+///
+///     ε(u, v) = sgn ((v − u) × g(u))·(P − u)     for the three edges
+///     σ0 = sgn M·(P − u),   σ1 = sgn M·g(u),   M = (v − u) × (w − u)
+///     sgn N·(P − o) = sgn(δ) · sgn(δ N·(E − o) + ν N·d)
+///
+/// @param edge  the touched edge, 0 for (u, v), when the contact is `edge`.
+[[nodiscard]] Contact find_contact(const Receiver& receiver, const Corners& s,
+                                   const scene::Light& light, SignCounts& counts, int& edge);
+
+/// The five signs, all of them.
+[[nodiscard]] ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s,
+                                       const scene::Light& light, SignCounts& counts);
+
+/// Side of `apex` from the plane through the light and the edge (u, v).
+[[nodiscard]] Sign apex_side(const scene::Light& light, const scene::Vec3d& u,
+                             const scene::Vec3d& v, const scene::Vec3d& apex, SignCounts& counts);
+
+/// An edge of a triangle, and the corner opposite.
+struct EdgeOf {
+    scene::Vec3d u, v, apex;
+};
+/// @param edge  0 for the edge from the first corner to the second.
+[[nodiscard]] inline EdgeOf edge_of(const Corners& corners, int edge)
+{
+    const auto i = static_cast<std::size_t>(edge);
+    return {corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]};
+}
+
+/// True when two triangles' surface passes through a ray of the light that meets both edges: they
+/// are the same edge, and the apexes on opposite sides of it.
+[[nodiscard]] bool forms_seam(const EdgeOf& a, const EdgeOf& b, const scene::Light& light,
+                              SignCounts& counts);
+
+/// True when the open segment P→light, lying in the plane of S, meets the closed triangle S.
+[[nodiscard]] bool runs_through(const Receiver& receiver, const Corners& s,
+                                const scene::Light& light);
+
+/// 1 when the segment P→light meets the plane of a nearer to the light than the plane of b, −1 when
+/// farther, 0 at the same point. Precondition: it crosses both planes between P and the light.
+[[nodiscard]] Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a,
+                                             const Corners& b, const scene::Light& light,
+                                             SignCounts& counts);
+
+} // namespace gnomon::reference_rt

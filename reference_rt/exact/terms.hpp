@@ -1,0 +1,73 @@
+#pragma once
+
+#include "reference_rt/exact/arithmetic.hpp"
+#include "reference_rt/exact/predicates.hpp"
+#include "scene/light/light.hpp"
+#include "scene/vec.hpp"
+
+#include <utility>
+
+/// The terms of which the predicates' formulas are made, in either arithmetic.
+namespace gnomon::reference_rt {
+
+/// δ and ν of a receiver.
+template <typename Delta, typename Nu>
+struct PlaneHit {
+    Delta delta;
+    Nu nu;
+};
+inline auto plane_hit(FilterField, const Receiver& receiver)
+{
+    return PlaneHit<Filtered<7>, Filtered<8>>{receiver.delta, receiver.nu};
+}
+template <typename Field>
+auto plane_hit(Field, const Receiver& receiver)
+{
+    const scene::Ray& ray = receiver.ray();
+    const auto normal = normal_of<Field>(receiver.corners());
+    auto delta = dot(normal, vector<Field>(ray.direction));
+    auto nu = dot(normal, difference<Field>(receiver.corners()[0], ray.origin));
+    return PlaneHit<decltype(delta), decltype(nu)>{std::move(delta), std::move(nu)};
+}
+
+inline Vec3<Filtered<1>> negated(const Vec3<Filtered<0>>& v)
+{
+    return {Filtered<0>{-v.x.value, v.x.permanent}, Filtered<0>{-v.y.value, v.y.permanent},
+            Filtered<0>{-v.z.value, v.z.permanent}};
+}
+inline Vec3<Dyadic> negated(const Vec3<Dyadic>& v)
+{
+    const Dyadic zero;
+    return {zero - v.x, zero - v.y, zero - v.z};
+}
+
+/// g(x): from x to the light.
+template <typename Field>
+auto towards(const scene::Light& light, const scene::Vec3d& x)
+{
+    return light.type == scene::LightType::directional
+               ? negated(vector<Field>(light.direction))
+               : decltype(negated(vector<Field>(x))){difference<Field>(light.position, x)};
+}
+
+/// δ row·(P, 1)
+template <typename Field, typename Number>
+Number scaled_row(Field /*field*/, const scene::Vec4d& row, const scene::Ray& ray,
+                  const PlaneHit<Number, Number>& plane)
+{
+    const auto axis = vector<Field>(scene::Vec3d{row});
+    return plane.delta * (dot(axis, vector<Field>(ray.origin)) + Field::number(row.w)) +
+           plane.nu * dot(axis, vector<Field>(ray.direction));
+}
+
+/// δ N·(P − o): its sign is that of N·(P − o) but for δ's.
+template <typename Field, typename Normal>
+auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const scene::Vec3d& o)
+{
+    const scene::Ray& ray = receiver.ray();
+    const auto [delta, nu] = plane_hit(field, receiver);
+    return delta * dot(normal, difference<Field>(ray.origin, o)) +
+           nu * dot(normal, vector<Field>(ray.direction));
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,377 @@
+#include "reference_rt/light/exact_light.hpp"
+
+#include "reference_rt/exact/crossing.hpp"
+#include "reference_rt/light/critical_bias.hpp"
+#include "reference_rt/light/known_hits.hpp"
+#include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/own_sheet.hpp"
+#include "reference_rt/light/texel_first_hits.hpp"
+#include "reference_rt/light/texel_rays.hpp"
+#include "reference_rt/pixels/pixel_packets.hpp"
+#include "reference_rt/pixels/shadow_segments.hpp"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <stdexcept>
+
+namespace gnomon::reference_rt {
+
+using scene::BlockerHit;
+using scene::ExactTap;
+using scene::HitDetail;
+using scene::Image;
+using scene::KnownHits;
+using scene::LinearQuery;
+using scene::NearestQuery;
+using scene::no_triangle;
+using scene::SheetQuery;
+using scene::Texel;
+using scene::TexelHit;
+using scene::Vec3d;
+using scene::View;
+
+namespace {
+
+/// The taps of a query.
+std::array<ExactTap, 1> taps_of(const NearestQuery& query)
+{
+    return {query.tap};
+}
+const std::array<ExactTap, 4>& taps_of(const LinearQuery& query)
+{
+    return query.taps;
+}
+
+/// P as it stands to the light; made again only as far as it changes.
+class LitPoint {
+public:
+    LitPoint(const SeenPixels& seen, const LightDepth& depth)
+        : seen_{seen},
+          depth_{depth},
+          has_eye_{seen.view.camera.projection == scene::Projection::perspective}
+    {
+    }
+
+    void move_to(std::size_t pixel)
+    {
+        if (pixel == pixel_) {
+            return;
+        }
+        pixel_ = pixel;
+        ray_ = seen_.ray_of(pixel);
+        const bool is_same_facet = seen_.receivers[pixel] == facet_.triangle;
+        if (!is_same_facet) {
+            facet_ = seen_.facet_of(pixel);
+        }
+        if (!is_same_facet || !has_eye_) {
+            nu_ = nu_of(facet_, ray_.ray.origin);
+        }
+        SignCounts counts;
+        receiver_ = Receiver{facet_, ray_, nu_, counts};
+        has_term_ = false;
+    }
+    [[nodiscard]] const Receiver& receiver() const { return receiver_; }
+    /// Its depth, found when first asked for.
+    [[nodiscard]] const DepthTerm& term()
+    {
+        if (!has_term_) {
+            term_ = receiver_.delta_sign == 0
+                        ? DepthTerm{}
+                        : DepthTerm{depth_, receiver_,
+                                    depth_.closely_at(depth_.plainly_along(ray_.ray),
+                                                      parameter_of(receiver_))};
+            has_term_ = true;
+        }
+        return term_;
+    }
+
+private:
+    const SeenPixels& seen_;
+    const LightDepth& depth_;
+    bool has_eye_;
+    std::size_t pixel_ = static_cast<std::size_t>(-1);
+    Facet facet_;
+    Filtered<8> nu_; ///< of all rays from one eye
+    CameraRay ray_;
+    Receiver receiver_;
+    bool has_term_ = false;
+    DepthTerm term_;
+};
+
+class LightRays final : public scene::ExactLight {
+public:
+    LightRays(const ReferenceScene& reference, const View& view,
+              const Image<std::uint32_t>& receivers, int resolution_texels, scene::Cull cull,
+              int threads)
+        : reference_{reference.implementation()},
+          view_{view},
+          seen_{reference_.triangles, view, receivers},
+          rays_{view.frustum, view.light, resolution_texels},
+          depth_{view.frustum},
+          cull_{cull},
+          segments_{reference_, view.light},
+          threads_{threads}
+    {
+    }
+
+    std::vector<TexelHit> first_hits(std::span<const Texel> texels, HitDetail detail) const override
+    {
+        const TexelFirstHits finder{reference_, rays_, depth_, cull_, detail};
+        std::vector<TexelHit> hits(texels.size());
+        for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
+            finder.find(run, std::span{hits}.subspan(first, run.size()));
+        });
+        reference_.errors.check("first_hits");
+        return hits;
+    }
+
+    std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+                                     const KnownHits& known) const override
+    {
+        if (known.triangles.size() != texels.size()) {
+            throw std::invalid_argument{"first_hits: known: not of these texels"};
+        }
+        if (!keeps_first_hits(view_.light, known.frustum, view_.frustum)) {
+            return first_hits(texels, HitDetail::placed);
+        }
+        const KnownHitPlacer placer{reference_.triangles, rays_, depth_};
+        std::vector<TexelHit> hits(texels.size());
+        for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
+            const auto triangles = known.triangles.subspan(first, run.size());
+            for (const std::uint32_t triangle : triangles) {
+                if (triangle != no_triangle) {
+                    check(triangle);
+                }
+            }
+            placer.place(run, triangles, std::span{hits}.subspan(first, run.size()));
+        });
+        trace_rest(texels, hits);
+        return hits;
+    }
+
+    std::vector<float> critical_biases(std::span<const NearestQuery> queries,
+                                       bool clamps) const override
+    {
+        return find_biases(queries, clamps);
+    }
+    std::vector<float> critical_biases(std::span<const LinearQuery> queries,
+                                       bool clamps) const override
+    {
+        return find_biases(queries, clamps);
+    }
+
+    std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels) const override
+    {
+        seen_.check(pixels, "are_crossed");
+        std::vector<std::uint8_t> crossed(pixels.size(), 0);
+        for_each_packet(pixels.size(), threads_, [&](std::size_t first, std::size_t count) {
+            SignCounts counts;
+            const PixelPacket packet{seen_, pixels.subspan(first, count), counts};
+            if (!packet.valid.any()) {
+                return;
+            }
+            const auto contacts =
+                trace_segments(reference_, segments_, packet.valid, packet.receivers,
+                               SegmentGoal::any_blocker, counts, {&depth_, cull_});
+            for (std::size_t i = 0; i < count; ++i) {
+                crossed[first + i] = contacts[i].witness != no_triangle ? 1 : 0;
+            }
+        });
+        reference_.errors.check("are_crossed");
+        return crossed;
+    }
+
+    std::vector<std::uint8_t> are_own_sheets(std::span<const SheetQuery> queries) const override
+    {
+        const OwnSheet sheet{reference_.triangles, reference_.corner_fans(), rays_};
+        std::vector<std::uint8_t> answers(queries.size(), 0);
+        for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
+            const auto& [pixel, texel, triangle] = queries[i];
+            seen_.check({&pixel, 1}, "are_own_sheets");
+            check(texel);
+            check(triangle);
+            if (triangle == seen_.receivers[pixel]) {
+                answers[i] = 1; // the walk begins where it ends
+                return;
+            }
+            point.move_to(pixel);
+            const bool is_own =
+                point.receiver().delta_sign != 0 && sheet.leads(point.receiver(), texel, triangle);
+            answers[i] = is_own ? 1 : 0;
+        });
+        return answers;
+    }
+
+    std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels) const override
+    {
+        seen_.check(pixels, "find_blockers");
+        std::vector<BlockerHit> hits(pixels.size());
+        for_each_packet(pixels.size(), threads_, [&](std::size_t first, std::size_t count) {
+            SignCounts counts;
+            const PixelPacket packet{seen_, pixels.subspan(first, count), counts};
+            if (!packet.valid.any()) {
+                return;
+            }
+            const auto contacts =
+                trace_segments(reference_, segments_, packet.valid, packet.receivers,
+                               SegmentGoal::nearest_blocker, counts);
+            for (std::size_t i = 0; i < count; ++i) {
+                if (contacts[i].witness != no_triangle) {
+                    hits[first + i] = blocker_hit(packet.receivers[i], contacts[i].witness);
+                }
+            }
+        });
+        reference_.errors.check("find_blockers");
+        return hits;
+    }
+
+private:
+    /// Calls `run(first, texels)` for runs of the texels, several at the same time; `first` is the
+    /// index of a run's first one.
+    template <typename Run>
+    void for_each_texel_run(std::span<const Texel> texels, const Run& run) const
+    {
+        constexpr std::size_t at_once = 16 * packet_size;
+        const std::size_t runs = (texels.size() + at_once - 1) / at_once;
+        with_threads(threads_, [&] {
+            tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t i) {
+                const std::size_t first = i * at_once;
+                const auto part = texels.subspan(first, std::min(at_once, texels.size() - first));
+                for (const Texel& texel : part) {
+                    check(texel);
+                }
+                run(first, part);
+            });
+        });
+    }
+
+    /// Finds the hits that are not known yet: those without a triangle.
+    void trace_rest(std::span<const Texel> texels, std::span<TexelHit> hits) const
+    {
+        std::vector<std::size_t> rest;
+        std::vector<Texel> rest_texels;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (hits[i].triangle == no_triangle) {
+                rest.push_back(i);
+                rest_texels.push_back(texels[i]);
+            }
+        }
+        const auto found = first_hits(rest_texels, HitDetail::placed);
+        for (std::size_t i = 0; i < rest.size(); ++i) {
+            hits[rest[i]] = found[i];
+        }
+    }
+
+    /// Calls `run(i, point)` for every query, several at the same time; neighbours share the point,
+    /// which is where the last query left it.
+    template <typename Query, typename Run>
+    void for_each_run_of(std::span<const Query> queries, const Run& run) const
+    {
+        with_threads(threads_, [&] {
+            tbb::parallel_for(tbb::blocked_range<std::size_t>{0, queries.size(), 256},
+                              [&](const tbb::blocked_range<std::size_t>& range) {
+                                  LitPoint point{seen_, depth_};
+                                  for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                                      run(i, point);
+                                  }
+                              });
+        });
+    }
+
+    template <typename Query>
+    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
+    {
+        const CriticalBias critical{reference_.triangles, rays_, depth_};
+        std::vector<float> biases(queries.size());
+        for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
+            check(queries[i]);
+            point.move_to(queries[i].pixel);
+            biases[i] = bias_of(queries[i], critical, point,
+                                clamps ? point.term().clamped() : point.term());
+        });
+        return biases;
+    }
+    [[nodiscard]] float bias_of(const NearestQuery& query, const CriticalBias& critical,
+                                const LitPoint& /*point*/, const DepthTerm& receiver) const
+    {
+        return critical.find(receiver, query.tap);
+    }
+    [[nodiscard]] float bias_of(const LinearQuery& query, const CriticalBias& critical,
+                                const LitPoint& point, const DepthTerm& receiver) const
+    {
+        return critical.find(receiver, query.taps,
+                             BilinearWeights{depth_.rows(), point.receiver(), query.first,
+                                             rays_.resolution_texels()});
+    }
+
+    template <typename Query>
+    void check(const Query& query) const
+    {
+        seen_.check({&query.pixel, 1}, "critical_biases");
+        for (const ExactTap& tap : taps_of(query)) {
+            if (tap.triangle != no_triangle) {
+                check(tap.texel);
+                check(tap.triangle);
+            }
+        }
+    }
+    void check(Texel texel) const
+    {
+        const int n = rays_.resolution_texels();
+        if (texel.x < 0 || texel.y < 0 || texel.x >= n || texel.y >= n) {
+            throw std::invalid_argument{fmt::format(
+                "ExactLight: texel ({}, {}) is outside the map of {} texels", texel.x, texel.y, n)};
+        }
+    }
+    void check(std::uint32_t triangle) const
+    {
+        if (triangle >= reference_.triangles.triangles.size()) {
+            throw std::invalid_argument{
+                fmt::format("ExactLight: triangle {} is not in the scene", triangle)};
+        }
+    }
+
+    [[nodiscard]] BlockerHit blocker_hit(const Receiver& receiver, std::uint32_t blocker) const
+    {
+        const scene::Light& light = view_.light;
+        const bool is_sun = light.type == scene::LightType::directional;
+        const Vec3d point = sharp_point(receiver);
+        const Vec3d towards = is_sun ? -light.direction : -exact_offset(receiver, light.position);
+        const double way =
+            way_to_crossing(receiver, corners_of(reference_.triangles, blocker), light);
+        return {blocker, way * glm::length(towards), view_.frustum.zeta_m(point + way * towards),
+                view_.frustum.zeta_m(point)};
+    }
+
+    const ReferenceScene::Implementation& reference_;
+    const View& view_;
+    SeenPixels seen_;
+    TexelRays rays_;
+    LightDepth depth_;
+    scene::Cull cull_;
+    SegmentLight segments_;
+    int threads_;
+};
+
+} // namespace
+
+std::unique_ptr<scene::ExactLight> make_exact_light(const ReferenceScene& reference,
+                                                    const View& view,
+                                                    const Image<std::uint32_t>& receivers,
+                                                    int resolution_texels, scene::Cull cull,
+                                                    int threads)
+{
+    if (!reference.implementation().padded || receivers.size() != view.image) {
+        throw std::invalid_argument{"make_exact_light: the reference must serve exact truth, and "
+                                    "receivers be of the image's size"};
+    }
+    if (resolution_texels < 1 || resolution_texels > 16384) {
+        throw std::invalid_argument{fmt::format(
+            "make_exact_light: resolution_texels = {} is not in [1, 16384]", resolution_texels)};
+    }
+    return std::make_unique<LightRays>(reference, view, receivers, resolution_texels, cull,
+                                       threads);
+}
+
+} // namespace gnomon::reference_rt

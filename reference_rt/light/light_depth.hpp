@@ -1,0 +1,121 @@
+#pragma once
+
+#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/dyadic.hpp"
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/exact/wide.hpp"
+#include "reference_rt/light/texel_rays.hpp"
+#include "scene/light/frustum.hpp"
+#include "scene/view/camera.hpp"
+
+namespace gnomon::reference_rt {
+
+/// z and w of the light's clip space along a ray, each as start + t·step.
+struct ClipLine {
+    Bounded z_start, z_step;
+    Bounded w_start, w_step;
+
+    [[nodiscard]] Bounded z(const Bounded& t) const { return z_start + t * z_step; }
+    [[nodiscard]] Bounded w(const Bounded& t) const { return w_start + t * w_step; }
+};
+
+/// A number as a quotient.
+struct Fraction {
+    Dyadic numerator;
+    Dyadic denominator;
+
+    [[nodiscard]] Sign sign() const { return numerator.sign() * denominator.sign(); }
+    /// Within 2^-52 of its size.
+    [[nodiscard]] double value() const { return Dyadic::quotient(numerator, denominator); }
+    friend Fraction operator-(const Fraction& a, const Fraction& b)
+    {
+        return {a.numerator * b.denominator - b.numerator * a.denominator,
+                a.denominator * b.denominator};
+    }
+    friend Fraction operator*(const Fraction& a, const Fraction& b)
+    {
+        return {a.numerator * b.numerator, a.denominator * b.denominator};
+    }
+};
+
+/// The matrix depth that the float32 `light_clip_from_world` gives to a point H, with Z and W two
+/// of its rows: ½(Z·H)/(W·H) + ½, or reversed (Z·H)/(W·H).
+class LightDepth {
+public:
+    explicit LightDepth(const scene::LightFrustum& frustum);
+
+    [[nodiscard]] const ClipRows& rows() const { return rows_; }
+    [[nodiscard]] bool is_reversed() const { return frustum_.reversed; }
+
+    /// To within the roundings of plain sums.
+    [[nodiscard]] ClipLine plainly_along(const scene::Ray& ray) const
+    {
+        return {plain_row_at(rows_.z, ray.origin, 1), plain_row_at(rows_.z, ray.direction, 0),
+                is_parallel_ ? Bounded{rows_.w.w, 0} : plain_row_at(rows_.w, ray.origin, 1),
+                is_parallel_ ? Bounded{0, 0} : plain_row_at(rows_.w, ray.direction, 0)};
+    }
+
+    /// Depth where the ray of `line` meets a plane at `t`.
+    [[nodiscard]] Bounded at(const ClipLine& line, const Bounded& t) const
+    {
+        const Bounded ratio = has_unit_w_ ? line.z(t) : line.z(t) / line.w(t);
+        constexpr Bounded half{0.5, 0};
+        return is_reversed() ? ratio : half * ratio + half;
+    }
+    /// As `at`, but t's error counts for no more than the depth that it spans: `at` forgets that z
+    /// and w depend on the same t.
+    [[nodiscard]] Bounded closely_at(const ClipLine& line, const Bounded& t) const;
+    /// The same point's depth, exactly. The denominator has the sign of W·H: 0 in the light's
+    /// camera plane. Precondition: δ is not 0.
+    [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
+
+    /// The same in twice double's precision. Precondition: the hit is tame.
+    [[nodiscard]] Wide widely_at(const Receiver& hit) const;
+
+    /// True when the point is in front of the light and its depth in [0, 1].
+    /// @param depth  of the point, as `at` gives it.
+    [[nodiscard]] bool is_in_range(const ClipLine& line, const Receiver& hit,
+                                   const Bounded& depth) const;
+
+    /// Depth, where it is in [0, 1] within 2^-48, and ζ to a relative 2^-44.
+    struct Place {
+        Bounded depth;
+        double zeta_m = 0;
+    };
+    /// What places of hits have in common: with rays of one origin, and with one facet.
+    struct PlaceMemory {
+        bool has_origin = false;
+        scene::Vec3d origin{};
+        Bounded z_start, w_start;
+        Bounded zeta_start; ///< ζ of the origin
+        std::uint32_t triangle = scene::no_triangle;
+        Vec3<Wide> normal{}; ///< n
+        Wide nu;             ///< n·(a − E)
+    };
+    /// @param memory  of this light and one scene; kept up to date.
+    [[nodiscard]] Place place(const Receiver& hit, PlaceMemory& memory) const;
+
+private:
+    /// True where the facet's plane certainly has one depth: it faces a directional light.
+    [[nodiscard]] bool is_level(const Facet& facet) const;
+    void remember_origin(const Receiver& hit, PlaceMemory& memory) const;
+    /// The parameter of a hit within a few roundings, wherever twice the precision is enough for
+    /// that.
+    /// @param memory  of the hit's origin.
+    [[nodiscard]] static Bounded sharp_parameter(const Receiver& hit, PlaceMemory& memory);
+    /// ζ of the hit, rounded. Precondition: δ is not 0.
+    [[nodiscard]] double exact_zeta_m(const Receiver& hit) const;
+
+    const scene::LightFrustum& frustum_;
+    ClipRows rows_;
+    bool is_parallel_; ///< w is the same everywhere
+    bool has_unit_w_;  ///< namely 1
+};
+
+/// The parameter of a hit and its error.
+[[nodiscard]] inline Bounded parameter_of(const Receiver& hit)
+{
+    return {hit.t, hit.t_error};
+}
+
+} // namespace gnomon::reference_rt

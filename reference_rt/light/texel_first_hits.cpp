@@ -1,0 +1,256 @@
+#include "reference_rt/light/texel_first_hits.hpp"
+
+#include "reference_rt/exact/crossing.hpp"
+#include "reference_rt/traversal/stand_in.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace gnomon::reference_rt {
+
+using scene::HitDetail;
+using scene::no_triangle;
+using scene::Texel;
+using scene::TexelHit;
+
+namespace {
+
+/// How a ray's line meets a triangle that is not edge-on: in its interior, on one edge, or not in a
+/// way that counts.
+struct LineContact {
+    Contact kind = Contact::none; ///< `cross`, `edge` or `none`
+    int edge = 0;
+};
+LineContact line_contact(const CameraRay& ray, const Corners& corners, SignCounts& counts)
+{
+    std::array<Sign, 3> side{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        side[i] = passing_side(ray, corners[i], corners[(i + 1) % 3], counts);
+        if (i > 0 && side[i] * side[i - 1] < 0) {
+            return {};
+        }
+    }
+    switch (std::ranges::count(side, 0)) {
+    case 0:
+        return {Contact::cross, 0};
+    case 1: {
+        const auto touched = std::ranges::find(side, 0) - side.begin();
+        const auto i = static_cast<std::size_t>(touched);
+        return side[(i + 1) % 3] == side[(i + 2) % 3]
+                   ? LineContact{Contact::edge, static_cast<int>(touched)}
+                   : LineContact{};
+    }
+    default:
+        return {}; // a vertex
+    }
+}
+
+/// What of a hit is worth keeping: the rest is made again where doubles do not decide.
+struct KeptHit {
+    std::uint32_t triangle = no_triangle;
+    double t = 0;
+    double t_error = 0;
+    Bounded depth;
+
+    /// −1 where `hit` is certainly nearer, 1 where farther, else 0.
+    [[nodiscard]] Sign certain_order(const Receiver& hit) const
+    {
+        if (triangle == no_triangle) {
+            return -1;
+        }
+        const Bounded difference = Bounded{hit.t, hit.t_error} - Bounded{t, t_error};
+        return static_cast<Sign>(difference.is_certainly_positive()) -
+               static_cast<Sign>(difference.is_certainly_negative());
+    }
+};
+
+/// The rays of one packet of texels while Embree traverses the boxes.
+class TexelPacket final : public CandidateJudge {
+public:
+    struct Setting {
+        const ReferenceScene::Implementation& reference;
+        const TexelRays& rays;
+        const LightDepth& depth;
+        scene::Cull cull;
+        const Pencil& pencil;
+    };
+
+    explicit TexelPacket(const Setting& setting) : setting_{setting}
+    {
+        stand_ins_.reserve(packet_size);
+    }
+
+    /// Forgets the texels before.
+    void trace(std::span<const Texel> texels)
+    {
+        assert(!texels.empty() && texels.size() <= packet_size);
+        RTCRayHit16 packet;
+        PacketMask valid;
+        nearest_.fill({});
+        edges_.clear();
+        stand_ins_.clear();
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            rays_[i] = CameraRay{setting_.rays.ray(texels[i])};
+            lines_[i] = setting_.depth.plainly_along(rays_[i].ray);
+            const CameraStandIn& stand_in =
+                stand_ins_.emplace_back(rays_[i], setting_.reference.frame);
+            if (setting_.rays.has_lamp()) {
+                points_.set(i, rays_[i].ray.direction, 0);
+            } else {
+                points_.set(i, stand_in.origin().position, stand_in.origin().error);
+            }
+            // A triangle in the near plane itself may be before the origin by the origin's
+            // roundings: less than the padding has to spare.
+            set_lane(packet.ray, i, stand_in.ray(std::numeric_limits<float>::infinity(), casters));
+            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            valid.add(i);
+        }
+        setting_.reference.find_candidates(valid, packet, *this);
+    }
+
+    [[nodiscard]] TexelHit result(std::size_t lane, HitDetail detail)
+    {
+        const KeptHit& kept = nearest_[lane];
+        if (kept.triangle == no_triangle) {
+            return {no_triangle, setting_.depth.is_reversed() ? 0.0 : 1.0,
+                    std::numeric_limits<double>::infinity()};
+        }
+        if (detail == HitDetail::bounded && kept.depth.error <= 0x1p-40) {
+            return {kept.triangle, kept.depth.value, std::numeric_limits<double>::quiet_NaN(),
+                    kept.depth.error};
+        }
+        const Facet facet = facet_of(kept.triangle);
+        const Receiver hit{facet, rays_[lane], counts_};
+        const auto [depth, zeta_m] = setting_.depth.place(hit, place_memory_);
+        return {kept.triangle, depth.value, zeta_m, depth.error};
+    }
+
+    LaneBits judge_packet(std::uint32_t /*triangle*/, LaneBits /*asking*/) override { return 0; }
+
+    void judge_distances(std::uint32_t triangle, LaneBits asking, PacketOf<float>& t_far) override
+    {
+        const Corners corners = corners_of(setting_.reference.triangles, triangle);
+        const TrianglePlanes planes =
+            make_planes(setting_.reference.frame, setting_.pencil, corners,
+                        setting_.rays.has_lamp() ? LaneKind::directions : LaneKind::points);
+        const LineVerdicts lines = judge_lines(points_, planes);
+        LaneBits open = asking & ~lines.outside;
+        if (open == 0 || (planes.towards != 0 && !is_left(setting_.cull, planes.towards))) {
+            return;
+        }
+        const Facet facet{triangle, corners};
+        const auto first = static_cast<std::size_t>(std::countr_zero(open));
+        const Filtered<8> lamp_nu = nu_of(facet, rays_[first].ray.origin);
+        for (; open != 0; open &= open - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(open));
+            const Receiver hit = setting_.rays.has_lamp()
+                                     ? Receiver{facet, rays_[lane], lamp_nu, counts_}
+                                     : Receiver{facet, rays_[lane], counts_};
+            if (meet(lane, hit, (lines.inside >> lane & 1U) != 0)) {
+                t_far[lane] = std::min(t_far[lane], stand_ins_[lane].t_beyond(hit));
+            }
+        }
+    }
+
+private:
+    struct EdgeContact {
+        std::size_t lane;
+        std::uint32_t triangle;
+        int edge;
+    };
+
+    [[nodiscard]] Facet facet_of(std::uint32_t triangle) const
+    {
+        return {triangle, corners_of(setting_.reference.triangles, triangle)};
+    }
+
+    /// True when the hit, or a seam of it with an earlier one, bounds what is to come.
+    bool meet(std::size_t lane, const Receiver& hit, bool is_inside)
+    {
+        // In front of the light a ray comes from the side that n·(−d) = −δ names.
+        const KeptHit& kept = nearest_[lane];
+        if (!is_left(setting_.cull, -hit.delta_sign) || kept.certain_order(hit) > 0) {
+            return false;
+        }
+        const LineContact contact = is_inside ? LineContact{Contact::cross, 0}
+                                              : line_contact(rays_[lane], hit.corners(), counts_);
+        if (contact.kind == Contact::none) {
+            return false;
+        }
+        const Bounded depth = setting_.depth.at(lines_[lane], parameter_of(hit));
+        if (!setting_.depth.is_in_range(lines_[lane], hit, depth)) {
+            return false;
+        }
+        if (contact.kind == Contact::cross) {
+            keep_nearer(lane, hit, depth, hit.triangle());
+            return true;
+        }
+        return meet_edge(lane, hit, depth, contact.edge);
+    }
+
+    /// `triangle` is hit where `hit` is.
+    void keep_nearer(std::size_t lane, const Receiver& hit, const Bounded& depth,
+                     std::uint32_t triangle)
+    {
+        KeptHit& kept = nearest_[lane];
+        const Sign certain = kept.certain_order(hit);
+        const Sign order = certain != 0 ? certain : compare_with_kept(lane, hit);
+        if (order < 0) {
+            kept = {triangle, hit.t, hit.t_error, depth};
+        } else if (order == 0) {
+            kept.triangle = std::min(kept.triangle, triangle);
+        }
+    }
+
+    [[nodiscard]] Sign compare_with_kept(std::size_t lane, const Receiver& hit)
+    {
+        const Facet facet = facet_of(nearest_[lane].triangle);
+        return compare_distance(hit, Receiver{facet, rays_[lane], counts_}, counts_);
+    }
+
+    bool meet_edge(std::size_t lane, const Receiver& hit, const Bounded& depth, int edge)
+    {
+        const EdgeOf own = edge_of(hit.corners(), edge);
+        bool is_seam = false;
+        for (const EdgeContact& other : edges_) {
+            const auto corners = corners_of(setting_.reference.triangles, other.triangle);
+            if (other.lane == lane &&
+                forms_seam(own, edge_of(corners, other.edge), setting_.rays.light(), counts_)) {
+                keep_nearer(lane, hit, depth, std::min(hit.triangle(), other.triangle));
+                is_seam = true;
+            }
+        }
+        edges_.push_back({lane, hit.triangle(), edge});
+        return is_seam;
+    }
+
+    Setting setting_;
+    SignCounts counts_;
+    LanePoints points_;
+    PacketOf<CameraRay> rays_;
+    PacketOf<ClipLine> lines_;
+    std::vector<CameraStandIn> stand_ins_;
+    PacketOf<KeptHit> nearest_;
+    std::vector<EdgeContact> edges_;
+    LightDepth::PlaceMemory place_memory_;
+};
+
+} // namespace
+
+void TexelFirstHits::find(std::span<const Texel> texels, std::span<TexelHit> hits) const
+{
+    TexelPacket packet{{reference_, rays_, depth_, cull_, pencil_}};
+    for (std::size_t first = 0; first < texels.size(); first += packet_size) {
+        const std::size_t count = std::min(packet_size, texels.size() - first);
+        packet.trace(texels.subspan(first, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[first + i] = packet.result(i, detail_);
+        }
+    }
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/texel_rays.hpp"
+#include "reference_rt/traversal/embree_scene.hpp"
+#include "reference_rt/traversal/pencil.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/exact_light.hpp"
+
+#include <span>
+
+namespace gnomon::reference_rt {
+
+/// Finds what the light sees through the centres of texels.
+class TexelFirstHits {
+public:
+    /// All arguments must outlive it.
+    TexelFirstHits(const ReferenceScene::Implementation& reference, const TexelRays& rays,
+                   const LightDepth& depth, scene::Cull cull, scene::HitDetail detail)
+        : reference_{reference},
+          rays_{rays},
+          depth_{depth},
+          cull_{cull},
+          detail_{detail},
+          pencil_{reference.frame, rays.light()}
+    {
+    }
+
+    /// The first hits of texels, packet by packet: best where sixteen in a row are neighbours.
+    void find(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
+
+private:
+    const ReferenceScene::Implementation& reference_;
+    const TexelRays& rays_;
+    const LightDepth& depth_;
+    scene::Cull cull_;
+    scene::HitDetail detail_;
+    Pencil pencil_;
+};
+
+} // namespace gnomon::reference_rt

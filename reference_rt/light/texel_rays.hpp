@@ -1,0 +1,63 @@
+#pragma once
+
+#include "scene/light/exact_light.hpp"
+#include "scene/light/frustum.hpp"
+#include "scene/light/light.hpp"
+#include "scene/vec.hpp"
+#include "scene/view/camera.hpp"
+
+namespace gnomon::reference_rt {
+
+/// The rows of the float32 `light_clip_from_world`, as exact doubles.
+struct ClipRows {
+    explicit ClipRows(const scene::LightFrustum& frustum);
+
+    scene::Vec4d x, y, z, w;
+};
+
+/// The light's rays through the centres of a shadow map's texels.
+///
+/// With X, Y, Z, W the rows of the float32 `light_clip_from_world`, evaluated in double in exactly
+/// this order and without contraction; then those bits are the ray:
+///
+///     u = (2x + 1 − n)/n,  v alike;   A = X − uW,   B = Y − vW
+///     spot:         from the light's position
+///     directional:  from −((A.w (B × N) + B.w (N × A)) + N.w (A × B))/(A·(B × N)), where A, B and
+///                   the near plane N = Z + W (reversed: W − Z) meet
+///     along ±A × B, scaled by a power of two until its largest component is in [1, 2); the sign
+///     is that of increasing ζ
+class TexelRays {
+public:
+    /// @param light  the light that the frustum belongs to.
+    TexelRays(const scene::LightFrustum& frustum, const scene::Light& light, int resolution_texels);
+
+    [[nodiscard]] scene::Ray ray(scene::Texel texel) const;
+
+    [[nodiscard]] int resolution_texels() const { return resolution_; }
+    /// The light of which these are the rays; the direction of a directional one is theirs, which
+    /// differs from the job's in the last bits of a float32.
+    [[nodiscard]] const scene::Light& light() const { return light_; }
+    /// True when all rays begin at one point.
+    [[nodiscard]] bool has_lamp() const { return light_.type == scene::LightType::spot; }
+
+private:
+    [[nodiscard]] scene::Vec3d direction(const scene::Vec4d& a, const scene::Vec4d& b) const;
+
+    /// A × B and its like, of which a directional light's rays have all alike: its W is 0 but for
+    /// the last component.
+    struct Crosses {
+        Crosses(const scene::Vec3d& a, const scene::Vec3d& b, const scene::Vec3d& n);
+
+        scene::Vec3d b_near, near_a, a_b;
+        double a_b_near; ///< A·(B × N)
+    };
+
+    ClipRows rows_;
+    scene::Vec4d near_; ///< N
+    Crosses crosses_;
+    scene::Vec3d forward_;
+    int resolution_;
+    scene::Light light_;
+};
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,269 @@
+#include "reference_rt/pixels/first_hit.hpp"
+
+#include "reference_rt/traversal/stand_in.hpp"
+#include "scene/infinity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::reference_rt {
+
+using scene::ClassReason;
+using scene::infinity;
+using scene::no_triangle;
+using scene::PixelClass;
+
+namespace {
+
+/// True when the ray meets the closed facet beyond the near plane; `hit` is made where it meets it.
+bool is_hit(const CameraRay& ray, const Facet& facet, double near_m, SignCounts& counts,
+            Receiver& hit)
+{
+    if (!meets(ray, facet.corners, counts)) {
+        return false;
+    }
+    hit = Receiver{facet, ray, counts};
+    return is_beyond(hit, near_m, counts);
+}
+
+/// The lanes whose hit is certainly beyond the near plane.
+GNOMON_WIDEST_VECTORS
+LaneBits certainly_beyond(const LaneHits& hits, double near_m)
+{
+    Lanes<int> is_beyond;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        is_beyond[i] = static_cast<int>(hits.t[i] - hits.t_error[i] > near_m);
+    }
+    return bits_of(is_beyond);
+}
+
+/// The camera rays of one packet: which are hidden from their receivers, or see where GL does not.
+class Sight final : public CandidateJudge {
+public:
+    struct Setting {
+        const ReferenceScene::Implementation& reference;
+        const Pencil& pencil;
+        bool has_eye;
+        double near_m;
+    };
+
+    Sight(const Setting& setting, const Tile& tile, const LanePositions& points, SignCounts& counts)
+        : setting_{setting},
+          tile_{tile},
+          counts_{counts}
+    {
+        if (tile.seen != 0) {
+            hits_.set(points);
+        }
+    }
+
+    /// The lanes in which GL is right.
+    LaneBits match()
+    {
+        const LaneBits traced = tile_.valid & ~nowhere_hit();
+        if (traced == 0) {
+            return 0;
+        }
+        FloatRays stand_ins;
+        LanePositions origins;
+        stand_in_for(tile_.rays, tile_.hits, tile_.seen, setting_.reference.frame, stand_ins,
+                     origins);
+        points_.set(setting_.has_eye ? directions() : origins);
+        setting_.reference.find_candidates(traced, stand_ins, receivers, *this);
+        LaneBits matched = traced & ~hidden_;
+        for (LaneBits rest = matched & tile_.seen & ~covered_; rest != 0; rest &= rest - 1) {
+            const std::size_t lane = first_lane(rest);
+            if (!meets(tile_.rays.ray(lane), tile_.facet(lane).corners, counts_)) {
+                matched &= ~(LaneBits{1} << lane);
+            }
+        }
+        return matched;
+    }
+
+    LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
+    {
+        const Corners corners = corners_of(setting_.reference.triangles, triangle);
+        const TrianglePlanes planes =
+            make_planes(setting_.reference.frame, setting_.pencil, corners,
+                        setting_.has_eye ? LaneKind::directions : LaneKind::points);
+        const LineVerdicts lines = judge_lines(points_, planes);
+        const LaneBits open = asking & ~lines.outside;
+        if (open == 0) {
+            return 0;
+        }
+        const LaneBits own = tile_.seen & lanes_with(tile_.triangles, triangle);
+        covered_ |= own & lines.inside;
+        LaneBits rest = open & ~own;
+        if (rest != 0 && planes.towards != 0) {
+            // Where P is on the camera's side of the triangle's plane, that is crossed after P.
+            rest &= ~(tile_.seen & certainly_on_side(hits_, planes, planes.towards));
+        }
+        if (rest == 0) {
+            return 0;
+        }
+        const Facet facet{triangle, corners};
+        LaneBits hidden = 0;
+        for (; rest != 0; rest &= rest - 1) {
+            const std::size_t lane = first_lane(rest);
+            hidden |= hides(lane, facet) ? LaneBits{1} << lane : 0;
+        }
+        hidden_ |= hidden;
+        return hidden;
+    }
+
+    void judge_distances(std::uint32_t /*triangle*/, LaneBits /*asking*/,
+                         PacketOf<float>& /*t_far*/) override
+    {
+    }
+
+private:
+    /// The lanes in which GL's triangle is edge-on, or not beyond the near plane: it is no hit.
+    [[nodiscard]] LaneBits nowhere_hit()
+    {
+        LaneBits nowhere = 0;
+        for (LaneBits rest = tile_.seen & ~certainly_beyond(tile_.hits, setting_.near_m); rest != 0;
+             rest &= rest - 1) {
+            const std::size_t lane = first_lane(rest);
+            const Receiver& receiver = tile_.receiver(lane);
+            if (receiver.delta_sign == 0 || !is_beyond(receiver, setting_.near_m, counts_)) {
+                nowhere |= LaneBits{1} << lane;
+            }
+        }
+        return nowhere;
+    }
+
+    /// Of the rays, as points.
+    [[nodiscard]] LanePositions directions() const
+    {
+        LanePositions lanes;
+        lanes.position = tile_.rays.direction;
+        lanes.error.fill(0);
+        return lanes;
+    }
+
+    /// True when the lane's ray meets the facet before its receiver, or without having one.
+    [[nodiscard]] bool hides(std::size_t lane, const Facet& facet)
+    {
+        const CameraRay ray = tile_.rays.ray(lane);
+        Receiver hit;
+        return is_hit(ray, facet, setting_.near_m, counts_, hit) &&
+               ((tile_.seen >> lane & 1U) == 0 ||
+                compare_distance(hit, tile_.receiver(lane), counts_) < 0);
+    }
+
+    Setting setting_;
+    const Tile& tile_;
+    SignCounts& counts_;
+    LanePoints points_;    ///< on the lines of sight
+    LanePoints hits_;      ///< P, in the lanes in `seen`
+    LaneBits covered_ = 0; ///< T certainly covers the pixel's centre
+    LaneBits hidden_ = 0;
+};
+
+/// The first hits of one ray, ties included.
+class NearestHits final : public CandidateJudge {
+public:
+    NearestHits(const ReferenceScene::Implementation& reference, const CameraRay& ray,
+                double near_m, SignCounts& counts)
+        : reference_{reference},
+          ray_{ray},
+          near_m_{near_m},
+          counts_{counts},
+          stand_in_{ray, reference.frame}
+    {
+    }
+
+    std::vector<std::uint32_t> find()
+    {
+        RTCRayHit single{};
+        set_ray(single.ray, stand_in_.ray(infinity));
+        single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        reference_.find_candidates(single, *this);
+        return std::move(triangles_);
+    }
+
+    LaneBits judge_packet(std::uint32_t /*triangle*/, LaneBits /*asking*/) override { return 0; }
+
+    void judge_distances(std::uint32_t triangle, LaneBits /*asking*/,
+                         PacketOf<float>& t_far) override
+    {
+        const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
+        Receiver hit;
+        if (!is_hit(ray_, facet, near_m_, counts_, hit)) {
+            return;
+        }
+        const Sign order = triangles_.empty() ? -1 : compare_distance(hit, nearest_, counts_);
+        if (order < 0) {
+            triangles_.clear();
+            nearest_facet_ = facet;
+            nearest_ = Receiver{nearest_facet_, ray_, counts_};
+        }
+        if (order <= 0) {
+            triangles_.push_back(triangle);
+        }
+        t_far[0] = std::min(t_far[0], stand_in_.t_beyond(nearest_));
+    }
+
+private:
+    const ReferenceScene::Implementation& reference_;
+    const CameraRay& ray_;
+    double near_m_;
+    SignCounts& counts_;
+    CameraStandIn stand_in_;
+    std::vector<std::uint32_t> triangles_; ///< all at the same distance
+    Facet nearest_facet_;
+    Receiver nearest_;
+};
+
+} // namespace
+
+FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scene::View& view,
+                     const RasterFacts& facts)
+    : reference_{reference},
+      near_m_{receiver_near_m(reference.bounds)},
+      pencil_{reference.frame, view.camera},
+      has_eye_{view.camera.projection == scene::Projection::perspective},
+      raster_{reference.triangles, view, reference.bounds, facts}
+{
+}
+
+LaneBits FirstHits::match(const Tile& tile, const LanePositions& points, SignCounts& counts) const
+{
+    return Sight{{reference_, pencil_, has_eye_, near_m_}, tile, points, counts}.match();
+}
+
+std::vector<std::uint32_t> FirstHits::first_hits(const CameraRay& ray, SignCounts& counts) const
+{
+    return NearestHits{reference_, ray, near_m_, counts}.find();
+}
+
+UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uint32_t triangle,
+                                    SignCounts& counts) const
+{
+    const auto first = first_hits(ray, counts);
+    const auto unmatched = [](ClassReason reason) {
+        return UnmatchedVerdict{PixelClass::unmatched, reason};
+    };
+    if (triangle == no_triangle && first.empty()) {
+        return {PixelClass::background, ClassReason::none};
+    }
+    const bool is_first_snapped = std::ranges::any_of(
+        first, [&](std::uint32_t hit) { return raster_.coverage_may_differ(hit, x, y, true); });
+    if (is_first_snapped) {
+        return unmatched(ClassReason::snap);
+    }
+    if (triangle == no_triangle) {
+        return unmatched(ClassReason::mismatch);
+    }
+    const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
+    Receiver hit;
+    const bool is_seen = is_hit(ray, facet, near_m_, counts, hit);
+    if (raster_.coverage_may_differ(triangle, x, y, is_seen)) {
+        return unmatched(ClassReason::snap);
+    }
+    return unmatched(is_seen && !first.empty() && raster_.is_tie(first.front(), triangle, x, y)
+                         ? ClassReason::tie
+                         : ClassReason::mismatch);
+}
+
+} // namespace gnomon::reference_rt

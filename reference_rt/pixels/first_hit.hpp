@@ -1,0 +1,50 @@
+#pragma once
+
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/pixels/receiver_raster.hpp"
+#include "reference_rt/pixels/tiles.hpp"
+#include "reference_rt/traversal/embree_scene.hpp"
+#include "reference_rt/traversal/packet.hpp"
+#include "reference_rt/traversal/pencil.hpp"
+#include "scene/job/job.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::reference_rt {
+
+/// The class of a pixel in which GL's triangle is no first hit, and why.
+struct UnmatchedVerdict {
+    scene::PixelClass pixel_class = scene::PixelClass::background;
+    scene::ClassReason reason = scene::ClassReason::none;
+};
+
+/// Compares what GL sees with T*: the closed triangles that a pixel's ray meets first beyond the
+/// near plane.
+class FirstHits {
+public:
+    FirstHits(const ReferenceScene::Implementation& reference, const scene::View& view,
+              const RasterFacts& facts);
+
+    /// The lanes in which GL is right: its triangle is in T*, or it saw nothing and T* is empty.
+    /// @param points  P of each lane in `tile.seen`, as `find_unit_points` leaves it.
+    [[nodiscard]] LaneBits match(const Tile& tile, const LanePositions& points,
+                                 SignCounts& counts) const;
+
+    /// Why GL's triangle, or its seeing none, does not match.
+    [[nodiscard]] UnmatchedVerdict explain(const CameraRay& ray, int x, int y,
+                                           std::uint32_t triangle, SignCounts& counts) const;
+
+    /// T*, in no particular order.
+    [[nodiscard]] std::vector<std::uint32_t> first_hits(const CameraRay& ray,
+                                                        SignCounts& counts) const;
+
+private:
+    const ReferenceScene::Implementation& reference_;
+    double near_m_;
+    Pencil pencil_;
+    bool has_eye_; ///< the rays start at one point
+    ReceiverRaster raster_;
+};
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,98 @@
+#include "reference_rt/pixels/plain_shadow.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::reference_rt {
+
+using scene::Vec3d;
+using scene::Vec3f;
+
+namespace {
+
+/// A position moved off its surface along the unit normal: 256 ulps per unit of the normal, 2^-16
+/// near the origin. Source: C. Wächter and N. Binder, "A Fast and Robust Method for Avoiding
+/// Self-Intersection", Ray Tracing Gems (2019), chapter 6.
+Vec3f offset_by_ulps(const Vec3f& position, const Vec3f& normal)
+{
+    constexpr float near_origin = 1.0F / 32;
+    Vec3f moved;
+    for (int i = 0; i < 3; ++i) {
+        const auto steps = static_cast<std::int32_t>(256.0F * normal[i]);
+        const auto bits = std::bit_cast<std::int32_t>(position[i]);
+        moved[i] = std::abs(position[i]) < near_origin
+                       ? position[i] + normal[i] / 65536.0F
+                       : std::bit_cast<float>(bits + (position[i] < 0 ? -steps : steps));
+    }
+    return moved;
+}
+
+struct OwnTriangles {
+    const ReferenceScene::Implementation& reference;
+    const PacketOf<Receiver>& receivers;
+};
+
+void reject_own_triangle(const RTCFilterFunctionNArguments* arguments) noexcept
+{
+    const auto& own = embree::payload_of<OwnTriangles>(*arguments);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] == 0) {
+            continue;
+        }
+        const std::uint32_t triangle =
+            own.reference.triangle(RTCHitN_geomID(arguments->hit, arguments->N, i),
+                                   RTCHitN_primID(arguments->hit, arguments->N, i));
+        if (own.receivers[RTCRayN_id(arguments->ray, arguments->N, i)].triangle() == triangle) {
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
+FloatRay plain_ray(const Receiver& receiver, const scene::Light& light, PlainOffset offset,
+                   float t_near)
+{
+    const bool is_sun = light.type == scene::LightType::directional;
+    const Vec3d point = receiver.point();
+    const Vec3d to_light = is_sun ? -light.direction : light.position - point;
+    const double length = glm::length(to_light);
+    Vec3f origin{point};
+    if (offset == PlainOffset::integer) {
+        const Vec3d n = glm::normalize(glm::cross(receiver.corners()[1] - receiver.corners()[0],
+                                                  receiver.corners()[2] - receiver.corners()[0]));
+        origin = offset_by_ulps(origin, Vec3f{glm::dot(n, to_light) < 0 ? -n : n});
+    }
+    return {origin, Vec3f{to_light / length}, offset == PlainOffset::ray_start ? t_near : 0.0F,
+            is_sun ? std::numeric_limits<float>::infinity() : static_cast<float>(length), casters};
+}
+
+} // namespace
+
+PacketMask trace_plain(const ReferenceScene::Implementation& reference, const scene::Light& light,
+                       PlainOffset offset, const PacketMask& valid,
+                       const PacketOf<Receiver>& receivers)
+{
+    const auto t_near = static_cast<float>(1e-4 * reference.bounds.diagonal_m());
+    RTCRay16 packet;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (valid[i]) {
+            set_lane(packet, i, plain_ray(receivers[i], light, offset, t_near));
+        }
+    }
+    idle_other_lanes(packet, valid);
+    OwnTriangles own{reference, receivers};
+    embree::Query query{embree::Coherence::coherent,
+                        offset == PlainOffset::own_triangle ? &reject_own_triangle : nullptr, &own};
+    embree::occluded16(valid.lane.data(), reference.native.get(), query, packet);
+    PacketMask blocked;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (valid[i] && packet.tfar[i] < 0) { // Embree's mark of an occluded ray: −∞
+            blocked.add(i);
+        }
+    }
+    return blocked;
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/traversal/lane_rays.hpp"
+#include "reference_rt/traversal/packet.hpp"
+#include "scene/image.hpp"
+#include "scene/job/job.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::reference_rt {
+
+/// 4×4 pixels, what GL saw in them, and where their rays meet that. A worker keeps one and fills it
+/// again for each tile.
+class Tile {
+public:
+    LaneBits valid = 0; ///< lanes within the image's border
+    LaneBits seen = 0;  ///< lanes in which GL saw a triangle
+    int left = 0;       ///< the first column and row
+    int top = 0;
+    LaneRays rays{};
+    LaneHits hits{}; ///< of the lanes in `seen`
+    Lanes<std::uint32_t> triangles{};
+    std::size_t facet_count = 0;
+    PacketOf<Facet> facets; ///< the different triangles
+    PacketOf<LaneBits> facet_lanes{};
+
+    [[nodiscard]] int x(std::size_t lane) const
+    {
+        return left + static_cast<int>(lane) % tile_side_px;
+    }
+    [[nodiscard]] int y(std::size_t lane) const
+    {
+        return top + static_cast<int>(lane) / tile_side_px;
+    }
+    /// Of a lane in `seen`.
+    [[nodiscard]] const Facet& facet(std::size_t lane) const;
+    /// Of a lane in `seen`; made when first asked for, and valid until the tile is filled again.
+    [[nodiscard]] const Receiver& receiver(std::size_t lane) const
+    {
+        SignCounts ignored; // the sign of δ has been counted
+        return receiver(lane, ignored);
+    }
+    /// Of all lanes in `seen`.
+    [[nodiscard]] const PacketOf<Receiver>& receivers() const;
+
+private:
+    friend class TileSource;
+
+    [[nodiscard]] const Receiver& receiver(std::size_t lane, SignCounts& counts) const;
+
+    mutable LaneBits made_ = 0;
+    mutable PacketOf<CameraRay> camera_rays_;
+    mutable PacketOf<Receiver> receivers_;
+};
+
+/// Fills tiles with what GL saw in them.
+class TileSource {
+public:
+    /// @param receivers  GL's triangle per pixel. All arguments must outlive the source.
+    TileSource(const scene::TriangleScene& triangles, const scene::View& view,
+               const scene::Image<std::uint32_t>& receivers);
+
+    void fill(Tile& tile, int column, int row, SignCounts& counts) const;
+
+private:
+    void find_rays(Tile& tile) const;
+    void look_up(Tile& tile) const;
+    void find_facets(Tile& tile) const;
+    void find_hits(Tile& tile, SignCounts& counts) const;
+
+    const scene::TriangleScene& triangles_;
+    const scene::View& view_;
+    const scene::Image<std::uint32_t>& receivers_;
+    bool has_eye_;           ///< the rays start at one point
+    std::vector<double> sx_; ///< of each column, up to a whole number of tiles
+    std::vector<double> sy_; ///< of each row
+};
+
+/// Runs `job` with that many threads; 0 means all cores.
+template <typename Job>
+void with_threads(int threads, const Job& job)
+{
+    if (threads <= 0) {
+        job();
+        return;
+    }
+    const tbb::global_control limit{tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads)};
+    tbb::task_arena arena{threads};
+    arena.execute(job);
+}
+
+/// Calls `run(column, row)` for every tile of the image, several at the same time.
+template <typename Run>
+void for_each_tile(scene::ImageSize image, int threads, const Run& run)
+{
+    const int columns = (image.width_px + tile_side_px - 1) / tile_side_px;
+    const int rows = (image.height_px + tile_side_px - 1) / tile_side_px;
+    with_threads(threads, [&] {
+        tbb::parallel_for(tbb::blocked_range<int>{0, rows},
+                          [&](const tbb::blocked_range<int>& range) {
+                              for (int row = range.begin(); row != range.end(); ++row) {
+                                  for (int column = 0; column < columns; ++column) {
+                                      run(column, row);
+                                  }
+                              }
+                          });
+    });
+}
+
+} // namespace gnomon::reference_rt

@@ -1,0 +1,199 @@
+#include "reference_rt/rounded/nearest_surface.hpp"
+
+#include "reference_rt/pixels/tiles.hpp"
+#include "reference_rt/rounded/rounded_truth.hpp"
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace gnomon::reference_rt {
+
+using scene::NearestSurface;
+using scene::no_object;
+using scene::no_triangle;
+using scene::SurfaceScope;
+using scene::Vec3d;
+
+namespace {
+
+double distance_to_edge(const Vec3d& point, const Vec3d& u, const Vec3d& v)
+{
+    const Vec3d along = v - u;
+    const double share = std::clamp(glm::dot(point - u, along) / glm::dot(along, along), 0.0, 1.0);
+    return glm::length(point - (u + share * along));
+}
+
+} // namespace
+
+double distance_m(const Vec3d& point, const Corners& triangle)
+{
+    const auto& [a, b, c] = triangle;
+    const Vec3d normal = glm::cross(b - a, c - a);
+    const auto is_inside = [&](const Vec3d& u, const Vec3d& v) {
+        return glm::dot(glm::cross(normal, v - u), point - u) >= 0;
+    };
+    const double length = glm::length(normal);
+    if (length > 0 && is_inside(a, b) && is_inside(b, c) && is_inside(c, a)) {
+        return std::abs(glm::dot(normal, point - a)) / length;
+    }
+    return std::min({distance_to_edge(point, a, b), distance_to_edge(point, b, c),
+                     distance_to_edge(point, c, a)});
+}
+
+NearbySurfaces::NearbySurfaces(const ReferenceScene::Implementation& reference)
+    : reference_{reference}
+{
+}
+
+NearestSurface NearbySurfaces::find_nearest(const Vec3d& point, const SurfaceScope& scope)
+{
+    extent_m_ = 0;
+    spread_ = 1;
+    gathers_ = false;
+    search(point, scope);
+    return is_near_enough() ? nearest_ : NearestSurface{};
+}
+
+const std::vector<NearbyTriangle>& NearbySurfaces::find_all(const Vec3d& point, double extent_m,
+                                                            const SurfaceScope& scope)
+{
+    extent_m_ = extent_m;
+    spread_ = std::numbers::sqrt3;
+    gathers_ = true;
+    search(point, scope);
+    if (!is_near_enough()) {
+        found_.clear();
+    }
+    std::erase_if(found_, [&](const NearbyTriangle& t) { return t.distance_m > reach_m(); });
+    std::sort(found_.begin(), found_.end(), [](const NearbyTriangle& a, const NearbyTriangle& b) {
+        return a.triangle < b.triangle;
+    });
+    // The hint is met twice.
+    found_.erase(std::unique(found_.begin(), found_.end(),
+                             [](const NearbyTriangle& a, const NearbyTriangle& b) {
+                                 return a.triangle == b.triangle;
+                             }),
+                 found_.end());
+    return found_;
+}
+
+void NearbySurfaces::search(const Vec3d& point, const SurfaceScope& scope)
+{
+    point_ = point;
+    scope_ = scope;
+    nearest_ = {};
+    found_.clear();
+    if (hint_ != no_triangle && is_in_scope(hint_)) {
+        consider(hint_);
+    }
+    const scene::Vec3f origin{reference_.frame.from_world(point)};
+    RTCPointQuery query{origin.x, origin.y, origin.z, 0, search_radius()};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(reference_.padded.get(), &query, &context, &NearbySurfaces::visit, this);
+    hint_ = nearest_.triangle;
+    if (failure_) {
+        std::rethrow_exception(failure_);
+    }
+}
+
+float NearbySurfaces::search_radius() const
+{
+    const double reach = reference_.frame.scale() * reach_m();
+    if (!std::isfinite(reach)) {
+        return std::numeric_limits<float>::infinity();
+    }
+    // The point was rounded to float32, and Embree's squares and sums round a few times more.
+    const double slack = 0x1p-20 * (1 + reach + largest(reference_.frame.from_world(point_)));
+    return static_cast<float>(reach + slack);
+}
+
+bool NearbySurfaces::visit(RTCPointQueryFunctionArguments* arguments) noexcept
+{
+    auto& self = *static_cast<NearbySurfaces*>(arguments->userPtr);
+    const std::uint32_t triangle = self.reference_.triangle(arguments->geomID, arguments->primID);
+    if (!self.is_in_scope(triangle)) {
+        return false;
+    }
+    try {
+        self.consider(triangle);
+    } catch (...) {
+        self.failure_ = std::current_exception();
+        return false;
+    }
+    const float radius = self.search_radius();
+    const bool is_narrower = radius < arguments->query->radius;
+    if (is_narrower) {
+        arguments->query->radius = radius;
+    }
+    return is_narrower;
+}
+
+void NearbySurfaces::consider(std::uint32_t triangle)
+{
+    const double distance =
+        reference_rt::distance_m(point_, corners_of(reference_.triangles, triangle));
+    if (distance < nearest_.distance_m ||
+        (distance == nearest_.distance_m && triangle < nearest_.triangle)) {
+        nearest_ = {triangle, distance};
+    }
+    if (gathers_ && distance <= reach_m()) {
+        found_.push_back({triangle, distance});
+    }
+}
+
+double NearbySurfaces::reach_m() const
+{
+    return extent_m_ + spread_ * std::min(nearest_.distance_m, scope_.most_distance_m);
+}
+
+bool NearbySurfaces::is_near_enough() const
+{
+    return nearest_.distance_m <= scope_.most_distance_m;
+}
+
+bool NearbySurfaces::is_in_scope(std::uint32_t triangle) const
+{
+    const auto& objects = reference_.triangles.objects;
+    if (scope_.object != no_object) {
+        const scene::Object& object = objects[scope_.object];
+        return triangle - object.first_triangle < object.triangle_count;
+    }
+    return objects[reference_.triangles.object_of(triangle)].receives;
+}
+
+std::vector<NearestSurface> nearest_surfaces(const ReferenceScene& reference,
+                                             std::span<const Vec3d> points,
+                                             std::span<const SurfaceScope> scopes, int threads)
+{
+    const auto& implementation = reference.implementation();
+    if (!implementation.padded) {
+        throw std::invalid_argument{"nearest_surfaces: the reference must serve exact truth"};
+    }
+    if (!scopes.empty() && scopes.size() != points.size()) {
+        throw std::invalid_argument{"nearest_surfaces: not a scope for each point"};
+    }
+    std::vector<NearestSurface> found(points.size());
+    with_threads(threads, [&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>{0, points.size(), 1024},
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              NearbySurfaces search{implementation};
+                              for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                                  if (std::isfinite(glm::dot(points[i], Vec3d{1.0}))) {
+                                      found[i] = search.find_nearest(
+                                          points[i], scopes.empty() ? SurfaceScope{} : scopes[i]);
+                                  }
+                              }
+                          });
+    });
+    implementation.errors.check("nearest_surfaces");
+    return found;
+}
+
+} // namespace gnomon::reference_rt

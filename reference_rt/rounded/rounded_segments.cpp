@@ -1,0 +1,253 @@
+#include "reference_rt/rounded/rounded_segments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace gnomon::reference_rt {
+
+using scene::no_triangle;
+using scene::PixelClass;
+
+namespace {
+
+/// How a triangle stands to the segments from all points of a polygon to the light.
+struct Passage {
+    bool may_touch = false;          ///< not shown to be apart from all of them
+    bool is_between = false;         ///< its plane certainly is, for all points
+    std::array<bool, 3> is_inside{}; ///< by edge: all lines to the light certainly pass inside
+
+    [[nodiscard]] bool crosses_all() const
+    {
+        return is_between && is_inside[0] && is_inside[1] && is_inside[2];
+    }
+    /// But for one edge.
+    [[nodiscard]] bool crosses_all_beside(std::size_t edge) const
+    {
+        return is_between && is_inside[(edge + 1) % 3] && is_inside[(edge + 2) % 3];
+    }
+};
+
+/// True when no corner of S is on the light's side of the plane of T: the segments that start in
+/// that plane leave it on the other side.
+bool is_behind(const Facet& facet, Sign light_side, const Corners& s, SignCounts& counts)
+{
+    return std::all_of(s.begin(), s.end(), [&](const scene::Vec3d& corner) {
+        return light_side * sign_of(counts, true,
+                                    [&]<typename Field>(Field) {
+                                        return dot(normal_of<Field>(facet.corners),
+                                                   difference<Field>(corner, facet.corners[0]));
+                                    }) <=
+               0;
+    });
+}
+
+/// All that the signs at the polygon's corners show of the whole polygon: each of the five is that
+/// of a linear function of P, so that a strict sign at all corners is one everywhere between them.
+Passage find_passage(const PlaneSection& section, const Corners& s, const scene::Light& light,
+                     SignCounts& counts)
+{
+    Passage passage;
+    const Sign towards = light_side(s, light, counts);
+    bool is_on_lights_side = towards != 0; // or in the plane of S: met at P only
+    bool is_never_in_plane = true;
+    passage.is_between = towards != 0;
+    passage.is_inside.fill(true);
+    std::array<bool, 3> is_outside{true, true, true};
+    for (const Receiver& corner : section) {
+        const ShadowSigns signs = shadow_signs(corner, s, light, counts);
+        is_on_lights_side &= signs.point * towards >= 0;
+        is_never_in_plane &= signs.point != 0;
+        passage.is_between &= signs.point * towards < 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            // The light's lines through the inside of S have all three edges on the side −σ1.
+            passage.is_inside[i] &= signs.edge[i] == -towards && towards != 0;
+            is_outside[i] &= signs.edge[i] == towards && towards != 0;
+        }
+    }
+    // The light in the plane of S, and no point: they meet at the light at most.
+    const bool meets_at_light = towards == 0 && is_never_in_plane;
+    passage.may_touch =
+        !is_on_lights_side && !meets_at_light &&
+        std::none_of(is_outside.begin(), is_outside.end(), [](bool b) { return b; });
+    return passage;
+}
+
+/// The segments of up to sixteen starts while Embree traverses the boxes.
+class RoundedSegments final : public CandidateJudge {
+public:
+    RoundedSegments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
+                    std::span<const RoundedStart> starts, SignCounts& counts)
+        : reference_{reference},
+          light_{light},
+          starts_{starts},
+          counts_{counts}
+    {
+    }
+
+    [[nodiscard]] PacketOf<SuppositionVerdict> trace()
+    {
+        LanePositions positions{};
+        LaneBits lanes = 0;
+        for (std::size_t i = 0; i < starts_.size(); ++i) {
+            const RoundedStart& start = starts_[i];
+            triangles_[i] = start.facet.triangle;
+            lanes |= LaneBits{1} << i;
+            const scene::Vec3d point = reference_.frame.from_world(start.point);
+            // Of the difference and the product.
+            const double rounding = 4 * unit_roundoff * (1 + largest(point));
+            positions.set(i, {point, reference_.frame.scale() * start.box.reach_m(start.point) *
+                                             (1 + 0x1p-40) +
+                                         rounding});
+        }
+        points_.set(positions);
+        FloatRays rays{};
+        light_.stand_in.from(positions, lanes, rays);
+        reference_.find_candidates(lanes, rays, casters, *this);
+        PacketOf<SuppositionVerdict> verdicts;
+        for (std::size_t i = 0; i < starts_.size(); ++i) {
+            verdicts[i] = verdict(i);
+        }
+        return verdicts;
+    }
+
+    LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
+    {
+        asking &= ~lanes_with(triangles_, triangle); // T is met at P only
+        if (asking == 0) {
+            return 0;
+        }
+        const Corners s = corners_of(reference_.triangles, triangle);
+        const TrianglePlanes planes =
+            make_planes(reference_.frame, light_.pencil, s, LaneKind::points);
+        const LineVerdicts lines = judge_lines(points_, planes);
+        LaneBits open = asking & ~lines.outside;
+        LaneBits settled = 0;
+        if (open != 0 && planes.towards != 0) {
+            settled = open & lines.inside & certainly_on_side(points_, planes, -planes.towards);
+            open &= ~(settled | certainly_on_side(points_, planes, planes.towards));
+        }
+        for (LaneBits rest = settled; rest != 0; rest &= rest - 1) {
+            witnesses_[first_lane(rest)] = triangle;
+        }
+        for (LaneBits rest = open; rest != 0; rest &= rest - 1) {
+            settled |= decide(first_lane(rest), triangle, s);
+        }
+        return settled;
+    }
+
+    void judge_distances(std::uint32_t /*triangle*/, LaneBits /*asking*/,
+                         PacketOf<float>& /*t_far*/) override
+    {
+    }
+
+private:
+    struct Open {
+        std::uint32_t triangle = no_triangle;
+        Passage passage;
+    };
+
+    /// The lane's bit when the triangle settles it; one that may be touched is kept.
+    LaneBits decide(std::size_t lane, std::uint32_t triangle, const Corners& s)
+    {
+        const Facet& facet = starts_[lane].facet;
+        if (is_behind(facet, light_side(facet, light_.light, counts_), s, counts_)) {
+            return 0;
+        }
+        const PlaneSection& section = section_of(lane);
+        const Passage passage = section.empty() ? Passage{.may_touch = true}
+                                                : find_passage(section, s, light_.light, counts_);
+        if (passage.crosses_all()) {
+            witnesses_[lane] = triangle;
+            return LaneBits{1} << lane;
+        }
+        if (passage.may_touch) {
+            open_[lane].push_back({triangle, passage});
+        }
+        return 0;
+    }
+
+    [[nodiscard]] const PlaneSection& section_of(std::size_t lane)
+    {
+        std::optional<PlaneSection>& section = sections_[lane];
+        return section ? *section
+                       : section.emplace(starts_[lane].box, starts_[lane].facet, counts_);
+    }
+
+    [[nodiscard]] SuppositionVerdict verdict(std::size_t lane)
+    {
+        if (witnesses_[lane] != no_triangle) {
+            return {PixelClass::blocked, witnesses_[lane]};
+        }
+        if (open_[lane].empty()) {
+            return {PixelClass::lit, no_triangle};
+        }
+        for (std::size_t i = 0; i < open_[lane].size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                if (crosses_all_together(open_[lane][i], open_[lane][j])) {
+                    return {PixelClass::blocked,
+                            std::min(open_[lane][i].triangle, open_[lane][j].triangle)};
+                }
+            }
+        }
+        return {PixelClass::indeterminate, no_triangle};
+    }
+
+    /// True when each segment crosses one of two triangles, or the seam between them.
+    ///
+    /// They lie on opposite sides of the plane through the light and their common edge. A point on
+    /// one's side of it, with the lines inside that one's other two edges, is inside all three.
+    [[nodiscard]] bool crosses_all_together(const Open& a, const Open& b)
+    {
+        const Corners corners_a = corners_of(reference_.triangles, a.triangle);
+        const Corners corners_b = corners_of(reference_.triangles, b.triangle);
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                if (a.passage.crosses_all_beside(i) && b.passage.crosses_all_beside(j) &&
+                    forms_seam(edge_of(corners_a, static_cast<int>(i)),
+                               edge_of(corners_b, static_cast<int>(j)), light_.light, counts_)) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    const ReferenceScene::Implementation& reference_;
+    const SegmentLight& light_;
+    std::span<const RoundedStart> starts_;
+    SignCounts& counts_;
+    LanePoints points_;
+    Lanes<std::uint32_t> triangles_{};
+    PacketOf<std::uint32_t> witnesses_ = filled_with_no_triangle();
+    PacketOf<std::vector<Open>> open_;
+    PacketOf<std::optional<PlaneSection>> sections_;
+
+    static PacketOf<std::uint32_t> filled_with_no_triangle()
+    {
+        PacketOf<std::uint32_t> none{};
+        none.fill(no_triangle);
+        return none;
+    }
+};
+
+} // namespace
+
+double start_reach(const ReferenceScene::Implementation& reference)
+{
+    // 75 of the 96 units of `box_padding` are spent, one of them on the start.
+    constexpr double spare = 20 * float_roundoff;
+    return spare + reference.padding - box_padding;
+}
+
+PacketOf<SuppositionVerdict> trace_rounded_segments(const ReferenceScene::Implementation& reference,
+                                                    const SegmentLight& light,
+                                                    std::span<const RoundedStart> starts,
+                                                    SignCounts& counts)
+{
+    RoundedSegments segments{reference, light, starts, counts};
+    return segments.trace();
+}
+
+} // namespace gnomon::reference_rt

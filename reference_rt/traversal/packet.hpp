@@ -1,0 +1,104 @@
+#pragma once
+
+#include "scene/view/camera.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace gnomon::reference_rt {
+
+/// Rays are traced in packets of 4×4 pixels.
+inline constexpr int tile_side_px = 4;
+inline constexpr std::size_t packet_size = tile_side_px * tile_side_px;
+
+template <typename Value>
+using PacketOf = std::array<Value, packet_size>;
+
+/// Lanes by bit.
+using LaneBits = std::uint32_t;
+
+/// −1 for a lane that takes part, else 0; aligned as Embree asks.
+struct alignas(64) PacketMask {
+    PacketOf<int> lane{};
+
+    [[nodiscard]] bool operator[](std::size_t i) const { return lane[i] != 0; }
+    void add(std::size_t i) { lane[i] = -1; }
+    [[nodiscard]] bool any() const
+    {
+        for (const int is_valid : lane) {
+            if (is_valid != 0) {
+                return true;
+            }
+        }
+        return false;
+    }
+};
+
+/// What a ray asks for; the bits of the ray and geometry masks.
+enum RayMask : unsigned {
+    casters = 1U << 0,   ///< shadow rays
+    receivers = 1U << 1, ///< camera rays
+};
+
+/// A ray in Embree's precision, from t_near to t_far in units of its direction.
+struct FloatRay {
+    scene::Vec3f origin;
+    scene::Vec3f direction;
+    float t_near = 0;
+    float t_far = 0;
+    unsigned mask = 0;
+};
+
+/// Writes a ray into one lane of Embree's packet; its id is the lane.
+template <typename Ray16>
+void set_lane(Ray16& rays, std::size_t lane, const FloatRay& ray)
+{
+    rays.org_x[lane] = ray.origin.x;
+    rays.org_y[lane] = ray.origin.y;
+    rays.org_z[lane] = ray.origin.z;
+    rays.tnear[lane] = ray.t_near;
+    rays.dir_x[lane] = ray.direction.x;
+    rays.dir_y[lane] = ray.direction.y;
+    rays.dir_z[lane] = ray.direction.z;
+    rays.time[lane] = 0;
+    rays.tfar[lane] = ray.t_far;
+    rays.mask[lane] = ray.mask;
+    rays.id[lane] = static_cast<unsigned>(lane);
+    rays.flags[lane] = 0;
+}
+
+/// Gives the lanes that take no part a ray that ends before it begins. Where a CPU traces fewer
+/// than sixteen rays at a time, Embree 3 tells by that alone, not by the mask, which lanes are
+/// idle.
+template <typename Ray16>
+void idle_other_lanes(Ray16& rays, const PacketMask& taking_part)
+{
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (!taking_part[i]) {
+            set_lane(rays, i, {scene::Vec3f{0}, scene::Vec3f{1}, infinity, -infinity, 0});
+        }
+    }
+}
+
+/// Writes Embree's single ray.
+template <typename Ray1>
+void set_ray(Ray1& single, const FloatRay& ray)
+{
+    single.org_x = ray.origin.x;
+    single.org_y = ray.origin.y;
+    single.org_z = ray.origin.z;
+    single.tnear = ray.t_near;
+    single.dir_x = ray.direction.x;
+    single.dir_y = ray.direction.y;
+    single.dir_z = ray.direction.z;
+    single.time = 0;
+    single.tfar = ray.t_far;
+    single.mask = ray.mask;
+    single.id = 0;
+    single.flags = 0;
+}
+
+} // namespace gnomon::reference_rt

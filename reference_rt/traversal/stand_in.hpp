@@ -1,0 +1,130 @@
+#pragma once
+
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/traversal/lane_rays.hpp"
+#include "reference_rt/traversal/packet.hpp"
+#include "reference_rt/traversal/pencil.hpp"
+#include "reference_rt/traversal/unit_frame.hpp"
+#include "scene/light/light.hpp"
+
+#include <limits>
+
+/// Float rays in the unit frame that stand in for exact ones: a triangle that the exact ray or
+/// segment touches has its padded box hit by the stand-in (see `box_padding`).
+namespace gnomon::reference_rt {
+
+/// True when the error is what `box_padding` allows for, with a margin; a NaN is not.
+[[nodiscard]] inline bool is_resolved(double error)
+{
+    return error <= 0.25 * max_origin_error;
+}
+
+/// P, when doubles do not resolve it: to within 2^-49 of its size.
+[[nodiscard]] BoundedPoint exact_unit_point(const Receiver& receiver, const UnitFrame& frame);
+
+/// E + t d, however large its error is.
+[[nodiscard]] inline BoundedPoint point_along(const scene::Ray& ray, double t, double t_error,
+                                              const UnitFrame& frame)
+{
+    const scene::Vec3d origin = frame.from_world(ray.origin);
+    const scene::Vec3d step = frame.scale() * t * ray.direction;
+    // Of t; of the product, of the difference and of the sum.
+    const double error = frame.scale() * largest(ray.direction) * t_error +
+                         4 * unit_roundoff * (largest(origin) + largest(step));
+    return {origin + step, error};
+}
+
+/// P. Precondition: δ is not 0.
+[[nodiscard]] inline BoundedPoint unit_point(const Receiver& receiver, const UnitFrame& frame)
+{
+    const BoundedPoint point = point_along(receiver.ray(), receiver.t, receiver.t_error, frame);
+    return is_resolved(point.error) ? point : exact_unit_point(receiver, frame);
+}
+
+/// The points P of a packet, as far as doubles give them: some errors may be large, infinite or
+/// NaN.
+void find_unit_points(const LaneRays& rays, const LaneHits& hits, const UnitFrame& frame,
+                      LanePositions& points);
+
+/// How far a stand-in goes beyond a hit: twice the padding, as its direction is 1 long and its
+/// point may lag behind.
+inline constexpr double hit_margin = 2 * box_padding;
+/// The end of a stand-in with a hit at t, in unit lengths.
+[[nodiscard]] inline float end_beyond(double t)
+{
+    return static_cast<float>((1 + 0x1p-20) * t + hit_margin);
+}
+/// True when the margin has room for this error of t; for a NaN it has not.
+[[nodiscard]] inline bool is_end_known(double t_error)
+{
+    return t_error <= 0.25 * hit_margin;
+}
+
+/// What the origin of a stand-in that begins at its ray's origin may be off.
+inline constexpr double near_origin_error = 2 * unit_roundoff * farthest_origin;
+
+/// A camera's or a texel's ray in the unit frame that begins near the scene. Its direction is the
+/// exact one's, which is about 1 long or longer.
+class CameraStandIn {
+public:
+    CameraStandIn(const CameraRay& camera_ray, const UnitFrame& frame)
+        : frame_{frame},
+          direction_{camera_ray.ray.direction},
+          origin_{frame.from_world(camera_ray.ray.origin), 0}
+    {
+        if (largest(origin_.position) <= farthest_origin) {
+            origin_.error = near_origin_error;
+        } else {
+            begin_near_scene(camera_ray.ray);
+        }
+    }
+
+    [[nodiscard]] const BoundedPoint& origin() const { return origin_; }
+    /// A distance along the float ray beyond the hit; may be infinite.
+    [[nodiscard]] float t_beyond(const Receiver& hit) const { return t_beyond(hit.t, hit.t_error); }
+    [[nodiscard]] float t_beyond(double t, double t_error) const
+    {
+        return is_end_known(frame_.scale() * t_error) && t_begin_ <= farthest_resolved
+                   ? end_beyond(frame_.scale() * t - t_begin_)
+                   : std::numeric_limits<float>::infinity();
+    }
+    [[nodiscard]] FloatRay ray(float t_far, RayMask mask = receivers) const
+    {
+        return {scene::Vec3f{origin_.position}, scene::Vec3f{direction_}, 0, t_far, mask};
+    }
+
+private:
+    void begin_near_scene(const scene::Ray& ray);
+
+    /// Beyond this doubles do not resolve the scene.
+    static constexpr double farthest_resolved = 0x1p24;
+
+    const UnitFrame& frame_;
+    scene::Vec3d direction_;
+    BoundedPoint origin_;
+    double t_begin_ = 0;
+};
+
+/// The stand-ins of a packet's camera rays: those of the lanes in `seen` end beyond their hits, the
+/// others nowhere.
+/// @param origins  where they begin.
+void stand_in_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen, const UnitFrame& frame,
+                  FloatRays& stand_ins, LanePositions& origins);
+
+/// The stand-in of the open segment from `point` to the light.
+class ShadowStandIn {
+public:
+    ShadowStandIn(const scene::Light& light, const UnitFrame& frame);
+
+    /// The stand-ins of the given lanes; the others are left as they are.
+    void from(const LanePositions& points, LaneBits lanes, FloatRays& rays) const;
+
+private:
+    [[nodiscard]] FloatRay ray_to_lamp(const scene::Vec3d& point) const;
+
+    bool is_sun_;
+    scene::Vec3f to_sun_{};
+    scene::Vec3d lamp_{};
+};
+
+} // namespace gnomon::reference_rt

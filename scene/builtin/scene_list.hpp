@@ -1,0 +1,62 @@
+#pragma once
+
+#include "scene/builtin/objects.hpp"
+#include "scene/builtin/scenes.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// The built-in scenes, each described in the file that generates it.
+[[nodiscard]] BuiltinScene sphere_cube_scene();
+[[nodiscard]] BuiltinScene sphere_plane_scene();
+[[nodiscard]] BuiltinScene yard_scene();
+[[nodiscard]] BuiltinScene playground_scene();
+[[nodiscard]] BuiltinScene two_distances_scene();
+[[nodiscard]] BuiltinScene tilted_plane_scene();
+[[nodiscard]] BuiltinScene wall_scene();
+[[nodiscard]] BuiltinScene room_scene();
+[[nodiscard]] BuiltinScene fence_scene();
+[[nodiscard]] BuiltinScene terrain_scene();
+[[nodiscard]] BuiltinScene columns_scene();
+[[nodiscard]] BuiltinScene sphere_field_scene();
+
+/// An inclusive range of a numeric parameter.
+struct ParameterRange {
+    double lower = 0;
+    double upper = 0;
+};
+
+[[nodiscard]] BuiltinParameter number_parameter(std::string name, std::string description,
+                                                std::string unit, double default_value,
+                                                ParameterRange range);
+[[nodiscard]] BuiltinParameter count_parameter(std::string name, std::string description,
+                                               double default_value, ParameterRange range);
+/// A parameter that is one of `words`; the first is the default.
+[[nodiscard]] BuiltinParameter word_parameter(std::string name, std::string description,
+                                              std::vector<std::string> words);
+
+/// A completed parameter. @throws std::out_of_range if it is not among the values.
+[[nodiscard]] double number(const ParameterValues& values, const std::string& name);
+[[nodiscard]] int count(const ParameterValues& values, const std::string& name);
+[[nodiscard]] const std::string& word(const ParameterValues& values, const std::string& name);
+
+/// A job of defaults that looks at the built-in scene of that name.
+[[nodiscard]] Job start_job(std::string_view name, const ParameterValues& values);
+
+/// @param direction  The way the light travels.
+[[nodiscard]] LightSettings directional_light(const Vec3d& direction);
+/// @param cone_deg  Full opening angle; (0, 180).
+[[nodiscard]] LightSettings spot_light(const Vec3d& position, const Vec3d& target, double cone_deg);
+
+/// The way sunlight travels, as a unit vector.
+/// @param elevation_deg  Height of the sun above the horizon; (0, 90).
+/// @param azimuth_deg    Where the sun stands, from +z towards +x.
+[[nodiscard]] Vec3d sun_direction(double elevation_deg, double azimuth_deg);
+
+/// Adds one mesh as one object.
+void add_object(SceneBuilder& builder, std::string_view name, const Mesh& mesh);
+
+} // namespace gnomon::scene

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "scene/case/space.hpp"
+#include "scene/job/source.hpp"
+#include "scene/vec.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// Names of an image's channels, the first that there is counts; of vectors what stands before
+/// ".X".
+struct ChannelNames {
+    std::vector<std::string> shadow{"shadow.V"};
+    std::vector<std::string> valid{"valid"};
+    std::vector<std::string> position{"P"};
+    std::vector<std::string> normal{"Ng"};
+    std::vector<std::string> object{"id.geom"};
+    std::vector<std::string> z_light{"z.light"};
+    std::vector<std::string> z_map{"z.map"};
+};
+
+/// How an image says what it says, beside the channels' names.
+struct ImageConventions {
+    ChannelNames channels;
+    std::optional<double> lit_above;   ///< the mask is light: above this it is lit
+    std::optional<Vec3d> background{}; ///< the position of pixels that show nothing
+    bool has_fractions = false;        ///< fractions of the mask are meant
+};
+
+/// Another renderer's case, as its case.toml says it (docs/evaluate.md).
+struct CaseFile {
+    std::filesystem::path path; ///< of case.toml
+    std::string text;           ///< its content
+    std::string name;
+    std::string renderer;
+    std::filesystem::path image;
+    std::filesystem::path map; ///< empty: none
+    ImageConventions conventions;
+    CaseSpace space;
+    std::map<std::string, std::uint32_t> object_numbers; ///< by name; empty: as in the mesh file
+    std::optional<Vec3d> eye;                            ///< float32-representable [m]
+    /// What goes by a job's keys: mesh, roles, light, the whole camera, and the renderer's
+    /// settings. The image's size is not among them.
+    JobSource source;
+
+    /// True if that key of a job is given.
+    [[nodiscard]] bool says(std::string_view key) const;
+    /// True if a key of that table of a job is given.
+    [[nodiscard]] bool says_any(std::string_view table) const;
+};
+
+/// Reads CASE: a folder with case.toml, or that file.
+/// @param from  an exporter whose conventions hold where the file says nothing else; empty: none.
+/// @throws InputError  "file:line: …", for unknown keys (naming the nearest), values out of range,
+///                     what is missing, and keys that do not go together.
+[[nodiscard]] CaseFile read_case_file(const std::filesystem::path& path,
+                                      std::string_view from = {});
+
+/// A message about a job's keys as the case says it that gave them: "case.toml: mesh.no_cast: …"
+/// for "scene.no_cast: …". Other messages are returned as they are.
+[[nodiscard]] std::string case_message(const CaseFile& file, std::string_view message);
+
+/// "blender", "falcor", "mitsuba", "unreal".
+[[nodiscard]] const std::vector<std::string>& exporter_names();
+
+} // namespace gnomon::scene

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "scene/case/file.hpp"
+#include "scene/job/value.hpp"
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// What a case.toml says in its own keys, before it is made sense of.
+struct CaseDraft {
+    CaseFile file;
+    bool has_schema = false;
+    std::string up;
+    std::string handedness;
+    std::vector<std::string> axes;
+    bool has_own_axes = false; ///< not an exporter's
+    double mesh_metres_per_unit = 1;
+};
+
+/// A key of case.toml that no job has.
+struct CaseKey {
+    std::string name; ///< "mesh.file"
+    Domain domain;
+    std::function<void(CaseDraft&, const JobValue&)> set;
+};
+
+[[nodiscard]] const std::vector<CaseKey>& case_keys();
+
+/// Lays an exporter's conventions under what a case says.
+/// @param exporter  one of `exporter_names`.
+void apply_exporter(CaseDraft& draft, std::string_view exporter);
+
+/// Three words like "x" and "-z" as axes; empty unless each of x, y and z occurs once.
+[[nodiscard]] std::optional<std::array<CaseSpace::Axis, 3>>
+axes_from_words(const std::vector<std::string>& words);
+
+/// The axes of a space with that axis up and that handedness, in terms of a mesh with y up and
+/// right-handed axes, as exporters turn one into the other.
+[[nodiscard]] std::vector<std::string> axes_of(std::string_view up, std::string_view handedness);
+
+} // namespace gnomon::scene

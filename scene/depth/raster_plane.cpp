@@ -1,0 +1,69 @@
+#include "scene/depth/raster_plane.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::scene {
+
+namespace {
+
+constexpr double half_ulp = 0x1p-24;
+
+double cross(const Vec2d& a, const Vec2d& b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+
+} // namespace
+
+RasterPlane::RasterPlane(const std::array<Vec4f, 3>& clip, int resolution_texels, ClipRange range)
+{
+    const bool zero_to_one = range == ClipRange::zero_to_one;
+    bool is_inside = true;
+    for (std::size_t k = 0; k < clip.size(); ++k) {
+        const Vec4d corner{clip.at(k)};
+        const Vec3d ndc = Vec3d{corner} / corner.w;
+        window_.position_px.at(k) =
+            (Vec2d{ndc} * 0.5 + 0.5) * static_cast<double>(resolution_texels);
+        window_.depth.at(k) = zero_to_one ? ndc.z : 0.5 * ndc.z + 0.5;
+        // Reciprocal and product round; so does the sum of ½z + ½, but not that of 1·z + 0.
+        const double division = 2 * half_ulp * std::abs(ndc.z);
+        corner_error_ = std::max(corner_error_, zero_to_one ? division : 0.5 * division + half_ulp);
+        is_inside = is_inside && corner.z <= corner.w && corner.z >= (zero_to_one ? 0 : -corner.w);
+    }
+    area2_px2_ = cross(window_.position_px[1] - window_.position_px[0],
+                       window_.position_px[2] - window_.position_px[0]);
+    is_whole_ = is_inside && area2_px2_ != 0 && std::isfinite(area2_px2_);
+}
+
+double RasterPlane::inside_px(const Vec2d& at_px) const
+{
+    double distance_px = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2d from = window_.position_px.at(k);
+        const Vec2d edge = window_.position_px.at((k + 1) % 3) - from;
+        const double side = std::copysign(1.0, area2_px2_) * cross(edge, at_px - from);
+        distance_px = std::min(distance_px, side / glm::length(edge));
+    }
+    return distance_px;
+}
+
+double RasterPlane::depth(const Vec2d& at_px) const
+{
+    const Vec2d d1 = window_.position_px[1] - window_.position_px[0];
+    const Vec2d d2 = window_.position_px[2] - window_.position_px[0];
+    const Vec2d q = at_px - window_.position_px[0];
+    return window_.depth[0] + (cross(q, d2) * (window_.depth[1] - window_.depth[0]) +
+                               cross(d1, q) * (window_.depth[2] - window_.depth[0])) /
+                                  area2_px2_;
+}
+
+double RasterPlane::driver_bound(const Vec2d& at_px, int subpixel_bits) const
+{
+    return driver_depth_bound(window_, {subpixel_bits, true}, corner_error_, at_px);
+}
+
+} // namespace gnomon::scene

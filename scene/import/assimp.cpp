@@ -1,0 +1,357 @@
+#include "scene/import/assimp.hpp"
+
+#include "scene/import/field_of_view.hpp"
+#include "scene/import/folder.hpp"
+#include "scene/import/free_form_shapes.hpp"
+#include "scene/import/gltf.hpp"
+#include "scene/import/mesh.hpp"
+#include "scene/import/names.hpp"
+#include "scene/import/ply.hpp"
+#include "scene/import/surface.hpp"
+
+#include <assimp/Importer.hpp>
+#include <assimp/camera.h>
+#include <assimp/importerdesc.h>
+#include <assimp/light.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <new>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+namespace {
+
+/// A node of the flattened tree.
+struct PlacedNode {
+    const aiNode* node = nullptr;
+    Mat4d world_from_node;
+};
+
+/// Only what is left after these is read: a renamed file must not reach another format's parser.
+void keep_known_formats(Assimp::Importer& importer)
+{
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        if (!reads_known_format(importer.GetImporterInfo(i)->mFileExtensions)) {
+            importer.UnregisterLoader(importer.GetImporter(i));
+        }
+    }
+}
+
+const aiScene& read(Assimp::Importer& importer, const std::string& path)
+{
+    // No post-processing: the importer's own triangulation folds concave polygons over.
+    const aiScene* scene = importer.ReadFile(path, 0);
+    if (scene == nullptr) {
+        // The library passes on what the standard library's exceptions call themselves.
+        const std::string reason = importer.GetErrorString();
+        if (reason.starts_with("std::bad_") || reason.starts_with("vector::")) {
+            throw std::bad_alloc{};
+        }
+        throw std::runtime_error{reason};
+    }
+    if (scene->mRootNode == nullptr) {
+        throw std::runtime_error{"the file has no scene"};
+    }
+    return *scene;
+}
+
+/// Every node, parents before children, children in order.
+std::vector<PlacedNode> placed_nodes(const aiNode& root)
+{
+    std::vector<PlacedNode> open{{&root, Mat4d{1}}};
+    std::vector<PlacedNode> placed;
+    while (!open.empty()) {
+        PlacedNode next = open.back();
+        open.pop_back();
+        const aiMatrix4x4& m = next.node->mTransformation;
+        const Mat4d parent_from_node{m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,
+                                     m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+        next.world_from_node = next.world_from_node * parent_from_node;
+        placed.push_back(next);
+        for (unsigned c = next.node->mNumChildren; c-- > 0;) {
+            open.push_back({next.node->mChildren[c], next.world_from_node});
+        }
+    }
+    return placed;
+}
+
+Vec3d axis(const PlacedNode& node, int column)
+{
+    return Vec3d{node.world_from_node[column]};
+}
+
+/// Cameras and lights stand at the node that bears their name.
+template <typename Item>
+bool stands_at(const Item& item, const PlacedNode& node)
+{
+    return item.mName.length > 0 && item.mName == node.node->mName;
+}
+
+std::optional<ImportedCamera> camera_at(const aiCamera& camera, const aiScene& scene,
+                                        const PlacedNode& node)
+{
+    const double aspect = camera.mAspect == 0.0F ? 1.0 : static_cast<double>(camera.mAspect);
+    ImportedCamera result{axis(node, 3), -axis(node, 2), axis(node, 1)};
+    result.vertical_fov_rad = vertical_fov_rad(camera, scene);
+    result.orthographic_height_m = 2.0 * static_cast<double>(camera.mOrthographicWidth) / aspect;
+    const bool is_usable = result.vertical_fov_rad > 0
+                               ? result.vertical_fov_rad < std::numbers::pi
+                               : result.vertical_fov_rad == 0 && result.orthographic_height_m > 0 &&
+                                     std::isfinite(result.orthographic_height_m);
+    return is_usable ? std::optional{result} : std::nullopt;
+}
+
+std::optional<ImportedLight> light_at(const aiLight& light, const PlacedNode& node)
+{
+    ImportedLight result{axis(node, 3), -axis(node, 2)};
+    if (light.mType == aiLightSource_DIRECTIONAL) {
+        return result;
+    }
+    result.outer_cone_rad = static_cast<double>(light.mAngleOuterCone);
+    // A cone of 180 degrees and more has no shadow map of one camera.
+    const bool is_usable = light.mType == aiLightSource_SPOT && result.outer_cone_rad > 0 &&
+                           light.mAngleOuterCone < std::numbers::pi_v<float> / 2;
+    return is_usable ? std::optional{result} : std::nullopt;
+}
+
+void find_camera_and_light(const aiScene& scene, const std::vector<PlacedNode>& nodes,
+                           ImportHeader& header)
+{
+    for (const PlacedNode& node : nodes) {
+        for (unsigned c = 0; c < scene.mNumCameras && header.has_camera == 0; ++c) {
+            if (stands_at(*scene.mCameras[c], node)) {
+                const auto camera = camera_at(*scene.mCameras[c], scene, node);
+                header.has_camera = camera ? 1 : 0;
+                header.camera = camera.value_or(ImportedCamera{});
+            }
+        }
+        for (unsigned l = 0; l < scene.mNumLights && header.has_light == 0; ++l) {
+            if (stands_at(*scene.mLights[l], node)) {
+                const auto light = light_at(*scene.mLights[l], node);
+                header.has_light = light ? 1 : 0;
+                header.light = light.value_or(ImportedLight{});
+            }
+        }
+    }
+}
+
+/// One mesh at one node.
+struct Instance {
+    const PlacedNode* node = nullptr;
+    const ImportedMesh* mesh = nullptr;
+    const aiMesh* source = nullptr;
+    std::string name;
+};
+
+std::string instance_name(const aiNode& node, unsigned k, const aiMesh& mesh)
+{
+    const std::string node_name = node.mName.C_Str();
+    const std::string mesh_name = mesh.mName.C_Str();
+    if (node.mNumMeshes == 1 || node_name.empty()) {
+        return node_name.empty() ? mesh_name : node_name;
+    }
+    return node_name + "/" + (mesh_name.empty() ? std::to_string(k + 1) : mesh_name);
+}
+
+std::vector<Instance> instances(const aiScene& scene, const std::vector<PlacedNode>& nodes,
+                                const std::vector<ImportedMesh>& meshes)
+{
+    std::vector<Instance> result;
+    for (const PlacedNode& placed : nodes) {
+        const aiNode& node = *placed.node;
+        for (unsigned k = 0; k < node.mNumMeshes; ++k) {
+            const ImportedMesh& mesh = meshes.at(node.mMeshes[k]);
+            if (!mesh.triangles.empty()) {
+                const aiMesh& source = *scene.mMeshes[node.mMeshes[k]];
+                result.push_back({&placed, &mesh, &source, instance_name(node, k, source)});
+            }
+        }
+    }
+    return result;
+}
+
+/// Before anything is written: what the instances come to, all together.
+void check_size(const std::vector<Instance>& all, const ImportLimits& limits)
+{
+    std::uint64_t triangles = 0;
+    std::uint64_t bytes = 0;
+    for (const Instance& instance : all) {
+        triangles += instance.mesh->triangles.size();
+        bytes += instance.mesh->vertices.size() * sizeof(Vec3d) +
+                 instance.mesh->triangles.size() * sizeof(TriangleIndices);
+        if (triangles > limits.triangles || bytes > limits.memory_bytes) {
+            throw std::runtime_error{
+                fmt::format("more than {} triangles or {} MiB once its instances are flattened",
+                            limits.triangles, limits.memory_bytes >> 20U)};
+        }
+    }
+}
+
+void write_instance(const Instance& instance, ImportWriter& writer)
+{
+    const Mat4d& world = instance.node->world_from_node;
+    std::vector<Vec3d> vertices;
+    vertices.reserve(instance.mesh->vertices.size());
+    for (const Vec3f& vertex : instance.mesh->vertices) {
+        const Vec3d local{vertex};
+        // A matrix would spread what is not finite over the other coordinates; as it is, the
+        // coordinate that is refused is the file's.
+        const bool is_finite =
+            std::isfinite(local.x) && std::isfinite(local.y) && std::isfinite(local.z);
+        vertices.push_back(is_finite ? Vec3d{world * Vec4d{local, 1.0}} : local);
+    }
+    std::vector<TriangleIndices> triangles = instance.mesh->triangles;
+    if (glm::determinant(glm::dmat3{world}) < 0) {
+        // A mirrored instance keeps its front faces in front.
+        for (TriangleIndices& triangle : triangles) {
+            std::swap(triangle[1], triangle[2]);
+        }
+    }
+    writer.put(ImportedObject{instance.name.size(), vertices.size(), triangles.size()});
+    writer.put_array(std::span<const char>{instance.name});
+    writer.put_array(std::span<const Vec3d>{vertices});
+    writer.put_array(std::span<const TriangleIndices>{triangles});
+}
+
+/// The format, by what the file's name ends with.
+bool is_named(const std::filesystem::path& scene_file, std::initializer_list<std::string_view> any)
+{
+    const std::string extension = lower_extension(scene_file);
+    return std::ranges::find(any, extension) != any.end();
+}
+
+/// What the file says of itself, where Assimp keeps silent about what it lost.
+struct OwnWords {
+    GltfFacts gltf;
+    std::uint64_t free_form_shapes = 0;
+};
+
+OwnWords read_own_words(const std::filesystem::path& scene_file)
+{
+    OwnWords words;
+    if (is_named(scene_file, {".gltf", ".glb"})) {
+        words.gltf = read_gltf_facts(scene_file);
+    } else if (is_named(scene_file, {".obj"})) {
+        words.free_form_shapes = count_free_form_shapes(scene_file);
+    }
+    return words;
+}
+
+void count_placed(const aiScene& scene, const std::vector<PlacedNode>& nodes,
+                  const std::vector<Instance>& all, ContentCounts& counts)
+{
+    for (const PlacedNode& node : nodes) {
+        for (unsigned c = 0; c < scene.mNumCameras; ++c) {
+            counts.cameras += stands_at(*scene.mCameras[c], node) ? 1U : 0U;
+        }
+        for (unsigned l = 0; l < scene.mNumLights; ++l) {
+            counts.lights += stands_at(*scene.mLights[l], node) ? 1U : 0U;
+        }
+    }
+    SurfaceCounter surfaces{scene};
+    for (const Instance& instance : all) {
+        surfaces.add(*instance.source);
+    }
+    surfaces.write(counts);
+    counts.animations = scene.mNumAnimations;
+}
+
+void write_scene(const aiScene& scene, const OwnWords& words, const ImportLimits& limits,
+                 int output)
+{
+    const std::vector<PlacedNode> nodes = placed_nodes(*scene.mRootNode);
+    ImportHeader header;
+    find_camera_and_light(scene, nodes, header);
+    std::vector<ImportedMesh> meshes;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        meshes.push_back(imported_mesh(*scene.mMeshes[m]));
+        header.ignored_primitives += meshes.back().ignored_primitives;
+    }
+    const std::vector<Instance> all = instances(scene, nodes, meshes);
+    check_size(all, limits);
+    header.object_count = all.size();
+    count_placed(scene, nodes, all, header.contents);
+    header.contents.free_form_shapes = words.free_form_shapes;
+    std::string extensions;
+    for (const std::string& extension : words.gltf.unread_extensions) {
+        extensions += extension + '\n';
+    }
+    header.extension_bytes = extensions.size();
+    ImportWriter writer{output};
+    writer.put(header);
+    writer.put_array(std::span<const char>{extensions});
+    for (const Instance& instance : all) {
+        write_instance(instance, writer);
+    }
+    writer.flush();
+}
+
+void write_refusal(const std::string& reason, int output,
+                   ImportOutcome outcome = ImportOutcome::refusal)
+{
+    ImportWriter writer{output};
+    ImportHeader header;
+    header.outcome = outcome;
+    writer.put(header);
+    writer.put_array(std::span<const char>{reason});
+    writer.flush();
+}
+
+} // namespace
+
+bool reads_known_format(std::string_view extensions)
+{
+    while (!extensions.empty()) {
+        const std::string_view extension = extensions.substr(0, extensions.find(' '));
+        if (extension == "gltf" || extension == "glb" || extension == "obj" || extension == "ply") {
+            return true;
+        }
+        extensions.remove_prefix(std::min(extension.size() + 1, extensions.size()));
+    }
+    return false;
+}
+
+void write_imported_scene(const std::filesystem::path& scene_file, const ImportLimits& limits,
+                          ImportAllowance& allowance, int output)
+{
+    Assimp::Importer importer;
+    auto* folder =
+        new ImportFolder{scene_file, [&](std::uint64_t bytes) { allowance.add_file(bytes); }};
+    importer.SetIOHandler(folder); // takes ownership
+    keep_known_formats(importer);
+    try {
+        const OwnWords words = read_own_words(scene_file);
+        const bool is_ply = is_named(scene_file, {".ply"});
+        if (is_ply) {
+            require_whole_ply(scene_file);
+        }
+        const aiScene& scene = read(importer, scene_file.string());
+        require_triangles(words.gltf, scene);
+        if (is_ply) {
+            require_ply_faces(scene_file, scene);
+        }
+        write_scene(scene, words, limits, output);
+    } catch (const UnsupportedContent& content) {
+        write_refusal(content.what(), output, ImportOutcome::unsupported);
+    } catch (const std::bad_alloc&) {
+        write_refusal("it needs more memory than a file of its size should", output);
+    } catch (const std::exception& error) {
+        const std::string& name = folder->refused_name();
+        write_refusal(name.empty()
+                          ? error.what()
+                          : fmt::format("it refers to \"{}\", outside its own folder", name),
+                      output);
+    }
+}
+
+} // namespace gnomon::scene

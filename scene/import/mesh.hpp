@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scene/import/stream.hpp"
+
+#include <cstdint>
+#include <vector>
+
+struct aiMesh;
+
+namespace gnomon::scene {
+
+/// A mesh in its own coordinates; bit-equal positions are one vertex.
+struct ImportedMesh {
+    std::vector<Vec3f> vertices;
+    std::vector<TriangleIndices> triangles;
+    std::uint64_t ignored_primitives = 0; ///< points and lines
+};
+
+/// Takes positions and triangulated faces, sharing vertices that importers keep apart for their
+/// normals.
+/// @throws std::runtime_error  naming mesh and face, if a face uses a vertex that is not there.
+[[nodiscard]] ImportedMesh imported_mesh(const aiMesh& mesh);
+
+} // namespace gnomon::scene

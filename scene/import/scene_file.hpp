@@ -1,0 +1,34 @@
+#pragma once
+
+#include "scene/job/job.hpp"
+#include "scene/triangles.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+
+namespace gnomon::scene {
+
+/// What an importer may use; checked before memory is taken.
+struct ImportLimits {
+    std::chrono::seconds time{60};
+    std::uint64_t memory_bytes = 8ULL << 30;
+    std::uint64_t triangles = 50'000'000;
+};
+
+struct SceneFile {
+    TriangleScene scene;
+    SceneDefaults defaults; ///< the file's first camera and first punctual light, if any
+};
+
+/// Reads a .gltf, .glb, .obj or .ply file.
+///
+/// The importer runs in a child process under `limits`; only validated flat arrays come back. Node
+/// transforms are composed in double, instances flattened, polygons triangulated, points and lines
+/// counted and ignored. Object names are node names ("node", "node.2" when repeated).
+/// @throws InputError  one line: missing, a folder, empty, refused by the importer, out of limits,
+///                     no triangle, a coordinate not finite or beyond 1e15.
+[[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path,
+                                        const ImportLimits& limits = {});
+
+} // namespace gnomon::scene

@@ -1,0 +1,70 @@
+#include "scene/import/surface.hpp"
+
+#include <assimp/material.h>
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+
+#include <string_view>
+
+namespace gnomon::scene {
+
+namespace {
+
+struct Transparency {
+    bool is_masked = false;
+    bool is_blended = false;
+    bool is_clear = false;
+};
+
+/// A glTF material says what its alpha does; one of an OBJ file has an opacity, and perhaps a
+/// texture that cuts it.
+Transparency transparency(const aiMaterial& material)
+{
+    float opacity = 1;
+    material.Get(AI_MATKEY_OPACITY, opacity);
+    aiString mode;
+    if (material.Get("$mat.gltf.alphaMode", 0, 0, mode) == AI_SUCCESS) {
+        const std::string_view name{mode.C_Str()};
+        const bool is_masked = name == "MASK";
+        const bool is_blended = name == "BLEND";
+        return {is_masked, is_blended, (is_masked || is_blended) && opacity == 0};
+    }
+    return {material.GetTextureCount(aiTextureType_OPACITY) > 0, opacity < 1, opacity == 0};
+}
+
+} // namespace
+
+void SurfaceCounter::add(const aiMesh& mesh)
+{
+    objects_.skinned_objects += mesh.mNumBones > 0 ? 1U : 0U;
+    objects_.morphed_objects += mesh.mNumAnimMeshes > 0 ? 1U : 0U;
+    if (mesh.mMaterialIndex >= scene_->mNumMaterials) {
+        return;
+    }
+    const unsigned material = mesh.mMaterialIndex;
+    const Transparency found = transparency(*scene_->mMaterials[material]);
+    if (found.is_masked) {
+        ++objects_.masked_objects;
+        masked_.insert(material);
+    }
+    if (found.is_blended) {
+        ++objects_.blended_objects;
+        blended_.insert(material);
+    }
+    if (found.is_clear) {
+        clear_.insert(material);
+    }
+}
+
+void SurfaceCounter::write(ContentCounts& counts) const
+{
+    counts.masked_materials = masked_.size();
+    counts.masked_objects = objects_.masked_objects;
+    counts.blended_materials = blended_.size();
+    counts.blended_objects = objects_.blended_objects;
+    counts.clear_materials = clear_.size();
+    counts.skinned_objects = objects_.skinned_objects;
+    counts.morphed_objects = objects_.morphed_objects;
+}
+
+} // namespace gnomon::scene

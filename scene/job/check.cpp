@@ -1,0 +1,194 @@
+#include "scene/error.hpp"
+#include "scene/job/layers.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace gnomon::scene {
+namespace {
+
+/// Most pixels of an image: 16384 x 8192.
+constexpr std::int64_t most_pixels = 134'217'728;
+
+[[noreturn]] void refuse(const Setting& setting, std::string_view why)
+{
+    throw InputError(fmt::format("{}: {}", setting.label, why));
+}
+
+/// Refuses `first` and `second` together.
+void check_exclusive(const Settings& settings, std::string_view first, std::string_view second)
+{
+    const Setting* a = find_setting(settings, first);
+    const Setting* b = find_setting(settings, second);
+    if (a != nullptr && b != nullptr) {
+        refuse(*b, fmt::format("{} excludes it ({}); keep one of the two", first, a->label));
+    }
+}
+
+/// What the settings say of the light; `unknown` when they leave it to the scene.
+enum class KnownLight : std::uint8_t { unknown, directional, spot, point };
+
+KnownLight known_light(const Settings& settings)
+{
+    const auto first = settings.lower_bound("light.");
+    if (first == settings.end() || !first->first.starts_with("light.")) {
+        return KnownLight::unknown;
+    }
+    const Setting* type = find_setting(settings, "light.type");
+    const std::string name = type != nullptr ? std::get<std::string>(type->value) : std::string{};
+    return name == "spot"    ? KnownLight::spot
+           : name == "point" ? KnownLight::point
+                             : KnownLight::directional;
+}
+
+void check_spot(const Settings& settings)
+{
+    const Setting& type = settings.at("light.type");
+    if (const Setting* direction = find_setting(settings, "light.direction")) {
+        refuse(*direction,
+               fmt::format("the light is a spot ({}), which takes light.position and light.target; "
+                           "for a directional light also set light.type = \"directional\"",
+                           type.label));
+    }
+    for (const std::string_view needed : {"light.position", "light.target"}) {
+        if (find_setting(settings, needed) == nullptr) {
+            refuse(type, fmt::format("a spot needs light.position and light.target; {} is missing",
+                                     needed));
+        }
+    }
+}
+
+/// Of other renderers' cases: a job's light is no point.
+void check_point(const Settings& settings)
+{
+    for (const std::string_view needless : {"light.direction", "light.target", "light.cone_deg"}) {
+        if (const Setting* setting = find_setting(settings, needless)) {
+            refuse(*setting, "a point light shines everywhere alike; remove it");
+        }
+    }
+    if (find_setting(settings, "light.position") == nullptr) {
+        refuse(settings.at("light.type"), "a point light needs light.position");
+    }
+}
+
+void check_directional(const Settings& settings)
+{
+    if (const Setting* cone = find_setting(settings, "light.cone_deg")) {
+        refuse(*cone, "only a spot has a cone; remove it, or set light.type = \"spot\"");
+    }
+    check_exclusive(settings, "light.direction", "light.target");
+    const Setting* target = find_setting(settings, "light.target");
+    if (target != nullptr && find_setting(settings, "light.position") == nullptr) {
+        refuse(*target, "needs light.position: together they give a directional light's direction; "
+                        "or set light.direction instead");
+    }
+}
+
+void check_fit(const Settings& settings, KnownLight light)
+{
+    const Setting* fit = find_setting(settings, "shadow_map.fit");
+    const bool is_fixed = fit != nullptr && std::get<std::string>(fit->value) == "fixed";
+    const Setting* half_extent = find_setting(settings, "shadow_map.half_extent");
+    const Setting* fov = find_setting(settings, "shadow_map.fov_deg");
+    for (const Setting* size : {half_extent, fov}) {
+        if (size != nullptr && !is_fixed) {
+            refuse(*size, "only for shadow_map.fit = \"fixed\"; set that too, or remove this key");
+        }
+    }
+    if (half_extent != nullptr && light == KnownLight::spot) {
+        refuse(*half_extent, "for a directional light; a spot's map takes shadow_map.fov_deg");
+    }
+    if (fov != nullptr && light == KnownLight::directional) {
+        refuse(*fov, "for a spot; a directional light's map takes shadow_map.half_extent");
+    }
+}
+
+void check_planes(const Settings& settings, KnownLight light)
+{
+    const auto number = [&](std::string_view key) -> const double* {
+        const Setting* setting = find_setting(settings, key);
+        return setting == nullptr ? nullptr : std::get_if<double>(&setting->value);
+    };
+    const double* near_m = number("shadow_map.near");
+    const double* far_m = number("shadow_map.far");
+    if (near_m != nullptr && light == KnownLight::spot && !(*near_m > 0)) {
+        refuse(settings.at("shadow_map.near"), "must be above 0 for a spot");
+    }
+    if (far_m != nullptr && light == KnownLight::spot && !(*far_m > 0)) {
+        refuse(settings.at("shadow_map.far"), "must be above 0 for a spot");
+    }
+    if (near_m != nullptr && far_m != nullptr && !(*near_m < *far_m)) {
+        refuse(settings.at("shadow_map.near"), fmt::format("must be less than shadow_map.far ({})",
+                                                           settings.at("shadow_map.far").label));
+    }
+}
+
+void check_bias(const Settings& settings, KnownLight light)
+{
+    check_exclusive(settings, "bias.constant", "bias.constant_m");
+    const Setting* constant_m = find_setting(settings, "bias.constant_m");
+    if (constant_m != nullptr && light == KnownLight::spot) {
+        refuse(*constant_m, "a spot's depth is not linear in metres; use bias.constant");
+    }
+}
+
+void check_image(const Settings& settings)
+{
+    const Setting* width = find_setting(settings, "image.width");
+    const Setting* height = find_setting(settings, "image.height");
+    if (width == nullptr || height == nullptr) {
+        return; // one side's default times the other's largest value is within the limit
+    }
+    const auto pixels =
+        std::get<std::int64_t>(width->value) * std::get<std::int64_t>(height->value);
+    if (pixels > most_pixels) {
+        refuse(*width, fmt::format("times image.height ({}) is {} pixels; must be at most {}",
+                                   height->label, pixels, most_pixels));
+    }
+}
+
+} // namespace
+
+void check_scene_choice(const Settings& settings, const std::string& source)
+{
+    const Setting* builtin = find_setting(settings, "scene.builtin");
+    check_exclusive(settings, "scene.builtin", "scene.file");
+    if (builtin == nullptr && find_setting(settings, "scene.file") == nullptr) {
+        throw InputError(source + ": no scene: set scene.builtin (`gnomon scenes` lists them) or "
+                                  "scene.file");
+    }
+    const std::string known =
+        builtin != nullptr ? parameter_prefix(std::get<std::string>(builtin->value)) : "";
+    for (const KeySpec& spec : key_specs()) {
+        const std::string_view key = spec.key.name;
+        const bool is_foreign = key.starts_with("scene.") && key.find('.', 6) != key.npos &&
+                                (known.empty() || !key.starts_with(known));
+        const Setting* setting = find_setting(settings, key);
+        if (is_foreign && setting != nullptr) {
+            refuse(*setting, fmt::format("the parameter of a scene that this job does not show; "
+                                         "remove it, or set scene.builtin = \"{}\"",
+                                         key.substr(6, key.find('.', 6) - 6)));
+        }
+    }
+}
+
+void check_settings(const Settings& settings, const std::string& source)
+{
+    check_scene_choice(settings, source);
+    check_exclusive(settings, "camera.vertical_fov_deg", "camera.orthographic_height");
+    const KnownLight light = known_light(settings);
+    if (light == KnownLight::spot) {
+        check_spot(settings);
+    } else if (light == KnownLight::point) {
+        check_point(settings);
+    } else if (light == KnownLight::directional) {
+        check_directional(settings);
+    }
+    check_fit(settings, light);
+    check_planes(settings, light);
+    check_bias(settings, light);
+    check_image(settings);
+}
+
+} // namespace gnomon::scene

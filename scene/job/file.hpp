@@ -1,0 +1,93 @@
+#pragma once
+
+#include "scene/job/job.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A stage of the computation. A key names the stages whose result changes with it, so that a sweep
+/// knows what it can keep.
+enum class Stage : std::uint8_t {
+    scene = 1 << 0,      ///< triangles
+    truth = 1 << 1,      ///< classes
+    receivers = 1 << 2,  ///< camera pass with light clip coordinates
+    shadow_map = 1 << 3, ///< the map
+    lookup = 1 << 4,     ///< r, d
+    bias = 1 << 5,       ///< verdicts only: answered by the bias curve
+};
+using Stages = std::uint8_t;
+
+/// One key of the job file.
+struct JobKey {
+    std::string name;         ///< "shadow_map.resolution"
+    std::string description;  ///< one line, with unit
+    std::string default_text; ///< as written in TOML, e.g. "1024" or "\"d24\""
+    std::string range_text;   ///< e.g. "an integer from 1 to 16384"
+    Stages stages = 0;        ///< the first stages that must be redone when it changes
+};
+
+/// Every key of the job file but `[sweep]` and `[[case]]`, in the order of DESIGN §7.
+[[nodiscard]] const std::vector<JobKey>& job_keys();
+
+/// A key with a value in TOML syntax; a bare word is a string.
+struct Override {
+    std::string key;
+    std::string value;
+};
+
+/// One axis of `[sweep]`, expanded to values in TOML syntax.
+struct SweepAxis {
+    std::string key;
+    std::vector<std::string> values;
+};
+
+struct Sweep {
+    std::vector<SweepAxis> axes;
+    std::string mode = "product"; ///< product | zip
+    std::int64_t sample = 0;      ///< 0: all
+    std::int64_t seed = 0;
+};
+
+struct Case {
+    std::string name;
+    std::vector<Override> overrides;
+};
+
+struct JobFile {
+    Job job; ///< defaults, then the built-in's own, then the file's keys, then the overrides
+    Sweep sweep;
+    std::vector<Case> cases;
+};
+
+/// Reads a job from a .toml file, from a scene file (a job of defaults) or from a built-in's name.
+///
+/// Unknown keys name the nearest known one; every value is range-checked.
+/// @param case_name  empty, or the `[[case]]` whose keys are laid over the file's.
+/// @throws InputError  "file:line: key = value: what is allowed".
+[[nodiscard]] JobFile read_job(const std::filesystem::path& path,
+                               const std::vector<Override>& overrides = {},
+                               std::string_view case_name = {});
+[[nodiscard]] JobFile builtin_job(std::string_view name,
+                                  const std::vector<Override>& overrides = {});
+
+/// The job with every key written out, as (key, TOML value), in the order of `job_keys()`; keys of
+/// a camera or light that the job leaves to the scene are absent. The columns of a result table.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job);
+
+/// A commented job file with every key at its default: what `gnomon init` writes.
+[[nodiscard]] std::string commented_job_file();
+
+/// The candidate that needs the fewest edits to become `word`; empty if there is none.
+[[nodiscard]] std::string nearest_word(std::string_view word,
+                                       const std::vector<std::string>& candidates);
+/// The same where at most half of the longer one's letters are edited; else empty: nobody meant it.
+[[nodiscard]] std::string similar_word(std::string_view word,
+                                       const std::vector<std::string>& candidates);
+
+} // namespace gnomon::scene

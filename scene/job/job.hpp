@@ -1,0 +1,113 @@
+#pragma once
+
+#include "scene/filter.hpp"
+#include "scene/image.hpp"
+#include "scene/light/frustum.hpp"
+#include "scene/light/light.hpp"
+#include "scene/view/camera.hpp"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A parameter of a built-in scene: a number or one of a few words.
+using SceneParameter = std::variant<double, std::string>;
+
+/// The job's `[scene]` table: exactly one of `builtin` and `file` is set.
+struct SceneSettings {
+    std::string builtin;
+    std::filesystem::path file; ///< resolved against the job file's folder
+    bool ground = false;
+    std::vector<std::string> no_cast;
+    std::vector<std::string> no_receive;
+    std::map<std::string, SceneParameter> parameters; ///< `[scene.NAME]`, of a built-in
+};
+
+/// How a shadow map stores depth: `d…` are GL's own formats, `u1`…: n-bit unorm written by the
+/// shader.
+struct DepthFormat {
+    enum class Kind : std::uint8_t { d16, d24, d32, d32f, unorm };
+    Kind kind = Kind::d24;
+    int bits = 24; ///< 8…24 for unorm, else the format's own width
+
+    [[nodiscard]] bool is_float() const { return kind == Kind::d32f; }
+    friend bool operator==(const DepthFormat&, const DepthFormat&) = default;
+};
+/// "d24", "u13", …; empty if the text names no format.
+[[nodiscard]] std::optional<DepthFormat> depth_format_from_name(std::string_view name);
+[[nodiscard]] std::string depth_format_name(DepthFormat format);
+
+enum class Cull : std::uint8_t { none, front, back };
+enum class Outside : std::uint8_t { lit, shadowed, clamp };
+
+[[nodiscard]] std::string_view outside_name(Outside outside);
+[[nodiscard]] std::string_view cull_name(Cull cull);
+[[nodiscard]] std::string_view fit_name(Fit fit);
+
+struct ShadowMapSettings {
+    int resolution_texels = 1024; ///< [1, 16384]
+    DepthFormat depth_format;
+    FrustumSettings frustum;
+    Cull cull = Cull::none;
+};
+
+struct LookupSettings {
+    Filter filter = Filter::nearest;
+    Outside outside = Outside::lit;
+};
+
+struct BiasSettings {
+    double constant = 0; ///< depth units [0,1]
+    std::optional<double>
+        constant_m;           ///< metres along a directional light's axis; replaces constant
+    double slope = 0;         ///< depth units per unit of tan θ
+    double normal_texels = 0; ///< normal offset, in texel widths at P
+};
+
+/// A job: what to look at, and how. Every member has the default that DESIGN §7 gives.
+struct Job {
+    SceneSettings scene;
+    std::optional<CameraSettings> camera; ///< empty: from the scene file, else framed
+    ImageSize image;
+    std::optional<LightSettings> light; ///< empty: from the scene file, else (-0.4, -1, -0.3)
+    ShadowMapSettings shadow_map;
+    LookupSettings lookup;
+    BiasSettings bias;
+};
+
+/// The bias as GL receives it: float32, depth units, each 0 or a normal float.
+struct Bias {
+    float constant = 0;
+    float slope = 0;
+    float normal_texels = 0;
+};
+
+/// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
+[[nodiscard]] Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum);
+
+/// A job made concrete against its scene: every exact input, ready for both renderers.
+struct View {
+    Camera camera;
+    ImageSize image;
+    Light light;
+    LightFrustum frustum;
+    Bias bias;
+};
+
+/// What a scene file may bring along.
+struct SceneDefaults {
+    std::optional<CameraSettings> camera;
+    std::optional<LightSettings> light;
+};
+
+/// Resolves camera, light, frustum and bias; of a point light camera and light alone.
+/// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
+[[nodiscard]] View resolve_view(const Job& job, const TriangleScene& scene,
+                                const SceneDefaults& defaults);
+
+} // namespace gnomon::scene

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "scene/job/keys.hpp"
+#include "scene/job/toml.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A key with an accepted value, and how messages speak of it: "job.toml:3: bias.slope = 0.5".
+struct Setting {
+    const KeySpec* spec = nullptr;
+    JobValue value;
+    std::string label;
+};
+
+/// What one source says: a built-in's defaults, a file, a case, or the overrides.
+using Layer = std::vector<Setting>;
+
+/// What holds after all layers, by key.
+using Settings = std::map<std::string, Setting, std::less<>>;
+
+/// Where in the job file a key stands, for messages.
+struct KeyPlace {
+    std::string file;
+    std::uint32_t line = 0;
+
+    [[nodiscard]] std::string text() const;
+};
+
+/// The key nearest to an unknown one: one of the same last part before all others.
+/// @param candidates  What may also stand where the name was found.
+[[nodiscard]] std::string nearest_key(std::string_view name,
+                                      std::vector<std::string> candidates = {});
+
+/// @throws InputError  "label: must be …", if the key does not accept the node.
+[[nodiscard]] Setting make_setting(const KeySpec& spec, const TomlNode& node, std::string label);
+
+using KeyVisitor = std::function<void(const KeySpec&, const TomlNode&, const KeyPlace&)>;
+
+/// Calls `visit` for each known key in a table, which may be nested, dotted or both.
+/// @param siblings  What else may stand beside the keys, to be named when it is the nearest.
+/// @throws InputError  for an unknown key, naming the nearest, and for a table's name with a value.
+void for_each_key(const TomlTable& table, const std::string& file,
+                  const std::vector<std::string>& siblings, const KeyVisitor& visit);
+
+/// The settings of a job file's table, or of a case's.
+/// @param heading  "" or what messages put before the key, e.g. "[[case]] \"noon\": ".
+/// @throws InputError  as `for_each_key` and `make_setting`, and for a key that is given twice.
+[[nodiscard]] Layer layer_from_table(const TomlTable& table, const std::string& file,
+                                     const std::string& heading,
+                                     const std::vector<std::string>& siblings);
+
+/// The settings of `--set key=value` arguments; the last one of a key counts.
+/// @throws InputError  naming the argument.
+[[nodiscard]] Layer layer_from_overrides(const std::vector<Override>& overrides);
+
+/// What the job itself says of its keys, `builtin` being where it comes from.
+[[nodiscard]] Layer layer_from_job(const Job& job, std::string_view builtin);
+
+/// Lays a layer over the settings; a key replaces not only itself but also what it excludes, as
+/// light.type = "directional" replaces a cone from below.
+void lay_over(Settings& settings, const Layer& layer);
+
+/// Holds settings against each other: keys that exclude or need one another, near and far, …
+/// @param source  What to name when a key is missing.
+/// @throws InputError  naming the keys and what to do.
+void check_settings(const Settings& settings, const std::string& source);
+
+/// `check_settings`, for the keys that say which scene it is.
+void check_scene_choice(const Settings& settings, const std::string& source);
+
+/// The setting of that key, or nullptr.
+[[nodiscard]] inline const Setting* find_setting(const Settings& settings, std::string_view key)
+{
+    const auto found = settings.find(key);
+    return found == settings.end() ? nullptr : &found->second;
+}
+
+} // namespace gnomon::scene

@@ -1,0 +1,211 @@
+#include "scene/job/keys.hpp"
+
+#include <fmt/format.h>
+
+namespace gnomon::scene {
+namespace {
+
+/// Whatever decides the light's matrix moves the receivers' light clip coordinates and the map.
+constexpr Stages light_matrix = Stage::receivers | Stage::shadow_map;
+
+bool is_light(const Job& job, LightType type)
+{
+    return job.light && job.light->type == type;
+}
+
+KeySpec depth_format_key()
+{
+    WordDomain formats;
+    formats.words = {"d16", "d24", "d32", "d32f"};
+    formats.listing = "d16, d24, d32, d32f, u8 to u24";
+    for (int bits = 8; bits <= 24; ++bits) {
+        formats.words.push_back(fmt::format("u{}", bits));
+    }
+    return {.key = make_key("shadow_map.depth_format",
+                            "GL's own depth formats, or u8 to u24: n-bit unorm, written by the "
+                            "shader",
+                            "\"d24\"", only(Stage::shadow_map)),
+            .domain = std::move(formats),
+            .set =
+                [](Job& job, const JobValue& value) {
+                    job.shadow_map.depth_format =
+                        depth_format_from_name(std::get<std::string>(value)).value();
+                },
+            .get = [](const Job& job) -> std::optional<JobValue> {
+                return held(depth_format_name(job.shadow_map.depth_format));
+            },
+            .example = {}};
+}
+
+/// `near` or `far`: metres from the light's camera, or "auto".
+KeySpec plane_key(std::string name, std::string description,
+                  std::optional<double> FrustumSettings::*plane)
+{
+    return {.key = make_key(std::move(name), std::move(description), "\"auto\"", light_matrix),
+            .domain = RealDomain{.lower = -farthest_m, .upper = farthest_m, .or_auto = true},
+            .set =
+                [plane](Job& job, const JobValue& value) {
+                    const double* number = std::get_if<double>(&value);
+                    job.shadow_map.frustum.*plane =
+                        number != nullptr ? std::optional<double>{*number} : std::nullopt;
+                },
+            .get = [plane](const Job& job) -> std::optional<JobValue> {
+                const auto& number = job.shadow_map.frustum.*plane;
+                return number ? held(*number) : held(std::string{"auto"});
+            },
+            .example = {}};
+}
+
+KeySpec half_extent_key()
+{
+    KeySpec spec = member_key<double>(
+        make_key("shadow_map.half_extent",
+                 "half the side of the map's square [m]; fit = \"fixed\", directional light", "20",
+                 light_matrix),
+        RealDomain{.lower = 1e-6, .upper = farthest_m},
+        [](auto& job) -> auto& { return job.shadow_map.frustum.half_extent_m; });
+    spec.get = [](const Job& job) -> std::optional<JobValue> {
+        const FrustumSettings& frustum = job.shadow_map.frustum;
+        if (frustum.fit != Fit::fixed || is_light(job, LightType::spot)) {
+            return std::nullopt;
+        }
+        return held(frustum.half_extent_m);
+    };
+    return spec;
+}
+
+KeySpec fov_key()
+{
+    return {.key = make_key("shadow_map.fov_deg",
+                            "full opening angle of the map [deg]; fit = \"fixed\", spot; left "
+                            "out: the light's cone",
+                            "", light_matrix),
+            .domain = opening_angle_deg,
+            .set =
+                [](Job& job, const JobValue& value) {
+                    job.shadow_map.frustum.fov_deg = std::get<double>(value);
+                },
+            .get = [](const Job& job) -> std::optional<JobValue> {
+                const FrustumSettings& frustum = job.shadow_map.frustum;
+                if (frustum.fit != Fit::fixed || is_light(job, LightType::directional) ||
+                    !frustum.fov_deg) {
+                    return std::nullopt;
+                }
+                return held(*frustum.fov_deg);
+            },
+            .example = "60"};
+}
+
+std::vector<KeySpec> frustum_keys()
+{
+    return {word_key<Fit>(
+                make_key("shadow_map.fit",
+                         "what the map covers: the scene, what the camera sees, or fixed "
+                         "by half_extent or fov_deg",
+                         "\"scene\"", light_matrix),
+                3, fit_name, [](auto& job) -> auto& { return job.shadow_map.frustum.fit; }),
+            half_extent_key(),
+            fov_key(),
+            member_key<double>(
+                make_key("shadow_map.roll_deg", "turns the texel grid about the light's axis [deg]",
+                         "0", light_matrix),
+                RealDomain{.lower = -360, .upper = 360},
+                [](auto& job) -> auto& { return job.shadow_map.frustum.roll_deg; }),
+            plane_key("shadow_map.near", "near plane [m], by distance from the light's camera",
+                      &FrustumSettings::near_m),
+            plane_key("shadow_map.far", "far plane [m], by distance from the light's camera",
+                      &FrustumSettings::far_m)};
+}
+
+/// The row of a bias: `normal` numbers only, because GL may flush a subnormal one to zero.
+template <typename Access>
+KeySpec bias_key(JobKey key, double largest, Access access)
+{
+    return member_key<double>(std::move(key),
+                              RealDomain{.lower = -largest, .upper = largest, .normal_float = true},
+                              access);
+}
+
+KeySpec constant_key()
+{
+    KeySpec spec = bias_key(
+        make_key("bias.constant", "constant bias, depth units; or constant_m instead", "0",
+                 only(Stage::bias)),
+        1, [](auto& job) -> auto& { return job.bias.constant; });
+    spec.get = [](const Job& job) {
+        return job.bias.constant_m ? std::nullopt : held(job.bias.constant);
+    };
+    return spec;
+}
+
+KeySpec constant_m_key()
+{
+    return {.key = make_key("bias.constant_m",
+                            "constant bias [m] along a directional light's axis, in place of "
+                            "constant",
+                            "", only(Stage::bias)),
+            .domain = RealDomain{.lower = -farthest_m, .upper = farthest_m, .normal_float = true},
+            .set = [](Job& job,
+                      const JobValue& value) { job.bias.constant_m = std::get<double>(value); },
+            .get = [](const Job& job) -> std::optional<JobValue> {
+                return job.bias.constant_m ? held(*job.bias.constant_m) : std::nullopt;
+            },
+            .example = "0.01"};
+}
+
+std::vector<KeySpec> lookup_and_bias_keys()
+{
+    constexpr double steepest = 1000;
+    return {word_key<Filter>(
+                make_key("lookup.filter", "how the map is filtered", "\"nearest\"",
+                         only(Stage::lookup)),
+                static_cast<int>(filters().size()), filter_name,
+                [](auto& job) -> auto& { return job.lookup.filter; }),
+            word_key<Outside>(
+                make_key("lookup.outside", "the verdict beyond the map's edge or its far plane",
+                         "\"lit\"", only(Stage::lookup)),
+                3, outside_name, [](auto& job) -> auto& { return job.lookup.outside; }),
+            constant_key(),
+            constant_m_key(),
+            bias_key(
+                make_key("bias.slope",
+                         "slope bias, depth units per unit of the tangent between the "
+                         "geometric normal and the light",
+                         "0", only(Stage::bias)),
+                steepest, [](auto& job) -> auto& { return job.bias.slope; }),
+            bias_key(
+                make_key("bias.normal_texels",
+                         "moves the lookup along the geometric normal [texel widths]", "0",
+                         only(Stage::lookup)),
+                steepest, [](auto& job) -> auto& { return job.bias.normal_texels; })};
+}
+
+} // namespace
+
+std::vector<KeySpec> map_key_specs()
+{
+    std::vector<KeySpec> specs;
+    specs.push_back(member_key<std::int64_t>(
+        make_key("shadow_map.resolution", "texels along each side of the map", "1024",
+                 only(Stage::shadow_map)),
+        IntegerDomain{1, largest_side},
+        [](auto& job) -> auto& { return job.shadow_map.resolution_texels; }));
+    specs.push_back(depth_format_key());
+    for (KeySpec& spec : frustum_keys()) {
+        specs.push_back(std::move(spec));
+    }
+    specs.push_back(word_key<Cull>(
+        make_key("shadow_map.cull", "the faces that the map leaves out", "\"none\"",
+                 only(Stage::shadow_map)),
+        3, cull_name, [](auto& job) -> auto& { return job.shadow_map.cull; }));
+    specs.push_back(member_key<bool>(
+        make_key("shadow_map.reversed", "clip range [0, 1] with near at 1 and far at 0", "false",
+                 light_matrix),
+        FlagDomain{}, [](auto& job) -> auto& { return job.shadow_map.frustum.reversed; }));
+    for (KeySpec& spec : lookup_and_bias_keys()) {
+        specs.push_back(std::move(spec));
+    }
+    return specs;
+}
+
+} // namespace gnomon::scene

@@ -1,0 +1,223 @@
+#include "scene/job/source.hpp"
+
+#include "scene/builtin/scenes.hpp"
+#include "scene/error.hpp"
+#include "scene/job/sweep_axes.hpp"
+#include "scene/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace gnomon::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_scene_file(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::array<std::string_view, 4> scene_extensions{".gltf", ".glb", ".obj", ".ply"};
+    return std::find(scene_extensions.begin(), scene_extensions.end(), extension) !=
+           scene_extensions.end();
+}
+
+Settings lay_all(const std::vector<Layer>& layers)
+{
+    Settings settings;
+    for (const Layer& layer : layers) {
+        lay_over(settings, layer);
+    }
+    return settings;
+}
+
+/// The parameters of the built-in that the settings name, defaults included.
+ParameterValues builtin_parameters(const BuiltinScene& builtin, const Settings& settings)
+{
+    Job given;
+    for (const auto& [key, setting] : settings) {
+        if (key.starts_with(parameter_prefix(builtin.name))) {
+            setting.spec->set(given, setting.value);
+        }
+    }
+    return complete_parameters(builtin, given.scene.parameters);
+}
+
+/// A directional light says where it points, by itself or by its position and target.
+void complete_light(Job& job)
+{
+    if (job.light && job.light->type == LightType::directional && !job.light->direction &&
+        !job.light->target) {
+        job.light->direction = Vec3d{-0.4, -1, -0.3};
+    }
+}
+
+CaseLayer read_case(const TomlNode& node, const std::string& file, std::uint32_t line)
+{
+    const auto* table = std::get_if<TomlTable>(&node.value);
+    const std::string label = KeyPlace{file, line}.text() + "[[case]]";
+    if (table == nullptr) {
+        throw InputError(label + ": must be a table with a name and any keys");
+    }
+    CaseLayer read;
+    TomlTable keys;
+    for (const TomlMember& member : *table) {
+        if (member.key != "name") {
+            keys.push_back(member);
+            continue;
+        }
+        const auto name = read_value(TextDomain{}, member.node);
+        if (!name) {
+            throw InputError(fmt::format("{}:{}: [[case]] name = {}: must be {}", file, member.line,
+                                         toml_excerpt(member.node), range_text(TextDomain{})));
+        }
+        read.name = std::get<std::string>(*name);
+    }
+    if (read.name.empty()) {
+        throw InputError(label + ": has no name; give it a name of its own");
+    }
+    const std::string quoted = toml_excerpt({read.name});
+    read.layer = layer_from_table(keys, file, fmt::format("[[case]] {}: ", quoted), {"name"});
+    return read;
+}
+
+std::vector<CaseLayer> read_cases(const TomlMember& member, const std::string& file)
+{
+    const auto* array = std::get_if<TomlArray>(&member.node.value);
+    if (array == nullptr) {
+        throw InputError(
+            fmt::format("{}:{}: case: must be tables, each headed [[case]]", file, member.line));
+    }
+    std::vector<CaseLayer> result;
+    for (const TomlNode& node : *array) {
+        result.push_back(read_case(node, file, member.line));
+    }
+    std::vector<std::string> names;
+    for (const CaseLayer& read : result) {
+        names.push_back(read.name);
+    }
+    std::sort(names.begin(), names.end());
+    const auto repeated = std::adjacent_find(names.begin(), names.end());
+    if (repeated != names.end()) {
+        throw InputError(
+            fmt::format("{}:{}: [[case]] name = {}: two cases of that name; rename one", file,
+                        member.line, toml_excerpt({*repeated})));
+    }
+    return result;
+}
+
+/// A layer of one key, from outside any file.
+Layer single_setting(std::string_view key, const std::string& value, const std::string& label)
+{
+    return {make_setting(*find_key(key), {value}, label)};
+}
+
+/// What is given, the weakest first.
+std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+{
+    std::vector<Layer> layers{source.file};
+    if (chosen != nullptr) {
+        layers.push_back(chosen->layer);
+    }
+    layers.push_back(source.overrides);
+    layers.push_back(axes);
+    return layers;
+}
+
+} // namespace
+
+JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides)
+{
+    JobSource source;
+    source.name = one_line(path.string());
+    if (is_scene_file(path)) {
+        source.file = single_setting("scene.file", path.string(), source.name);
+    } else {
+        source.folder = path.parent_path();
+        TomlTable keys;
+        for (TomlMember& member :
+             parse_toml(read_text_file(path, source.name, "job file"), source.name)) {
+            if (member.key == "case") {
+                source.cases = read_cases(member, source.name);
+            } else if (member.key == "sweep") {
+                source.sweep = read_sweep(member, source.name);
+            } else {
+                keys.push_back(std::move(member));
+            }
+        }
+        source.file = layer_from_table(keys, source.name, "", {"sweep", "case"});
+    }
+    source.overrides = layer_from_overrides(overrides);
+    return source;
+}
+
+JobSource builtin_job_source(std::string_view name, const std::vector<Override>& overrides)
+{
+    JobSource source;
+    source.name = one_line(fmt::format("--builtin {}", name));
+    source.file = single_setting("scene.builtin", std::string{name}, source.name);
+    source.overrides = layer_from_overrides(overrides);
+    return source;
+}
+
+const CaseLayer& find_case(const JobSource& source, std::string_view name)
+{
+    std::vector<std::string> names;
+    for (const CaseLayer& each : source.cases) {
+        if (each.name == name) {
+            return each;
+        }
+        names.push_back(each.name);
+    }
+    const std::string quoted = toml_excerpt({std::string{name}});
+    if (names.empty()) {
+        throw InputError(
+            fmt::format("{}: no case {}: it has no [[case]] at all", source.name, quoted));
+    }
+    throw InputError(fmt::format("{}: no case {}; the nearest is {}", source.name, quoted,
+                                 toml_excerpt({nearest_word(name, names)})));
+}
+
+Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+{
+    std::vector<Layer> layers = given_layers(source, chosen, axes);
+    Settings settings = lay_all(layers);
+    check_scene_choice(settings, source.name);
+    if (const Setting* choice = find_setting(settings, "scene.builtin")) {
+        const auto& builtin = find_builtin_scene(std::get<std::string>(choice->value));
+        Job defaults = builtin.default_job(builtin_parameters(builtin, settings));
+        layers.insert(layers.begin(), layer_from_job(defaults, builtin.name));
+        settings = lay_all(layers);
+    }
+    check_settings(settings, source.name);
+    Job job;
+    for (const KeySpec& spec : key_specs()) {
+        if (const Setting* setting = find_setting(settings, spec.key.name)) {
+            spec.set(job, setting->value);
+        }
+    }
+    complete_light(job);
+    if (!job.scene.file.empty()) {
+        job.scene.file = source.folder / job.scene.file;
+    }
+    return job;
+}
+
+std::vector<std::pair<std::string, std::string>>
+given_keys(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+{
+    const Settings settings = lay_all(given_layers(source, chosen, axes));
+    std::vector<std::pair<std::string, std::string>> keys;
+    for (const KeySpec& spec : key_specs()) {
+        if (const Setting* setting = find_setting(settings, spec.key.name)) {
+            keys.emplace_back(spec.key.name, to_toml(setting->value));
+        }
+    }
+    return keys;
+}
+
+} // namespace gnomon::scene

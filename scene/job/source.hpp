@@ -1,0 +1,53 @@
+#pragma once
+
+#include "scene/job/file.hpp"
+#include "scene/job/job.hpp"
+#include "scene/job/layers.hpp"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A `[[case]]`: its name and the keys that it lays over the file's.
+struct CaseLayer {
+    std::string name;
+    Layer layer;
+};
+
+/// Where jobs come from: what one file or built-in, its cases, its sweep and the command line say,
+/// not yet laid over each other.
+struct JobSource {
+    std::string name;             ///< how messages speak of it
+    std::filesystem::path folder; ///< what a relative scene.file is relative to
+    Layer file;
+    std::vector<CaseLayer> cases;
+    Layer overrides;
+    Sweep sweep;
+};
+
+/// @throws InputError  as `read_job` does, for everything but keys that do not go together.
+[[nodiscard]] JobSource read_job_source(const std::filesystem::path& path,
+                                        const std::vector<Override>& overrides);
+[[nodiscard]] JobSource builtin_job_source(std::string_view name,
+                                           const std::vector<Override>& overrides);
+
+/// @throws InputError  naming the nearest case.
+[[nodiscard]] const CaseLayer& find_case(const JobSource& source, std::string_view name);
+
+/// Lays the built-in's defaults, the file, the case, the overrides and a sweep's axes over each
+/// other, in this order.
+/// @param chosen  The case; nullptr for none.
+/// @throws InputError  if keys do not go together.
+[[nodiscard]] Job make_job(const JobSource& source, const CaseLayer* chosen = nullptr,
+                           const Layer& axes = {});
+
+/// What the file, the case, the overrides and the axes say, whether it goes together or not: keys
+/// and values as text, in the order of `job_keys`. A scene's file is as it was written.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>>
+given_keys(const JobSource& source, const CaseLayer* chosen = nullptr, const Layer& axes = {});
+
+} // namespace gnomon::scene

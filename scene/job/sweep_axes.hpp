@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scene/job/file.hpp"
+#include "scene/job/toml.hpp"
+
+#include <string>
+
+namespace gnomon::scene {
+
+/// Reads `[sweep]`: its axes, expanded and each value held against its key, and how to combine
+/// them.
+/// @throws InputError  "file:line: [sweep] key = value: …".
+[[nodiscard]] Sweep read_sweep(const TomlMember& member, const std::string& file);
+
+/// Reads "KEY=VALUES" of `--axis`: a TOML list or range, or values between commas, where a bare
+/// word is a string.
+/// @throws InputError  "--axis KEY=VALUES: …".
+[[nodiscard]] SweepAxis read_axis_argument(const std::string& argument);
+
+/// Axes of `mode = "zip"` must be equally long, and no sweep holds too many values.
+/// @throws InputError  naming the axis.
+void check_axis_lengths(const Sweep& sweep, const std::string& file);
+
+} // namespace gnomon::scene

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "scene/job/layers.hpp"
+#include "scene/job/source.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// One point of a sweep: a case and a value on each axis.
+struct SweepPoint {
+    std::size_t case_index = 0;
+    std::vector<std::size_t> values; ///< index of the value, by axis
+};
+
+/// All configurations that a job's cases and axes span, by number.
+///
+/// Cases vary slowest, then the axes in their order, the last one fastest; with `mode = "zip"` all
+/// axes move together. `sample = N` keeps N of them, drawn without replacement by `seed`.
+class SweepSpace {
+public:
+    /// @param axis_arguments  "KEY=VALUES" as of `--axis`: each adds an axis or replaces the
+    /// file's.
+    /// @param case_name       the only case to run; empty: all of them.
+    /// @throws InputError  for a bad axis, a value that comes twice, a key that is an axis and also
+    ///                     set by a case or an override, too many configurations, …
+    SweepSpace(JobSource source, const std::vector<std::string>& axis_arguments,
+               std::string_view case_name = {});
+
+    /// Number of configurations.
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    [[nodiscard]] const std::vector<SweepAxis>& axes() const { return source_.sweep.axes; }
+    [[nodiscard]] const std::string& mode() const { return source_.sweep.mode; }
+    [[nodiscard]] std::size_t case_count() const { return source_.cases.size(); }
+
+    /// @param ordinal  below `size()`.
+    [[nodiscard]] SweepPoint at(std::uint64_t ordinal) const;
+    /// Name of the point's case; empty if the job has none.
+    [[nodiscard]] std::string_view case_name(const SweepPoint& point) const;
+
+    /// A number that points share iff they differ in constant biases at most.
+    [[nodiscard]] std::uint64_t structure(const SweepPoint& point) const;
+
+    /// The point's job.
+    /// @throws InputError  if its keys do not go together.
+    [[nodiscard]] Job job(const SweepPoint& point) const;
+    /// The keys that the point's job is given (`scene::given_keys`), also where they do not go
+    /// together.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>>
+    given_keys(const SweepPoint& point) const;
+    /// Makes the job of one point that of another of the same structure; much faster than `job`.
+    void set_constant_bias(Job& job, const SweepPoint& point) const;
+    /// The constant bias that the point's job has but for its axes: what the file, its case and the
+    /// overrides say; 0 where that does not go together with the point's other keys.
+    [[nodiscard]] BiasSettings own_constant_bias(const SweepPoint& point) const;
+
+private:
+    void replace_axes(const std::vector<std::string>& arguments);
+    void keep_case(std::string_view name);
+    void check_keys() const;
+    void resolve_values();
+    void check_repetitions() const;
+    void number_zipped_structures();
+    void count();
+
+    [[nodiscard]] Layer axis_settings(const SweepPoint& point) const;
+    [[nodiscard]] const CaseLayer* chosen_case(const SweepPoint& point) const;
+    [[nodiscard]] bool is_zipped() const { return source_.sweep.mode == "zip"; }
+
+    JobSource source_;
+    std::vector<Layer> values_; ///< each axis's values as settings
+    /// For each value of each axis the first that equals it: with zip, values may come again.
+    std::vector<std::vector<std::size_t>> first_equal_;
+    /// With zip, for each index the first one whose values differ in constant biases at most.
+    std::vector<std::size_t> zipped_structures_;
+    std::uint64_t size_ = 0;
+    std::vector<std::uint64_t> sample_; ///< ascending numbers of the whole space; empty: all
+};
+
+/// True for the keys of a constant bias, whose every value the bias curve answers.
+[[nodiscard]] bool is_constant_bias(std::string_view key);
+
+} // namespace gnomon::scene

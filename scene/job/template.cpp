@@ -1,0 +1,77 @@
+#include "scene/job/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace gnomon::scene {
+namespace {
+
+constexpr std::string_view shown_builtin = "sphere-cube";
+
+constexpr std::string_view heading =
+    R"(# A job: what to look at and how. Every key may be left out: it then takes the value that the
+# built-in scene brings along, or for a scene file the default named here. Without [camera] and
+# [light], a scene file's own are used, or else a camera that frames it and the default light.
+)";
+
+constexpr std::string_view sweep_and_cases = R"(
+# Axes of `gnomon sweep`: a key and a list of its values, or a range of them.
+# [sweep]
+# "bias.constant" = {from = 1e-6, to = 1e-1, count = 200, scale = "log"}   # scale: linear, log
+# "shadow_map.resolution" = [512, 1024, 2048, 4096]
+# mode = "product"   # product: every combination; zip: the axes side by side
+# sample = 0         # take so many configurations at random; 0: all of them
+# seed = 0           # of that choice
+
+# Variants of the job (`--case NAME`): a name, and the keys that differ.
+# [[case]]
+# name = "fine"
+# shadow_map.resolution = 4096
+)";
+
+/// "scene.wall" of "scene.wall.thickness_m".
+std::string_view table_of(std::string_view key)
+{
+    return key.substr(0, key.rfind('.'));
+}
+
+/// The key under its description and range, commented out where the job leaves it out.
+std::string entry(const KeySpec& spec, const std::map<std::string, std::string>& values)
+{
+    const JobKey& key = spec.key;
+    const std::string default_note =
+        key.default_text.empty() ? "" : fmt::format("; default {}", key.default_text);
+    const auto value = values.find(key.name);
+    const std::string& shown = key.default_text.empty() ? spec.example : key.default_text;
+    return fmt::format("# {}\n#   {}{}\n{}{} = {}\n", key.description, key.range_text, default_note,
+                       value == values.end() ? "# " : "", key_leaf(key.name),
+                       value == values.end() ? shown : value->second);
+}
+
+} // namespace
+
+std::string commented_job_file()
+{
+    std::map<std::string, std::string> values;
+    for (auto& [key, value] : resolved_keys(builtin_job(shown_builtin).job)) {
+        values.emplace(key, std::move(value));
+    }
+    std::string text{heading};
+    std::string_view table;
+    for (const KeySpec& spec : key_specs()) {
+        const bool is_shown = table_of(spec.key.name).find('.') == std::string_view::npos ||
+                              spec.key.name.starts_with(parameter_prefix(shown_builtin));
+        if (!is_shown) {
+            continue;
+        }
+        if (table_of(spec.key.name) != table) {
+            table = table_of(spec.key.name);
+            text += fmt::format("\n[{}]\n", table);
+        }
+        text += entry(spec, values);
+    }
+    return text + std::string{sweep_and_cases};
+}
+
+} // namespace gnomon::scene

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "scene/job/toml.hpp"
+#include "scene/vec.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// Farthest coordinate and longest distance; rounded to float32 it is `max_coordinate_m`.
+inline constexpr double farthest_m = 1e15;
+
+/// A value that a key accepted.
+using JobValue =
+    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3d>;
+
+struct FlagDomain {};
+
+/// Whole numbers from `lower` to `upper`, both included.
+struct IntegerDomain {
+    std::int64_t lower = 0;
+    std::int64_t upper = 0;
+};
+
+/// Finite numbers from `lower` to `upper`, both included.
+struct RealDomain {
+    double lower = 0;
+    double upper = 0;
+    bool normal_float = false; ///< 0, or a normal number once rounded to float32
+    bool or_auto = false;      ///< the word "auto" too
+};
+
+/// One of `words`.
+struct WordDomain {
+    std::vector<std::string> words;
+    std::string listing = {}; ///< how messages list the words; empty: one by one
+    std::string refused = {}; ///< a word that is refused for a reason of its own
+    std::string reason = {};
+};
+
+/// A text that is not empty.
+struct TextDomain {};
+
+struct TextListDomain {};
+
+/// Three finite coordinates within ±1e15.
+struct VectorDomain {
+    bool zero_allowed = true; ///< else at least one is not 0 once rounded to float32
+};
+
+/// What a key accepts.
+using Domain = std::variant<FlagDomain, IntegerDomain, RealDomain, WordDomain, TextDomain,
+                            TextListDomain, VectorDomain>;
+
+/// What the domain allows, in words: "an integer from 1 to 16384".
+[[nodiscard]] std::string range_text(const Domain& domain);
+
+/// The node's value if the domain allows it.
+[[nodiscard]] std::optional<JobValue> read_value(const Domain& domain, const TomlNode& node);
+
+/// Why the domain does not allow the node, with the nearest word where words are asked for.
+[[nodiscard]] std::string refusal_text(const Domain& domain, const TomlNode& node);
+
+/// The value as TOML; it reads back as the same value.
+[[nodiscard]] std::string to_toml(const JobValue& value);
+
+} // namespace gnomon::scene

@@ -1,0 +1,132 @@
+#pragma once
+
+#include "scene/light/frustum.hpp"
+#include "scene/triangles.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A texel of the shadow map, counted as GL counts: (0, 0) has its centre next to u = v = −1.
+struct Texel {
+    int x = 0;
+    int y = 0;
+
+    friend bool operator==(const Texel&, const Texel&) = default;
+};
+
+/// How closely first hits are placed.
+enum class HitDetail : std::uint8_t {
+    bounded, ///< the depth within 2^-40, and as a rule much closer
+    placed,  ///< the depth within 2^-48, and the light distance
+};
+
+/// What the light sees through a texel's centre: the exact first hit between near and far.
+struct TexelHit {
+    std::uint32_t triangle = no_triangle; ///< the lowest index of those at this depth
+    /// Matrix depth; without a hit the farthest, 1 (reversed: 0).
+    double depth = 1;
+    /// Light distance [m], to a relative 2^-44, or NaN where only bounded; infinite without a hit.
+    double zeta_m = std::numeric_limits<double>::infinity();
+    double depth_error = 0; ///< the exact depth is no farther than this from `depth`
+};
+
+/// What another frustum of the same light saw first through texels, with maps of the same
+/// resolution and the same culling.
+struct KnownHits {
+    const LightFrustum& frustum;
+    std::span<const std::uint32_t> triangles; ///< by texel, or `no_triangle`
+};
+
+/// The depth that one tap of a lookup would find in a map of infinite precision: that of a triangle
+/// along a texel-centre ray, or a constant where nothing is seen or a policy decides.
+struct ExactTap {
+    Texel texel;
+    std::uint32_t triangle = no_triangle; ///< as `first_hits` found it
+    /// Without a triangle the depth, a float32 in [0, 1]; else as `first_hits` found it.
+    double depth = 1;
+    /// As `first_hits` found it. The answer is exact whatever it is, but slow without it.
+    double depth_error = std::numeric_limits<double>::infinity();
+};
+
+/// One receiver before one tap.
+struct NearestQuery {
+    std::size_t pixel = 0;
+    ExactTap tap;
+};
+
+/// One receiver before a depth interpolated between four taps, weighted by where the receiver
+/// exactly is between their centres, or at the nearest place between them.
+struct LinearQuery {
+    std::size_t pixel = 0;
+    Texel first;                  ///< of the lower left tap, before any clamping
+    std::array<ExactTap, 4> taps; ///< row by row from there
+};
+
+/// A receiver, and the triangle seen at a texel.
+struct SheetQuery {
+    std::size_t pixel = 0;
+    Texel texel;
+    std::uint32_t triangle = 0;
+};
+
+/// Where the light of a blocked pixel is stopped: at its blocker, the exact one nearest to the
+/// light.
+struct BlockerHit {
+    std::uint32_t triangle = no_triangle;
+    double gap_m = 0;           ///< from P to the blocker, along the segment
+    double zeta_m = 0;          ///< light distance of the blocker [m]
+    double receiver_zeta_m = 0; ///< light distance of P [m]
+};
+
+/// Exact answers about the light's rays, for one view, map resolution and culling (DESIGN §4).
+///
+/// Pixels are row-major indices; each must be scored. All answers are the same for any number of
+/// threads.
+class ExactLight {
+public:
+    ExactLight() = default;
+    ExactLight(const ExactLight&) = delete;
+    ExactLight& operator=(const ExactLight&) = delete;
+    virtual ~ExactLight() = default;
+
+    /// The first hit of each texel-centre ray, with a triangle that the culling leaves, at a matrix
+    /// depth in [0, 1]. A seam is a hit; other degenerate contacts are none.
+    /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
+    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+                                                           HitDetail detail) const = 0;
+
+    /// The same, placed. What is known makes it faster where the frusta differ in their near planes
+    /// alone and this one's is not nearer.
+    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+                                                           const KnownHits& known) const = 0;
+
+    /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
+    /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
+    /// @param clamps  limits r to [0, 1] first, as the policy `clamp` does.
+    [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const NearestQuery> queries,
+                                                             bool clamps) const = 0;
+    [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const LinearQuery> queries,
+                                                             bool clamps) const = 0;
+
+    /// 1 where a triangle that the culling leaves crosses the open segment P→light, properly or
+    /// through a seam, at a matrix depth in [0, 1].
+    [[nodiscard]] virtual std::vector<std::uint8_t>
+    are_crossed(std::span<const std::size_t> pixels) const = 0;
+
+    /// 1 where the surface leads from P, along the straight line to the texel's centre in light
+    /// view, into the triangle seen there (DESIGN §4, own sheet).
+    [[nodiscard]] virtual std::vector<std::uint8_t>
+    are_own_sheets(std::span<const SheetQuery> queries) const = 0;
+
+    /// The blockers of blocked pixels.
+    [[nodiscard]] virtual std::vector<BlockerHit>
+    find_blockers(std::span<const std::size_t> pixels) const = 0;
+};
+
+} // namespace gnomon::scene

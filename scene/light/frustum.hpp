@@ -1,0 +1,79 @@
+#pragma once
+
+#include "scene/light/depth_range.hpp"
+#include "scene/light/light.hpp"
+#include "scene/triangles.hpp"
+#include "scene/vec.hpp"
+#include "scene/view/camera.hpp"
+
+#include <optional>
+
+namespace gnomon::scene {
+
+enum class Fit : std::uint8_t { scene, camera, fixed };
+
+/// The part of `[shadow_map]` that decides the light's camera.
+struct FrustumSettings {
+    Fit fit = Fit::scene;
+    double half_extent_m = 20;           ///< fit = fixed, directional; > 0
+    std::optional<double> fov_deg;       ///< fit = fixed, spot; (0, 180); default: the cone
+    double roll_deg = 0;                 ///< turns the texel grid about the light's axis
+    std::optional<double> near_m;        ///< empty: auto
+    std::optional<double> far_m;         ///< empty: auto
+    bool reversed = false;               ///< near at depth 1, far at 0
+    std::optional<ClipRange> clip_range; ///< empty: [0, 1] if reversed, else [−1, 1]
+};
+
+/// The light's camera: what the shadow map sees.
+struct LightFrustum {
+    Projection projection = Projection::orthographic;
+    Vec3d origin;  ///< where the light's camera stands [m]; ζ is measured from its plane
+    Vec3d forward; ///< unit
+    Vec3d right;   ///< unit, the direction of growing u
+    Vec3d up;      ///< unit, the direction of growing v
+    /// Sides on the plane ζ = 1 (perspective, tangents) or in metres (orthographic).
+    double left = -1;
+    double right_side = 1;
+    double bottom = -1;
+    double top = 1;
+    double near_m = 0.1;
+    double far_m = 100;
+    bool reversed = false;
+    ClipRange clip_range = ClipRange::minus_one_to_one;
+    Mat4d light_clip_from_world_exact{1}; ///< composed in double
+    Mat4f light_clip_from_world{1};       ///< rounded once: this one is GL's, and exact input
+
+    /// Eye-space distance ζ of a world point from the light's camera plane [m].
+    [[nodiscard]] double zeta_m(const Vec3d& point) const;
+    /// World width of a texel at distance ζ [m]: the larger of the texel's two sides.
+    [[nodiscard]] double texel_width_m(double zeta_m, int resolution_texels) const;
+    /// Metres along the axis that one depth unit spans; constant for orthographic frusta.
+    [[nodiscard]] double range_m() const { return far_m - near_m; }
+    [[nodiscard]] DepthRange depth_range() const
+    {
+        return {projection, near_m, far_m, reversed, clip_range};
+    }
+};
+
+/// Composes both matrices from the other members, in double, and rounds once.
+void compose_matrix(LightFrustum& frustum);
+
+/// Fits the light's camera.
+///
+/// `scene`: directional, the smallest light-view box around all vertices; spot, fov = cone.
+/// `camera`: directional, the box's sides around what the camera sees of the scene; spot, the
+/// narrowest symmetric fov (at most the cone) around what it sees. `fixed`: half_extent_m or
+/// fov_deg.
+///
+/// Auto near and far enclose the ζ of all triangles, clipped to the map's sides, padded by 1e-4 of
+/// their range: of what GL finds within the sides nothing is clipped. `camera`: far encloses what
+/// the camera sees. Far from the origin the padding grows to what the float32 matrix errs by. A
+/// spot's near >= 1e-3 · far, and what is nearer than that is clipped. Where the sides hold nothing
+/// that lies on the right side of a given plane, the planes enclose the ζ of all vertices.
+/// @throws InputError  if near >= far, or near <= 0 for a spot.
+[[nodiscard]] LightFrustum fit_light_frustum(const FrustumSettings& settings,
+                                             const LightSettings& light_settings,
+                                             const Light& light, const TriangleScene& scene,
+                                             const Camera& camera, ImageSize image);
+
+} // namespace gnomon::scene

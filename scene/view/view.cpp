@@ -1,0 +1,104 @@
+#include "scene/error.hpp"
+#include "scene/job/job.hpp"
+#include "scene/view/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace gnomon::scene {
+namespace {
+
+/// Rounds a bias to float32 once. Subnormals are refused: GL may flush them, and then the verdict
+/// would depend on the driver.
+float rounded_bias(double value, std::string_view key)
+{
+    const auto result = static_cast<float>(value);
+    if (!std::isfinite(result) || (value != 0 && std::fpclassify(result) != FP_NORMAL)) {
+        throw InputError(fmt::format(
+            "{} = {}: in depth units this is {:g}; a bias is 0 or a normal float32, of absolute "
+            "value at least 1.18e-38",
+            key, value, result));
+    }
+    return result;
+}
+
+float constant_bias(const BiasSettings& settings, const LightFrustum& frustum)
+{
+    if (!settings.constant_m) {
+        return rounded_bias(settings.constant, "bias.constant");
+    }
+    if (frustum.projection == Projection::perspective) {
+        throw InputError("bias.constant_m needs a directional light: a spot's depth is not linear "
+                         "in metres; use bias.constant");
+    }
+    return rounded_bias(*settings.constant_m / frustum.range_m(), "bias.constant_m");
+}
+
+/// The box that a default camera frames: everything but the ground, which reaches far beyond.
+Box framed_box(const TriangleScene& scene)
+{
+    Box box = scene.bounds();
+    bool first = true;
+    for (const Object& object : scene.objects) {
+        if (object.name == "ground" || object.triangle_count == 0) {
+            continue;
+        }
+        for (std::uint32_t t = 0; t < object.triangle_count; ++t) {
+            for (const Vec3f& corner : scene.corners(object.first_triangle + t)) {
+                box = first ? Box{Vec3d{corner}, Vec3d{corner}}
+                            : Box{glm::min(box.lower, Vec3d{corner}),
+                                  glm::max(box.upper, Vec3d{corner})};
+                first = false;
+            }
+        }
+    }
+    return box;
+}
+
+LightSettings default_light()
+{
+    LightSettings light;
+    light.direction = Vec3d{-0.4, -1, -0.3};
+    return light;
+}
+
+} // namespace
+
+Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum)
+{
+    return {constant_bias(settings, frustum), rounded_bias(settings.slope, "bias.slope"),
+            rounded_bias(settings.normal_texels, "bias.normal_texels")};
+}
+
+CameraSettings resolve_camera(const Job& job, const TriangleScene& scene,
+                              const SceneDefaults& defaults)
+{
+    const auto camera = job.camera ? job.camera : defaults.camera;
+    return camera ? *camera : frame_box(framed_box(scene), job.image);
+}
+
+LightSettings resolve_light(const Job& job, const SceneDefaults& defaults)
+{
+    const auto light = job.light ? job.light : defaults.light;
+    return light ? *light : default_light();
+}
+
+View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefaults& defaults)
+{
+    View view;
+    view.image = job.image;
+    view.camera = make_camera(resolve_camera(job, scene, defaults));
+    const LightSettings light = resolve_light(job, defaults);
+    view.light = make_light(light);
+    if (light.type == LightType::point) {
+        return view; // it has no shadow map
+    }
+    view.frustum =
+        fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera, job.image);
+    view.bias = resolve_bias(job.bias, view.frustum);
+    return view;
+}
+
+} // namespace gnomon::scene
