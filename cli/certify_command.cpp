@@ -4,10 +4,10 @@
 #include "cli/job_options.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reference_rt/certificate/certificate.hpp"
-#include "reports/aov_read.hpp"
-#include "reports/exact_inputs.hpp"
 #include "scene/error.hpp"
 #include "scene/load_scene.hpp"
+#include "store/exr/aov_read.hpp"
+#include "store/exr/exact_inputs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,7 +53,7 @@ private:
     std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now() + interval;
 };
 
-void require_equal(const CertifyOptions& options, const reports::Aov& aov, const std::string& name,
+void require_equal(const CertifyOptions& options, const store::Aov& aov, const std::string& name,
                    const std::string& expected)
 {
     const auto found = aov.texts.find(name);
@@ -66,11 +66,11 @@ void require_equal(const CertifyOptions& options, const reports::Aov& aov, const
 }
 
 /// The certificate is about these inputs and no others.
-void require_inputs(const CertifyOptions& options, const reports::Aov& aov,
+void require_inputs(const CertifyOptions& options, const store::Aov& aov,
                     const scene::TriangleScene& scene, const scene::View& view)
 {
     require_equal(options, aov, "scene_hash", scene::content_hash(scene));
-    for (const reports::ExactInput& input : reports::exact_inputs(view)) {
+    for (const store::ExactInput& input : store::exact_inputs(view)) {
         require_equal(options, aov, input.name, fmt::format("{}", fmt::join(input.values, " ")));
     }
 }
@@ -159,7 +159,7 @@ std::string certificate_text(const CertifyOptions& options, const Certificate& c
 void certify(const CertifyOptions& options)
 {
     const scene::Job job = read_job(options.job).job;
-    reports::Aov aov = reports::read_aov(options.aov_path, job.image);
+    store::Aov aov = store::read_aov(options.aov_path, job.image);
     const scene::SceneFile file = scene::load_scene(job.scene);
     const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
     require_inputs(options, aov, file.scene, view);

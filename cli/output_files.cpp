@@ -1,8 +1,8 @@
 #include "cli/output_files.hpp"
 
-#include "reports/output_file.hpp"
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 
@@ -47,8 +47,8 @@ void require_outputs(std::span<const OutputOption> outputs, std::span<const Inpu
     require_distinct(outputs, inputs);
     for (const OutputOption& output : outputs) {
         if (!output.path.empty()) {
-            reports::require_output_name(output.path, output.kind);
-            reports::require_writable(output.path);
+            store::require_output_name(output.path, output.kind);
+            store::require_writable(output.path);
         }
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/output_name.hpp"
+#include "store/output_name.hpp"
 
 #include <filesystem>
 #include <span>
@@ -14,7 +14,7 @@ namespace gnomon::cli {
 struct OutputOption {
     std::string_view option;
     std::string path;
-    reports::OutputKind kind;
+    store::OutputKind kind;
 };
 
 /// A file that is read, and what it is.

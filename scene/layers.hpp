@@ -65,4 +65,15 @@ struct TruthLayers {
     return verdict >= 0.5F;
 }
 
+/// True of a lit pixel whose verdict does not count as lit, and of a blocked one whose verdict
+/// does.
+[[nodiscard]] constexpr bool is_false_shadow(PixelClass truth, float verdict)
+{
+    return truth == PixelClass::lit && !is_lit(verdict);
+}
+[[nodiscard]] constexpr bool is_false_lit(PixelClass truth, float verdict)
+{
+    return truth == PixelClass::blocked && is_lit(verdict);
+}
+
 } // namespace gnomon::scene

@@ -107,6 +107,12 @@ const GateMetric* find_gate_metric(std::string_view name)
     return found == metrics.end() ? nullptr : &*found;
 }
 
+bool is_whole_metric(std::string_view name)
+{
+    const GateMetric* const metric = find_gate_metric(name);
+    return metric != nullptr && metric->is_whole;
+}
+
 bool is_amount(std::string_view metric)
 {
     return metric == error_amount_metric || metric == "mean_abs_error" || metric == "unassigned" ||

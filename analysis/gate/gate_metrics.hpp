@@ -25,6 +25,8 @@ struct GateMetric {
 /// Also finds points of the bias curve.
 /// @return  nullptr if there is none of that name.
 [[nodiscard]] const GateMetric* find_gate_metric(std::string_view name);
+/// Whether a metric's values are integers; not of a name that no metric has.
+[[nodiscard]] bool is_whole_metric(std::string_view name);
 
 /// False shadow and false lit.
 inline constexpr std::string_view wrong_pixels_metric = "wrong_pixels";

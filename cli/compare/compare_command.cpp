@@ -12,14 +12,14 @@
 #include "cli/system/slow_work.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/advice_options.hpp"
-#include "reports/aov_exr.hpp"
-#include "reports/case/case_write.hpp"
-#include "reports/comparison_json.hpp"
-#include "reports/comparison_table.hpp"
-#include "reports/depth_map_exr.hpp"
-#include "reports/heat_map.hpp"
-#include "reports/picture.hpp"
+#include "reports/json/comparison_json.hpp"
+#include "reports/pictures/heat_map.hpp"
+#include "reports/pictures/picture.hpp"
+#include "reports/tables/comparison_table.hpp"
 #include "scene/error.hpp"
+#include "store/case/case_write.hpp"
+#include "store/exr/aov_write.hpp"
+#include "store/exr/depth_map.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,7 +37,7 @@
 namespace gnomon::cli {
 namespace {
 
-using reports::OutputKind;
+using store::OutputKind;
 
 struct CompareOptions {
     JobOptions job;
@@ -95,7 +95,7 @@ void require_new_outputs(const CompareOptions& options)
     const InputFile job{"JOB", options.job.job_path};
     require_outputs(outputs(options), {&job, 1});
     if (!options.case_folder.empty()) {
-        for (const std::string_view name : reports::case_files()) {
+        for (const std::string_view name : store::case_files()) {
             require_absent(std::filesystem::path{options.case_folder} / name, options.force,
                            "name another folder");
         }
@@ -105,7 +105,7 @@ void require_new_outputs(const CompareOptions& options)
 void write_outputs(const CompareOptions& options, const analysis::Comparison& comparison)
 {
     if (!options.aov_path.empty()) {
-        reports::write_aov(options.aov_path, comparison, points_of(comparison));
+        store::write_aov(options.aov_path, comparison, points_of(comparison));
     }
     if (!options.picture_path.empty()) {
         reports::write_picture(options.picture_path, comparison);
@@ -207,7 +207,7 @@ void write_light_view(const CompareOptions& options, const analysis::Comparison&
 {
     if (!options.depth_map_path.empty()) {
         renderers.draw_shadow_map(comparison.job, comparison.view);
-        reports::write_depth_map(options.depth_map_path, comparison, renderers.read_map_depths());
+        store::write_depth_map(options.depth_map_path, comparison, renderers.read_map_depths());
     }
 }
 

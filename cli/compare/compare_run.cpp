@@ -3,10 +3,10 @@
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/sweep/catalogue.hpp"
 #include "cli/compare/kept_pixels.hpp"
-#include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/job/toml.hpp"
+#include "store/run/run_notes.hpp"
 
 #include <fmt/format.h>
 
@@ -32,9 +32,9 @@ void keep_given(std::vector<std::pair<std::string, std::string>>& parameters,
 
 CompareRun::CompareRun(std::filesystem::path folder, bool may_replace)
     : folder_{std::move(folder)},
-      other_scenes_{may_replace ? reports::OtherScenes::replaced : reports::OtherScenes::refused},
+      other_scenes_{may_replace ? store::OtherScenes::replaced : store::OtherScenes::refused},
       lock_{folder_},
-      store_{folder_, reports::RunStore::Access::write}
+      store_{folder_, store::RunStore::Access::write}
 {
     if (!may_replace && store_.description().size > 1) {
         throw scene::InputError(fmt::format(
@@ -65,10 +65,10 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     }
     const analysis::Configuration& own = configurations.front();
     // Another driver's results in the folder are replaced, not mixed with.
-    reports::RunDescription description{comparison.environment, {},      1,      {},
-                                        std::move(job_text),    command, command};
-    reports::add_notes(description.notes, comparison.scene.name, comparison.scene.notes, 1);
-    store_.plan(description, configurations, reports::Environments::several, other_scenes_);
+    store::RunDescription description{comparison.environment, {},      1,      {},
+                                      std::move(job_text),    command, command};
+    store::add_notes(description.notes, comparison.scene.name, comparison.scene.notes, 1);
+    store_.plan(description, configurations, store::Environments::several, other_scenes_);
     keep_pixels(folder_, own.id, comparison);
     store_.record(analysis::finish_compared(comparison, own.curve, 0));
     store_.write_csv();

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "reports/run/run_lock.hpp"
-#include "reports/run/run_store.hpp"
 #include "scene/job/source.hpp"
+#include "store/run/run_store.hpp"
+#include "store/run_folder/run_lock.hpp"
 
 #include <filesystem>
 #include <string>
@@ -22,7 +22,7 @@ public:
     /// Records the comparison, its layers and the CSV files.
     /// @param source    of the comparison's job; its sweep is left aside.
     /// @param defaults  that the comparison's scene brings along.
-    /// @param job_text, command  as in `reports::RunDescription`.
+    /// @param job_text, command  as in `store::RunDescription`.
     /// @throws scene::InputError        if the folder holds results of another scene that may not
     /// be replaced.
     /// @throws scene::EnvironmentError  if the disk fails.
@@ -32,9 +32,9 @@ public:
 
 private:
     std::filesystem::path folder_;
-    reports::OtherScenes other_scenes_;
-    reports::RunLock lock_;
-    reports::RunStore store_;
+    store::OtherScenes other_scenes_;
+    store::RunLock lock_;
+    store::RunStore store_;
 };
 
 } // namespace gnomon::cli

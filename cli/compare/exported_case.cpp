@@ -3,8 +3,8 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "cli/compare/kept_pixels.hpp"
-#include "reports/case/case_write.hpp"
 #include "scene/view/settings.hpp"
+#include "store/case/case_write.hpp"
 
 namespace gnomon::cli {
 
@@ -12,11 +12,11 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
                  const scene::SceneDefaults& defaults, const analysis::Renderers& renderers)
 {
     const scene::Job& job = comparison.job;
-    reports::CaseExtras extras{points_of(comparison),
-                               scene::resolve_camera(job, *comparison.triangles, defaults),
-                               scene::resolve_light(job, defaults),
-                               {},
-                               {}};
+    store::CaseExtras extras{points_of(comparison),
+                             scene::resolve_camera(job, *comparison.triangles, defaults),
+                             scene::resolve_light(job, defaults),
+                             {},
+                             {}};
     renderers.draw_shadow_map(job, comparison.view);
     if (!scene::promises(job.lookup.filter).has_one_tap()) {
         extras.map_depths = renderers.read_map_depths();
@@ -26,7 +26,7 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
         unbiased.bias = {};
         extras.unmoved = renderers.look_up(job, unbiased);
     }
-    reports::write_case(folder, comparison, extras);
+    store::write_case(folder, comparison, extras);
 }
 
 } // namespace gnomon::cli

@@ -1,10 +1,10 @@
 #include "cli/compare/kept_pixels.hpp"
 
 #include "reference_rt/truth.hpp"
-#include "reports/aov_exr.hpp"
-#include "reports/comparison_json.hpp"
-#include "reports/output_file.hpp"
-#include "reports/run/pixels.hpp"
+#include "reports/json/comparison_json.hpp"
+#include "store/exr/aov_write.hpp"
+#include "store/output_file.hpp"
+#include "store/run_folder/pixels.hpp"
 
 namespace gnomon::cli {
 
@@ -20,10 +20,10 @@ void keep_pixels(const std::filesystem::path& folder, std::string_view id,
                  const analysis::Comparison& comparison)
 {
     const auto points = points_of(comparison);
-    reports::make_pixels_folder(folder);
+    store::make_pixels_folder(folder);
     // The image last: whoever finds it finds both.
-    reports::write_file(reports::detail_path(folder, id), reports::comparison_json(comparison));
-    reports::write_aov(reports::pixels_path(folder, id), comparison, points);
+    store::write_file(store::detail_path(folder, id), reports::comparison_json(comparison));
+    store::write_aov(store::pixels_path(folder, id), comparison, points);
 }
 
 } // namespace gnomon::cli

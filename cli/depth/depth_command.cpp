@@ -10,8 +10,8 @@
 #include "reports/depth/depth_plan_report.hpp"
 #include "reports/depth/depth_plot.hpp"
 #include "reports/depth/depth_table.hpp"
-#include "reports/output_file.hpp"
 #include "scene/error.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 
@@ -138,7 +138,7 @@ void print_study(const DepthOptions& options, DepthStudy study, const Driver& dr
                                reports::depth_plot(study, rows, driver.renderer));
     }
     if (options.csv_path && !options.csv_path->empty()) {
-        reports::write_file(*options.csv_path, reports::depth_csv(study, rows));
+        store::write_file(*options.csv_path, reports::depth_csv(study, rows));
     }
     if (options.csv_path && options.csv_path->empty()) {
         print(reports::depth_csv(study, rows));
@@ -274,8 +274,8 @@ void require_consistent(const DepthOptions& options)
                                             scene::most_depth_planes));
     }
     require_outputs(
-        std::array{OutputOption{"--plot", options.plot_path, reports::OutputKind::plot},
-                   OutputOption{"--csv", options.csv_path.value_or(""), reports::OutputKind::csv}},
+        std::array{OutputOption{"--plot", options.plot_path, store::OutputKind::plot},
+                   OutputOption{"--csv", options.csv_path.value_or(""), store::OutputKind::csv}},
         {});
 }
 

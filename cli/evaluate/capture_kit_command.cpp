@@ -2,8 +2,8 @@
 
 #include "cli/output_files.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/output_file.hpp"
 #include "scene/error.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 
@@ -40,7 +40,7 @@ void write_kit(const KitOptions& options)
     std::string written;
     for (const KitFile& file : capture_kit_files()) {
         const std::filesystem::path path = folder / file.name;
-        reports::write_file(path, file.text);
+        store::write_file(path, file.text);
         written += fmt::format("{}\n", path.string());
     }
     print(written);

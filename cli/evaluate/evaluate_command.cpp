@@ -9,19 +9,19 @@
 #include "cli/system/standard_output.hpp"
 #include "reference_rt/light/exact_light.hpp"
 #include "reference_rt/rounded/rounded_truth.hpp"
-#include "reports/aov_exr.hpp"
-#include "reports/case/case_read.hpp"
-#include "reports/comparison_json.hpp"
-#include "reports/comparison_table.hpp"
-#include "reports/evaluation_json.hpp"
-#include "reports/evaluation_table.hpp"
-#include "reports/picture.hpp"
-#include "reports/shell_text.hpp"
+#include "reports/json/comparison_json.hpp"
+#include "reports/json/evaluation_json.hpp"
+#include "reports/pictures/picture.hpp"
+#include "reports/tables/comparison_table.hpp"
+#include "reports/tables/evaluation_table.hpp"
 #include "scene/case/file.hpp"
 #include "scene/case/space.hpp"
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/load_scene.hpp"
+#include "store/case/case_read.hpp"
+#include "store/exr/aov_write.hpp"
+#include "store/shell_text.hpp"
 
 #include <fmt/format.h>
 
@@ -64,7 +64,7 @@ class CaseSession {
 public:
     CaseSession(scene::CaseFile file, int threads)
         : file_{std::move(file)},
-          layers_{reports::read_case_layers(file_, available_memory_bytes())},
+          layers_{store::read_case_layers(file_, available_memory_bytes())},
           mesh_{load_mesh(file_)},
           reference_{mesh_, {threads}}
     {
@@ -133,8 +133,8 @@ private:
 void require_writable_results(const EvaluateOptions& options, const scene::CaseFile& file)
 {
     const std::array outputs{
-        OutputOption{"--aov", options.aov_path, reports::OutputKind::layers},
-        OutputOption{"--picture", options.picture_path, reports::OutputKind::picture}};
+        OutputOption{"--aov", options.aov_path, store::OutputKind::layers},
+        OutputOption{"--picture", options.picture_path, store::OutputKind::picture}};
     const std::array inputs{InputFile{"the case", file.path.string()},
                             InputFile{"the case's image", file.image.string()},
                             InputFile{"the case's map", file.map.string()}};
@@ -164,7 +164,7 @@ std::string evaluate_command(const EvaluateOptions& options)
     if (!options.from.empty()) {
         words.insert(words.end(), {"--from", options.from});
     }
-    return reports::shell_text(words);
+    return store::shell_text(words);
 }
 
 void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFile& file,
@@ -178,7 +178,7 @@ void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFi
 void write_evaluation(const EvaluateOptions& options, const analysis::Comparison& comparison)
 {
     if (!options.aov_path.empty()) {
-        reports::write_aov(options.aov_path, comparison, points_of(comparison));
+        store::write_aov(options.aov_path, comparison, points_of(comparison));
     }
     if (!options.picture_path.empty()) {
         reports::write_picture(options.picture_path, comparison);

@@ -4,15 +4,15 @@
 #include "cli/exit_codes.hpp"
 #include "cli/gate/gate_update.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/gate/baseline_read.hpp"
 #include "reports/gate/baseline_table.hpp"
-#include "reports/gate/baseline_write.hpp"
 #include "reports/gate/gate_rule_file.hpp"
-#include "reports/gate/gate_run.hpp"
-#include "reports/gate/pixel_mask.hpp"
-#include "reports/output_name.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/job/toml.hpp"
+#include "store/baseline/baseline_read.hpp"
+#include "store/baseline/baseline_write.hpp"
+#include "store/baseline/gate_run.hpp"
+#include "store/baseline/pixel_mask.hpp"
+#include "store/output_name.hpp"
 
 #include <fmt/format.h>
 
@@ -33,14 +33,14 @@ struct BaselineOptions {
 
 void save_baseline(const BaselineOptions& options)
 {
-    reports::require_output_name(options.file, reports::OutputKind::baseline);
+    store::require_output_name(options.file, store::OutputKind::baseline);
     const auto points = options.rules.empty()
                             ? std::vector<analysis::CurvePointMetric>{}
-                            : reports::curve_points_of(reports::read_gate_rules(options.rules));
-    const reports::GateRun run = reports::read_gate_run(options.run, points);
+                            : store::curve_points_of(reports::read_gate_rules(options.rules));
+    const store::GateRun run = store::read_gate_run(options.run, points);
     require_whole_run(run);
-    const analysis::GateEntries results = reports::write_masks(options.file, run);
-    reports::write_baseline(options.file, results);
+    const analysis::GateEntries results = store::write_masks(options.file, run);
+    store::write_baseline(options.file, results);
     print(fmt::format("wrote {}: {}, {}\n", scene::one_line(options.file),
                       reports::counted(results.entries.size(), "configuration"),
                       reports::masks_text(results)));
@@ -50,8 +50,8 @@ void save_baseline(const BaselineOptions& options)
 analysis::GateEntries baseline_or_end(const std::filesystem::path& file)
 {
     try {
-        return reports::read_baseline(file);
-    } catch (const reports::BaselineMissing& error) {
+        return store::read_baseline(file);
+    } catch (const store::BaselineMissing& error) {
         fmt::print(stderr, "gnomon: {}\n", error.what());
         throw CLI::RuntimeError{exit_codes::other_environment};
     }
@@ -65,8 +65,8 @@ void list_baseline(const BaselineOptions& options)
 void compare_with_baseline(const BaselineOptions& options)
 {
     const analysis::GateEntries baseline = baseline_or_end(options.file);
-    const reports::GateRun run = reports::read_gate_run(options.run);
-    print(reports::baseline_difference(baseline, reports::with_mask_names(run)));
+    const store::GateRun run = store::read_gate_run(options.run);
+    print(reports::baseline_difference(baseline, store::with_mask_names(run)));
 }
 
 } // namespace

@@ -7,20 +7,20 @@
 #include "cli/gate/gate_update.hpp"
 #include "cli/output_files.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/gate/baseline_read.hpp"
 #include "reports/gate/gate_json.hpp"
 #include "reports/gate/gate_junit.hpp"
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/gate_report.hpp"
 #include "reports/gate/gate_rule_file.hpp"
-#include "reports/gate/gate_run.hpp"
 #include "reports/gate/gate_table.hpp"
-#include "reports/gate/kept_wrong_pixels.hpp"
-#include "reports/gate/pixel_mask.hpp"
-#include "reports/output_file.hpp"
-#include "reports/run/sqlite.hpp"
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
+#include "store/baseline/baseline_read.hpp"
+#include "store/baseline/gate_run.hpp"
+#include "store/baseline/kept_wrong_pixels.hpp"
+#include "store/baseline/pixel_mask.hpp"
+#include "store/output_file.hpp"
+#include "store/sqlite.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ struct GateOptions {
 {
     fmt::print(stderr, "gnomon: {}\n", problem);
     if (!options.junit.empty()) {
-        reports::write_file(options.junit, reports::gate_junit_refusal(options.baseline, problem));
+        store::write_file(options.junit, reports::gate_junit_refusal(options.baseline, problem));
     }
     throw CLI::RuntimeError{exit_codes::other_environment};
 }
@@ -127,16 +127,16 @@ reports::GateReport read_report(const GateOptions& options)
     reports::GateReport report;
     report.rules = rules_of(options);
     try {
-        report.run = reports::read_gate_run(options.run, reports::curve_points_of(report.rules));
-    } catch (const reports::sqlite::DamagedDatabase& error) {
+        report.run = store::read_gate_run(options.run, store::curve_points_of(report.rules));
+    } catch (const store::sqlite::DamagedDatabase& error) {
         throw scene::EnvironmentError{error.what()}; // not a job or baseline that is bad
     }
     report.baseline_file = options.baseline;
     if (options.update.empty()) {
         try {
-            report.baseline = reports::read_baseline(options.baseline);
-            reports::require_masks(options.baseline, report.baseline);
-        } catch (const reports::BaselineMissing& error) {
+            report.baseline = store::read_baseline(options.baseline);
+            store::require_masks(options.baseline, report.baseline);
+        } catch (const store::BaselineMissing& error) {
             end_without_baseline(options, error.what());
         }
     }
@@ -145,7 +145,7 @@ reports::GateReport read_report(const GateOptions& options)
 
 void gate(const GateOptions& options)
 {
-    require_outputs(std::array{OutputOption{"--junit", options.junit, reports::OutputKind::junit}},
+    require_outputs(std::array{OutputOption{"--junit", options.junit, store::OutputKind::junit}},
                     std::array{InputFile{"the baseline", options.baseline},
                                InputFile{"the rules", options.rules}});
     reports::GateReport report = read_report(options);
@@ -154,14 +154,14 @@ void gate(const GateOptions& options)
                                report.run);
     }
     report.outcome = analysis::judge_run(report.baseline, report.run.results, report.rules,
-                                         reports::NewPixelFinder{options.baseline, options.run});
+                                         store::NewPixelFinder{options.baseline, options.run});
     report.verdict =
         analysis::gate_verdict(report.outcome, report.rules, report.run.status.is_complete());
     require_environment(options, report);
     require_matches(report);
     draw_gate_pictures(report, options.pictures);
     if (!options.junit.empty()) {
-        reports::write_file(options.junit, reports::gate_junit(report));
+        store::write_file(options.junit, reports::gate_junit(report));
     }
     if (options.github) {
         print_for_github(report);

@@ -3,13 +3,13 @@
 #include "analysis/gate/baseline_update.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/gate/baseline_read.hpp"
 #include "reports/gate/baseline_table.hpp"
-#include "reports/gate/baseline_write.hpp"
 #include "reports/gate/gate_names.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
+#include "store/baseline/baseline_read.hpp"
+#include "store/baseline/baseline_write.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -44,8 +44,8 @@ void require_no_ci(const UpdateOptions& options)
 std::optional<analysis::GateEntries> known_baseline(const std::filesystem::path& file)
 {
     try {
-        return reports::read_baseline(file);
-    } catch (const reports::BaselineMissing&) {
+        return store::read_baseline(file);
+    } catch (const store::BaselineMissing&) {
         return std::nullopt;
     }
 }
@@ -68,7 +68,7 @@ void require_unitable(const UpdateOptions& options, const analysis::GateEntries&
 
 } // namespace
 
-void require_whole_run(const reports::GateRun& run)
+void require_whole_run(const store::GateRun& run)
 {
     const std::string folder = scene::one_line(run.folder.string());
     if (!run.status.is_complete()) {
@@ -84,7 +84,7 @@ void require_whole_run(const reports::GateRun& run)
     }
 }
 
-void update_baseline(const UpdateOptions& options, const reports::GateRun& run)
+void update_baseline(const UpdateOptions& options, const store::GateRun& run)
 {
     require_no_ci(options);
     require_whole_run(run);
@@ -93,10 +93,10 @@ void update_baseline(const UpdateOptions& options, const reports::GateRun& run)
     if (known && update != BaselineUpdate::all) {
         require_unitable(options, *known, run.results);
     }
-    const analysis::GateEntries results = reports::write_masks(options.baseline, run);
+    const analysis::GateEntries results = store::write_masks(options.baseline, run);
     const analysis::GateEntries updated =
         known ? analysis::updated_baseline(*known, results, update) : results;
-    reports::write_baseline(options.baseline, updated);
+    store::write_baseline(options.baseline, updated);
     const std::string changes =
         known ? reports::baseline_difference(*known, updated) : std::string{};
     print(fmt::format("{}wrote {}: {}, {}\n", changes, scene::one_line(options.baseline.string()),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/gate/gate_run.hpp"
+#include "store/baseline/gate_run.hpp"
 
 #include <filesystem>
 #include <string>
@@ -16,7 +16,7 @@ struct UpdateOptions {
 
 /// Ends the program with exit status 5 if the run is incomplete: no baseline is made of it.
 /// @throws scene::InputError  if its results come from several environments.
-void require_whole_run(const reports::GateRun& run);
+void require_whole_run(const store::GateRun& run);
 
 /// Takes results of the run into the baseline, and prints what changes in it.
 ///
@@ -24,6 +24,6 @@ void require_whole_run(const reports::GateRun& run);
 /// is replaced.
 /// @throws scene::InputError  where CI is set and that was not allowed; as `require_whole_run`, and
 ///                            as reading and writing baselines do.
-void update_baseline(const UpdateOptions& options, const reports::GateRun& run);
+void update_baseline(const UpdateOptions& options, const store::GateRun& run);
 
 } // namespace gnomon::cli

@@ -6,10 +6,10 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/depth_formats.hpp"
 #include "reference_rt/truth.hpp"
-#include "reports/canvas.hpp"
 #include "reports/depth/depth_certificate_report.hpp"
-#include "reports/images/image_codec.hpp"
+#include "reports/pictures/canvas.hpp"
 #include "scene/error.hpp"
+#include "store/images/image_codec.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -56,7 +56,7 @@ void look_at_gl(Findings& findings, std::optional<int> device, bool certifies_de
 void look_at_images(Findings& findings)
 {
     try {
-        (void)reports::image_codec();
+        (void)store::image_codec();
     } catch (const scene::EnvironmentError& error) {
         findings.problems.emplace_back(error.what());
     }

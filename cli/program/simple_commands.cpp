@@ -2,12 +2,12 @@
 
 #include "cli/output_files.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/output_file.hpp"
-#include "reports/output_name.hpp"
-#include "reports/scenes_json.hpp"
-#include "reports/scenes_table.hpp"
+#include "reports/json/scenes_json.hpp"
+#include "reports/tables/scenes_table.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
+#include "store/output_file.hpp"
+#include "store/output_name.hpp"
 
 #include <memory>
 #include <string>
@@ -21,9 +21,9 @@ void init(const std::string& path, bool force)
         print(scene::commented_job_file());
         return;
     }
-    reports::require_output_name(path, reports::OutputKind::job);
+    store::require_output_name(path, store::OutputKind::job);
     require_absent(path, force, "name another");
-    reports::write_file(path, scene::commented_job_file());
+    store::write_file(path, scene::commented_job_file());
 }
 
 } // namespace

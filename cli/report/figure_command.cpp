@@ -2,8 +2,8 @@
 
 #include "cli/report/figures.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/output_name.hpp"
 #include "scene/error.hpp"
+#include "store/output_name.hpp"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ void check(const FigureOptions& options)
         throw scene::InputError(
             fmt::format("figure {}: where to? give -o FILE.pdf, .svg or .png", options.name));
     }
-    reports::require_output_name(options.output, reports::OutputKind::figure);
+    store::require_output_name(options.output, store::OutputKind::figure);
 }
 
 void figure(const FigureOptions& options)

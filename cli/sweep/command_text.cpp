@@ -1,6 +1,6 @@
 #include "cli/sweep/command_text.hpp"
 
-#include "reports/shell_text.hpp"
+#include "store/shell_text.hpp"
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ std::string command_text(std::string_view command, const JobOptions& options,
     for (const std::string& axis : axes) {
         add("--axis", axis);
     }
-    return reports::shell_text(words);
+    return store::shell_text(words);
 }
 
 } // namespace gnomon::cli

@@ -6,9 +6,9 @@
 #include "cli/compare/kept_pixels.hpp"
 #include "cli/system/process.hpp"
 #include "reports/page/run_overview.hpp"
-#include "reports/run/pixels.hpp"
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ struct Extreme {
     std::string id;
 };
 
-Extreme extreme(std::string name, const reports::ResultRow& row)
+Extreme extreme(std::string name, const store::ResultRow& row)
 {
     return {std::move(name), row.count("ordinal"), row.text("id")};
 }
@@ -67,7 +67,7 @@ std::string own_id(scene::JobSource source, std::string_view case_name)
 std::vector<Extreme> find_extremes(const std::filesystem::path& folder, scene::JobSource source,
                                    std::string_view case_name)
 {
-    const reports::RunReader run{folder};
+    const store::RunReader run{folder};
     const reports::RunOverview overview = reports::read_overview(run);
     std::vector<Extreme> found;
     if (overview.rows.empty()) {
@@ -95,7 +95,7 @@ std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder
         if (is_interrupted()) {
             break;
         }
-        if (!std::filesystem::exists(reports::pixels_path(folder, kept.id))) {
+        if (!std::filesystem::exists(store::pixels_path(folder, kept.id))) {
             const scene::Job job = space.job(space.at(kept.ordinal));
             const ComparisonSession session{job, options};
             keep_pixels(folder, kept.id,

@@ -2,10 +2,11 @@
 
 #include "cli/sweep/run_ending.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/run/merge.hpp"
-#include "reports/run/pixels.hpp"
-#include "reports/run/run_lock.hpp"
-#include "reports/run/run_status.hpp"
+#include "reports/tables/run_status_text.hpp"
+#include "store/merge/merge.hpp"
+#include "store/run/run_status.hpp"
+#include "store/run_folder/pixels.hpp"
+#include "store/run_folder/run_lock.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -50,15 +51,15 @@ void merge(const MergeOptions& options)
 {
     constexpr std::uint64_t most_rows = 20;
     const NewFolder folder{options.out};
-    const reports::RunLock lock{options.out};
+    const store::RunLock lock{options.out};
     const std::vector<std::filesystem::path> runs(options.runs.begin(), options.runs.end());
-    reports::merge_runs(options.out, runs,
-                        options.allow_mixed ? reports::Environments::several
-                                            : reports::Environments::one);
+    store::merge_runs(options.out, runs,
+                      options.allow_mixed ? store::Environments::several
+                                          : store::Environments::one);
     for (const std::filesystem::path& run : runs) {
-        reports::take_pixels(options.out, run);
+        store::take_pixels(options.out, run);
     }
-    const reports::RunStatus status = reports::read_run_status(options.out, most_rows);
+    const store::RunStatus status = store::read_run_status(options.out, most_rows);
     print(reports::run_status_text(status));
     end_as(status);
 }

@@ -6,7 +6,7 @@
 
 namespace gnomon::cli {
 
-void end_as(const reports::RunStatus& status)
+void end_as(const store::RunStatus& status)
 {
     if (!status.is_complete()) {
         throw CLI::RuntimeError{exit_codes::incomplete};

@@ -2,7 +2,8 @@
 
 #include "cli/sweep/run_ending.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/run/run_status.hpp"
+#include "reports/tables/run_status_text.hpp"
+#include "store/run/run_status.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -21,7 +22,7 @@ struct StatusOptions {
 void show_status(const StatusOptions& options)
 {
     constexpr std::uint64_t some_rows = 20;
-    const reports::RunStatus status = reports::read_run_status(
+    const store::RunStatus status = store::read_run_status(
         options.run, options.all ? std::numeric_limits<std::uint64_t>::max() : some_rows);
     print(options.json ? reports::run_status_json(status) : reports::run_status_text(status));
     end_as(status);

@@ -11,10 +11,11 @@
 #include "cli/sweep/sweep_text.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/run/run_status.hpp"
-#include "reports/shell_text.hpp"
-#include "reports/text.hpp"
+#include "reports/tables/run_status_text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/error.hpp"
+#include "store/run/run_status.hpp"
+#include "store/shell_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,9 +50,9 @@ struct SweepOptions {
 };
 
 /// "2/5" as the second of five.
-reports::Shard read_shard(const std::string& text)
+store::Shard read_shard(const std::string& text)
 {
-    reports::Shard shard;
+    store::Shard shard;
     const char* const end = text.data() + text.size();
     const auto [slash, index_error] = std::from_chars(text.data(), end, shard.index);
     const bool has_slash = index_error == std::errc{} && slash != end && *slash == '/';
@@ -129,7 +130,7 @@ std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcom
                                 : reports::grouped(outcome.repeated) + " configurations are");
     }
     if (options.verifies) {
-        text += fmt::format("  verified: {}\n", reports::verification_text(outcome.checks));
+        text += fmt::format("  verified: {}\n", store::verification_text(outcome.checks));
     }
     if (outcome.retired > 0) {
         text +=
@@ -158,14 +159,14 @@ void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
     } else if (code == exit_codes::incomplete) {
         fmt::print(stderr, "gnomon: {} failed; `gnomon status {}` says why{}\n",
                    reports::counted(outcome.failed, "configuration"),
-                   reports::shell_text({options.folder}),
+                   store::shell_text({options.folder}),
                    outcome.retriable > 0 ? ", --retry failed tries again" : "");
         if (outcome.failed > outcome.retriable) {
             fmt::print(stderr, "gnomon: {}\n",
                        reports::useless_retry_text(outcome.failed - outcome.retriable));
         }
     } else if (code == exit_codes::environment_failed) {
-        fmt::print(stderr, "gnomon: {}\n", reports::failed_checks_text(outcome.checks));
+        fmt::print(stderr, "gnomon: {}\n", store::failed_checks_text(outcome.checks));
     }
 }
 
@@ -175,7 +176,7 @@ void sweep(const SweepOptions& options)
     const scene::SweepSpace space{source, options.axes, options.job.case_name};
     const KeptPixels kept = kept_pixels(options, space.size());
     const bool keeps = kept == KeptPixels::all;
-    const reports::Shard shard = read_shard(options.shard);
+    const store::Shard shard = read_shard(options.shard);
     if (options.is_dry_run) {
         return print_plan(options, space, keeps);
     }

@@ -14,10 +14,10 @@
 #include "cli/system/progress.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
-#include "reports/run/pixels.hpp"
-#include "reports/run/run_lock.hpp"
-#include "reports/run/run_notes.hpp"
 #include "scene/error.hpp"
+#include "store/run/run_notes.hpp"
+#include "store/run_folder/pixels.hpp"
+#include "store/run_folder/run_lock.hpp"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -48,8 +48,8 @@ using analysis::Configuration;
 using analysis::CurveRequest;
 using analysis::Refusal;
 using analysis::SweepCatalogue;
-using reports::RunState;
-using reports::RunStore;
+using store::RunState;
+using store::RunStore;
 
 /// What the work says when the job is at fault; empty if it is not.
 template <typename Work>
@@ -126,8 +126,8 @@ private:
             const std::string message =
                 error.empty() ? refusal_of([&] { require_memory(job); }) : error;
             largest_need_bytes_ = std::max(largest_need_bytes_, needed_memory_bytes(job));
-            reports::add_notes(notes_, analysis::scene_name(job.scene),
-                               content.notes[scene::left_to_file(job)], request.ordinals.size());
+            store::add_notes(notes_, analysis::scene_name(job.scene),
+                             content.notes[scene::left_to_file(job)], request.ordinals.size());
             identities_.push_back(analysis::identify_scene(job, content.hash, content.defaults));
             is_refused_.push_back(!message.empty());
             if (!message.empty()) {
@@ -143,7 +143,7 @@ private:
     void read_outcome()
     {
         const RunStore store{options_.folder, RunStore::Access::read};
-        const reports::PlanOutcome counts = store.outcome();
+        const store::PlanOutcome counts = store.outcome();
         outcome_.done = counts.done;
         outcome_.failed = counts.failed;
         outcome_.retriable = outcome_.failed > 0 ? store.retriable() : 0;
@@ -161,14 +161,13 @@ private:
         recording_.add([this, shards = std::move(shards)] {
             planned_ = store_.plan(
                 description(), [&](const auto& visit) { show(shards, visit); },
-                options_.allows_mixed ? reports::Environments::several : reports::Environments::one,
-                options_.may_replace ? reports::OtherScenes::replaced
-                                     : reports::OtherScenes::refused);
+                options_.allows_mixed ? store::Environments::several : store::Environments::one,
+                options_.may_replace ? store::OtherScenes::replaced : store::OtherScenes::refused);
         });
     }
 
     /// Shows every configuration of the sweep.
-    void show(const std::vector<std::uint32_t>& shards, const reports::VisitConfiguration& visit)
+    void show(const std::vector<std::uint32_t>& shards, const store::VisitConfiguration& visit)
     {
         const auto keep_id = [&](const Configuration& configuration) {
             if (options_.keeps_pixels) {
@@ -216,9 +215,9 @@ private:
         }
     }
 
-    [[nodiscard]] reports::RunDescription description() const
+    [[nodiscard]] store::RunDescription description() const
     {
-        reports::RunDescription description;
+        store::RunDescription description;
         const raster_gl::GlFacts& facts = context_.facts();
         description.environment = {facts.renderer, facts.version, reference_rt::embree_version(),
                                    GNOMON_VERSION};
@@ -247,7 +246,7 @@ private:
         }
         if (options_.keeps_pixels) {
             for (const std::uint64_t ordinal : store_.ordinals(RunState::done)) {
-                if (!fs::exists(reports::pixels_path(options_.folder, ids_.at(ordinal)))) {
+                if (!fs::exists(store::pixels_path(options_.folder, ids_.at(ordinal)))) {
                     missing.push_back(ordinal);
                 }
             }
@@ -362,7 +361,7 @@ private:
 
     const scene::SweepSpace& space_;
     const SweepRunOptions& options_;
-    reports::RunLock lock_;
+    store::RunLock lock_;
     SweepCatalogue catalogue_;
     std::vector<Refusal> refusals_;
     raster_gl::Context context_;
@@ -371,7 +370,7 @@ private:
     std::optional<tbb::global_control> threads_;
     std::vector<analysis::SceneIdentity> identities_;    ///< of scenes, by request of the catalogue
     std::vector<bool> is_refused_;                       ///< likewise
-    std::vector<reports::RunNote> notes_;                ///< on the scenes, in order
+    std::vector<store::RunNote> notes_;                  ///< on the scenes, in order
     std::uint64_t largest_need_bytes_ = 0;               ///< of a request's image and map
     std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
     std::vector<std::uint64_t> repeated_;      ///< ordinals whose results are those of earlier ones
@@ -379,7 +378,7 @@ private:
     std::vector<std::size_t> request_numbers_; ///< theirs in the catalogue
     SweepOutcome outcome_;
     bool has_earlier_results_ = false;
-    reports::PlanOutcome planned_;
+    store::PlanOutcome planned_;
     std::unique_ptr<Progress> progress_; ///< while configurations are computed
     /// Has the store to itself from the first piece of work until all of them are finished; reads
     /// what is above.

@@ -3,8 +3,8 @@
 #include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "cli/compare/scene_hands.hpp"
-#include "reports/run/run_store.hpp"
 #include "scene/job/sweep_space.hpp"
+#include "store/run/run_store.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace gnomon::cli {
 /// How a sweep is run.
 struct SweepRunOptions {
     std::filesystem::path folder; ///< RUN
-    reports::Shard shard;
+    store::Shard shard;
     bool keeps_pixels = false;
     bool verifies = false; ///< holds every curve to GL's reruns, those done before too
     bool retries_failed = false;
@@ -25,7 +25,7 @@ struct SweepRunOptions {
     bool may_replace = false;  ///< results of other scenes
     std::string job_text;
     std::string command;
-    std::string compare_command; ///< as in `reports::RunDescription`
+    std::string compare_command; ///< as in `store::RunDescription`
     SessionOptions session;
 };
 
@@ -38,7 +38,7 @@ struct SweepOutcome {
     std::uint64_t repeated = 0;  ///< the same as others, which serve them too
     std::uint64_t retired = 0;   ///< results of an earlier plan that stay in the database
     analysis::PlanCounts counts; ///< the work that was done now
-    reports::RunChecks checks;   ///< of all that is done
+    store::RunChecks checks;     ///< of all that is done
     bool is_interrupted = false;
 };
 

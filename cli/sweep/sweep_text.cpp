@@ -1,6 +1,6 @@
 #include "cli/sweep/sweep_text.hpp"
 
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/job/toml.hpp"
 
 #include <fmt/format.h>

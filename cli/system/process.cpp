@@ -1,6 +1,6 @@
 #include "cli/system/process.hpp"
 
-#include "reports/output_file.hpp"
+#include "store/output_file.hpp"
 
 #include <fcntl.h>
 #include <sys/types.h>
@@ -38,7 +38,7 @@ extern "C" void end_process(int signal)
     if (child_to_end > 0) {
         ::kill(child_to_end, SIGTERM);
     }
-    reports::abandon_output_files();
+    store::abandon_output_files();
     write_message("gnomon: interrupted; run it again\n");
     ::_exit(128 + signal);
 }

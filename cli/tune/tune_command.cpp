@@ -7,7 +7,7 @@
 #include "cli/job_options.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/advice_options.hpp"
-#include "reports/tune_report.hpp"
+#include "reports/tables/tune_report.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "reports/depth/depth_json.hpp"
 #include "reports/depth/depth_names.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 
 #include <fmt/format.h>
 
@@ -74,11 +74,12 @@ std::string certificate_text(const DriverCertificate& certificate)
     return text;
 }
 
-Json driver_certificate_json(const DriverCertificate& certificate)
+store::Json driver_certificate_json(const DriverCertificate& certificate)
 {
-    Json json{{"ranges", Json::array()}, {"offset_units", Json::object()}};
+    store::Json json{{"ranges", store::Json::array()}, {"offset_units", store::Json::object()}};
     for (const CertifiedRange& certified : certificate.ranges) {
-        Json range{{"frustum", frustum_json(certified.range)}, {"formats", Json::object()}};
+        store::Json range{{"frustum", frustum_json(certified.range)},
+                          {"formats", store::Json::object()}};
         for (const CertifiedFormat& format : certified.formats) {
             range["formats"][format.name] = {{"large", certificate_json(format.large)},
                                              {"small", certificate_json(format.small)}};
@@ -86,7 +87,7 @@ Json driver_certificate_json(const DriverCertificate& certificate)
         json["ranges"].push_back(range);
     }
     for (const FormatOffsetUnits& format : certificate.offset_units) {
-        Json& units = json["offset_units"][format.name] = Json::array();
+        store::Json& units = json["offset_units"][format.name] = store::Json::array();
         for (const auto& [depth, r] : format.units) {
             units.push_back({{"depth", depth}, {"r", r}});
         }

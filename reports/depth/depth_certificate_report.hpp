@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/depth/texel_class.hpp"
-#include "reports/json_values.hpp"
 #include "scene/light/depth_range.hpp"
+#include "store/json_values.hpp"
 
 #include <string>
 #include <vector>
@@ -44,6 +44,6 @@ struct DriverCertificate {
 [[nodiscard]] std::string certificate_text(const DriverCertificate& certificate);
 
 /// The same as JSON: "ranges" and "offset_units"; docs/depth_precision.md names the members.
-[[nodiscard]] Json driver_certificate_json(const DriverCertificate& certificate);
+[[nodiscard]] store::Json driver_certificate_json(const DriverCertificate& certificate);
 
 } // namespace gnomon::reports

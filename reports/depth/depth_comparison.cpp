@@ -2,7 +2,7 @@
 
 #include "reports/depth/depth_json.hpp"
 #include "reports/depth/depth_names.hpp"
-#include "reports/table_lines.hpp"
+#include "reports/tables/table_lines.hpp"
 
 #include <fmt/format.h>
 
@@ -41,9 +41,9 @@ std::string depth_comparison_table(std::span<const DepthStudy> studies,
 std::string depth_comparison_json(std::span<const DepthStudy> studies,
                                   const std::string& gl_renderer, const std::string& gl_version)
 {
-    Json json{{"schema", 1},
-              {"environment", {{"gl_renderer", gl_renderer}, {"gl_version", gl_version}}}};
-    json["formats"] = Json::array();
+    store::Json json{{"schema", 1},
+                     {"environment", {{"gl_renderer", gl_renderer}, {"gl_version", gl_version}}}};
+    json["formats"] = store::Json::array();
     for (const DepthStudy& study : studies) {
         json["formats"].push_back(depth_summary_json(study));
     }

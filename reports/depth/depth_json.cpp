@@ -14,7 +14,7 @@ using analysis::DepthStudy;
 using analysis::DepthTheory;
 using analysis::MeasuredDepthError;
 
-Json theory_json(const DepthTheory& theory)
+store::Json theory_json(const DepthTheory& theory)
 {
     return {{"max_error_m", theory.max_error_m},
             {"envelope_at_near_m", theory.envelope_at_near_m},
@@ -28,14 +28,14 @@ Json theory_json(const DepthTheory& theory)
             {"codes_per_metre_at_far", 1 / theory.step_at_far_m},
             {"half_of_codes_within_m", theory.half_of_codes_within_m},
             {"code_share_within_1m", theory.code_share_within_1m},
-            {"distance_of_1m_step_m", number_or_null(theory.distance_of_1m_step_m)},
+            {"distance_of_1m_step_m", store::number_or_null(theory.distance_of_1m_step_m)},
             {"float_limit_m", theory.float_limit_m},
             {"transform_error_at_far_m",
              {{"view_then_projection", theory.separate_transform_at_far_m},
               {"premultiplied", theory.premultiplied_transform_at_far_m}}}};
 }
 
-Json measured_json(const MeasuredDepthError& measured)
+store::Json measured_json(const MeasuredDepthError& measured)
 {
     return {{"samples", measured.rows.size()},
             {"missing", measured.missing},
@@ -50,13 +50,13 @@ Json measured_json(const MeasuredDepthError& measured)
             {"certificate", certificate_json(measured.certificate)}};
 }
 
-Json sample_json(const DepthErrorRow& row, bool is_measured)
+store::Json sample_json(const DepthErrorRow& row, bool is_measured)
 {
-    Json json{{"zeta_m", row.zeta_m},
-              {"depth", row.depth},
-              {"envelope_m", row.envelope_m},
-              {"formula_code", row.formula_code},
-              {"formula_error_m", row.formula_error_m}};
+    store::Json json{{"zeta_m", row.zeta_m},
+                     {"depth", row.depth},
+                     {"envelope_m", row.envelope_m},
+                     {"formula_code", row.formula_code},
+                     {"formula_error_m", row.formula_error_m}};
     if (is_measured) {
         json["code"] = row.code;
         json["stored_zeta_m"] = row.stored_zeta_m;
@@ -70,18 +70,18 @@ Json sample_json(const DepthErrorRow& row, bool is_measured)
 
 } // namespace
 
-Json frustum_json(const scene::DepthRange& range)
+store::Json frustum_json(const scene::DepthRange& range)
 {
-    return {{"projection", projection_name(range.projection)},
+    return {{"projection", scene::projection_name(range.projection)},
             {"near_m", range.near_m},
             {"far_m", range.far_m},
             {"reversed", range.reversed},
             {"clip_range", clip_range_name(range.clip_range)}};
 }
 
-Json certificate_json(const analysis::DepthCertificate& certificate)
+store::Json certificate_json(const analysis::DepthCertificate& certificate)
 {
-    Json json{{"texels", certificate.texels}};
+    store::Json json{{"texels", certificate.texels}};
     for (std::size_t i = 0; i < analysis::texel_class_count; ++i) {
         json[std::string{analysis::texel_class_name(static_cast<analysis::TexelClass>(i))}] =
             certificate.counts.at(i);
@@ -89,29 +89,31 @@ Json certificate_json(const analysis::DepthCertificate& certificate)
     json["largest_residual_codes"] = certificate.largest_residual_codes;
     json["rms_residual_codes"] = certificate.rms_residual_codes;
     json["largest_share_of_bound"] = certificate.largest_share_of_bound;
-    json["histogram"] = Json::array();
+    json["histogram"] = store::Json::array();
     for (std::size_t bin = 0; bin < certificate.histogram.size(); ++bin) {
         const double end = analysis::histogram_end_codes(bin);
-        json["histogram"].push_back({{"up_to_codes", std::isfinite(end) ? Json(end) : Json()},
-                                     {"texels", certificate.histogram.at(bin)}});
+        json["histogram"].push_back(
+            {{"up_to_codes", std::isfinite(end) ? store::Json(end) : store::Json()},
+             {"texels", certificate.histogram.at(bin)}});
     }
     return json;
 }
 
-Json depth_summary_json(const DepthStudy& study)
+store::Json depth_summary_json(const DepthStudy& study)
 {
-    Json json{{"format", study.format},
-              {"bits", study.coding.bits()},
-              {"float", study.coding.is_float()},
-              {"frustum", frustum_json(study.mapping.range())},
-              {"theory", theory_json(study.theory)}};
-    json["measured"] = study.measured ? measured_json(*study.measured) : Json();
-    json["not_measured_because"] = study.measured ? Json() : Json(study.not_measured_because);
-    json["tolerance"] =
-        study.tolerance
-            ? Json{{"tolerance_m", study.tolerance->tolerance_m},
-                   {"exceeded_from_m", number_or_null(study.tolerance->exceeded_from_m)}}
-            : Json();
+    store::Json json{{"format", study.format},
+                     {"bits", study.coding.bits()},
+                     {"float", study.coding.is_float()},
+                     {"frustum", frustum_json(study.mapping.range())},
+                     {"theory", theory_json(study.theory)}};
+    json["measured"] = study.measured ? measured_json(*study.measured) : store::Json();
+    json["not_measured_because"] =
+        study.measured ? store::Json() : store::Json(study.not_measured_because);
+    json["tolerance"] = study.tolerance
+                            ? store::Json{{"tolerance_m", study.tolerance->tolerance_m},
+                                          {"exceeded_from_m",
+                                           store::number_or_null(study.tolerance->exceeded_from_m)}}
+                            : store::Json();
     json["tilt_deg"] = study.tilt_rad * 180 / std::numbers::pi;
     json["offset_m"] = study.offset_m;
     return json;
@@ -120,10 +122,10 @@ Json depth_summary_json(const DepthStudy& study)
 std::string depth_json(const DepthStudy& study, std::span<const DepthErrorRow> rows,
                        const std::string& gl_renderer, const std::string& gl_version)
 {
-    Json json{{"schema", 1}};
+    store::Json json{{"schema", 1}};
     json.update(depth_summary_json(study));
     json["environment"] = {{"gl_renderer", gl_renderer}, {"gl_version", gl_version}};
-    json["samples"] = Json::array();
+    json["samples"] = store::Json::array();
     for (const DepthErrorRow& row : rows) {
         json["samples"].push_back(sample_json(row, study.measured.has_value()));
     }

@@ -2,8 +2,8 @@
 
 #include "analysis/depth/depth_study.hpp"
 #include "analysis/depth/texel_class.hpp"
-#include "reports/json_values.hpp"
 #include "scene/light/depth_range.hpp"
+#include "store/json_values.hpp"
 
 #include <span>
 #include <string>
@@ -18,12 +18,12 @@ namespace gnomon::reports {
                                      const std::string& gl_renderer, const std::string& gl_version);
 
 /// Theory and measurement without samples.
-[[nodiscard]] Json depth_summary_json(const analysis::DepthStudy& study);
+[[nodiscard]] store::Json depth_summary_json(const analysis::DepthStudy& study);
 
 /// "projection", "near_m", "far_m", "reversed", "clip_range".
-[[nodiscard]] Json frustum_json(const scene::DepthRange& range);
+[[nodiscard]] store::Json frustum_json(const scene::DepthRange& range);
 
 /// Counts by class, residuals and histogram of a certificate.
-[[nodiscard]] Json certificate_json(const analysis::DepthCertificate& certificate);
+[[nodiscard]] store::Json certificate_json(const analysis::DepthCertificate& certificate);
 
 } // namespace gnomon::reports

@@ -4,11 +4,6 @@
 
 namespace gnomon::reports {
 
-std::string_view projection_name(scene::Projection projection)
-{
-    return projection == scene::Projection::perspective ? "perspective" : "orthographic";
-}
-
 std::string_view clip_range_name(scene::ClipRange range)
 {
     return range == scene::ClipRange::zero_to_one ? "zero_to_one" : "minus_one_to_one";
@@ -16,8 +11,8 @@ std::string_view clip_range_name(scene::ClipRange range)
 
 std::string range_text(const scene::DepthRange& range)
 {
-    return fmt::format("{}, near {} m, far {} m, clip {}{}", projection_name(range.projection),
-                       range.near_m, range.far_m,
+    return fmt::format("{}, near {} m, far {} m, clip {}{}",
+                       scene::projection_name(range.projection), range.near_m, range.far_m,
                        range.clip_range == scene::ClipRange::zero_to_one ? "[0, 1]" : "[-1, 1]",
                        range.reversed ? ", reversed" : "");
 }

@@ -7,8 +7,6 @@
 
 namespace gnomon::reports {
 
-/// "perspective", "orthographic".
-[[nodiscard]] std::string_view projection_name(scene::Projection projection);
 /// "minus_one_to_one", "zero_to_one": as in options and JSON.
 [[nodiscard]] std::string_view clip_range_name(scene::ClipRange range);
 /// "perspective, near 4 m, far 50 m, clip [-1, 1]", with "reversed" where it is.

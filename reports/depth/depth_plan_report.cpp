@@ -1,8 +1,8 @@
 #include "reports/depth/depth_plan_report.hpp"
 
 #include "reports/depth/depth_names.hpp"
-#include "reports/json_values.hpp"
-#include "reports/table_lines.hpp"
+#include "reports/tables/table_lines.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ std::string depth_plan_text(const PlanTarget& target, std::span<const PlanAnswer
     std::string text = setting_line(
         "target",
         fmt::format("error at most {} up to {}, {}{}", metres(target.max_error_m),
-                    metres(target.far_m), projection_name(target.projection),
+                    metres(target.far_m), scene::projection_name(target.projection),
                     target.near_m ? fmt::format(", near {}", metres(*target.near_m)) : ""));
     text += fmt::format("\n{:<16}{:>14}{:>18}{:>18}{}\n", "", "near from", "formula's limit",
                         "error at most", target.near_m ? "       holds up to" : "");
@@ -49,23 +49,23 @@ std::string depth_plan_text(const PlanTarget& target, std::span<const PlanAnswer
 
 std::string depth_plan_json(const PlanTarget& target, std::span<const PlanAnswer> answers)
 {
-    Json json{{"schema", 1},
-              {"target",
-               {{"projection", projection_name(target.projection)},
-                {"max_error_m", target.max_error_m},
-                {"far_m", target.far_m},
-                {"near_m", number_or_null(target.near_m)}}}};
-    json["answers"] = Json::array();
+    store::Json json{{"schema", 1},
+                     {"target",
+                      {{"projection", scene::projection_name(target.projection)},
+                       {"max_error_m", target.max_error_m},
+                       {"far_m", target.far_m},
+                       {"near_m", store::number_or_null(target.near_m)}}}};
+    json["answers"] = store::Json::array();
     for (const PlanAnswer& answer : answers) {
         const bool has_bound = answer.near_m || target.near_m;
         json["answers"].push_back(
             {{"format", answer.format.name},
              {"reversed", answer.format.reversed},
              {"meets_target", answer.near_m.has_value()},
-             {"near_m", number_or_null(answer.near_m)},
-             {"formula_near_m", number_or_null(answer.formula_near_m)},
-             {"error_bound_m", has_bound ? Json(answer.error_at_far_m) : Json()},
-             {"reach_m", number_or_null(answer.reach_m)}});
+             {"near_m", store::number_or_null(answer.near_m)},
+             {"formula_near_m", store::number_or_null(answer.formula_near_m)},
+             {"error_bound_m", has_bound ? store::Json(answer.error_at_far_m) : store::Json()},
+             {"reach_m", store::number_or_null(answer.reach_m)}});
     }
     return json.dump(2) + "\n";
 }

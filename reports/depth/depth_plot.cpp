@@ -17,12 +17,12 @@ using analysis::DepthMapping;
 using analysis::DepthStudy;
 
 // Okabe and Ito's colours, which people with any colour vision can tell apart.
-constexpr Rgb sawtooth_colour{150, 200, 235};
-constexpr Rgb measured_colour{0, 90, 150};
-constexpr Rgb envelope_colour{213, 94, 0};
-constexpr Rgb tolerance_colour{0, 158, 115};
-constexpr Rgb grid_colour{226, 226, 226};
-constexpr Rgb frame_colour{90, 90, 90};
+constexpr store::Rgb sawtooth_colour{150, 200, 235};
+constexpr store::Rgb measured_colour{0, 90, 150};
+constexpr store::Rgb envelope_colour{213, 94, 0};
+constexpr store::Rgb tolerance_colour{0, 158, 115};
+constexpr store::Rgb grid_colour{226, 226, 226};
+constexpr store::Rgb frame_colour{90, 90, 90};
 
 constexpr double left_px = 110;
 constexpr double right_px = 1250;
@@ -202,7 +202,8 @@ void add_titles(Drawing& drawing, const DepthStudy& study, const std::string& gl
          fmt::format("Depth error of {}: {}", study.format, range_text(study.mapping.range())),
          {21, true}});
     double x = right_px - 700 - (study.tolerance ? tolerance_key_px : 0);
-    const auto key = [&](Rgb colour, double width_px, const std::string& text, double advance_px) {
+    const auto key = [&](store::Rgb colour, double width_px, const std::string& text,
+                         double advance_px) {
         drawing.marks.emplace_back(
             Polyline{{{x, top_px - 20}, {x + 28, top_px - 20}}, colour, width_px});
         drawing.labels.push_back({{x + 36, top_px - 14}, text, {16}});

@@ -1,8 +1,8 @@
 #include "reports/depth/depth_table.hpp"
 
 #include "reports/depth/depth_names.hpp"
-#include "reports/table_lines.hpp"
-#include "reports/text.hpp"
+#include "reports/tables/table_lines.hpp"
+#include "reports/words/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "reports/depth/drawing.hpp"
 
-#include "reports/output_file.hpp"
-#include "reports/output_name.hpp"
 #include "scene/error.hpp"
+#include "store/output_file.hpp"
+#include "store/output_name.hpp"
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr Rgb white{255, 255, 255};
+constexpr store::Rgb white{255, 255, 255};
 
-std::string css_colour(Rgb colour)
+std::string css_colour(store::Rgb colour)
 {
     return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
 }
@@ -75,7 +75,7 @@ void append_svg(std::string& svg, const Label& label)
 }
 
 /// Mixes a colour into a pixel.
-void blend(Rgb& pixel, Rgb colour, double coverage)
+void blend(store::Rgb& pixel, store::Rgb colour, double coverage)
 {
     const auto mix = [&](std::uint8_t below, std::uint8_t above) {
         return static_cast<std::uint8_t>(std::lround(below + coverage * (above - below)));
@@ -94,7 +94,7 @@ double distance_px(Point p, Point a, Point b)
 }
 
 /// Paints what lies within `radius_px` of the line from a to b, half covered at that distance.
-void paint(RgbImage& image, Point a, Point b, double radius_px, Rgb colour)
+void paint(store::RgbImage& image, Point a, Point b, double radius_px, store::Rgb colour)
 {
     const auto [width_px, height_px] = image.size();
     const auto first = [&](double from) {
@@ -114,14 +114,14 @@ void paint(RgbImage& image, Point a, Point b, double radius_px, Rgb colour)
     }
 }
 
-void paint(RgbImage& image, const Polyline& line)
+void paint(store::RgbImage& image, const Polyline& line)
 {
     for (std::size_t i = 1; i < line.points.size(); ++i) {
         paint(image, line.points[i - 1], line.points[i], 0.5 * line.width_px, line.colour);
     }
 }
 
-void paint(RgbImage& image, const Dots& dots)
+void paint(store::RgbImage& image, const Dots& dots)
 {
     for (const Point& centre : dots.centres) {
         paint(image, centre, centre, dots.radius_px, dots.colour);
@@ -157,9 +157,9 @@ std::string svg_text(const Drawing& drawing)
     return svg + "</svg>\n";
 }
 
-RgbImage rasterise(const Drawing& drawing, const std::filesystem::path& font_folder)
+store::RgbImage rasterise(const Drawing& drawing, const std::filesystem::path& font_folder)
 {
-    RgbImage image{drawing.size, white};
+    store::RgbImage image{drawing.size, white};
     for (const auto& mark : drawing.marks) {
         std::visit([&](const auto& shape) { paint(image, shape); }, mark);
     }
@@ -173,11 +173,11 @@ RgbImage rasterise(const Drawing& drawing, const std::filesystem::path& font_fol
 
 void write_drawing(const std::filesystem::path& path, const Drawing& drawing)
 {
-    require_output_name(path, OutputKind::plot);
+    store::require_output_name(path, store::OutputKind::plot);
     if (path.extension() == ".svg") {
-        write_file(path, svg_text(drawing));
+        store::write_file(path, svg_text(drawing));
     } else {
-        write_file(path, encode_png(rasterise(drawing)));
+        store::write_file(path, store::encode_png(rasterise(drawing)));
     }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reports/canvas.hpp"
-#include "reports/images/image_encoding.hpp"
+#include "reports/pictures/canvas.hpp"
+#include "store/images/image_encoding.hpp"
 
 #include <filesystem>
 #include <string>
@@ -19,13 +19,13 @@ struct Point {
 /// Straight lines from point to point.
 struct Polyline {
     std::vector<Point> points;
-    Rgb colour;
+    store::Rgb colour;
     double width_px = 1;
 };
 /// Filled circles.
 struct Dots {
     std::vector<Point> centres;
-    Rgb colour;
+    store::Rgb colour;
     double radius_px = 1;
 };
 enum class Anchor : std::uint8_t { start, middle, end };
@@ -49,8 +49,8 @@ struct Drawing {
 
 /// The drawing as pixels, lines and dots smoothed.
 /// @throws scene::EnvironmentError  naming the package, if the font is missing.
-[[nodiscard]] RgbImage rasterise(const Drawing& drawing,
-                                 const std::filesystem::path& font_folder = default_font_folder);
+[[nodiscard]] store::RgbImage
+rasterise(const Drawing& drawing, const std::filesystem::path& font_folder = default_font_folder);
 
 /// Writes the drawing as its extension says.
 /// @throws scene::InputError        as `require_output_name` does.

@@ -3,7 +3,7 @@
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_names.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +103,8 @@ std::string baseline_table(const analysis::GateEntries& baseline)
         text += fmt::format("  {} {} {}  {}\n",
                             pad_left(metric_text("false_shadow", entry.metric("false_shadow")), 14),
                             pad_left(metric_text("false_lit", entry.metric("false_lit")), 14),
-                            pad_left(percent(entry.metric("error_rate")), 12), key_text(entry.key));
+                            pad_left(percent(entry.metric("error_rate")), 12),
+                            store::key_text(entry.key));
     }
     return text;
 }
@@ -119,14 +120,14 @@ std::string baseline_difference(const analysis::GateEntries& baseline,
         const std::string lines = differing_lines(baseline.entries[pair.before], now);
         if (!lines.empty()) {
             ++changed;
-            text += fmt::format("{}\n{}", key_text(now.key), lines);
+            text += fmt::format("{}\n{}", store::key_text(now.key), lines);
         }
     }
     for (const std::size_t entry : outcome.missing) {
-        text += fmt::format("missing: {}\n", key_text(baseline.entries[entry].key));
+        text += fmt::format("missing: {}\n", store::key_text(baseline.entries[entry].key));
     }
     for (const std::size_t entry : outcome.added) {
-        text += fmt::format("new: {}\n", key_text(run.entries[entry].key));
+        text += fmt::format("new: {}\n", store::key_text(run.entries[entry].key));
     }
     return text + fmt::format("{} of {} differ, {} missing, {} new\n", grouped(changed),
                               counted(outcome.pairs.size(), "configuration"),

@@ -2,8 +2,8 @@
 
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/gate_sentences.hpp"
-#include "reports/run/csv_text.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
+#include "store/csv/csv_text.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ constexpr std::size_t most_annotations = 10;
 std::string percent_escaped(std::string_view text, std::string_view bytes)
 {
     std::string escaped;
-    for (const char c : readable_text(text)) {
+    for (const char c : store::readable_text(text)) {
         if (bytes.find(c) == std::string_view::npos) {
             escaped += c;
         } else {
@@ -49,11 +49,11 @@ std::string annotation_of(const GateReport& report, const GateFinding& finding)
     if (pair != nullptr && !pair->changes.empty()) {
         text += fmt::format("\nfirst suspects: {}", suspects_text(pair->changes));
     }
-    if (const std::string command = showing_command(report.run, key); !command.empty()) {
+    if (const std::string command = store::showing_command(report.run, key); !command.empty()) {
         text += fmt::format("\nsee it: {}", command);
     }
     return annotation(is_warning ? "warning" : "error",
-                      fmt::format("gnomon gate, {}", key_text(key)), text);
+                      fmt::format("gnomon gate, {}", store::key_text(key)), text);
 }
 
 std::string summary_row(const GateReport& report, const GateFinding& finding)
@@ -65,7 +65,7 @@ std::string summary_row(const GateReport& report, const GateFinding& finding)
         "| {} | {} | {} | {} | {} | {} | {} | {} |\n",
         analysis::severity_of(finding, report.rules) == analysis::Severity::warn ? "warning"
                                                                                  : "**fail**",
-        markdown_cell(key_text(report.run.results.entries[finding.entry].key)),
+        markdown_cell(store::key_text(report.run.results.entries[finding.entry].key)),
         markdown_cell(part.empty() ? rule.metric : fmt::format("{}, {}", rule.metric, part)),
         metric_text(rule.metric, finding.before), metric_text(rule.metric, finding.now),
         markdown_cell(broken_limit_text(report, finding)), cause ? cause->name : "",
@@ -103,7 +103,7 @@ std::string github_property(std::string_view text)
 std::string markdown_cell(std::string_view text)
 {
     std::string escaped;
-    for (const char c : readable_text(text)) {
+    for (const char c : store::readable_text(text)) {
         if (c == '\n' || c == '\r' || c == '\t') {
             escaped += ' ';
         } else if (c == '<') {

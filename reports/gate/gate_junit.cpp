@@ -2,7 +2,7 @@
 
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/gate_sentences.hpp"
-#include "reports/run/csv_text.hpp"
+#include "store/csv/csv_text.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ JunitCase judged_case(const GateReport& report, std::size_t entry,
                       const std::vector<const GateFinding*>& findings)
 {
     const analysis::ConfigurationKey& key = report.run.results.entries[entry].key;
-    JunitCase one{key_text(key), {}, {}, {}, {}};
+    JunitCase one{store::key_text(key), {}, {}, {}, {}};
     if (findings.empty()) {
         return one;
     }
@@ -72,7 +72,7 @@ JunitCase judged_case(const GateReport& report, std::size_t entry,
     if (pair != nullptr && !pair->changes.empty()) {
         one.text += fmt::format("first suspects: {}\n", suspects_text(pair->changes));
     }
-    if (const std::string command = showing_command(report.run, key); !command.empty()) {
+    if (const std::string command = store::showing_command(report.run, key); !command.empty()) {
         one.text += fmt::format("see it: {}\n", command);
     }
     return one;
@@ -97,8 +97,8 @@ std::vector<JunitCase> junit_cases(const GateReport& report)
     }
     for (const std::size_t entry : report.outcome.missing) {
         const std::string missing = "the run lacks this configuration of the baseline";
-        cases.push_back(
-            {key_text(report.baseline.entries[entry].key), "error", "missing", missing, missing});
+        cases.push_back({store::key_text(report.baseline.entries[entry].key), "error", "missing",
+                         missing, missing});
     }
     return cases;
 }
@@ -109,13 +109,13 @@ std::string junit_notes(const GateReport& report)
     for (const GateFinding& finding : report.outcome.findings) {
         if (analysis::severity_of(finding, report.rules) == analysis::Severity::warn) {
             text += fmt::format("warning: {}: {}\n",
-                                key_text(report.run.results.entries[finding.entry].key),
+                                store::key_text(report.run.results.entries[finding.entry].key),
                                 finding_sentence(report, finding));
         }
     }
     for (const analysis::GateImprovement& one : report.outcome.improvements) {
         text += fmt::format("better: {}: {} {} -> {}\n",
-                            key_text(report.run.results.entries[one.entry].key), one.metric,
+                            store::key_text(report.run.results.entries[one.entry].key), one.metric,
                             metric_text(one.metric, one.before), metric_text(one.metric, one.now));
     }
     return text;
@@ -151,7 +151,7 @@ std::string document(const std::vector<JunitCase>& all, std::string_view propert
 
 std::string xml_text(std::string_view text)
 {
-    const std::string readable = readable_text(text);
+    const std::string readable = store::readable_text(text);
     std::string escaped;
     for (std::size_t i = 0; i < readable.size(); ++i) {
         const char c = readable[i];

@@ -1,7 +1,7 @@
 #include "reports/gate/gate_names.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
@@ -13,37 +13,13 @@ namespace gnomon::reports {
 
 namespace {
 
-bool is_whole(std::string_view name)
-{
-    const analysis::GateMetric* const metric = analysis::find_gate_metric(name);
-    return metric != nullptr && metric->is_whole;
-}
-
 std::string number_text(std::string_view metric, double value)
 {
-    return is_whole(metric) ? grouped(static_cast<std::uint64_t>(value))
-                            : fmt::format("{:.6g}", value);
+    return analysis::is_whole_metric(metric) ? grouped(static_cast<std::uint64_t>(value))
+                                             : fmt::format("{:.6g}", value);
 }
 
 } // namespace
-
-std::string key_text(const analysis::ConfigurationKey& key)
-{
-    std::string text = key.case_name;
-    for (const auto& [axis, value] : key.axes) {
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", axis, value);
-    }
-    return text.empty() ? "the only configuration" : scene::one_line(text);
-}
-
-Json key_json(const analysis::ConfigurationKey& key)
-{
-    Json axes = Json::object();
-    for (const auto& [axis, value] : key.axes) {
-        axes[axis] = value;
-    }
-    return {{"case", key.case_name}, {"axes", std::move(axes)}};
-}
 
 std::string filter_text(const analysis::PixelFilter& filter)
 {
@@ -67,9 +43,9 @@ std::string filter_text(const analysis::PixelFilter& filter)
     return scene::one_line(text);
 }
 
-Json filter_json(const analysis::PixelFilter& filter)
+store::Json filter_json(const analysis::PixelFilter& filter)
 {
-    Json json = Json::object();
+    store::Json json = store::Json::object();
     if (filter.object) {
         json["object"] = *filter.object;
     }
@@ -81,7 +57,7 @@ Json filter_json(const analysis::PixelFilter& filter)
     }
     if (filter.bands) {
         const auto finite = [](double end_m) {
-            return std::isfinite(end_m) ? Json(end_m) : Json(nullptr);
+            return std::isfinite(end_m) ? store::Json(end_m) : store::Json(nullptr);
         };
         json["zeta_band"] = {finite(filter.bands->first.lower_m()),
                              finite(filter.bands->last.upper_m())};
@@ -102,14 +78,6 @@ std::string change_text(std::string_view metric, const std::optional<double>& be
     }
     const double change = *now - *before;
     return fmt::format("{}{}", change < 0 ? '-' : '+', number_text(metric, std::abs(change)));
-}
-
-Json metric_json(std::string_view metric, const std::optional<double>& value)
-{
-    if (value && is_whole(metric)) {
-        return Json(static_cast<std::uint64_t>(*value));
-    }
-    return number_or_null(value);
 }
 
 std::string change_line(const analysis::ParameterChange& change)

@@ -2,7 +2,8 @@
 
 #include "analysis/gate/gate_entries.hpp"
 #include "analysis/gate/gate_judgement.hpp"
-#include "reports/json_values.hpp"
+#include "store/baseline/configuration_key.hpp"
+#include "store/json_values.hpp"
 
 #include <optional>
 #include <string>
@@ -11,24 +12,16 @@
 /// How texts and JSON of the gate name things.
 namespace gnomon::reports {
 
-/// "noon, bias.constant = 0.01"; "the only configuration" if there is neither case nor axis. One
-/// line, whatever the names hold.
-[[nodiscard]] std::string key_text(const analysis::ConfigurationKey& key);
-/// {"case": "noon", "axes": {"bias.constant": "0.01"}}
-[[nodiscard]] Json key_json(const analysis::ConfigurationKey& key);
-
 /// "object wall, cause bias, zeta_band [4, 16) m"; empty if it takes all. One line.
 [[nodiscard]] std::string filter_text(const analysis::PixelFilter& filter);
 /// Those members by the same names; `zeta_band` as an array.
-[[nodiscard]] Json filter_json(const analysis::PixelFilter& filter);
+[[nodiscard]] store::Json filter_json(const analysis::PixelFilter& filter);
 
 /// A metric's value: counts of pixels grouped, others with six digits; "-" if there is none.
 [[nodiscard]] std::string metric_text(std::string_view metric, const std::optional<double>& value);
 /// How it changed: "+1,234"; empty without both values.
 [[nodiscard]] std::string change_text(std::string_view metric, const std::optional<double>& before,
                                       const std::optional<double>& now);
-/// A count as an integer, any other metric as a real number, null for none.
-[[nodiscard]] Json metric_json(std::string_view metric, const std::optional<double>& value);
 
 /// "shadow_map.depth_format: d24 -> d16". One line.
 [[nodiscard]] std::string change_line(const analysis::ParameterChange& change);

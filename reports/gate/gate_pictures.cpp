@@ -3,13 +3,13 @@
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_names.hpp"
-#include "reports/gate/kept_wrong_pixels.hpp"
-#include "reports/gate/pixel_mask.hpp"
 #include "reports/gate/place_picture.hpp"
-#include "reports/output_file.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
+#include "store/baseline/kept_wrong_pixels.hpp"
+#include "store/baseline/pixel_mask.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 
@@ -63,7 +63,7 @@ std::optional<Pictured> pictured_pixels(const GateReport& report, const GateFind
 struct ComparedPlaces {
     analysis::PixelMask before;
     analysis::WrongPixels now;
-    RgbImage ground;
+    store::RgbImage ground;
 };
 
 ComparedPlaces read_places(const GateReport& report, std::size_t entry)
@@ -71,8 +71,8 @@ ComparedPlaces read_places(const GateReport& report, std::size_t entry)
     const analysis::GatePair& pair = *report.outcome.pair_of(entry);
     const analysis::GateEntry& before = report.baseline.entries[pair.before];
     const std::string& id = report.run.results.entries[entry].pixels;
-    return {read_mask(report.baseline_file, before.pixels, image_size_of(before)),
-            read_wrong_pixels(report.run.folder, id), shaded_ground(report.run.folder, id)};
+    return {store::read_mask(report.baseline_file, before.pixels, store::image_size_of(before)),
+            store::read_wrong_pixels(report.run.folder, id), shaded_ground(report.run.folder, id)};
 }
 
 /// What became of each pixel; empty if the images cannot be compared.
@@ -115,7 +115,7 @@ std::vector<std::string> heading_lines(const GateReport& report, const GateFindi
     if (const std::string part = filter_text(finding.filter); !part.empty()) {
         lines.front() += ", of " + part;
     }
-    lines.push_back(key_text(report.run.results.entries[finding.entry].key));
+    lines.push_back(store::key_text(report.run.results.entries[finding.entry].key));
     const auto& changes = report.outcome.pair_of(finding.entry)->changes;
     lines.push_back(changes.empty() ? "the job is unchanged" : change_line(changes.front()));
     if (changes.size() > 1) {
@@ -182,7 +182,8 @@ public:
     [[nodiscard]] bool is_full() const { return known_.size() >= most_pictures; }
 
 private:
-    std::filesystem::path write_picture_of(const GateFinding& finding, const RgbImage& ground,
+    std::filesystem::path write_picture_of(const GateFinding& finding,
+                                           const store::RgbImage& ground,
                                            scene::Image<PlaceMark> marks)
     {
         PlacePicture picture;
@@ -193,7 +194,7 @@ private:
         picture.lines = heading_lines(report_, finding);
         make_picture_folder(folder_);
         auto path = picture_path(folder_, known_.size() + 1, report_.rules[finding.rule].metric);
-        write_file(path, encode_png(draw_place_picture(picture)));
+        store::write_file(path, store::encode_png(draw_place_picture(picture)));
         return path;
     }
 

@@ -2,7 +2,7 @@
 
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_rules.hpp"
-#include "reports/gate/gate_run.hpp"
+#include "store/baseline/gate_run.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace gnomon::reports {
 struct GateReport {
     std::filesystem::path baseline_file;
     analysis::GateEntries baseline;
-    GateRun run;
+    store::GateRun run;
     std::vector<analysis::GateRule> rules;
     analysis::GateOutcome outcome;
     analysis::GateVerdict verdict = analysis::GateVerdict::pass;

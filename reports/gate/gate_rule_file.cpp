@@ -1,11 +1,11 @@
 #include "reports/gate/gate_rule_file.hpp"
 
 #include "reports/gate/gate_rule_values.hpp"
-#include "reports/run/run_columns.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/text_file.hpp"
+#include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -221,7 +221,7 @@ private:
     void check_setting(const std::string& name, const TomlMember& setting) const
     {
         std::vector<std::string> names{"case", "object", "cause", "label", "zeta_band"};
-        for (const JobColumn& column : job_columns()) {
+        for (const store::JobColumn& column : store::job_columns()) {
             names.push_back(column.name);
         }
         if (std::find(names.begin(), names.end(), name) == names.end()) {

@@ -1,7 +1,7 @@
 #include "reports/gate/gate_sentences.hpp"
 
 #include "reports/gate/gate_names.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
@@ -130,7 +130,7 @@ std::string suspects_text(const std::vector<analysis::ParameterChange>& changes)
 
 std::vector<std::string> unfinished_sentences(const GateReport& report)
 {
-    const RunStatus& status = report.run.status;
+    const store::RunStatus& status = report.run.status;
     std::vector<std::string> lines;
     if (!status.is_complete()) {
         lines.push_back(fmt::format(

@@ -2,7 +2,7 @@
 
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/gate_sentences.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 #include "scene/job/toml.hpp"
 
 #include <fmt/format.h>
@@ -91,7 +91,7 @@ std::string configuration_block(const GateReport& report, std::size_t entry)
 {
     const analysis::ConfigurationKey& key = report.run.results.entries[entry].key;
     std::string text =
-        fmt::format("\n{}\n  {} {} {} {}\n", key_text(key), pad_right("metric", 34),
+        fmt::format("\n{}\n  {} {} {} {}\n", store::key_text(key), pad_right("metric", 34),
                     pad_left("baseline", 12), pad_left("now", 12), pad_left("change", 12));
     std::string cause_line; // of the worst that has a cause
     for (const GateFinding& finding : report.outcome.findings) {
@@ -111,7 +111,7 @@ std::string configuration_block(const GateReport& report, std::size_t entry)
             text += fmt::format("  first suspects: {}\n", suspects_text(pair->changes));
         }
     }
-    if (const std::string command = showing_command(report.run, key); !command.empty()) {
+    if (const std::string command = store::showing_command(report.run, key); !command.empty()) {
         text += fmt::format("  see it: {}\n", scene::one_line(command));
     }
     return text;
@@ -146,7 +146,7 @@ std::string key_lines(std::string_view title, const std::vector<std::size_t>& in
     }
     std::string text = fmt::format("\n{} {}\n", counted(indices.size(), "configuration"), title);
     for (std::size_t i = 0; i < std::min(indices.size(), most_listed); ++i) {
-        text += fmt::format("  {}\n", key_text(entries.entries[indices[i]].key));
+        text += fmt::format("  {}\n", store::key_text(entries.entries[indices[i]].key));
     }
     if (indices.size() > most_listed) {
         text += fmt::format("  and {} more\n", grouped(indices.size() - most_listed));
@@ -168,7 +168,7 @@ std::string improvement_lines(const GateReport& report)
                             pad_left(metric_text(one.metric, one.before), 12),
                             pad_left(metric_text(one.metric, one.now), 12),
                             pad_left(change_text(one.metric, one.before, one.now), 12),
-                            key_text(report.run.results.entries[one.entry].key));
+                            store::key_text(report.run.results.entries[one.entry].key));
     }
     if (improvements.size() > most_listed) {
         text += fmt::format("  and {} more\n", grouped(improvements.size() - most_listed));

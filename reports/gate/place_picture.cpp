@@ -1,10 +1,10 @@
 #include "reports/gate/place_picture.hpp"
 
-#include "reports/images/layer_file.hpp"
-#include "reports/picture.hpp"
-#include "reports/run/pixels.hpp"
-#include "reports/text.hpp"
+#include "reports/pictures/picture.hpp"
+#include "reports/words/text.hpp"
 #include "scene/vec.hpp"
+#include "store/images/layer_file.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -20,10 +20,10 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr Rgb place_paper{0xFC, 0xFC, 0xFA};
-constexpr Rgb place_ink{0x22, 0x22, 0x22};
-constexpr Rgb place_faint_ink{0x66, 0x66, 0x66};
-constexpr Rgb place_rule{0xC8, 0xC8, 0xC4};
+constexpr store::Rgb place_paper{0xFC, 0xFC, 0xFA};
+constexpr store::Rgb place_ink{0x22, 0x22, 0x22};
+constexpr store::Rgb place_faint_ink{0x66, 0x66, 0x66};
+constexpr store::Rgb place_rule{0xC8, 0xC8, 0xC4};
 constexpr int magnification = 8;
 /// With more new pixels than this, one panel pixel each shows where they are.
 constexpr std::size_t most_dots = 200;
@@ -31,7 +31,7 @@ constexpr std::size_t most_dots = 200;
 struct MarkStyle {
     PlaceMark mark;
     std::string_view name;
-    Rgb colour;
+    store::Rgb colour;
 };
 
 /// The new ones first: a panel pixel shows the first kind that it covers.
@@ -75,7 +75,7 @@ Part covered_part(const Part& all, scene::ImageSize panel, int x, int y)
     return {left, top, right, bottom};
 }
 
-Rgb shown_colour(const PlacePicture& picture, const Part& part)
+store::Rgb shown_colour(const PlacePicture& picture, const Part& part)
 {
     const MarkStyle* shown = nullptr;
     std::array<std::uint32_t, 3> sum{};
@@ -88,7 +88,7 @@ Rgb shown_colour(const PlacePicture& picture, const Part& part)
             if (style != mark_styles.end() && (shown == nullptr || style < shown)) {
                 shown = style;
             }
-            const Rgb ground = picture.ground(x, y);
+            const store::Rgb ground = picture.ground(x, y);
             sum[0] += ground.r;
             sum[1] += ground.g;
             sum[2] += ground.b;
@@ -96,12 +96,12 @@ Rgb shown_colour(const PlacePicture& picture, const Part& part)
         }
     }
     const auto mean = [&](std::size_t i) { return static_cast<std::uint8_t>(sum[i] / pixels); };
-    return shown != nullptr ? shown->colour : Rgb{mean(0), mean(1), mean(2)};
+    return shown != nullptr ? shown->colour : store::Rgb{mean(0), mean(1), mean(2)};
 }
 
-RgbImage drawn_part(const PlacePicture& picture, const Part& part, scene::ImageSize size)
+store::RgbImage drawn_part(const PlacePicture& picture, const Part& part, scene::ImageSize size)
 {
-    RgbImage image{size};
+    store::RgbImage image{size};
     for (int y = 0; y < size.height_px; ++y) {
         for (int x = 0; x < size.width_px; ++x) {
             image(x, y) = shown_colour(picture, covered_part(part, size, x, y));
@@ -185,7 +185,7 @@ public:
     {
     }
 
-    [[nodiscard]] RgbImage draw()
+    [[nodiscard]] store::RgbImage draw()
     {
         write_heading();
         const auto [width_px, height_px] = picture_.marks.size();
@@ -306,7 +306,7 @@ private:
 };
 
 /// Grey of a surface, brighter towards a lamp above the viewer's shoulder.
-Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_class)
+store::Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_class)
 {
     if (!std::isfinite(normal.x) || pixel_class == scene::PixelClass::background) {
         return {0xF4, 0xF4, 0xF2};
@@ -321,16 +321,17 @@ Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_class)
 
 } // namespace
 
-RgbImage draw_place_picture(const PlacePicture& picture, const std::filesystem::path& font_folder)
+store::RgbImage draw_place_picture(const PlacePicture& picture,
+                                   const std::filesystem::path& font_folder)
 {
     return PlaceDrawing{picture, font_folder}.draw();
 }
 
-RgbImage shaded_ground(const std::filesystem::path& run, const std::string& id)
+store::RgbImage shaded_ground(const std::filesystem::path& run, const std::string& id)
 {
-    LayerFile file{pixels_path(run, id), "compute the run's pixels again"};
+    store::LayerFile file{store::pixels_path(run, id), "compute the run's pixels again"};
     const auto classes = file.classes();
-    RgbImage ground{classes.size()};
+    store::RgbImage ground{classes.size()};
     const bool has_normals = file.has("N.X") && file.has("N.Y") && file.has("N.Z");
     const scene::Image<float> flat{classes.size(), 0.5F};
     const auto x = has_normals ? file.floats("N.X") : flat;

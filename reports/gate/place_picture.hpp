@@ -1,8 +1,8 @@
 #pragma once
 
-#include "reports/canvas.hpp"
-#include "reports/images/image_encoding.hpp"
+#include "reports/pictures/canvas.hpp"
 #include "scene/image.hpp"
+#include "store/images/image_encoding.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +24,7 @@ enum class PlaceMark : std::uint8_t {
 struct PlacePicture {
     std::string title;
     std::vector<std::string> lines; ///< beneath it
-    RgbImage ground;                ///< the scene, shaded, without any marks
+    store::RgbImage ground;         ///< the scene, shaded, without any marks
     scene::Image<PlaceMark> marks;
 };
 
@@ -32,12 +32,13 @@ struct PlacePicture {
 /// with counts beneath. Okabe and Ito's colours, on a ground of light greys. Marks never vanish
 /// where a large image is scaled down.
 /// @throws scene::EnvironmentError  naming the package, if the font is missing.
-[[nodiscard]] RgbImage
+[[nodiscard]] store::RgbImage
 draw_place_picture(const PlacePicture& picture,
                    const std::filesystem::path& font_folder = default_font_folder);
 
 /// The scene of a configuration's kept pixels, in light greys; shadows are the true ones.
 /// @throws scene::InputError  as `LayerFile` does.
-[[nodiscard]] RgbImage shaded_ground(const std::filesystem::path& run, const std::string& id);
+[[nodiscard]] store::RgbImage shaded_ground(const std::filesystem::path& run,
+                                            const std::string& id);
 
 } // namespace gnomon::reports

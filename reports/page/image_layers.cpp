@@ -22,16 +22,16 @@ bool are_same(float a, float b)
 
 /// Of a job's key; of another renderer's case, whose map is not known, something that holds.
 template <typename Value>
-Value setting_of(const Json& detail, const char* key, Value otherwise)
+Value setting_of(const store::Json& detail, const char* key, Value otherwise)
 {
     return detail.contains("evaluate") ? detail.at("job").value(key, otherwise)
                                        : detail.at("job").at(key).get<Value>();
 }
 
 /// Without a map nothing is measured in its texels or depths, and any frustum serves.
-Json frustum_of(const Json& detail)
+store::Json frustum_of(const store::Json& detail)
 {
-    const Json& own = detail.at("frustum");
+    const store::Json& own = detail.at("frustum");
     if (!own.is_null() || !detail.contains("evaluate")) {
         return own;
     }
@@ -42,9 +42,9 @@ Json frustum_of(const Json& detail)
             {"texel_m", 1.0}};
 }
 
-double constant_bias_of(const Json& detail)
+double constant_bias_of(const store::Json& detail)
 {
-    const Json& inputs = detail.at("exact_inputs");
+    const store::Json& inputs = detail.at("exact_inputs");
     if (detail.contains("evaluate") && !inputs.contains("bias_constant")) {
         return 0;
     }
@@ -53,7 +53,7 @@ double constant_bias_of(const Json& detail)
 
 } // namespace
 
-PixelRules::PixelRules(const Json& detail)
+PixelRules::PixelRules(const store::Json& detail)
     : frustum(frustum_of(detail)), // braces would make a list of it
       filter{setting_of<std::string>(detail, "lookup.filter", "nearest")},
       slope{setting_of<double>(detail, "bias.slope", 0)},
@@ -70,7 +70,7 @@ PixelRules::PixelRules(const Json& detail)
     light.reversed = frustum.at("reversed").get<bool>();
 }
 
-ImageLayers::ImageLayers(LayerFile& file, const PixelRules& rules)
+ImageLayers::ImageLayers(store::LayerFile& file, const PixelRules& rules)
     : rules_{rules},
       classes_{file.classes()},
       receiver_depth_{file.floats("receiver_depth")},

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "reports/images/layer_file.hpp"
-#include "reports/json_values.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/pixel_class.hpp"
+#include "store/images/layer_file.hpp"
+#include "store/json_values.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace gnomon::reports {
 struct PixelRules {
     /// @param detail  of `compare --json`.
     /// @throws nlohmann::json::exception  if it lacks something.
-    explicit PixelRules(const Json& detail);
+    explicit PixelRules(const store::Json& detail);
 
     [[nodiscard]] double texel_m(double zeta_m) const
     {
@@ -27,7 +27,7 @@ struct PixelRules {
         return is_perspective ? texel_side_m * zeta_m : texel_side_m;
     }
 
-    Json frustum;
+    store::Json frustum;
     std::string filter;
     double slope;
     std::string outside;
@@ -42,7 +42,7 @@ class ImageLayers {
 public:
     /// @param rules  must outlive this.
     /// @throws scene::InputError  as `LayerFile` does.
-    ImageLayers(LayerFile& file, const PixelRules& rules);
+    ImageLayers(store::LayerFile& file, const PixelRules& rules);
 
     [[nodiscard]] const scene::Image<float>& receiver_depth() const { return receiver_depth_; }
     [[nodiscard]] const scene::Image<float>& map_depth() const { return map_depth_; }

@@ -133,7 +133,7 @@ PackedArray pack(std::span<const std::uint32_t> values)
     return pack_differences(bits_of<std::uint32_t>(values), "u32");
 }
 
-Json PackedBlocks::add(PackedArray array)
+store::Json PackedBlocks::add(PackedArray array)
 {
     auto place = std::find(texts_.begin(), texts_.end(), array.text);
     if (place == texts_.end()) {
@@ -151,10 +151,10 @@ std::size_t PackedBlocks::byte_count() const
                                  [](const std::string& text) { return text.size(); });
 }
 
-Json PackedBlocks::add_texts(std::span<const std::string> texts)
+store::Json PackedBlocks::add_texts(std::span<const std::string> texts)
 {
     std::unordered_map<std::string_view, std::uint32_t> places;
-    Json dictionary = Json::array();
+    store::Json dictionary = store::Json::array();
     std::vector<std::uint32_t> indices;
     indices.reserve(texts.size());
     for (const std::string& text : texts) {
@@ -169,7 +169,7 @@ Json PackedBlocks::add_texts(std::span<const std::string> texts)
         }
         indices.push_back(entry->second);
     }
-    Json json = add(pack(std::span<const std::uint32_t>{indices}));
+    store::Json json = add(pack(std::span<const std::uint32_t>{indices}));
     json["type"] = "text";
     json["dictionary"] = std::move(dictionary);
     return json;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/json_values.hpp"
+#include "store/json_values.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,11 +32,11 @@ struct PackedArray {
 class PackedBlocks {
 public:
     /// Adds an array and returns what a reader needs: {"block", "type", "count", "delta"}.
-    Json add(PackedArray array);
+    store::Json add(PackedArray array);
 
     /// Texts, by their index in a dictionary: {"dictionary", "type": "text", …}. An empty text has
     /// no index but 4294967295.
-    Json add_texts(std::span<const std::string> texts);
+    store::Json add_texts(std::span<const std::string> texts);
 
     /// The blocks' base64 texts; block "bN" is the N-th.
     [[nodiscard]] const std::vector<std::string>& texts() const { return texts_; }

@@ -2,8 +2,9 @@
 
 #include "reports/page/base64.hpp"
 #include "reports/page/page_assets.hpp"
-#include "reports/run/run_status.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
+#include "store/run/run_commands.hpp"
+#include "store/run/run_status.hpp"
 
 #include <fmt/format.h>
 
@@ -46,7 +47,7 @@ constexpr std::string_view table_end = "</tbody></table></div>\n";
 
 std::string count_cells(const OverviewRow& overview)
 {
-    const ResultRow& row = overview.result;
+    const store::ResultRow& row = overview.result;
     return number_cell(percent(row.number("error_rate"))) + number_cell(overview.mean_error) +
            number_cell(grouped(row.count("false_shadow"))) +
            number_cell(percent(row.number("false_shadow_rate"))) +
@@ -75,14 +76,14 @@ std::string headline_table(const RunOverview& overview)
     return html + std::string{table_end};
 }
 
-std::string limit_text(const ResultRow& row, std::string_view column)
+std::string limit_text(const store::ResultRow& row, std::string_view column)
 {
     const std::optional<double> limit = row.number(column);
     return limit ? fmt::format("{:.6g}", *limit) : std::string{"none"};
 }
 
 /// What the recommended bias is in other units; empty where none is.
-std::string recommended_text(const ResultRow& row)
+std::string recommended_text(const store::ResultRow& row)
 {
     const auto metres = row.number("bias_curve.recommended.bias_m");
     const auto texels = row.number("bias_curve.recommended.bias_texels");
@@ -96,7 +97,7 @@ std::string recommended_text(const ResultRow& row)
 }
 
 /// What the bias curve says of the headline configuration.
-std::string bias_table(const ResultRow& row)
+std::string bias_table(const store::ResultRow& row)
 {
     if (row.text("bias_source") != "curve") {
         return {};
@@ -196,24 +197,24 @@ std::string script_section(std::string_view id, std::string_view heading)
                        id, heading);
 }
 
-std::uint64_t member(const Json& object, const char* name)
+std::uint64_t member(const store::Json& object, const char* name)
 {
     const auto found = object.find(name);
     return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
-std::optional<double> rate(const Json& object, const char* name)
+std::optional<double> rate(const store::Json& object, const char* name)
 {
     const auto found = object.find(name);
     return found != object.end() && found->is_number() ? std::optional{found->get<double>()}
                                                        : std::nullopt;
 }
 
-std::string objects_table(const Json& detail)
+std::string objects_table(const store::Json& detail)
 {
-    std::vector<const Json*> objects;
+    std::vector<const store::Json*> objects;
     if (detail.is_object() && detail.contains("by_object") && detail["by_object"].is_array()) {
-        for (const Json& object : detail["by_object"]) {
+        for (const store::Json& object : detail["by_object"]) {
             if (object.is_object() && member(object, "lit") + member(object, "blocked") > 0) {
                 objects.push_back(&object);
             }
@@ -223,16 +224,17 @@ std::string objects_table(const Json& detail)
         return "<p>Errors by object are not known: the layers of this configuration were not "
                "kept.</p>\n";
     }
-    const auto wrong = [](const Json* object) {
+    const auto wrong = [](const store::Json* object) {
         return member(*object, "false_shadow") + member(*object, "false_lit");
     };
-    std::stable_sort(objects.begin(), objects.end(),
-                     [&](const Json* a, const Json* b) { return wrong(a) > wrong(b); });
+    std::stable_sort(
+        objects.begin(), objects.end(),
+        [&](const store::Json* a, const store::Json* b) { return wrong(a) > wrong(b); });
     std::string html =
         table_head("By object, most errors first",
                    {"object", "false shadow", "of lit", "false lit", "of blocked", "mean error"});
     for (std::size_t i = 0; i < std::min(objects.size(), most_objects); ++i) {
-        const Json& object = *objects[i];
+        const store::Json& object = *objects[i];
         const auto name = object.find("object");
         html += "<tr>" +
                 row_heading(name != object.end() && name->is_string() ? name->get<std::string>()
@@ -251,7 +253,7 @@ std::string objects_table(const Json& detail)
     return html;
 }
 
-std::string counts_table(std::string_view caption, const ResultRow& row,
+std::string counts_table(std::string_view caption, const store::ResultRow& row,
                          const std::vector<KindColumns>& columns)
 {
     const std::uint64_t all = row.count("false_shadow") + row.count("false_lit");
@@ -292,9 +294,9 @@ std::string definition(std::string_view term, std::string_view text)
     return fmt::format("<dt>{}</dt><dd><bdi>{}</bdi></dd>\n", escaped(term), escaped(text));
 }
 
-std::string environment_section(const RunReader& run, const RunOverview& overview)
+std::string environment_section(const store::RunReader& run, const RunOverview& overview)
 {
-    const RunDescription& description = run.description();
+    const store::RunDescription& description = run.description();
     const analysis::Environment& environment = description.environment;
     std::string html =
         "<section id=\"environment\" aria-labelledby=\"environment-heading\">\n"
@@ -305,15 +307,15 @@ std::string environment_section(const RunReader& run, const RunOverview& overvie
             definition("gnomon", environment.gnomon) + "</dl>\n";
     html += fmt::format("<p>The whole run:</p>\n<pre><code>{} --out RUN\ngnomon report RUN</code>"
                         "</pre>\n",
-                        escaped(run_command(description)));
+                        escaped(store::run_command(description)));
     if (overview.headline) {
-        const std::string command = compare_command(description, overview.headline->result);
+        const std::string command = store::compare_command(description, overview.headline->result);
         html += command.empty()
                     ? std::string{}
                     : fmt::format("<p>One configuration{}:</p>\n<pre><code>{}</code>"
                                   "</pre>\n<h3>Its job settings</h3>\n<dl class=\"job\">\n",
                                   overview.rows.size() > 1 ? " (the best)" : "", escaped(command));
-        for (const auto& [key, value] : job_settings(overview.headline->result)) {
+        for (const auto& [key, value] : store::job_settings(overview.headline->result)) {
             html += definition(key, value);
         }
         html += "</dl>\n";
@@ -321,10 +323,10 @@ std::string environment_section(const RunReader& run, const RunOverview& overvie
     return html + "</section>\n";
 }
 
-std::string header(const RunReader& run, const RunOverview& overview)
+std::string header(const store::RunReader& run, const RunOverview& overview)
 {
     const analysis::Environment& environment = run.description().environment;
-    const PlanOutcome& outcome = run.outcome();
+    const store::PlanOutcome& outcome = run.outcome();
     const std::uint64_t all = outcome.done + outcome.failed + outcome.planned;
     const std::string part =
         outcome.done == all ? std::string{} : fmt::format("{} of ", grouped(outcome.done));
@@ -361,9 +363,9 @@ std::string head(std::string_view title)
 }
 
 /// JSON in which no text can end the script that it stands in.
-std::string script_safe(const Json& data)
+std::string script_safe(const store::Json& data)
 {
-    std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = data.dump(-1, ' ', false, store::Json::error_handler_t::replace);
     for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
         text.replace(at, 1, "\\u003c");
     }
@@ -400,7 +402,7 @@ std::string escaped(std::string_view text)
     return html;
 }
 
-std::string page_body(const RunReader& run, const RunOverview& overview,
+std::string page_body(const store::RunReader& run, const RunOverview& overview,
                       const ReportOptions& options, std::span<const std::string> pictures)
 {
     return "<body>\n<a class=\"skip\" href=\"#verdict\">To the verdict</a>\n" +
@@ -415,7 +417,7 @@ std::string page_body(const RunReader& run, const RunOverview& overview,
            "configuration.</p></noscript>\n</main>\n";
 }
 
-std::string whole_page(std::string_view title, std::string_view body, const Json& data,
+std::string whole_page(std::string_view title, std::string_view body, const store::Json& data,
                        std::span<const std::string> blocks)
 {
     std::string page = head(title);

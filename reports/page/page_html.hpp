@@ -14,7 +14,7 @@ namespace gnomon::reports {
 
 /// The part of a page that can be read without JavaScript: from the header to the end of main.
 /// @param pictures  data: addresses of the figures, in their order.
-[[nodiscard]] std::string page_body(const RunReader& run, const RunOverview& overview,
+[[nodiscard]] std::string page_body(const store::RunReader& run, const RunOverview& overview,
                                     const ReportOptions& options,
                                     std::span<const std::string> pictures);
 
@@ -22,6 +22,6 @@ namespace gnomon::reports {
 /// the body, data and scripts.
 /// @param blocks  the packed texts "b0", "b1", ….
 [[nodiscard]] std::string whole_page(std::string_view title, std::string_view body,
-                                     const Json& data, std::span<const std::string> blocks);
+                                     const store::Json& data, std::span<const std::string> blocks);
 
 } // namespace gnomon::reports

@@ -2,9 +2,9 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "reports/page/image_layers.hpp"
-#include "reports/run/pixels.hpp"
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -76,7 +76,7 @@ std::uint8_t level(float fraction)
 }
 
 /// What shades the scene: the cosine to the light, and how far a surface faces the sky.
-void add_shading(std::vector<NamedLayer>& layers, LayerFile& file)
+void add_shading(std::vector<NamedLayer>& layers, store::LayerFile& file)
 {
     if (!file.has("tan_theta") || !file.has("N.Y")) {
         return;
@@ -90,7 +90,7 @@ void add_shading(std::vector<NamedLayer>& layers, LayerFile& file)
     }));
 }
 
-void add_indices(std::vector<NamedLayer>& layers, LayerFile& file)
+void add_indices(std::vector<NamedLayer>& layers, store::LayerFile& file)
 {
     const auto same = [](std::uint32_t value) { return value; };
     layers.push_back(converted<std::uint32_t>("prim", file.integers("prim"), same));
@@ -109,7 +109,8 @@ void add_indices(std::vector<NamedLayer>& layers, LayerFile& file)
     }
 }
 
-std::vector<NamedLayer> page_layers(LayerFile& file, const ImageLayers& image, const Json& derive)
+std::vector<NamedLayer> page_layers(store::LayerFile& file, const ImageLayers& image,
+                                    const store::Json& derive)
 {
     std::vector<NamedLayer> layers;
     layers.push_back(small("class", file.integers("class")));
@@ -167,7 +168,7 @@ bool are_equal(const LayerValues& a, const LayerValues& b)
     return a.index() == b.index() && std::ranges::equal(bytes(a), bytes(b));
 }
 
-Json depth_step(const std::optional<scene::DepthFormat>& format)
+store::Json depth_step(const std::optional<scene::DepthFormat>& format)
 {
     if (!format) {
         return nullptr;
@@ -180,10 +181,10 @@ PackedArray packed(const LayerValues& values)
     return std::visit([](const auto& all) { return pack(std::span{all}); }, values);
 }
 
-Json object_names(const Json& detail)
+store::Json object_names(const store::Json& detail)
 {
-    Json names = Json::array();
-    for (const Json& object : detail.at("by_object")) {
+    store::Json names = store::Json::array();
+    for (const store::Json& object : detail.at("by_object")) {
         names.push_back(object.at("object"));
     }
     return names;
@@ -191,13 +192,15 @@ Json object_names(const Json& detail)
 
 /// @param pack  from layers to the JSON that names their blocks.
 template <typename Pack>
-Json image_entry(LayerFile& file, const Json& detail, int step, const Pack& pack_layers)
+store::Json image_entry(store::LayerFile& file, const store::Json& detail, int step,
+                        const Pack& pack_layers)
 {
     const PixelRules rules{detail};
     const ImageLayers image{file, rules};
     const bool derives_lengths = image.can_derive_lengths();
-    const Json derive{{"needed_bias_m", derives_lengths}, {"needed_bias_texels", derives_lengths}};
-    Json frustum = rules.frustum;
+    const store::Json derive{{"needed_bias_m", derives_lengths},
+                             {"needed_bias_texels", derives_lengths}};
+    store::Json frustum = rules.frustum;
     frustum["range_m"] = rules.light.range_m();
     frustum["inverse_range_per_m"] = 1.0 / rules.light.near_m - 1.0 / rules.light.far_m;
     std::vector<NamedLayer> layers = page_layers(file, image, derive);
@@ -230,7 +233,7 @@ constexpr std::string_view kept_advice =
 }
 
 /// Whether a JSON is that of the configuration.
-bool is_of(const Json& detail, const KeptImage& image)
+bool is_of(const store::Json& detail, const KeptImage& image)
 {
     return detail.at("pixels").at("lit") == image.lit &&
            detail.at("pixels").at("blocked") == image.blocked &&
@@ -239,11 +242,11 @@ bool is_of(const Json& detail, const KeptImage& image)
 }
 
 /// Whether an image is of the JSON's job, and has its pixels.
-bool is_of(LayerFile& file, const Json& detail)
+bool is_of(store::LayerFile& file, const store::Json& detail)
 {
     const auto texts = file.texts();
     const auto job = texts.find("job");
-    if (job == texts.end() || Json::parse(job->second, nullptr, false) != detail.at("job")) {
+    if (job == texts.end() || store::Json::parse(job->second, nullptr, false) != detail.at("job")) {
         return false;
     }
     const scene::Image<PixelClass> classes = file.classes();
@@ -256,38 +259,21 @@ bool is_of(LayerFile& file, const Json& detail)
 
 } // namespace
 
-bool has_image(const std::filesystem::path& folder, std::string_view id)
+store::Json PageImages::read(const KeptImage& image, int step)
 {
-    std::error_code error;
-    return std::filesystem::exists(pixels_path(folder, id), error) &&
-           std::filesystem::exists(detail_path(folder, id), error);
-}
-
-Json find_detail(const std::filesystem::path& folder, std::string_view id)
-{
-    if (!has_image(folder, id)) {
-        return nullptr;
-    }
-    std::ifstream file{detail_path(folder, id)};
-    Json detail = Json::parse(file, nullptr, false);
-    return detail.is_object() ? detail : Json(nullptr);
-}
-
-Json PageImages::read(const KeptImage& image, int step)
-{
-    LayerFile file{pixels_path(folder_, image.id), std::string{kept_advice}};
-    const Json detail = find_detail(folder_, image.id);
+    store::LayerFile file{store::pixels_path(folder_, image.id), std::string{kept_advice}};
+    const store::Json detail = store::find_detail(folder_, image.id);
     try {
         // Before memory is taken for as many pixels as the image says that it has.
-        const Json& job = detail.at("job");
+        const store::Json& job = detail.at("job");
         if (job.at("image.width") != file.size().width_px ||
             job.at("image.height") != file.size().height_px) {
-            refuse_detail(pixels_path(folder_, image.id));
+            refuse_detail(store::pixels_path(folder_, image.id));
         }
         if (!is_of(detail, image) || !is_of(file, detail)) {
-            refuse_detail(pixels_path(folder_, image.id));
+            refuse_detail(store::pixels_path(folder_, image.id));
         }
-        Json entry{{"row", image.row}};
+        store::Json entry{{"row", image.row}};
         const auto pack_layers = [&](std::vector<NamedLayer> layers) {
             tbb::parallel_for(std::size_t{0}, layers.size(), [&](std::size_t i) {
                 const auto known = last_.find(layers[i].name);
@@ -295,7 +281,7 @@ Json PageImages::read(const KeptImage& image, int step)
                     layers[i].packed = packed(layers[i].values);
                 }
             });
-            Json json = Json::object();
+            store::Json json = store::Json::object();
             for (NamedLayer& layer : layers) {
                 if (layer.packed) {
                     last_[layer.name] = {std::move(layer.values),
@@ -307,8 +293,8 @@ Json PageImages::read(const KeptImage& image, int step)
         };
         entry.update(image_entry(file, detail, step, pack_layers));
         return entry;
-    } catch (const Json::exception&) {
-        refuse_detail(detail_path(folder_, image.id));
+    } catch (const store::Json::exception&) {
+        refuse_detail(store::detail_path(folder_, image.id));
     }
 }
 

@@ -13,9 +13,6 @@
 
 namespace gnomon::reports {
 
-/// Whether a run kept the layers of a configuration.
-[[nodiscard]] bool has_image(const std::filesystem::path& folder, std::string_view id);
-
 using LayerValues = std::variant<std::vector<float>, std::vector<std::uint8_t>,
                                  std::vector<std::uint16_t>, std::vector<std::uint32_t>>;
 
@@ -44,7 +41,7 @@ public:
     /// @throws scene::InputError  one line, if a file of the run is damaged, or of another
     ///                            configuration than the database says.
     /// @param step  Every step-th pixel of every step-th row is taken, from the first on; 1: all.
-    [[nodiscard]] Json read(const KeptImage& image, int step = 1);
+    [[nodiscard]] store::Json read(const KeptImage& image, int step = 1);
 
     /// Forgets the layers read last, whose blocks are gone.
     void forget() { last_.clear(); }
@@ -52,7 +49,7 @@ public:
 private:
     struct LastLayer {
         LayerValues values;
-        Json block;
+        store::Json block;
     };
 
     std::filesystem::path folder_;
@@ -60,9 +57,5 @@ private:
     /// By name: most of a configuration's layers are those of the one before.
     std::map<std::string, LastLayer> last_;
 };
-
-/// What `gnomon compare --json` printed for a configuration; null if its layers were not kept, or
-/// the file is damaged.
-[[nodiscard]] Json find_detail(const std::filesystem::path& folder, std::string_view id);
 
 } // namespace gnomon::reports

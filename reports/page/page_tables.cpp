@@ -1,7 +1,7 @@
 #include "reports/page/page_tables.hpp"
 
-#include "reports/run/run_columns.hpp"
-#include "reports/run/run_csv.hpp"
+#include "store/csv/run_csv.hpp"
+#include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,13 +18,13 @@ namespace gnomon::reports {
 
 namespace {
 
-using sqlite::Statement;
+using store::sqlite::Statement;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t most_points = 400'000;
 constexpr std::size_t most_bins = 60'000;
 
-double number_in(const sqlite::ValueView& value)
+double number_in(const store::sqlite::ValueView& value)
 {
     if (const auto* integer = std::get_if<std::int64_t>(&value)) {
         return static_cast<double>(*integer);
@@ -33,9 +33,9 @@ double number_in(const sqlite::ValueView& value)
     return real == nullptr ? no_number : *real;
 }
 
-Json named(std::string_view name, const Json& block)
+store::Json named(std::string_view name, const store::Json& block)
 {
-    Json json{{"name", name}};
+    store::Json json{{"name", name}};
     json.update(block);
     return json;
 }
@@ -69,13 +69,13 @@ public:
     {
     }
 
-    void add(const sqlite::ValueView& value)
+    void add(const store::sqlite::ValueView& value)
     {
         if (rows_ == 0) {
-            first_ = cell_text(value);
+            first_ = store::cell_text(value);
             first_number_ = number_in(value);
             first_is_text_ = std::holds_alternative<std::string_view>(value);
-        } else if (!is_stored_ && cell_text(value) != first_) {
+        } else if (!is_stored_ && store::cell_text(value) != first_) {
             spread();
         }
         if (is_stored_) {
@@ -90,7 +90,7 @@ public:
     /// What the first row holds; empty for no value.
     [[nodiscard]] const std::string& first() const { return first_; }
 
-    [[nodiscard]] Json pack_into(PackedBlocks& blocks) const
+    [[nodiscard]] store::Json pack_into(PackedBlocks& blocks) const
     {
         return named(name_, texts_.empty() ? blocks.add(pack_numbers(numbers_))
                                            : blocks.add_texts(all_texts()));
@@ -105,11 +105,11 @@ private:
             texts_.emplace_back(row, first_);
         }
     }
-    void store(const sqlite::ValueView& value)
+    void store(const store::sqlite::ValueView& value)
     {
         numbers_.push_back(number_in(value));
         if (std::holds_alternative<std::string_view>(value)) {
-            texts_.emplace_back(rows_, cell_text(value));
+            texts_.emplace_back(rows_, store::cell_text(value));
         }
     }
     [[nodiscard]] std::vector<std::string> all_texts() const
@@ -117,7 +117,7 @@ private:
         std::vector<std::string> all;
         all.reserve(rows_);
         for (const double number : numbers_) {
-            all.push_back(std::isnan(number) ? std::string{} : cell_text(number));
+            all.push_back(std::isnan(number) ? std::string{} : store::cell_text(number));
         }
         for (const auto& [row, text] : texts_) {
             all[row] = text;
@@ -156,7 +156,7 @@ void read_rows(Statement& rows, std::vector<ColumnReader>& columns)
 std::string point_query()
 {
     std::vector<std::string> names;
-    for (const auto& column : point_columns()) {
+    for (const auto& column : store::point_columns()) {
         names.push_back(column.name);
     }
     return fmt::format("SELECT {} FROM curve_points WHERE curve ="
@@ -167,10 +167,10 @@ std::string point_query()
 /// Points of a curve, of which every n-th is kept.
 class PointReader {
 public:
-    PointReader(const sqlite::Database& database, std::size_t stride)
+    PointReader(const store::sqlite::Database& database, std::size_t stride)
         : find_{database, point_query()},
           stride_{stride},
-          values_(point_columns().size())
+          values_(store::point_columns().size())
     {
     }
 
@@ -195,14 +195,14 @@ public:
         count_.push_back(static_cast<std::uint32_t>(points() - before));
     }
 
-    void pack_into(PackedBlocks& blocks, Json& columns, Json& points_json) const
+    void pack_into(PackedBlocks& blocks, store::Json& columns, store::Json& points_json) const
     {
         columns.push_back(named("first_point", blocks.add(pack(std::span{first_}))));
         columns.push_back(named("points", blocks.add(pack(std::span{count_}))));
         points_json["count"] = points();
-        points_json["columns"] = Json::array();
+        points_json["columns"] = store::Json::array();
         for (std::size_t i = 0; i < values_.size(); ++i) {
-            const auto& column = point_columns()[i];
+            const auto& column = store::point_columns()[i];
             points_json["columns"].push_back(named(
                 column.name, blocks.add(column.is_integer() ? packed_as<std::uint32_t>(values_[i])
                                                             : packed_as<float>(values_[i]))));
@@ -235,12 +235,12 @@ private:
 
 } // namespace
 
-PageTable read_table(const RunReader& run, PackedBlocks& blocks)
+PageTable read_table(const store::RunReader& run, PackedBlocks& blocks)
 {
     Statement rows{run.database(), "SELECT * FROM results ORDER BY ordinal"};
     PageTable table;
     std::size_t count = 0;
-    Json columns = Json::array();
+    store::Json columns = store::Json::array();
     std::vector<ColumnReader> read = empty_columns(rows, Constant::is_left_out);
     read_rows(rows, read);
     for (const ColumnReader& column : read) {
@@ -257,7 +257,7 @@ PageTable read_table(const RunReader& run, PackedBlocks& blocks)
     return table;
 }
 
-std::vector<std::string> curve_ids(const RunReader& run)
+std::vector<std::string> curve_ids(const store::RunReader& run)
 {
     Statement find{run.database(), "SELECT curve FROM results WHERE status = 'done'"
                                    " GROUP BY curve ORDER BY min(ordinal)"};
@@ -268,7 +268,8 @@ std::vector<std::string> curve_ids(const RunReader& run)
     return ids;
 }
 
-Json read_curves(const RunReader& run, const std::vector<std::string>& curves, PackedBlocks& blocks)
+store::Json read_curves(const store::RunReader& run, const std::vector<std::string>& curves,
+                        PackedBlocks& blocks)
 {
     const std::int64_t points = run.database().integer("SELECT count(*) FROM curve_points");
     const auto stride = static_cast<std::size_t>((points + most_points - 1) / most_points);
@@ -276,8 +277,8 @@ Json read_curves(const RunReader& run, const std::vector<std::string>& curves, P
     for (const std::string& curve : curves) {
         reader.read(curve);
     }
-    Json columns = Json::array({named("id", blocks.add_texts(curves))});
-    Json packed_points;
+    store::Json columns = store::Json::array({named("id", blocks.add_texts(curves))});
+    store::Json packed_points;
     reader.pack_into(blocks, columns, packed_points);
     return {{"count", curves.size()},
             {"columns", std::move(columns)},
@@ -285,8 +286,8 @@ Json read_curves(const RunReader& run, const std::vector<std::string>& curves, P
             {"thinned", stride > 1}};
 }
 
-Json read_error_vs_z(const RunReader& run, const std::vector<std::string>& curves,
-                     PackedBlocks& blocks)
+store::Json read_error_vs_z(const store::RunReader& run, const std::vector<std::string>& curves,
+                            PackedBlocks& blocks)
 {
     Statement rows{run.database(), "SELECT * FROM error_vs_z WHERE curve = ?"
                                    " ORDER BY \"at\" DESC, bias, lower_m"};
@@ -298,7 +299,8 @@ Json read_error_vs_z(const RunReader& run, const std::vector<std::string>& curve
         read_rows(rows, columns);
         curve_of_row.resize(columns.front().rows(), static_cast<double>(shown));
     }
-    Json packed = Json::array({named("curve", blocks.add(pack_numbers(curve_of_row)))});
+    store::Json packed =
+        store::Json::array({named("curve", blocks.add(pack_numbers(curve_of_row)))});
     for (const ColumnReader& column : columns) {
         if (column.name() != "curve") {
             packed.push_back(column.pack_into(blocks));

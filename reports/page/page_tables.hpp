@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/page/packed_blocks.hpp"
-#include "reports/page/run_reader.hpp"
+#include "store/run/run_reader.hpp"
 
 #include <cstddef>
 #include <string>
@@ -11,25 +11,26 @@ namespace gnomon::reports {
 
 /// A run's configurations as a page has them (docs/report.md#data).
 struct PageTable {
-    Json columns;                    ///< {"count", "columns"}: those in which rows differ
-    Json constants = Json::object(); ///< the others that have a value, as texts
+    store::Json columns; ///< {"count", "columns"}: those in which rows differ
+    store::Json constants = store::Json::object(); ///< the others that have a value, as texts
 };
 
 /// Beyond so many rows a table leaves out their ids, which hardly compress.
 inline constexpr std::size_t most_rows_with_ids = 20'000;
 
-[[nodiscard]] PageTable read_table(const RunReader& run, PackedBlocks& blocks);
+[[nodiscard]] PageTable read_table(const store::RunReader& run, PackedBlocks& blocks);
 
 /// Ids of the finished curves, in the order of the sweep.
-[[nodiscard]] std::vector<std::string> curve_ids(const RunReader& run);
+[[nodiscard]] std::vector<std::string> curve_ids(const store::RunReader& run);
 
 /// The bias curves with their exact counts. Beyond 400,000 points each curve is thinned to every
 /// n-th and its last; counts stay exact at each.
-[[nodiscard]] Json read_curves(const RunReader& run, const std::vector<std::string>& curves,
-                               PackedBlocks& blocks);
+[[nodiscard]] store::Json read_curves(const store::RunReader& run,
+                                      const std::vector<std::string>& curves, PackedBlocks& blocks);
 
 /// Errors by light distance, of as many of the curves as 60,000 rows hold.
-[[nodiscard]] Json read_error_vs_z(const RunReader& run, const std::vector<std::string>& curves,
-                                   PackedBlocks& blocks);
+[[nodiscard]] store::Json read_error_vs_z(const store::RunReader& run,
+                                          const std::vector<std::string>& curves,
+                                          PackedBlocks& blocks);
 
 } // namespace gnomon::reports

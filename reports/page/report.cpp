@@ -1,17 +1,18 @@
 #include "reports/page/report.hpp"
 
 #include "analysis/metrics/metric_table.hpp"
-#include "reports/output_file.hpp"
 #include "reports/page/base64.hpp"
 #include "reports/page/page_html.hpp"
 #include "reports/page/page_images.hpp"
 #include "reports/page/page_tables.hpp"
 #include "reports/page/run_overview.hpp"
 #include "reports/page/summary.hpp"
-#include "reports/run/run_csv.hpp"
-#include "reports/run/run_schema.hpp"
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
+#include "store/csv/run_csv.hpp"
+#include "store/output_file.hpp"
+#include "store/run/run_schema.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>
 
@@ -38,20 +39,20 @@ std::string data_address(const std::filesystem::path& png)
 }
 
 /// The headline's, then the others in the order of the sweep; or those that are asked for.
-std::vector<KeptImage> kept_images(const RunReader& run, const RunOverview& overview,
+std::vector<KeptImage> kept_images(const store::RunReader& run, const RunOverview& overview,
                                    const ReportOptions& options)
 {
     std::vector<KeptImage> kept;
-    sqlite::Statement find{run.database(),
-                           "SELECT id, \"pixels.lit\", \"pixels.blocked\", false_shadow, false_lit"
-                           " FROM results ORDER BY ordinal"};
+    store::sqlite::Statement find{
+        run.database(), "SELECT id, \"pixels.lit\", \"pixels.blocked\", false_shadow, false_lit"
+                        " FROM results ORDER BY ordinal"};
     const auto count = [&](int column) { return static_cast<std::uint64_t>(find.integer(column)); };
     for (std::uint64_t row = 0; find.step(); ++row) {
         const std::string id = find.text(0);
         const bool is_asked_for =
             options.only.empty() ||
             std::find(options.only.begin(), options.only.end(), id) != options.only.end();
-        if (is_asked_for && has_image(run.folder(), id)) {
+        if (is_asked_for && store::has_image(run.folder(), id)) {
             kept.push_back({id, row, count(1), count(2), count(3), count(4)});
         }
     }
@@ -75,8 +76,8 @@ void require_kept(const std::vector<KeptImage>& kept, const ReportOptions& optio
 }
 
 /// The image, or null where its files are damaged and it was not asked for.
-Json read_image(PageImages& layers, const KeptImage& image, int step, const ReportOptions& options,
-                ReportOutcome& outcome)
+store::Json read_image(PageImages& layers, const KeptImage& image, int step,
+                       const ReportOptions& options, ReportOutcome& outcome)
 {
     try {
         return layers.read(image, step);
@@ -90,10 +91,10 @@ Json read_image(PageImages& layers, const KeptImage& image, int step, const Repo
 }
 
 /// As many as fit, at least one: of it as many pixels as fit.
-Json read_images(const RunReader& run, const std::vector<KeptImage>& kept,
-                 const ReportOptions& options, PackedBlocks& blocks, ReportOutcome& outcome)
+store::Json read_images(const store::RunReader& run, const std::vector<KeptImage>& kept,
+                        const ReportOptions& options, PackedBlocks& blocks, ReportOutcome& outcome)
 {
-    Json images = Json::array();
+    store::Json images = store::Json::array();
     const std::size_t before = blocks.byte_count();
     PageImages layers{run.folder(), blocks};
     for (const KeptImage& image : kept) {
@@ -101,7 +102,7 @@ Json read_images(const RunReader& run, const std::vector<KeptImage>& kept,
         const auto is_too_large = [&] {
             return blocks.byte_count() - before > options.most_image_bytes;
         };
-        Json entry = read_image(layers, image, 1, options, outcome);
+        store::Json entry = read_image(layers, image, 1, options, outcome);
         for (int step = 2; images.empty() && is_too_large() && step <= largest_step; step *= 2) {
             blocks.keep_first(block_count);
             layers.forget();
@@ -119,10 +120,10 @@ Json read_images(const RunReader& run, const std::vector<KeptImage>& kept,
     return images;
 }
 
-Json run_object(const RunReader& run)
+store::Json run_object(const store::RunReader& run)
 {
-    const RunDescription& description = run.description();
-    const PlanOutcome& outcome = run.outcome();
+    const store::RunDescription& description = run.description();
+    const store::PlanOutcome& outcome = run.outcome();
     return {{"folder", run.folder().string()},
             {"command", description.command},
             {"compare_command", description.compare_command},
@@ -134,9 +135,9 @@ Json run_object(const RunReader& run)
 }
 
 /// What the page says of the columns that are metrics.
-Json metric_objects()
+store::Json metric_objects()
 {
-    Json objects = Json::array();
+    store::Json objects = store::Json::array();
     for (const analysis::MetricDescription& metric : analysis::metric_descriptions()) {
         const bool is_rate = metric.type == analysis::MetricType::number && metric.unit.empty();
         objects.push_back({{"name", metric.name},
@@ -147,19 +148,20 @@ Json metric_objects()
     return objects;
 }
 
-Json page_data(const RunReader& run, const RunOverview& overview,
-               const std::vector<KeptImage>& kept, const ReportOptions& options,
-               PackedBlocks& blocks, ReportOutcome& outcome)
+store::Json page_data(const store::RunReader& run, const RunOverview& overview,
+                      const std::vector<KeptImage>& kept, const ReportOptions& options,
+                      PackedBlocks& blocks, ReportOutcome& outcome)
 {
     PageTable table = read_table(run, blocks);
     const std::vector<std::string> curves = curve_ids(run);
-    Json data{{"schema", 1},
-              {"gnomon", run.description().environment.gnomon},
-              {"run", run_object(run)},
-              {"headline", overview.headline ? Json(overview.headline->row) : Json(nullptr)},
-              {"table", std::move(table.columns)},
-              {"constants", std::move(table.constants)},
-              {"metrics", metric_objects()}};
+    store::Json data{{"schema", 1},
+                     {"gnomon", run.description().environment.gnomon},
+                     {"run", run_object(run)},
+                     {"headline", overview.headline ? store::Json(overview.headline->row)
+                                                    : store::Json(nullptr)},
+                     {"table", std::move(table.columns)},
+                     {"constants", std::move(table.constants)},
+                     {"metrics", metric_objects()}};
     data["curves"] = read_curves(run, curves, blocks);
     data["error_vs_z"] = read_error_vs_z(run, curves, blocks);
     data["images"] = read_images(run, kept, options, blocks, outcome);
@@ -170,15 +172,16 @@ Json page_data(const RunReader& run, const RunOverview& overview,
 
 void write_report_csv(const std::filesystem::path& folder, const std::filesystem::path& out)
 {
-    const RunReader run{folder, RunStore::Access::read_older};
-    const sqlite::Database database{results_path(folder), sqlite::Database::Access::read};
-    prepare_reading(database);
-    write_run_csv(database, out);
+    const store::RunReader run{folder, store::RunStore::Access::read_older};
+    const store::sqlite::Database database{store::results_path(folder),
+                                           store::sqlite::Database::Access::read};
+    store::prepare_reading(database);
+    store::write_run_csv(database, out);
 }
 
 ReportOutcome write_report(const ReportOptions& options)
 {
-    const RunReader run{options.folder, RunStore::Access::read_older};
+    const store::RunReader run{options.folder, store::RunStore::Access::read_older};
     const RunOverview overview = read_overview(run);
     const std::vector<KeptImage> kept = kept_images(run, overview, options);
     require_kept(kept, options);
@@ -187,15 +190,15 @@ ReportOutcome write_report(const ReportOptions& options)
         pictures.push_back(data_address(options.out / "figures" / figure.png));
     }
     ReportOutcome outcome;
-    outcome.schema = schema_text(run.schema());
+    outcome.schema = store::schema_text(run.schema());
     PackedBlocks blocks;
-    const Json data = page_data(run, overview, kept, options, blocks, outcome);
+    const store::Json data = page_data(run, overview, kept, options, blocks, outcome);
     const std::string title = fmt::format(
         "Shadow-map accuracy: {}", overview.scene.empty() ? "several scenes" : overview.scene);
-    write_file(
+    store::write_file(
         options.out / "report.html",
         whole_page(title, page_body(run, overview, options, pictures), data, blocks.texts()));
-    write_file(options.out / "summary.md", summary_text(run, overview, options));
+    store::write_file(options.out / "summary.md", summary_text(run, overview, options));
     return outcome;
 }
 

@@ -1,12 +1,10 @@
 #include "reports/page/run_overview.hpp"
 
 #include "analysis/causes/cause.hpp"
-#include "reports/page/page_images.hpp"
-#include "reports/run/run_columns.hpp"
-#include "reports/run/run_csv.hpp"
-#include "reports/run/run_notes.hpp"
-#include "reports/shell_text.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
+#include "store/csv/run_csv.hpp"
+#include "store/run/run_notes.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>
 
@@ -24,13 +22,13 @@ constexpr const char* measured = "WHERE status = 'done' AND error_rate IS NOT NU
 constexpr std::size_t most_rows_shown = 10;
 
 /// A cell for people: whole numbers and texts as they are, other numbers to four digits.
-std::string short_text(const sqlite::ValueView& cell)
+std::string short_text(const store::sqlite::ValueView& cell)
 {
     const auto* const real = std::get_if<double>(&cell);
-    return real == nullptr || *real == std::floor(*real) ? cell_text(cell)
+    return real == nullptr || *real == std::floor(*real) ? store::cell_text(cell)
                                                          : fmt::format("{:.4g}", *real);
 }
-std::string short_text(const ResultRow& row, const std::string& column)
+std::string short_text(const store::ResultRow& row, const std::string& column)
 {
     const std::optional<double> number = row.number(column);
     return number ? short_text(*number) : row.text(column);
@@ -45,7 +43,8 @@ struct Tie {
 };
 
 /// "shadow_map.resolution = 2048, bias.constant = 0", after the case.
-std::string settings_text(const RunDescription& description, const ResultRow& row, const Tie& tie)
+std::string settings_text(const store::RunDescription& description, const store::ResultRow& row,
+                          const Tie& tie)
 {
     std::string text;
     const auto add = [&](const std::string& name) {
@@ -63,13 +62,13 @@ std::string settings_text(const RunDescription& description, const ResultRow& ro
                           : fmt::format("{} ({})", text, counted(tie.count, "configuration"));
 }
 
-std::uint64_t place_of(const RunReader& run, std::uint64_t ordinal)
+std::uint64_t place_of(const store::RunReader& run, std::uint64_t ordinal)
 {
     return static_cast<std::uint64_t>(run.database().integer(
         fmt::format("SELECT count(*) FROM part WHERE ordinal < {}", ordinal)));
 }
 
-OverviewRow named_row(const RunReader& run, ResultRow row, const Tie& tie = {})
+OverviewRow named_row(const store::RunReader& run, store::ResultRow row, const Tie& tie = {})
 {
     const std::uint64_t place = place_of(run, row.count("ordinal"));
     std::string settings = settings_text(run.description(), row, tie);
@@ -78,7 +77,7 @@ OverviewRow named_row(const RunReader& run, ResultRow row, const Tie& tie = {})
     return {place, std::move(settings), std::move(mean_error), std::move(row)};
 }
 
-std::vector<std::string> bias_axes(const RunDescription& description)
+std::vector<std::string> bias_axes(const store::RunDescription& description)
 {
     std::vector<std::string> axes;
     std::ranges::copy_if(description.axes, std::back_inserter(axes),
@@ -88,15 +87,16 @@ std::vector<std::string> bias_axes(const RunDescription& description)
 
 /// SQL for ties: the first ordinal, the count, and of the mean error and each bias the smallest and
 /// the largest.
-std::string tie_query(const RunDescription& description, std::string_view order, std::size_t most)
+std::string tie_query(const store::RunDescription& description, std::string_view order,
+                      std::size_t most)
 {
     std::string ranges = ", min(mean_abs_error), max(mean_abs_error)";
     for (const std::string& axis : bias_axes(description)) {
-        ranges += fmt::format(", min({0}), max({0})", sqlite::sql_name(axis));
+        ranges += fmt::format(", min({0}), max({0})", store::sqlite::sql_name(axis));
     }
     std::string same = "error_rate, false_shadow, false_lit, map_bytes, \"case\"";
     for (const std::string& axis : description.axes) {
-        same += axis.starts_with("bias.") ? std::string{} : ", " + sqlite::sql_name(axis);
+        same += axis.starts_with("bias.") ? std::string{} : ", " + store::sqlite::sql_name(axis);
     }
     return fmt::format(
         "SELECT min(ordinal), count(*){} FROM results {} GROUP BY {} ORDER BY {} LIMIT {}", ranges,
@@ -108,17 +108,17 @@ std::string range_text(const std::string& low, const std::string& high)
     return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
-std::optional<double> number_at(const sqlite::Statement& find, int column)
+std::optional<double> number_at(const store::sqlite::Statement& find, int column)
 {
-    const sqlite::ValueView cell = find.value(column);
+    const store::sqlite::ValueView cell = find.value(column);
     const auto* const real = std::get_if<double>(&cell);
     return real == nullptr ? std::nullopt : std::optional{*real};
 }
 
-std::vector<Tie> find_ties(const RunReader& run, std::string_view order, std::size_t most)
+std::vector<Tie> find_ties(const store::RunReader& run, std::string_view order, std::size_t most)
 {
     const std::vector<std::string> axes = bias_axes(run.description());
-    sqlite::Statement find{run.database(), tie_query(run.description(), order, most)};
+    store::sqlite::Statement find{run.database(), tie_query(run.description(), order, most)};
     std::vector<Tie> ties;
     while (find.step()) {
         Tie tie{static_cast<std::uint64_t>(find.integer(0)),
@@ -135,7 +135,7 @@ std::vector<Tie> find_ties(const RunReader& run, std::string_view order, std::si
 }
 
 /// Of equal error rates that with the smallest map is first.
-std::vector<OverviewRow> ranked_rows(const RunReader& run)
+std::vector<OverviewRow> ranked_rows(const store::RunReader& run)
 {
     std::vector<Tie> ties = find_ties(run, "error_rate, map_bytes, min(ordinal)", most_rows_shown);
     if (ties.size() == most_rows_shown) {
@@ -149,17 +149,17 @@ std::vector<OverviewRow> ranked_rows(const RunReader& run)
     return rows;
 }
 
-std::string rates_text(const ResultRow& row)
+std::string rates_text(const store::ResultRow& row)
 {
     return fmt::format("{} of the scored pixels wrong: {} false shadow, {} false lit",
                        percent(row.number("error_rate")), grouped(row.count("false_shadow")),
                        grouped(row.count("false_lit")));
 }
 
-std::string completeness(const RunReader& run)
+std::string completeness(const store::RunReader& run)
 {
-    const PlanOutcome& outcome = run.outcome();
-    const Shard shard = run.description().shard;
+    const store::PlanOutcome& outcome = run.outcome();
+    const store::Shard shard = run.description().shard;
     const std::uint64_t all = outcome.done + outcome.failed + outcome.planned;
     std::string text =
         shard.count == 1
@@ -175,7 +175,7 @@ std::string completeness(const RunReader& run)
         text += fmt::format(", {} not computed yet", grouped(outcome.planned));
     }
     text += ".";
-    if (const std::string schema = schema_text(run.schema()); !schema.empty()) {
+    if (const std::string schema = store::schema_text(run.schema()); !schema.empty()) {
         text += fmt::format(" T{}.", schema.substr(1)); // a sentence's beginning
     }
     return text;
@@ -197,7 +197,7 @@ void add_extremes(std::vector<std::string>& sentences, const std::vector<Overvie
 }
 
 /// How many bias curves no constant bias serves.
-void add_curve_verdict(std::vector<std::string>& sentences, const RunReader& run)
+void add_curve_verdict(std::vector<std::string>& sentences, const store::RunReader& run)
 {
     const auto curves = [&](std::string_view condition) {
         return static_cast<std::uint64_t>(run.database().integer(
@@ -219,15 +219,15 @@ void add_curve_verdict(std::vector<std::string>& sentences, const RunReader& run
     }
 }
 
-void add_findings(std::vector<std::string>& sentences, const Json& detail, bool is_one)
+void add_findings(std::vector<std::string>& sentences, const store::Json& detail, bool is_one)
 {
-    const Json* const findings =
+    const store::Json* const findings =
         detail.is_object() && detail.contains("findings") ? &detail["findings"] : nullptr;
     if (findings == nullptr || !findings->is_array()) {
         return;
     }
     bool is_first = true;
-    for (const Json& finding : *findings) {
+    for (const store::Json& finding : *findings) {
         if (finding.is_string()) {
             const auto& words = finding.get_ref<const std::string&>();
             sentences.push_back(is_first && !is_one ? "The best: " + words : words);
@@ -237,14 +237,15 @@ void add_findings(std::vector<std::string>& sentences, const Json& detail, bool 
 }
 
 /// The scene's name, where all configurations share it; of another renderer's case the case's own.
-std::string common_scene(const RunReader& run)
+std::string common_scene(const store::RunReader& run)
 {
     if (!run.description().environment.is_of_gl()) {
-        sqlite::Statement find{run.database(), "SELECT DISTINCT \"case\" FROM results LIMIT 2"};
+        store::sqlite::Statement find{run.database(),
+                                      "SELECT DISTINCT \"case\" FROM results LIMIT 2"};
         std::string name = find.step() ? find.text(0) : std::string{};
         return find.step() ? std::string{} : name;
     }
-    sqlite::Statement find{
+    store::sqlite::Statement find{
         run.database(), "SELECT DISTINCT \"scene.builtin\", \"scene.file\" FROM results LIMIT 2"};
     if (!find.step()) {
         return {};
@@ -268,16 +269,16 @@ std::vector<KindColumns> named_columns(std::string_view kind, const auto& names)
 
 } // namespace
 
-RunOverview read_overview(const RunReader& run)
+RunOverview read_overview(const store::RunReader& run)
 {
     RunOverview overview;
     overview.scene = common_scene(run);
-    overview.notes = note_sentences(run.description());
+    overview.notes = store::note_sentences(run.description());
     overview.rows = ranked_rows(run);
-    const PlanOutcome& outcome = run.outcome();
+    const store::PlanOutcome& outcome = run.outcome();
     overview.failed_count = outcome.failed;
     if (outcome.failed > 0) {
-        for (ResultRow& row : run.rows(fmt::format(
+        for (store::ResultRow& row : run.rows(fmt::format(
                  "WHERE status = 'failed' ORDER BY ordinal LIMIT {}", most_rows_shown))) {
             overview.failed.push_back(named_row(run, std::move(row)));
         }
@@ -291,7 +292,7 @@ RunOverview read_overview(const RunReader& run)
     }
     overview.headline = named_row(run, overview.rows.front().result);
     const std::string id = overview.headline->result.text("id");
-    overview.detail = find_detail(run.folder(), id);
+    overview.detail = store::find_detail(run.folder(), id);
     if (is_one && overview.detail.is_null()) {
         overview.sentences.push_back(rates_text(overview.headline->result) + ".");
     } else if (!is_one) {
@@ -300,54 +301,6 @@ RunOverview read_overview(const RunReader& run)
     }
     add_findings(overview.sentences, overview.detail, is_one);
     return overview;
-}
-
-std::string run_command(const RunDescription& description)
-{
-    const Shard shard = description.shard;
-    return shard.count == 1
-               ? description.command
-               : fmt::format("{} --shard {}/{}", description.command, shard.index, shard.count);
-}
-
-std::string compare_command(const RunDescription& description, const ResultRow& row)
-{
-    std::vector<std::pair<std::string, std::string>> axes;
-    for (const std::string& axis : description.axes) {
-        axes.emplace_back(axis, row.text(axis));
-    }
-    return compare_command(description, row.text("case"), axes);
-}
-
-std::string compare_command(const RunDescription& description, const std::string& case_name,
-                            const std::vector<std::pair<std::string, std::string>>& axes)
-{
-    if (description.compare_command.empty()) {
-        return {};
-    }
-    if (description.compare_command.starts_with("gnomon evaluate ")) {
-        return description.compare_command; // the case is all that there is
-    }
-    std::vector<std::string> words;
-    if (!case_name.empty()) {
-        words.insert(words.end(), {"--case", case_name});
-    }
-    for (const auto& [axis, value] : axes) {
-        words.insert(words.end(), {"--set", fmt::format("{}={}", axis, value)});
-    }
-    words.insert(words.end(), {"--out", "DIR"});
-    return fmt::format("{} {}", description.compare_command, shell_text(words));
-}
-
-std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row)
-{
-    std::vector<std::pair<std::string, std::string>> settings;
-    for (const JobColumn& column : job_columns()) {
-        if (std::string value = row.text(column.name); !value.empty()) {
-            settings.emplace_back(column.name, std::move(value));
-        }
-    }
-    return settings;
 }
 
 const std::vector<KindColumns>& cause_columns()
@@ -362,7 +315,7 @@ const std::vector<KindColumns>& label_columns()
     return columns;
 }
 
-bool has_amounts(const ResultRow& row)
+bool has_amounts(const store::ResultRow& row)
 {
     return std::ranges::any_of(cause_columns(), [&](const KindColumns& kind) {
         const auto amount = row.number(kind.amount);

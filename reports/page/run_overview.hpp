@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reports/json_values.hpp"
-#include "reports/page/run_reader.hpp"
+#include "store/json_values.hpp"
+#include "store/run/run_reader.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +18,7 @@ struct OverviewRow {
     /// the same errors; empty: one only.
     std::string settings;
     std::string mean_error; ///< "0.218 %", or "0.218 % to 0.258 %" of several configurations
-    ResultRow result;
+    store::ResultRow result;
 };
 
 /// What a report says first of a run.
@@ -29,29 +29,14 @@ struct RunOverview {
     /// The configuration with the lowest error rate, of several that with the smallest map; empty
     /// if none was measured.
     std::optional<OverviewRow> headline;
-    Json detail; ///< what `compare --json` says of it; null if its layers were not kept
+    store::Json detail; ///< what `compare --json` says of it; null if its layers were not kept
     /// Those of the headline table, lowest error rate first; the last has the highest.
     std::vector<OverviewRow> rows;
     std::vector<OverviewRow> failed; ///< the first that could not be computed
     std::uint64_t failed_count = 0;
 };
 
-/// The command that computes the run, but for its folder; of a part of a divided sweep that part.
-[[nodiscard]] std::string run_command(const RunDescription& description);
-
-[[nodiscard]] RunOverview read_overview(const RunReader& run);
-
-/// The command that computes one configuration with all its layers.
-[[nodiscard]] std::string compare_command(const RunDescription& description, const ResultRow& row);
-/// @param case_name  Empty without cases.
-/// @param axes       The sweep's keys and their values.
-[[nodiscard]] std::string
-compare_command(const RunDescription& description, const std::string& case_name,
-                const std::vector<std::pair<std::string, std::string>>& axes);
-
-/// The settings of a configuration that are not its own alone: scene, camera, light, map, lookup,
-/// bias, as the job's keys and values.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row);
+[[nodiscard]] RunOverview read_overview(const store::RunReader& run);
 
 /// The columns of one cause or label, and the name by which people know it:
 /// {"causes.bias", "cause_amounts.bias", "bias"}.
@@ -64,6 +49,6 @@ struct KindColumns {
 [[nodiscard]] const std::vector<KindColumns>& label_columns();
 
 /// Whether amounts say more than counts do: verdicts are fractions.
-[[nodiscard]] bool has_amounts(const ResultRow& row);
+[[nodiscard]] bool has_amounts(const store::ResultRow& row);
 
 } // namespace gnomon::reports

@@ -1,7 +1,8 @@
 #include "reports/page/summary.hpp"
 
-#include "reports/remedy_words.hpp"
-#include "reports/text.hpp"
+#include "reports/words/remedy_words.hpp"
+#include "reports/words/text.hpp"
+#include "store/run/run_commands.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,7 +47,7 @@ std::string table(const RunOverview& overview)
     return text + "\n";
 }
 
-std::string counts(const ResultRow& row)
+std::string counts(const store::ResultRow& row)
 {
     std::string text;
     for (const auto* const columns : {&cause_columns(), &label_columns()}) {
@@ -66,21 +67,21 @@ std::string counts(const ResultRow& row)
 }
 
 /// Of data that anybody may have written: 0 or empty where it is not what it should be.
-std::uint64_t count_of(const Json& object, const char* name)
+std::uint64_t count_of(const store::Json& object, const char* name)
 {
     const auto found = object.find(name);
     return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
-std::string text_of(const Json& text)
+std::string text_of(const store::Json& text)
 {
     return text.is_string() ? text.get<std::string>() : std::string{};
 }
 
-std::string remedy_row(const Json& remedy)
+std::string remedy_row(const store::Json& remedy)
 {
     std::vector<std::string> keys;
     if (const auto found = remedy.find("keys"); found != remedy.end() && found->is_array()) {
-        for (const Json& key : *found) {
+        for (const store::Json& key : *found) {
             keys.push_back(text_of(key));
         }
     }
@@ -93,7 +94,7 @@ std::string remedy_row(const Json& remedy)
 }
 
 /// What leaves less error than the headline's configuration, the first few; empty without any.
-std::string remedies(const Json& detail)
+std::string remedies(const store::Json& detail)
 {
     constexpr std::size_t most_lines = 5;
     const auto ranked = detail.is_object() ? detail.find("remedies") : detail.end();
@@ -136,7 +137,7 @@ std::string markdown_text(std::string_view text)
     return markdown + (shown.size() < text.size() ? "…" : "");
 }
 
-std::string summary_text(const RunReader& run, const RunOverview& overview,
+std::string summary_text(const store::RunReader& run, const RunOverview& overview,
                          const ReportOptions& options)
 {
     std::string text =
@@ -172,7 +173,8 @@ std::string summary_text(const RunReader& run, const RunOverview& overview,
         environment.is_of_gl() ? markdown_text(environment.gl_version) + ", " : "";
     text += fmt::format("{}, {}{}, gnomon {}\n\n", markdown_text(environment.gl_renderer), version,
                         markdown_text(environment.embree), markdown_text(environment.gnomon));
-    return text + code_block(run_command(run.description()) + " --out RUN\ngnomon report RUN");
+    return text +
+           code_block(store::run_command(run.description()) + " --out RUN\ngnomon report RUN");
 }
 
 } // namespace gnomon::reports

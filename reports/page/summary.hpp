@@ -12,7 +12,7 @@ namespace gnomon::reports {
 [[nodiscard]] std::string markdown_text(std::string_view text);
 
 /// summary.md: the verdict, a table and links to pictures; fits a pull request.
-[[nodiscard]] std::string summary_text(const RunReader& run, const RunOverview& overview,
+[[nodiscard]] std::string summary_text(const store::RunReader& run, const RunOverview& overview,
                                        const ReportOptions& options);
 
 } // namespace gnomon::reports

@@ -5,10 +5,17 @@
 #include "scene/vec.hpp"
 
 #include <cstdint>
+#include <string_view>
 
 namespace gnomon::scene {
 
 enum class Projection : std::uint8_t { perspective, orthographic };
+
+/// "perspective", "orthographic".
+[[nodiscard]] constexpr std::string_view projection_name(Projection projection)
+{
+    return projection == Projection::perspective ? "perspective" : "orthographic";
+}
 
 /// The job's `[camera]` table.
 struct CameraSettings {

@@ -2,10 +2,10 @@
 
 #include "child_process.hpp"
 
-#include "reports/images/image_encoding.hpp"
-#include "reports/images/layer_file.hpp"
-#include "reports/output_file.hpp"
 #include "scene/image.hpp"
+#include "store/images/image_encoding.hpp"
+#include "store/images/layer_file.hpp"
+#include "store/output_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using CaseChannelImages = std::map<std::string, scene::Image<float>>;
 
 inline CaseChannelImages read_channels(const std::filesystem::path& file)
 {
-    reports::LayerFile layers{file, "a test needs it"};
+    store::LayerFile layers{file, "a test needs it"};
     CaseChannelImages channels;
     for (const std::string& name : layers.names()) {
         channels[name] = layers.numbers(name);
@@ -35,13 +35,13 @@ inline CaseChannelImages read_channels(const std::filesystem::path& file)
 /// Writes all channels as floats.
 inline void write_channels(const std::filesystem::path& file, const CaseChannelImages& channels)
 {
-    std::vector<reports::ExrChannel> all;
+    std::vector<store::ExrChannel> all;
     for (const auto& [name, image] : channels) {
-        all.push_back({name, reports::ChannelType::float32, [&image = image](std::size_t i) {
+        all.push_back({name, store::ChannelType::float32, [&image = image](std::size_t i) {
                            return std::bit_cast<std::uint32_t>(image[i]);
                        }});
     }
-    reports::write_file(file, reports::encode_exr(channels.begin()->second.size(), all, {}));
+    store::write_file(file, store::encode_exr(channels.begin()->second.size(), all, {}));
 }
 
 /// GL's verdict on a scene as a case in a folder of its own.

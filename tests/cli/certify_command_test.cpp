@@ -2,10 +2,10 @@
 
 #include "analysis/comparison.hpp"
 #include "reference_rt/certificate/pixel.hpp"
-#include "reports/aov_exr.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
+#include "store/exr/aov_write.hpp"
 
 #include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
@@ -78,7 +78,7 @@ public:
                                  const std::string& builtin = "wall") const
     {
         const std::filesystem::path aov = folder_ / "wall.exr";
-        reports::write_aov(aov, comparison, Image<scene::Vec3f>{job_.image});
+        store::write_aov(aov, comparison, Image<scene::Vec3f>{job_.image});
         CLI::App program;
         add_certify_command(program);
         // CLI11 takes the words from the last to the first.

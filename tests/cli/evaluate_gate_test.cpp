@@ -39,7 +39,7 @@ public:
     {
         for (const auto& file : std::filesystem::directory_iterator{folder.at("before/pixels")}) {
             if (file.path().extension() == ".exr") {
-                return reports::LayerFile{file.path(), "a test needs it"}.classes();
+                return store::LayerFile{file.path(), "a test needs it"}.classes();
             }
         }
         ADD_FAILURE() << "no pixels were kept";

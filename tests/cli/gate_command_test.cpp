@@ -11,8 +11,8 @@
 namespace gnomon::testing {
 namespace {
 
-using reports::ExampleRun;
-using reports::RunStore;
+using store::ExampleRun;
+using store::RunStore;
 using ::testing::HasSubstr;
 using GateJson = nlohmann::json;
 

@@ -80,16 +80,16 @@ inline void add_leak(analysis::ConfigurationResult& result)
 
 /// Records the example with changed results or descriptions.
 template <typename Change>
-void record_example(const std::string& folder, const reports::ExampleRun& run, const Change& change)
+void record_example(const std::string& folder, const store::ExampleRun& run, const Change& change)
 {
     std::filesystem::create_directories(folder);
-    reports::RunDescription description = run.description();
+    store::RunDescription description = run.description();
     std::vector<analysis::FinishedCurve> curves;
     for (std::uint64_t c = 0; c < run.curves; ++c) {
         curves.push_back(run.curve(c));
     }
     change(description, curves);
-    reports::RunStore store{folder, reports::RunStore::Access::write};
+    store::RunStore store{folder, store::RunStore::Access::write};
     store.plan(description, run.configurations());
     for (const analysis::FinishedCurve& curve : curves) {
         store.record(curve);

@@ -1,6 +1,6 @@
 #include "gate_folder.hpp"
 
-#include "reports/gate/pixel_mask.hpp"
+#include "store/baseline/pixel_mask.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@
 namespace gnomon::testing {
 namespace {
 
-using reports::ExampleRun;
+using store::ExampleRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using PlacesJson = nlohmann::json;
@@ -84,12 +84,12 @@ void plant_moved_pixels(const GateFolder& folder)
     PlacesJson baseline = PlacesJson::parse(text_of(folder.at("baseline.json")));
     PlacesJson& name = baseline.at("configurations").at(0).at("wrong_pixels");
     const std::filesystem::path file = folder.at("baseline.json");
-    const auto mask = reports::read_mask(file, name.get<std::string>(), {320, 180});
+    const auto mask = store::read_mask(file, name.get<std::string>(), {320, 180});
     analysis::PixelMask flipped{mask.size()};
     for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
         flipped[i] = mask[mask.pixel_count() - 1 - i];
     }
-    name = reports::write_mask(file, flipped);
+    name = store::write_mask(file, flipped);
     folder.write("baseline.json", baseline.dump());
 }
 

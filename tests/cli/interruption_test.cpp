@@ -1,7 +1,7 @@
 #include "child_process.hpp"
 
 #include "cli/system/process.hpp"
-#include "reports/output_file.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -35,12 +35,12 @@ TEST(InterruptionDeathTest, RemovesATemporaryFileAndKeepsTheOldOne)
         EXPECT_EXIT(
             {
                 cli::clean_up_on_signals();
-                reports::OutputFile committed{folder.path() / "b.json"};
+                store::OutputFile committed{folder.path() / "b.json"};
                 committed.write("whole");
                 committed.commit();
-                reports::OutputFile half{old};
+                store::OutputFile half{old};
                 half.write("half");
-                reports::OutputFile other{folder.path() / "c.json"};
+                store::OutputFile other{folder.path() / "c.json"};
                 (void)::raise(signal);
             },
             ::testing::ExitedWithCode(exit_code), "gnomon: interrupted");

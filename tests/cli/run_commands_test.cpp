@@ -1,6 +1,6 @@
 #include "child_process.hpp"
 #include "example_run.hpp"
-#include "reports/run/run_lock.hpp"
+#include "store/run_folder/run_lock.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace gnomon::testing {
 namespace {
 
 using Json = nlohmann::json;
-using reports::ExampleRun;
-using reports::RunStore;
+using store::ExampleRun;
+using store::RunStore;
 
 const ExampleRun divided{4, 3, 2};
 
@@ -101,8 +101,7 @@ TEST(MergeCommand, UnitesShardsToTheUndividedRun)
         gnomon({"merge", place(folder, "all"), place(folder, "1"), place(folder, "2")});
     expect_done(ending);
     EXPECT_NE(ending.out.find("12 of 12 configurations done"), std::string::npos) << ending.out;
-    EXPECT_EQ(reports::csv_texts(folder.path() / "all"),
-              reports::csv_texts(folder.path() / "whole"));
+    EXPECT_EQ(store::csv_texts(folder.path() / "all"), store::csv_texts(folder.path() / "whole"));
     expect_refused(gnomon({"merge", place(folder, "all"), place(folder, "1")}), 2,
                    "holds a run already");
 }
@@ -162,7 +161,7 @@ TEST(MergeCommand, AsksBeforeItMixesEnvironments)
     divided.compute(folder.path() / "1", 1);
     std::filesystem::create_directory(folder.path() / "2");
     {
-        reports::RunDescription description = divided.description(2);
+        store::RunDescription description = divided.description(2);
         description.environment.embree = "Embree 4.3.0";
         RunStore store{folder.path() / "2", RunStore::Access::write};
         store.plan(description, divided.configurations());
@@ -180,7 +179,7 @@ TEST(MergeCommand, WaitsForNobodyWhoWritesThere)
 {
     const TemporaryFolder folder;
     divided.compute(folder.path() / "1", 1);
-    const reports::RunLock lock{folder.path() / "all"};
+    const store::RunLock lock{folder.path() / "all"};
     expect_refused(gnomon({"merge", place(folder, "all"), place(folder, "1")}), 2,
                    fmt::format("another process is writing here (process {} on ", ::getpid()));
 }

@@ -58,19 +58,19 @@ std::vector<std::string> documented_columns(const std::string& section)
 
 TEST(CsvSchemaDocument, DescribesEveryColumnInItsOrder)
 {
-    const TemporaryFolder folder;
-    ExampleRun{1, 1}.compute(folder.path());
+    const store::TemporaryFolder folder;
+    store::ExampleRun{1, 1}.compute(folder.path());
     for (const char* const file : {"results.csv", "error_vs_z.csv", "bias_curves.csv"}) {
-        EXPECT_EQ(documented_columns(file), read_csv(folder / file).columns) << file;
+        EXPECT_EQ(documented_columns(file), store::read_csv(folder / file).columns) << file;
     }
 }
 
 TEST(CsvSchemaDocument, SpeaksOfTheSchemaThatIsWritten)
 {
-    const TemporaryFolder folder;
-    ExampleRun{1, 1}.compute(folder.path());
-    EXPECT_EQ(read_csv(folder / "results.csv").rows.at(0).at("schema"), "2");
-    EXPECT_NE(read_text(GNOMON_CSV_SCHEMA_DOCUMENT).find("a `schema`, which is 2"),
+    const store::TemporaryFolder folder;
+    store::ExampleRun{1, 1}.compute(folder.path());
+    EXPECT_EQ(store::read_csv(folder / "results.csv").rows.at(0).at("schema"), "2");
+    EXPECT_NE(store::read_text(GNOMON_CSV_SCHEMA_DOCUMENT).find("a `schema`, which is 2"),
               std::string::npos);
 }
 

@@ -1,6 +1,6 @@
 #include "example_comparison.hpp"
 
-#include "reports/comparison_json.hpp"
+#include "reports/json/comparison_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -37,7 +37,7 @@ TEST(JsonSchemaDocument, NamesEveryMemberOfTheObject)
     const std::string text =
         document_text(schema_document) +
         document_text(schema_document.parent_path() / "metrics.md"); // to which it refers
-    const Example example;
+    const store::Example example;
     const Json json = Json::parse(comparison_json(example.comparison));
     ASSERT_GT(json.size(), 30U);
     for (const auto& [name, value] : json.items()) {
@@ -48,7 +48,7 @@ TEST(JsonSchemaDocument, NamesEveryMemberOfTheObject)
 TEST(JsonSchemaDocument, NamesTheMembersOfItsObjects)
 {
     const std::string text = document_text(schema_document);
-    const Example example;
+    const store::Example example;
     const Json json = Json::parse(comparison_json(example.comparison));
     for (const char* const object : {"environment", "seconds", "frustum", "truth_signs", "scene"}) {
         ASSERT_TRUE(json.at(object).is_object()) << object;

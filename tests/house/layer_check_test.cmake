@@ -37,6 +37,8 @@ expect("the ground floor knows nobody" scene/job/job.cpp
        "#include \"analysis/metrics/metrics.hpp\"\n" "scene may not include analysis")
 expect("analysis knows no renderer" analysis/metrics/metrics.cpp
        "  #  include \"raster_gl/lookup.hpp\"\n" "analysis may not include raster_gl")
+expect("what is kept does not know what people read" store/csv/csv_text.cpp
+       "#include \"reports/words/text.hpp\"\n" "store may not include reports")
 expect("reports know no runner" reports/table.cpp
        "#include \"cli/compare.hpp\"\n" "reports may not include cli")
 expect("a folder that is no layer" scene/job/job.cpp

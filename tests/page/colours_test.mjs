@@ -25,7 +25,7 @@ describe("Colours", () => {
   });
 
   it("of causes and names are those of heat maps, and all different", () => {
-    const heatMap = source("reports/heat_map.cpp");
+    const heatMap = source("reports/pictures/heat_map.cpp");
     const colours = (name) => {
       const [, entries] = new RegExp(`${name}\\{\\{no_error,([^;]*);`).exec(heatMap);
       return [...entries.matchAll(/0x(..), 0x(..), 0x(..)/g)].map(([, ...bytes]) => `#${bytes.join("")}`);
@@ -39,7 +39,7 @@ describe("Colours", () => {
   it("of errors are those of the pictures", () => {
     const marks = Object.fromEntries(
       [
-        ...source("reports/panels.cpp").matchAll(/case Mark::(\w+):\s+return \{0x(..), 0x(..), 0x(..)\}/g),
+        ...source("reports/pictures/panels.cpp").matchAll(/case Mark::(\w+):\s+return \{0x(..), 0x(..), 0x(..)\}/g),
       ].map(([, mark, ...bytes]) => [mark, `#${bytes.join("")}`]),
     );
     assert.deepEqual(

@@ -3,10 +3,10 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "analysis/metrics/metric_table.hpp"
-#include "reports/comparison_json.hpp"
-#include "reports/gate/gate_run.hpp"
+#include "reports/json/comparison_json.hpp"
 #include "reports/page/report.hpp"
-#include "reports/run/run_store.hpp"
+#include "store/baseline/gate_run.hpp"
+#include "store/run/run_store.hpp"
 
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
@@ -70,24 +70,24 @@ std::uint64_t wrong_twice(const analysis::Metrics& metrics)
 
 TEST(AddedMetric, IsInTheJsonOfAComparison)
 {
-    const auto json = nlohmann::json::parse(comparison_json(example().comparison));
-    EXPECT_EQ(json.at("trial").at("wrong_twice"), wrong_twice(example().comparison.metrics));
+    const auto json = nlohmann::json::parse(comparison_json(store::example().comparison));
+    EXPECT_EQ(json.at("trial").at("wrong_twice"), wrong_twice(store::example().comparison.metrics));
 }
 
 TEST(AddedMetric, IsAColumnOfTheResultsAndAMetricOfTheGate)
 {
-    const TemporaryFolder folder;
-    const ExampleRun run;
+    const store::TemporaryFolder folder;
+    const store::ExampleRun run;
     run.compute(folder.path());
     const std::uint64_t expected =
         wrong_twice(run.curve(0).rows.front().result.metrics); // of the first configuration
-    const CsvTable results = read_csv(folder / "results.csv");
+    const store::CsvTable results = store::read_csv(folder / "results.csv");
     EXPECT_EQ(results.rows.front().at(added), fmt::format("{}", expected));
 
     const analysis::GateMetric* const metric = analysis::find_gate_metric(added);
     ASSERT_NE(metric, nullptr);
     EXPECT_TRUE(metric->is_pixel_count);
-    const GateRun read = read_gate_run(folder.path());
+    const store::GateRun read = store::read_gate_run(folder.path());
     EXPECT_TRUE(std::ranges::all_of(read.results.entries, [&](const analysis::GateEntry& entry) {
         return entry.metric(added) ==
                2 * (entry.metric("false_shadow").value() + entry.metric("false_lit").value());
@@ -96,11 +96,11 @@ TEST(AddedMetric, IsAColumnOfTheResultsAndAMetricOfTheGate)
 
 TEST(AddedMetric, IsAColumnAndAChartOfThePage)
 {
-    const TemporaryFolder folder;
-    const ExampleRun run;
+    const store::TemporaryFolder folder;
+    const store::ExampleRun run;
     run.compute(folder.path());
     write_report({folder.path(), folder.path(), {}, "figures are not wanted", {}});
-    const ReadPage page{read_text(folder / "report.html")};
+    const ReadPage page{store::read_text(folder / "report.html")};
     const auto& metrics = page.data().at("metrics");
     const auto described = std::ranges::find_if(
         metrics, [](const nlohmann::json& metric) { return metric.at("name") == added; });

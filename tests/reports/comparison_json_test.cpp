@@ -1,7 +1,8 @@
-#include "reports/comparison_json.hpp"
+#include "reports/json/comparison_json.hpp"
 
 #include "example_comparison.hpp"
 #include "scene/job/file.hpp"
+#include "store/job_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ std::vector<std::string> names(const json& object)
 
 TEST(ComparisonJson, HasEveryFixedName)
 {
-    const json object = parsed(example().comparison);
+    const json object = parsed(store::example().comparison);
     EXPECT_THAT(names(object),
                 IsSupersetOf({"schema", "pixels", "unmatched_kinds", "indeterminate_kinds",
                               "false_shadow", "false_lit", "false_shadow_rate", "false_lit_rate",
@@ -57,7 +58,7 @@ TEST(ComparisonJson, HasEveryFixedName)
 
 TEST(ComparisonJson, GivesTheMeasuredNumbers)
 {
-    const analysis::Comparison& comparison = example().comparison;
+    const analysis::Comparison& comparison = store::example().comparison;
     const analysis::Metrics& metrics = comparison.metrics;
     const json object = parsed(comparison);
     EXPECT_EQ(object["schema"], 2);
@@ -80,7 +81,7 @@ TEST(ComparisonJson, GivesTheMeasuredNumbers)
 
 TEST(ComparisonJson, PrintsNoNumberThatNobodyComputed)
 {
-    const json object = parsed(example().comparison);
+    const json object = parsed(store::example().comparison);
     EXPECT_TRUE(object["causes"].is_null());
     EXPECT_TRUE(object["labels"].is_null());
     EXPECT_TRUE(object["bias_curve"].is_null());
@@ -89,11 +90,11 @@ TEST(ComparisonJson, PrintsNoNumberThatNobodyComputed)
 
 TEST(ComparisonJson, NamesSceneAndMethod)
 {
-    const json object = parsed(example().comparison);
+    const json object = parsed(store::example().comparison);
     EXPECT_EQ(object["scene"]["name"], "example.obj");
-    EXPECT_EQ(object["scene"]["triangles"], example().file.scene.triangles.size());
+    EXPECT_EQ(object["scene"]["triangles"], store::example().file.scene.triangles.size());
     EXPECT_EQ(object["scene"]["objects"], 3);
-    EXPECT_EQ(object["scene"]["hash"], scene::content_hash(example().file.scene));
+    EXPECT_EQ(object["scene"]["hash"], scene::content_hash(store::example().file.scene));
     EXPECT_THAT(names(object["scene"]),
                 UnorderedElementsAre("name", "triangles", "objects", "dropped_triangles",
                                      "ignored_primitives", "hash", "notes"));
@@ -102,7 +103,7 @@ TEST(ComparisonJson, NamesSceneAndMethod)
 
 TEST(ComparisonJson, WritesTheNotesOnTheScene)
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     comparison.scene.notes = {};
     EXPECT_EQ(parsed(comparison)["scene"]["notes"], json::array());
     comparison.scene.notes = {{"alpha_mask", 2, "2 materials are cut out"}};
@@ -112,19 +113,19 @@ TEST(ComparisonJson, WritesTheNotesOnTheScene)
 
 TEST(ComparisonJson, WritesJobValuesInTheirTypes)
 {
-    const json job = parsed(example().comparison)["job"];
+    const json job = parsed(store::example().comparison)["job"];
     EXPECT_EQ(job["shadow_map.resolution"], 48);
     EXPECT_EQ(job["shadow_map.depth_format"], "d24");
     EXPECT_EQ(job["bias.constant"], 0.002);
     EXPECT_EQ(job["camera.eye"], json::array({2.5, 3.2, 5.5}));
-    EXPECT_EQ(job.size(), scene::resolved_keys(example().comparison.job).size());
-    EXPECT_EQ(json::parse(job_json(example().comparison)), job);
+    EXPECT_EQ(job.size(), scene::resolved_keys(store::example().comparison.job).size());
+    EXPECT_EQ(json::parse(store::job_json(store::example().comparison)), job);
 }
 
 TEST(ComparisonJson, WritesExactInputsThatReadBackToTheSameBits)
 {
-    const scene::View& view = example().comparison.view;
-    const json inputs = parsed(example().comparison)["exact_inputs"];
+    const scene::View& view = store::example().comparison.view;
+    const json inputs = parsed(store::example().comparison)["exact_inputs"];
     const auto number = [](const json& text) {
         return std::strtod(text.get<std::string>().c_str(), nullptr);
     };
@@ -150,7 +151,7 @@ TEST(ComparisonJson, WritesExactInputsThatReadBackToTheSameBits)
 
 TEST(ComparisonJson, WritesTheSpotsOwnInputs)
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     comparison.view.light = {scene::LightType::spot, {0, -1, 0}, {1, 2, 3}, 0.75};
     const json inputs = parsed(comparison)["exact_inputs"];
     EXPECT_EQ(inputs["light_type"], "spot");
@@ -162,7 +163,7 @@ TEST(ComparisonJson, WritesTheSpotsOwnInputs)
 
 TEST(ComparisonJson, WritesNullForARateWithoutADenominator)
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     comparison.metrics = {};
     const json object = parsed(comparison);
     for (const char* rate :
@@ -174,7 +175,7 @@ TEST(ComparisonJson, WritesNullForARateWithoutADenominator)
 
 TEST(ComparisonJson, SurvivesANameThatIsNoUtf8)
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     comparison.scene.name = "caf\xE9.obj";
     EXPECT_EQ(parsed(comparison)["scene"]["name"], "caf\xEF\xBF\xBD.obj");
 }

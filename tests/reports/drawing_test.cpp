@@ -11,13 +11,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr Rgb red{255, 0, 0};
-constexpr Rgb white{255, 255, 255};
+constexpr store::Rgb red{255, 0, 0};
+constexpr store::Rgb white{255, 255, 255};
 
 TEST(Drawing, IsWhiteWithoutMarks)
 {
-    const RgbImage image = rasterise({{8, 6}, {}, {}});
-    for (const Rgb& pixel : image) {
+    const store::RgbImage image = rasterise({{8, 6}, {}, {}});
+    for (const store::Rgb& pixel : image) {
         EXPECT_EQ(pixel, white);
     }
 }
@@ -25,7 +25,7 @@ TEST(Drawing, IsWhiteWithoutMarks)
 TEST(Drawing, CoversThePixelsOfALine)
 {
     // Two pixels wide on the border of two rows: both are covered entirely, the next not at all.
-    const RgbImage image = rasterise({{8, 8}, {Polyline{{{-4, 4}, {12, 4}}, red, 2}}, {}});
+    const store::RgbImage image = rasterise({{8, 8}, {Polyline{{{-4, 4}, {12, 4}}, red, 2}}, {}});
     for (int x = 0; x < 8; ++x) {
         EXPECT_EQ(image(x, 3), red);
         EXPECT_EQ(image(x, 4), red);
@@ -36,18 +36,18 @@ TEST(Drawing, CoversThePixelsOfALine)
 
 TEST(Drawing, PaintsLaterMarksOnTop)
 {
-    const RgbImage image =
+    const store::RgbImage image =
         rasterise({{9, 9}, {Dots{{{4.5, 4.5}}, {0, 0, 255}, 3}, Dots{{{4.5, 4.5}}, red, 1}}, {}});
     EXPECT_EQ(image(4, 4), red);
-    EXPECT_EQ(image(6, 4), (Rgb{0, 0, 255}));
+    EXPECT_EQ(image(6, 4), (store::Rgb{0, 0, 255}));
     EXPECT_EQ(image(0, 0), white);
 }
 
 TEST(Drawing, LeavesOutWhatLiesOutside)
 {
-    const RgbImage image = rasterise(
+    const store::RgbImage image = rasterise(
         {{4, 4}, {Polyline{{{-1e6, -50}, {1e6, -50}}, red, 3}, Dots{{{99, 99}}, red, 2}}, {}});
-    for (const Rgb& pixel : image) {
+    for (const store::Rgb& pixel : image) {
         EXPECT_EQ(pixel, white);
     }
 }

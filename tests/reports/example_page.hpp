@@ -17,6 +17,6 @@ written_page(const std::filesystem::path& run, const std::filesystem::path& out,
 
 /// A run of one comparison, with its layers.
 void keep_example(const std::filesystem::path& folder,
-                  const analysis::Comparison& comparison = example().comparison);
+                  const analysis::Comparison& comparison = store::example().comparison);
 
 } // namespace gnomon::reports

@@ -1,7 +1,7 @@
-#include "reports/findings.hpp"
+#include "reports/words/findings.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "reports/tune_report.hpp"
+#include "reports/tables/tune_report.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

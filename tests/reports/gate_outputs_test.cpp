@@ -157,19 +157,19 @@ PlacePicture picture_of_marks(scene::ImageSize size)
     PlacePicture picture;
     picture.title = "title";
     picture.lines = {"line"};
-    picture.ground = RgbImage{size, {200, 200, 200}};
+    picture.ground = store::RgbImage{size, {200, 200, 200}};
     picture.marks = scene::Image<PlaceMark>{size};
     return picture;
 }
 
-std::size_t drawn_pixels(const RgbImage& image, Rgb colour)
+std::size_t drawn_pixels(const store::RgbImage& image, store::Rgb colour)
 {
     return static_cast<std::size_t>(std::count(image.begin(), image.end(), colour));
 }
 
 TEST(PlacePicture, LosesNoNewPixelWhereItIsScaledDown)
 {
-    constexpr Rgb blue{0x00, 0x72, 0xB2};
+    constexpr store::Rgb blue{0x00, 0x72, 0xB2};
     PlacePicture picture = picture_of_marks({3000, 1200});
     picture.marks(2999, 1199) = PlaceMark::new_false_lit;
     picture.marks(2998, 1199) = PlaceMark::wrong_before;

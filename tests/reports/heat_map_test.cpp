@@ -1,4 +1,4 @@
-#include "reports/heat_map.hpp"
+#include "reports/pictures/heat_map.hpp"
 
 #include "example_comparison.hpp"
 #include "scene/error.hpp"
@@ -52,7 +52,7 @@ TEST(HeatMap, HasANameForEachKind)
 /// The example, with causes and depth errors that are known.
 analysis::Comparison diagnosed()
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     const scene::ImageSize size = comparison.truth.pixel_class.size();
     analysis::Diagnosis diagnosis;
     diagnosis.map_error_m = scene::Image<float>{size, std::numeric_limits<float>::quiet_NaN()};
@@ -63,7 +63,7 @@ analysis::Comparison diagnosed()
     return comparison;
 }
 
-std::size_t pixels_of(const RgbImage& image, Rgb colour)
+std::size_t pixels_of(const store::RgbImage& image, store::Rgb colour)
 {
     std::size_t count = 0;
     for (std::size_t i = 0; i < image.pixel_count(); ++i) {
@@ -75,7 +75,7 @@ std::size_t pixels_of(const RgbImage& image, Rgb colour)
 TEST(HeatMap, ShowsTheSameColourForTheSameValue)
 {
     analysis::Comparison comparison = diagnosed();
-    const Rgb deepest_blue{0x08, 0x30, 0x6B};
+    const store::Rgb deepest_blue{0x08, 0x30, 0x6B};
     const std::size_t one =
         pixels_of(draw_heat_map(comparison, HeatMap::depth_error), deepest_blue);
     comparison.diagnosis->map_error_m(41, 30) = -1;
@@ -100,7 +100,7 @@ TEST(HeatMap, SaysWhatItDoesNotKnow)
         }
         return std::string{"drawn"};
     };
-    EXPECT_THAT(refusal(example().comparison, HeatMap::cause), HasSubstr("--truth float"));
+    EXPECT_THAT(refusal(store::example().comparison, HeatMap::cause), HasSubstr("--truth float"));
     EXPECT_THAT(refusal(diagnosed(), HeatMap::needed_bias), HasSubstr("hardware"));
     EXPECT_EQ(refusal(diagnosed(), HeatMap::label), "drawn");
 }

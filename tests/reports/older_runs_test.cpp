@@ -4,10 +4,10 @@
 #include "example_comparison.hpp"
 #include "example_run.hpp"
 #include "reports/page/report.hpp"
-#include "reports/run/merge.hpp"
-#include "reports/run/run_schema.hpp"
-#include "reports/run/run_status.hpp"
+#include "reports/tables/run_status_text.hpp"
 #include "scene/error.hpp"
+#include "store/merge/merge.hpp"
+#include "store/run/run_schema.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-using sqlite::Database;
+using store::sqlite::Database;
 
 /// What schema 2 added, by table.
 const std::vector<std::pair<std::string, std::vector<std::string>>>& added_columns()
@@ -68,15 +68,15 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& added_colum
 /// An example run as schema 1 kept it.
 void make_older_run(const std::filesystem::path& folder)
 {
-    ExampleRun{2, 3}.compute(folder);
-    const Database database{results_path(folder), Database::Access::write};
+    store::ExampleRun{2, 3}.compute(folder);
+    const Database database{store::results_path(folder), Database::Access::write};
     for (const char* const view : {"part", "results", "error_vs_z", "bias_curves"}) {
         database.run(fmt::format("DROP VIEW {}", view));
     }
     for (const auto& [table, columns] : added_columns()) {
         for (const std::string& column : columns) {
-            database.run(
-                fmt::format("ALTER TABLE {} DROP COLUMN {}", table, sqlite::sql_name(column)));
+            database.run(fmt::format("ALTER TABLE {} DROP COLUMN {}", table,
+                                     store::sqlite::sql_name(column)));
         }
     }
     database.run("PRAGMA user_version = 1");
@@ -84,9 +84,9 @@ void make_older_run(const std::filesystem::path& folder)
 
 TEST(OlderRuns, SayWhatTheyLack)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     make_older_run(folder / "run");
-    const RunStatus status = read_run_status(folder / "run", 20);
+    const store::RunStatus status = store::read_run_status(folder / "run", 20);
     EXPECT_EQ(status.schema.version, 1);
     for (const auto& [table, columns] : added_columns()) {
         for (const std::string& column : columns) {
@@ -107,21 +107,21 @@ TEST(OlderRuns, SayWhatTheyLack)
 
 TEST(OlderRuns, OfThePresentSchemaLackNothing)
 {
-    const TemporaryFolder folder;
-    ExampleRun{1, 1}.compute(folder / "run");
-    const RunStatus status = read_run_status(folder / "run", 20);
+    const store::TemporaryFolder folder;
+    store::ExampleRun{1, 1}.compute(folder / "run");
+    const store::RunStatus status = store::read_run_status(folder / "run", 20);
     EXPECT_TRUE(status.schema.lacks.empty());
-    EXPECT_EQ(schema_text(status.schema), "");
+    EXPECT_EQ(store::schema_text(status.schema), "");
 }
 
 TEST(OlderRuns, AreReportedWithWhatTheyHave)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     make_older_run(folder / "run");
-    ExampleRun{2, 3}.compute(folder / "present");
+    store::ExampleRun{2, 3}.compute(folder / "present");
     write_report_csv(folder / "run", folder.path());
-    const CsvTable older = read_csv(folder / "results.csv");
-    const CsvTable present = read_csv(folder / "present" / "results.csv");
+    const store::CsvTable older = store::read_csv(folder / "results.csv");
+    const store::CsvTable present = store::read_csv(folder / "present" / "results.csv");
     ASSERT_EQ(older.rows.size(), present.rows.size());
     ASSERT_EQ(older.columns, present.columns);
     for (std::size_t row = 0; row < older.rows.size(); ++row) {
@@ -138,28 +138,31 @@ TEST(OlderRuns, AreReportedWithWhatTheyHave)
     options.folder = folder / "run";
     options.out = folder.path();
     EXPECT_THAT(write_report(options).schema, HasSubstr("schema 1"));
-    EXPECT_THAT(read_text(folder / "report.html"), HasSubstr("This run is of schema 1"));
+    EXPECT_THAT(store::read_text(folder / "report.html"), HasSubstr("This run is of schema 1"));
 }
 
 TEST(OlderRuns, AreNeitherResumedNorMerged)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     make_older_run(folder / "run");
-    EXPECT_THROW((RunStore{folder / "run", RunStore::Access::write}), scene::InputError);
-    EXPECT_THROW((RunStore{folder / "run", RunStore::Access::read}), scene::InputError);
-    EXPECT_THROW(merge_runs(folder / "out", std::vector{folder / "run"}, Environments::one),
+    EXPECT_THROW((store::RunStore{folder / "run", store::RunStore::Access::write}),
                  scene::InputError);
+    EXPECT_THROW((store::RunStore{folder / "run", store::RunStore::Access::read}),
+                 scene::InputError);
+    EXPECT_THROW(
+        store::merge_runs(folder / "out", std::vector{folder / "run"}, store::Environments::one),
+        scene::InputError);
 }
 
 TEST(OlderRuns, OfUnknownSchemasAreRefused)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     for (const int version : {0, 3}) {
         const auto run = folder / fmt::format("run{}", version);
-        ExampleRun{1, 1}.compute(run);
-        Database{results_path(run), Database::Access::write}.run(
+        store::ExampleRun{1, 1}.compute(run);
+        Database{store::results_path(run), Database::Access::write}.run(
             fmt::format("PRAGMA user_version = {}", version));
-        EXPECT_THROW((void)read_run_status(run, 1), scene::InputError) << version;
+        EXPECT_THROW((void)store::read_run_status(run, 1), scene::InputError) << version;
     }
 }
 

@@ -104,9 +104,9 @@ TEST(PackedBlocks, StoresEqualArraysOnce)
     PackedBlocks blocks;
     const std::vector<std::uint8_t> a{1, 2, 3};
     const std::vector<std::uint8_t> b{3, 2, 1};
-    const Json first = blocks.add(pack(std::span{a}));
-    const Json second = blocks.add(pack(std::span{b}));
-    const Json third = blocks.add(pack(std::span{a}));
+    const store::Json first = blocks.add(pack(std::span{a}));
+    const store::Json second = blocks.add(pack(std::span{b}));
+    const store::Json third = blocks.add(pack(std::span{a}));
     EXPECT_EQ(first["block"], "b0");
     EXPECT_EQ(second["block"], "b1");
     EXPECT_EQ(third, first);
@@ -121,9 +121,9 @@ TEST(PackedBlocks, StoresTextsByADictionary)
 {
     PackedBlocks blocks;
     const std::vector<std::string> texts{"d24", "", "d16", "d24"};
-    const Json column = blocks.add_texts(texts);
+    const store::Json column = blocks.add_texts(texts);
     EXPECT_EQ(column["type"], "text");
-    EXPECT_EQ(column["dictionary"], Json::parse(R"(["d24", "d16"])"));
+    EXPECT_EQ(column["dictionary"], store::Json::parse(R"(["d24", "d16"])"));
     EXPECT_EQ(unpacked(blocks.texts().front(), 4, column["delta"].get<int>()),
               (std::vector<std::uint64_t>{0, 0xFFFFFFFF, 1, 0}));
 }

@@ -1,6 +1,6 @@
 #include "page_blocks.hpp"
 
-#include "reports/run/run_csv.hpp"
+#include "store/csv/run_csv.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -122,7 +122,7 @@ std::vector<std::string> ReadPage::texts(const nlohmann::json& column) const
             all.push_back(number == none ? "" : column.at("dictionary").at(number));
         } else if (type == "f64") {
             const auto value = std::bit_cast<double>(number);
-            all.push_back(std::isnan(value) ? "" : cell_text(value));
+            all.push_back(std::isnan(value) ? "" : store::cell_text(value));
         } else {
             all.push_back(fmt::format("{}", number));
         }

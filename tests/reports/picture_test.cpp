@@ -1,8 +1,8 @@
-#include "reports/picture.hpp"
+#include "reports/pictures/picture.hpp"
 
 #include "example_comparison.hpp"
-#include "reports/canvas.hpp"
-#include "reports/panels.hpp"
+#include "reports/pictures/canvas.hpp"
+#include "reports/pictures/panels.hpp"
 #include "scene/error.hpp"
 
 #include <OpenImageIO/imageio.h>
@@ -19,13 +19,13 @@ using scene::ImageSize;
 using scene::PixelClass;
 using testing::HasSubstr;
 
-std::ptrdiff_t count_colour(const RgbImage& image, Rgb colour)
+std::ptrdiff_t count_colour(const store::RgbImage& image, store::Rgb colour)
 {
     return std::count(image.begin(), image.end(), colour);
 }
 
 /// sRGB values, weighted as their brightness is.
-int brightness(Rgb colour)
+int brightness(store::Rgb colour)
 {
     return (2 * colour.r + 5 * colour.g + colour.b) / 8;
 }
@@ -44,7 +44,7 @@ TEST(MarkOf, MarksErrorsAndPixelsWithoutATruth)
 
 TEST(DrawPanels, ColoursEachErrorAtItsPixel)
 {
-    const analysis::Comparison& comparison = example().comparison;
+    const analysis::Comparison& comparison = store::example().comparison;
     const Panels panels = draw_panels(comparison, comparison.view.image);
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 96; ++x) {
@@ -60,13 +60,13 @@ TEST(DrawPanels, ColoursEachErrorAtItsPixel)
 
 TEST(DrawPanels, ShowsTheSamePixelsWhereGlIsRight)
 {
-    const analysis::Comparison& comparison = example().comparison;
+    const analysis::Comparison& comparison = store::example().comparison;
     const Panels panels = draw_panels(comparison, comparison.view.image);
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 96; ++x) {
             const PixelClass pixel_class = comparison.truth.pixel_class(x, y);
-            const Rgb gl = panels.gl(x, y);
-            const Rgb truth = panels.truth(x, y);
+            const store::Rgb gl = panels.gl(x, y);
+            const store::Rgb truth = panels.truth(x, y);
             switch (mark_of(pixel_class, comparison.lookup.samples(x, y).verdict)) {
             case Mark::none:
                 ASSERT_EQ(gl, truth) << "pixel " << x << ", " << y;
@@ -87,7 +87,7 @@ TEST(DrawPanels, ShowsTheSamePixelsWhereGlIsRight)
 /// The example with one false-lit pixel and nothing else to mark.
 analysis::Comparison with_one_error(int error_x, int error_y)
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     for (std::size_t i = 0; i < comparison.truth.pixel_class.pixel_count(); ++i) {
         comparison.truth.pixel_class[i] = PixelClass::lit;
         comparison.lookup.samples[i].verdict = 1.0F;
@@ -101,11 +101,11 @@ TEST(DrawPanels, TintsWhatIsPartlyWrong)
     analysis::Comparison comparison = with_one_error(0, 0);
     comparison.truth.pixel_class(0, 0) = PixelClass::lit;
     const ImageSize size = comparison.view.image;
-    const Rgb right = draw_panels(comparison, size).errors(40, 30);
+    const store::Rgb right = draw_panels(comparison, size).errors(40, 30);
     comparison.lookup.samples(40, 30).verdict = 0.75F;
-    const Rgb partly = draw_panels(comparison, size).errors(40, 30);
+    const store::Rgb partly = draw_panels(comparison, size).errors(40, 30);
     // A quarter of the way to vermilion, each channel rounded.
-    const Rgb mark = mark_colour(Mark::false_shadow);
+    const store::Rgb mark = mark_colour(Mark::false_shadow);
     EXPECT_NEAR(partly.r, 0.75 * right.r + 0.25 * mark.r, 0.5);
     EXPECT_NEAR(partly.g, 0.75 * right.g + 0.25 * mark.g, 0.5);
     EXPECT_NEAR(partly.b, 0.75 * right.b + 0.25 * mark.b, 0.5);
@@ -139,7 +139,7 @@ TEST(DrawPanels, ShowsEachPixelAsABlockWhenScalingUp)
 
 TEST(DrawPanels, DrawsAnImageOfOnePixel)
 {
-    const Example tiny{{.image = {1, 1}}};
+    const store::Example tiny{{.image = {1, 1}}};
     const Panels panels = draw_panels(tiny.comparison, {4, 4});
     EXPECT_EQ(count_colour(panels.gl, panels.gl(0, 0)), 16);
 }
@@ -183,8 +183,8 @@ TEST(Canvas, MeasuresATextWithoutGlyphsAsNothing)
 
 TEST(WritePicture, WritesAPngOfTheLayoutsSizeWithTheErrorColours)
 {
-    const TemporaryFolder folder;
-    write_picture(folder / "picture.png", example().comparison);
+    const store::TemporaryFolder folder;
+    write_picture(folder / "picture.png", store::example().comparison);
     auto input = OIIO::ImageInput::open((folder / "picture.png").string());
     ASSERT_NE(input, nullptr) << OIIO::geterror();
     const PictureLayout layout = lay_out_picture({96, 64});
@@ -193,10 +193,10 @@ TEST(WritePicture, WritesAPngOfTheLayoutsSizeWithTheErrorColours)
     ASSERT_EQ(spec.width, layout.canvas.width_px);
     ASSERT_EQ(spec.height, layout.canvas.height_px);
     ASSERT_EQ(spec.nchannels, 3);
-    RgbImage image{layout.canvas};
+    store::RgbImage image{layout.canvas};
     ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, image.data()));
     const int factor = layout.panel.width_px / 96;
-    const auto& metrics = example().comparison.metrics;
+    const auto& metrics = store::example().comparison.metrics;
     // Blocks in the panel, and the swatch beneath it.
     EXPECT_GT(count_colour(image, mark_colour(Mark::false_shadow)),
               static_cast<std::ptrdiff_t>(metrics.false_shadow) * factor * factor);
@@ -206,43 +206,43 @@ TEST(WritePicture, WritesAPngOfTheLayoutsSizeWithTheErrorColours)
 
 TEST(WritePicture, WritesTheSameBytesAgain)
 {
-    const TemporaryFolder folder;
-    write_picture(folder / "a.png", example().comparison);
-    write_picture(folder / "b.png", example().comparison);
-    EXPECT_EQ(read_text(folder / "a.png"), read_text(folder / "b.png"));
+    const store::TemporaryFolder folder;
+    write_picture(folder / "a.png", store::example().comparison);
+    write_picture(folder / "b.png", store::example().comparison);
+    EXPECT_EQ(store::read_text(folder / "a.png"), store::read_text(folder / "b.png"));
 }
 
 TEST(WritePicture, SurvivesLongNamesAndMissingRates)
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     comparison.scene.name = std::string(3000, 'W') + "é\xE9";
     comparison.environment = {};
     comparison.metrics = {};
-    const RgbImage image = draw_picture(comparison);
+    const store::RgbImage image = draw_picture(comparison);
     EXPECT_EQ(image.size(), lay_out_picture({96, 64}).canvas);
 }
 
-std::vector<Rgb> pixels_of(const RgbImage& image)
+std::vector<store::Rgb> pixels_of(const store::RgbImage& image)
 {
     return {image.begin(), image.end()};
 }
 
 TEST(DrawPicture, SaysOfAnotherRenderersCaseOnlyWhatItSays)
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     comparison.environment.gl_renderer = "My Engine";
     comparison.environment.gl_version = analysis::Environment::other_renderer;
     analysis::Evaluation& evaluation = comparison.evaluation.emplace();
     evaluation.case_name = "noon";
     evaluation.points = scene::Image<scene::Vec3f>{comparison.view.image};
     evaluation.normal = scene::Image<scene::Vec3f>{comparison.view.image, {0, 0, 1}};
-    const std::vector<Rgb> bare = pixels_of(draw_picture(comparison));
+    const std::vector<store::Rgb> bare = pixels_of(draw_picture(comparison));
     comparison.job.shadow_map.resolution_texels = 4096;
     comparison.job.bias.slope = 3;
     EXPECT_EQ(pixels_of(draw_picture(comparison)), bare); // of defaults nothing is written
     evaluation.given_keys = {"bias.slope"};
     EXPECT_NE(pixels_of(draw_picture(comparison)), bare);
-    const std::vector<Rgb> given = pixels_of(draw_picture(comparison));
+    const std::vector<store::Rgb> given = pixels_of(draw_picture(comparison));
     comparison.job.shadow_map.resolution_texels = 1024;
     EXPECT_EQ(pixels_of(draw_picture(comparison)), given);
     evaluation.case_name = "dusk";
@@ -254,7 +254,7 @@ TEST(DrawPicture, SaysOfAnotherRenderersCaseOnlyWhatItSays)
 
 TEST(WritePicture, ReportsAnUnwritablePath)
 {
-    EXPECT_THROW(write_picture("/dev/full", example().comparison), scene::EnvironmentError);
+    EXPECT_THROW(write_picture("/dev/full", store::example().comparison), scene::EnvironmentError);
 }
 
 TEST(Canvas, ShortensALineToTheWidth)
@@ -282,9 +282,9 @@ TEST(Canvas, SplitsNoCodePoint)
 
 TEST(DrawPicture, NamesThePackageOfAMissingFont)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     try {
-        (void)draw_picture(example().comparison, folder.path());
+        (void)draw_picture(store::example().comparison, folder.path());
         FAIL() << "a picture without a font";
     } catch (const scene::EnvironmentError& error) {
         EXPECT_THAT(error.what(), HasSubstr("install fonts-dejavu-core"));

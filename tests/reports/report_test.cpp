@@ -1,16 +1,16 @@
 #include "reports/page/report.hpp"
 
 #include "analysis/bias/bias_order.hpp"
-#include "reports/aov_exr.hpp"
-#include "reports/comparison_json.hpp"
-#include "reports/images/layer_file.hpp"
-#include "reports/output_file.hpp"
+#include "reports/json/comparison_json.hpp"
 #include "reports/page/page_html.hpp"
 #include "reports/page/summary.hpp"
-#include "reports/run/pixels.hpp"
-#include "reports/run/run_store.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
+#include "store/exr/aov_write.hpp"
+#include "store/images/layer_file.hpp"
+#include "store/output_file.hpp"
+#include "store/run/run_store.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
@@ -62,11 +62,12 @@ std::vector<std::map<std::string, std::string>> table_rows(const ReadPage& page)
 
 TEST(Report, HoldsEveryNumberOfTheResults)
 {
-    const TemporaryFolder folder;
-    ExampleRun{}.compute(folder / "run");
+    const store::TemporaryFolder folder;
+    store::ExampleRun{}.compute(folder / "run");
     const ReadPage page = written_page(folder / "run", folder / "out");
-    const CsvTable csv = read_csv(folder / "out/results.csv");
-    EXPECT_EQ(read_text(folder / "out/results.csv"), read_text(folder / "run/results.csv"));
+    const store::CsvTable csv = store::read_csv(folder / "out/results.csv");
+    EXPECT_EQ(store::read_text(folder / "out/results.csv"),
+              store::read_text(folder / "run/results.csv"));
     const auto rows = table_rows(page);
     ASSERT_EQ(rows.size(), 12U);
     ASSERT_EQ(rows.size(), csv.rows.size());
@@ -80,11 +81,11 @@ TEST(Report, HoldsEveryNumberOfTheResults)
 
 TEST(Report, HoldsEveryPointOfTheCurves)
 {
-    const TemporaryFolder folder;
-    ExampleRun{}.compute(folder / "run");
+    const store::TemporaryFolder folder;
+    store::ExampleRun{}.compute(folder / "run");
     const ReadPage page = written_page(folder / "run", folder / "out");
     const auto& curves = page.data().at("curves");
-    const CsvTable csv = read_csv(folder / "out/bias_curves.csv");
+    const store::CsvTable csv = store::read_csv(folder / "out/bias_curves.csv");
     const auto ids = page.texts(curves.at("columns").at(0));
     const auto first = page.bits(curves.at("columns").at(1));
     const auto counts = page.bits(curves.at("columns").at(2));
@@ -105,7 +106,7 @@ TEST(Report, HoldsEveryPointOfTheCurves)
     EXPECT_EQ(i, csv.rows.size());
     EXPECT_EQ(curves.at("thinned"), false);
     const auto& bins = page.data().at("error_vs_z");
-    const CsvTable bins_csv = read_csv(folder / "out/error_vs_z.csv");
+    const store::CsvTable bins_csv = store::read_csv(folder / "out/error_vs_z.csv");
     ASSERT_EQ(bins.at("count"), bins_csv.rows.size());
     for (const auto& column : bins.at("columns")) {
         if (column.at("name") != "curve") {
@@ -119,12 +120,12 @@ TEST(Report, HoldsEveryPointOfTheCurves)
 
 TEST(Report, NamesTheBestConfigurationAndItsCommand)
 {
-    const TemporaryFolder folder;
-    ExampleRun run;
-    RunDescription description = run.description();
+    const store::TemporaryFolder folder;
+    store::ExampleRun run;
+    store::RunDescription description = run.description();
     description.compare_command = "gnomon compare job.toml";
     std::filesystem::create_directories(folder / "run");
-    RunStore store{folder / "run", RunStore::Access::write};
+    store::RunStore store{folder / "run", store::RunStore::Access::write};
     store.plan(description, run.configurations());
     run.record(store);
     const ReadPage page = written_page(folder / "run", folder / "out");
@@ -134,7 +135,7 @@ TEST(Report, NamesTheBestConfigurationAndItsCommand)
                                        "false shadow, 0 false lit"));
     EXPECT_THAT(page.html(), HasSubstr("gnomon compare job.toml --case noon --set "
                                        "shadow_map.resolution=256 --set bias.constant="));
-    const std::string summary = read_text(folder / "out/summary.md");
+    const std::string summary = store::read_text(folder / "out/summary.md");
     EXPECT_THAT(summary, HasSubstr("12 of 12 configurations measured."));
     EXPECT_THAT(summary, HasSubstr("| 1,000 | 0.263 % | 0 | 0 % | 0.186 % |"));
     EXPECT_LT(summary.size(), 65'536U); // GitHub takes no longer a text
@@ -142,29 +143,29 @@ TEST(Report, NamesTheBestConfigurationAndItsCommand)
 
 TEST(Report, ShowsTheNotesOnTheScenes)
 {
-    const TemporaryFolder folder;
-    const ExampleRun run;
-    RunDescription description = run.description();
+    const store::TemporaryFolder folder;
+    const store::ExampleRun run;
+    store::RunDescription description = run.description();
     description.notes = {{"a.glb", {"alpha_mask", 1, hostile}, description.size},
                          {"b.glb", {"alpha_blend", 2, "2 materials are transparent"}, 4}};
     std::filesystem::create_directories(folder / "run");
-    RunStore store{folder / "run", RunStore::Access::write};
+    store::RunStore store{folder / "run", store::RunStore::Access::write};
     store.plan(description, run.configurations());
     run.record(store);
     const ReadPage page = written_page(folder / "run", folder / "out");
     EXPECT_THAT(page.html(), HasSubstr("<li><bdi>a.glb: " + escaped(hostile) + "</bdi></li>"));
     EXPECT_THAT(page.html(), HasSubstr("<li><bdi>b.glb: 2 materials are transparent (in 4 of 12 "
                                        "configurations)</bdi></li>"));
-    EXPECT_THAT(read_text(folder / "out/summary.md"),
+    EXPECT_THAT(store::read_text(folder / "out/summary.md"),
                 HasSubstr("\n- note: b.glb: 2 materials are transparent (in 4 of 12"));
 }
 
 TEST(Report, OfARunThatFailedSaysSo)
 {
-    const TemporaryFolder folder;
-    const ExampleRun run;
+    const store::TemporaryFolder folder;
+    const store::ExampleRun run;
     std::filesystem::create_directories(folder / "run");
-    RunStore store{folder / "run", RunStore::Access::write};
+    store::RunStore store{folder / "run", store::RunStore::Access::write};
     store.plan(run.description(), run.configurations());
     store.record_failure(std::vector<std::uint64_t>{0, 1}, hostile);
     const ReadPage page = written_page(folder / "run", folder / "out");
@@ -173,7 +174,7 @@ TEST(Report, OfARunThatFailedSaysSo)
                 HasSubstr("0 of 12 configurations measured, 2 failed, 10 not computed yet."));
     EXPECT_THAT(page.html(), HasSubstr("python3-matplotlib is missing"));
     EXPECT_THAT(page.html(), HasSubstr("<bdi>" + escaped(hostile) + "</bdi>"));
-    EXPECT_THAT(read_text(folder / "out/summary.md"),
+    EXPECT_THAT(store::read_text(folder / "out/summary.md"),
                 HasSubstr("- failed: case = noon, shadow\\_map.resolution = 256, "));
     EXPECT_THAT(page.html(), Not(HasSubstr("<img")));
     EXPECT_EQ(table_rows(page).at(0).at("message"), hostile);
@@ -181,7 +182,7 @@ TEST(Report, OfARunThatFailedSaysSo)
 
 TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     keep_example(folder / "run");
     const ReadPage page = written_page(folder / "run", folder / "out");
     ASSERT_EQ(page.data().at("images").size(), 1U);
@@ -190,7 +191,7 @@ TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
     EXPECT_EQ(image.at("height"), 64);
     EXPECT_EQ(image.at("row"), 0);
     const auto& layers = image.at("layers");
-    const analysis::Comparison& comparison = example().comparison;
+    const analysis::Comparison& comparison = store::example().comparison;
     const auto classes = page.bits(layers.at("class"));
     const auto prims = page.bits(layers.at("prim"));
     const auto depths = page.bits(layers.at("map_depth"));
@@ -207,7 +208,7 @@ TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
 /// The example with a critical bias for each pixel: any at all.
 analysis::Comparison with_critical_biases()
 {
-    analysis::Comparison comparison = example().comparison;
+    analysis::Comparison comparison = store::example().comparison;
     const auto& classes = comparison.truth.pixel_class;
     scene::Image<float> criticals{classes.size()};
     for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
@@ -232,7 +233,7 @@ analysis::Comparison with_critical_biases()
 
 TEST(Report, ThinsAnImageThatIsTooLargeForThePage)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     keep_example(folder / "run");
     const ReadPage whole = written_page(folder / "run", folder / "whole");
     const auto& image = whole.data().at("images").at(0);
@@ -255,7 +256,7 @@ TEST(Report, ThinsAnImageThatIsTooLargeForThePage)
 
 TEST(Report, TellsEveryCriticalBiasByItsDistanceFromTheDepthsDifference)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     const analysis::Comparison comparison = with_critical_biases();
     keep_example(folder / "run", comparison);
     const ReadPage page = written_page(folder / "run", folder / "out");
@@ -280,7 +281,7 @@ TEST(Report, TellsEveryCriticalBiasByItsDistanceFromTheDepthsDifference)
 
 TEST(Report, RefusesAConfigurationWhoseLayersWereNotKept)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     keep_example(folder / "run");
     std::filesystem::create_directories(folder / "out");
     ReportOptions options{folder / "run", folder / "out", {}, {}, {"0123456789abcdef"}};
@@ -298,58 +299,60 @@ std::string problem_of(const std::filesystem::path& run, const std::filesystem::
 {
     std::filesystem::create_directories(out);
     const ReportOutcome outcome = write_report({run, out, {}, {}, {}});
-    EXPECT_EQ(ReadPage{read_text(out / "report.html")}.data().at("images").size(), outcome.images);
+    EXPECT_EQ(ReadPage{store::read_text(out / "report.html")}.data().at("images").size(),
+              outcome.images);
     EXPECT_EQ(outcome.images + outcome.problems.size(), 1U);
     return outcome.problems.empty() ? "none" : outcome.problems.front();
 }
 
 TEST(Report, LeavesDamagedLayersOutAndSaysSo)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     const std::filesystem::path run = folder / "run";
     keep_example(run);
-    const std::string id = ExampleRun{1, 1}.configurations().front().id;
+    const std::string id = store::ExampleRun{1, 1}.configurations().front().id;
     EXPECT_EQ(problem_of(run, folder / "out"), "none");
-    const std::string sound = read_text(detail_path(run, id));
+    const std::string sound = store::read_text(store::detail_path(run, id));
     for (const std::string text : {"", "{", "[]", "{\"job\": 7}"}) {
-        write_file(detail_path(run, id), text);
+        store::write_file(store::detail_path(run, id), text);
         const std::string problem = problem_of(run, folder / "out");
         EXPECT_THAT(problem, HasSubstr(id + ".json: is damaged")) << text;
         EXPECT_THAT(problem, Not(HasSubstr("\n")));
     }
     // Asked for, they are an error.
     EXPECT_THROW(write_report({run, folder / "out", {}, {}, {id}}), scene::InputError);
-    write_file(detail_path(run, id), sound);
-    write_file(pixels_path(run, id), read_text(pixels_path(run, id)).substr(0, 5000));
+    store::write_file(store::detail_path(run, id), sound);
+    store::write_file(store::pixels_path(run, id),
+                      store::read_text(store::pixels_path(run, id)).substr(0, 5000));
     EXPECT_THAT(problem_of(run, folder / "out"), HasSubstr(id + ".exr: "));
 }
 
 TEST(Report, DoesNotTakeAnotherConfigurationsLayers)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     const std::filesystem::path run = folder / "run";
     keep_example(run);
-    const std::string id = ExampleRun{1, 1}.configurations().front().id;
-    const Example other{{.bias_constant = 0.01}};
-    write_aov(pixels_path(run, id), other.comparison, other.points);
+    const std::string id = store::ExampleRun{1, 1}.configurations().front().id;
+    const store::Example other{{.bias_constant = 0.01}};
+    store::write_aov(store::pixels_path(run, id), other.comparison, other.points);
     EXPECT_THAT(problem_of(run, folder / "out"), HasSubstr("or of another configuration"));
-    write_file(detail_path(run, id), comparison_json(other.comparison));
+    store::write_file(store::detail_path(run, id), comparison_json(other.comparison));
     EXPECT_THAT(problem_of(run, folder / "out"), HasSubstr("or of another configuration"));
 }
 
 TEST(Report, RefusesARunInWhichNothingWasPlanned)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     {
-        const RunStore store{folder.path(), RunStore::Access::write};
+        const store::RunStore store{folder.path(), store::RunStore::Access::write};
     }
     EXPECT_THROW(write_report_csv(folder.path(), folder.path()), scene::InputError);
 }
 
 TEST(Report, NamesThePartOfADividedSweep)
 {
-    const TemporaryFolder folder;
-    ExampleRun run;
+    const store::TemporaryFolder folder;
+    store::ExampleRun run;
     run.shards = 2;
     run.compute(folder / "run", 2);
     const ReadPage page = written_page(folder / "run", folder / "out");
@@ -359,7 +362,7 @@ TEST(Report, NamesThePartOfADividedSweep)
 
 TEST(Report, RefusesAFolderThatIsNoRun)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     EXPECT_THROW(write_report({folder.path(), folder.path(), {}, {}, {}}), scene::InputError);
 }
 

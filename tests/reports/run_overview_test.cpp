@@ -4,7 +4,7 @@
 
 #include "example_comparison.hpp"
 #include "example_run.hpp"
-#include "reports/run/run_store.hpp"
+#include "store/run/run_store.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,10 +23,10 @@ using testing::ElementsAre;
 std::vector<std::string> tied_settings(const std::filesystem::path& folder,
                                        const std::vector<std::uint64_t>& map_bytes)
 {
-    const ExampleRun run;
+    const store::ExampleRun run;
     std::filesystem::create_directories(folder);
     {
-        RunStore store{folder, RunStore::Access::write};
+        store::RunStore store{folder, store::RunStore::Access::write};
         store.plan(run.description(), run.configurations());
         const analysis::Metrics same = run.curve(0).rows.front().result.metrics;
         const analysis::Metrics worse = run.curve(2).rows.back().result.metrics;
@@ -43,7 +43,7 @@ std::vector<std::string> tied_settings(const std::filesystem::path& folder,
         }
     }
     std::vector<std::string> settings;
-    for (const OverviewRow& row : read_overview(RunReader{folder}).rows) {
+    for (const OverviewRow& row : read_overview(store::RunReader{folder}).rows) {
         settings.push_back(row.settings);
     }
     return settings;
@@ -51,7 +51,7 @@ std::vector<std::string> tied_settings(const std::filesystem::path& folder,
 
 TEST(RunOverview, GroupsBiasesWithTheSameErrorsAndPrefersTheSmallerMap)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     EXPECT_THAT(tied_settings(folder / "run", {300, 100, 200}),
                 ElementsAre("case = noon, shadow_map.resolution = 257, bias.constant = 1e-06 to "
                             "1.03e-06 (4 configurations)",
@@ -64,9 +64,9 @@ TEST(RunOverview, GroupsBiasesWithTheSameErrorsAndPrefersTheSmallerMap)
 
 TEST(RunOverview, NamesOneConfigurationOfTheBestInFull)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     (void)tied_settings(folder / "run", {300, 100, 200});
-    const RunOverview overview = read_overview(RunReader{folder / "run"});
+    const RunOverview overview = read_overview(store::RunReader{folder / "run"});
     ASSERT_TRUE(overview.headline);
     EXPECT_EQ(overview.headline->row, 4U);
     EXPECT_EQ(overview.headline->settings,

@@ -1,4 +1,4 @@
-#include "reports/run/run_status.hpp"
+#include "reports/tables/run_status_text.hpp"
 
 #include "example_comparison.hpp"
 #include "example_run.hpp"
@@ -20,13 +20,13 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const ExampleRun two_case_run{4, 2, 2};
+const store::ExampleRun two_case_run{4, 2, 2};
 
 /// A run of shard 2 with one failed and two missing configurations.
 void make_incomplete(const std::filesystem::path& folder)
 {
     std::filesystem::create_directories(folder);
-    RunStore store{folder, RunStore::Access::write};
+    store::RunStore store{folder, store::RunStore::Access::write};
     store.plan(two_case_run.description(2), two_case_run.configurations());
     store.record_failure(std::vector<std::uint64_t>{7}, "light.obj: no such file");
     analysis::FinishedCurve half = two_case_run.curve(3);
@@ -36,9 +36,9 @@ void make_incomplete(const std::filesystem::path& folder)
 
 TEST(RunStatus, ListsWhatFailedAndWhatIsMissing)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     make_incomplete(folder / "it's");
-    const std::string text = run_status_text(read_run_status(folder / "it's", 1));
+    const std::string text = run_status_text(store::read_run_status(folder / "it's", 1));
     EXPECT_THAT(text,
                 HasSubstr(": 1 of 4 configurations done, 1 failed, 2 missing, shard 2 of 2\n"));
     EXPECT_THAT(text, HasSubstr("\nfailed\n  7  case noon  shadow_map.resolution = 259  "
@@ -51,9 +51,9 @@ TEST(RunStatus, ListsWhatFailedAndWhatIsMissing)
 
 TEST(RunStatus, IsShortWhenAllIsDone)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     two_case_run.compute(folder.path(), 1);
-    const RunStatus status = read_run_status(folder.path(), 20);
+    const store::RunStatus status = store::read_run_status(folder.path(), 20);
     EXPECT_TRUE(status.is_complete());
     EXPECT_EQ(run_status_text(status), folder.path().string() +
                                            ": 4 of 4 configurations done, 0 failed, 0 missing, "
@@ -62,13 +62,13 @@ TEST(RunStatus, IsShortWhenAllIsDone)
 
 TEST(RunStatus, DoesNotAdviseToRetryWhatCannotPass)
 {
-    const TemporaryFolder folder;
-    RunStore store{folder.path(), RunStore::Access::write};
+    const store::TemporaryFolder folder;
+    store::RunStore store{folder.path(), store::RunStore::Access::write};
     store.plan(two_case_run.description(1), two_case_run.configurations());
     const std::vector<std::uint64_t> refused{0, 1};
     store.record_failure(refused, "near is beyond far", analysis::Retry::is_useless);
     store.record(two_case_run.curve(2));
-    const RunStatus status = read_run_status(folder.path(), 20);
+    const store::RunStatus status = store::read_run_status(folder.path(), 20);
     EXPECT_EQ(status.failed, 2U);
     EXPECT_EQ(status.retriable, 0U);
     const std::string text = run_status_text(status);
@@ -78,14 +78,15 @@ TEST(RunStatus, DoesNotAdviseToRetryWhatCannotPass)
                                 "the keys that the message names"));
     store.reset_failed();
     store.record_failure(refused, "no memory");
-    EXPECT_THAT(run_status_text(read_run_status(folder.path(), 20)), EndsWith("--retry failed\n"));
+    EXPECT_THAT(run_status_text(store::read_run_status(folder.path(), 20)),
+                EndsWith("--retry failed\n"));
 }
 
 TEST(RunStatus, SaysTheSameInJson)
 {
-    const TemporaryFolder folder;
+    const store::TemporaryFolder folder;
     make_incomplete(folder.path());
-    const json object = json::parse(run_status_json(read_run_status(folder.path(), 20)));
+    const json object = json::parse(run_status_json(store::read_run_status(folder.path(), 20)));
     EXPECT_EQ(object.at("schema"), 1);
     EXPECT_EQ(object.at("complete"), false);
     EXPECT_EQ(object.at("done"), 1);
@@ -106,22 +107,23 @@ TEST(RunStatus, SaysTheSameInJson)
 
 TEST(RunStatus, RefusesAFolderWithoutARun)
 {
-    const TemporaryFolder folder;
-    EXPECT_THROW((void)read_run_status(folder.path(), 20), scene::InputError);
+    const store::TemporaryFolder folder;
+    EXPECT_THROW((void)store::read_run_status(folder.path(), 20), scene::InputError);
     {
-        const RunStore unplanned{folder.path(), RunStore::Access::write};
+        const store::RunStore unplanned{folder.path(), store::RunStore::Access::write};
     }
-    EXPECT_THROW((void)read_run_status(folder.path(), 20), scene::InputError);
+    EXPECT_THROW((void)store::read_run_status(folder.path(), 20), scene::InputError);
 }
 
 TEST(RunStatus, LeavesTheCommandOutWhereItIsNotKnown)
 {
-    const TemporaryFolder folder;
-    RunDescription description = two_case_run.description();
+    const store::TemporaryFolder folder;
+    store::RunDescription description = two_case_run.description();
     description.command.clear();
-    RunStore{folder.path(), RunStore::Access::write}.plan(description,
-                                                          two_case_run.configurations());
-    EXPECT_THAT(run_status_text(read_run_status(folder.path(), 0)), Not(HasSubstr("resume")));
+    store::RunStore{folder.path(), store::RunStore::Access::write}.plan(
+        description, two_case_run.configurations());
+    EXPECT_THAT(run_status_text(store::read_run_status(folder.path(), 0)),
+                Not(HasSubstr("resume")));
 }
 
 TEST(RunStatus, SaysThatNothingIsRecordedYetWhereTheDiskWasFullAtOnce)
@@ -129,14 +131,14 @@ TEST(RunStatus, SaysThatNothingIsRecordedYetWhereTheDiskWasFullAtOnce)
     // SQLite leaves a file without a byte, or one with its first page alone.
     for (const char* const statement : {"", "PRAGMA journal_mode = WAL; PRAGMA user_version = 0; "
                                             "CREATE TABLE t (a); DROP TABLE t"}) {
-        const TemporaryFolder folder;
+        const store::TemporaryFolder folder;
         {
-            const sqlite::Database database{results_path(folder.path()),
-                                            sqlite::Database::Access::write};
+            const store::sqlite::Database database{store::results_path(folder.path()),
+                                                   store::sqlite::Database::Access::write};
             database.run(statement);
         }
         try {
-            (void)read_run_status(folder.path(), 20);
+            (void)store::read_run_status(folder.path(), 20);
             ADD_FAILURE() << statement;
         } catch (const scene::InputError& error) {
             EXPECT_THAT(error.what(), EndsWith("results.sqlite: nothing is recorded in it yet, for "
@@ -144,7 +146,7 @@ TEST(RunStatus, SaysThatNothingIsRecordedYetWhereTheDiskWasFullAtOnce)
                                                "command that began it"));
         }
         two_case_run.compute(folder.path(), 1); // so it goes on
-        EXPECT_TRUE(read_run_status(folder.path(), 20).is_complete());
+        EXPECT_TRUE(store::read_run_status(folder.path(), 20).is_complete());
     }
 }
 

@@ -1,5 +1,5 @@
-#include "reports/scenes_json.hpp"
-#include "reports/scenes_table.hpp"
+#include "reports/json/scenes_json.hpp"
+#include "reports/tables/scenes_table.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
-#include "reports/comparison_table.hpp"
+#include "reports/tables/comparison_table.hpp"
 
 #include "example_comparison.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 analysis::Comparison with_counts()
 {
-    static const Example example;
+    static const store::Example example;
     analysis::Comparison comparison = example.comparison;
     analysis::Metrics& metrics = comparison.metrics;
     metrics.pixels.total = 921'600;

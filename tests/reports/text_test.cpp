@@ -1,5 +1,5 @@
-#include "reports/exact_inputs.hpp"
-#include "reports/text.hpp"
+#include "reports/words/text.hpp"
+#include "store/exr/exact_inputs.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -79,17 +79,17 @@ TEST(Counted, TakesThePlural)
 
 TEST(Hexadecimal, WritesWhatC99Writes)
 {
-    EXPECT_EQ(hexadecimal(3.0), "0x1.8p+1");
-    EXPECT_EQ(hexadecimal(-0.5), "-0x1p-1");
-    EXPECT_EQ(hexadecimal(0.0), "0x0p+0");
-    EXPECT_EQ(hexadecimal(-0.0), "-0x0p+0");
+    EXPECT_EQ(store::hexadecimal(3.0), "0x1.8p+1");
+    EXPECT_EQ(store::hexadecimal(-0.5), "-0x1p-1");
+    EXPECT_EQ(store::hexadecimal(0.0), "0x0p+0");
+    EXPECT_EQ(store::hexadecimal(-0.0), "-0x0p+0");
 }
 
 RC_GTEST_PROP(Hexadecimal, ReadsBackToTheSameBits, (std::uint64_t bits))
 {
     const auto value = std::bit_cast<double>(bits);
     RC_PRE(std::isfinite(value));
-    const double back = std::strtod(hexadecimal(value).c_str(), nullptr);
+    const double back = std::strtod(store::hexadecimal(value).c_str(), nullptr);
     RC_ASSERT(std::bit_cast<std::uint64_t>(back) == bits);
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "analysis/advice/judged_views.hpp"
+#include "analysis/comparison.hpp"
+#include "store/json_values.hpp"
+
+#include <string>
+
+namespace gnomon::reports {
+
+/// Adds `remedies`, `advice`, `views` and `views_passed_over` (docs/json_schema.md).
+/// @param comparison  with a diagnosis.
+void add_advice(store::Json& json, const analysis::Comparison& comparison);
+
+/// What a setting gives in a view: counts, amounts and their rates without softening.
+[[nodiscard]] store::Json outcome_json(const analysis::ViewOutcome& outcome);
+
+/// A view's name, eye, target, up and light.
+[[nodiscard]] store::Json view_json(const std::string& name, const scene::CameraSettings& camera,
+                                    const scene::LightSettings& light);
+
+} // namespace gnomon::reports

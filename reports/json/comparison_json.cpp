@@ -1,0 +1,105 @@
+#include "reports/json/comparison_json.hpp"
+
+#include "analysis/answers/finished_curve.hpp"
+#include "reports/json/diagnosis_json.hpp"
+#include "reports/json/evaluation_json.hpp"
+#include "reports/json/metric_json.hpp"
+#include "reports/json/scene_notes_json.hpp"
+#include "store/exr/exact_inputs.hpp"
+#include "store/job_json.hpp"
+#include "store/json_values.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace gnomon::reports {
+
+namespace {
+
+store::Json truth_signs(const scene::TruthSigns& signs)
+{
+    return {{"filtered", signs.filtered}, {"exact", signs.exact}};
+}
+
+store::Json float_audit(const std::vector<scene::FloatMethodErrors>& methods)
+{
+    store::Json json = store::Json::object();
+    for (const scene::FloatMethodErrors& method : methods) {
+        json[method.name] = {{"false_blocked", method.false_blocked},
+                             {"false_lit", method.false_lit}};
+    }
+    return json.empty() ? store::Json(nullptr) : json;
+}
+
+store::Json environment(const analysis::Environment& environment)
+{
+    return {{"gl_renderer", environment.gl_renderer},
+            {"gl_version", environment.gl_version},
+            {"embree", environment.embree},
+            {"gnomon", environment.gnomon}};
+}
+
+store::Json seconds(const analysis::StageSeconds& seconds)
+{
+    return {{"scene", seconds.scene},         {"bvh", seconds.bvh},
+            {"receivers", seconds.receivers}, {"shadow_map", seconds.shadow_map},
+            {"lookup", seconds.lookup},       {"truth", seconds.truth},
+            {"analysis", seconds.analysis}};
+}
+
+store::Json scene_object(const analysis::SceneSummary& scene)
+{
+    return {{"name", scene.name},
+            {"triangles", scene.triangles},
+            {"objects", scene.objects},
+            {"dropped_triangles", scene.dropped_triangles},
+            {"ignored_primitives", scene.ignored_primitives},
+            {"hash", scene.hash},
+            {"notes", scene_notes_json(scene.notes)}};
+}
+
+store::Json frustum_object(const scene::LightFrustum& frustum, int resolution_texels)
+{
+    const bool is_perspective = frustum.projection == scene::Projection::perspective;
+    return {{"projection", is_perspective ? "perspective" : "orthographic"},
+            {"near_m", frustum.near_m},
+            {"far_m", frustum.far_m},
+            {"reversed", frustum.reversed},
+            {"texel_m", frustum.texel_width_m(1.0, resolution_texels)}};
+}
+
+store::Json exact_inputs_object(const analysis::Comparison& comparison)
+{
+    store::Json json = store::Json::object();
+    for (const store::ExactInput& input : store::exact_inputs(comparison)) {
+        json[input.name] =
+            input.values.size() == 1 ? store::Json(input.values[0]) : store::Json(input.values);
+    }
+    return json;
+}
+
+} // namespace
+
+std::string comparison_json(const analysis::Comparison& comparison)
+{
+    store::Json json{{"schema", 2}};
+    add_metrics(json, analysis::configuration_metrics(), analysis::result_of(comparison));
+    add_diagnosis(json, comparison);
+    json["environment"] = environment(comparison.environment);
+    json["seconds"] = seconds(comparison.seconds);
+    json["scene"] = scene_object(comparison.scene);
+    json["job"] = store::job_object(comparison);
+    json["frustum"] =
+        frustum_object(comparison.view.frustum, comparison.job.shadow_map.resolution_texels);
+    json["truth_method"] = comparison.truth_method;
+    json["truth_signs"] = truth_signs(comparison.truth.signs);
+    json["float_audit"] = float_audit(comparison.float_audit);
+    json["subpixel_bits"] = comparison.subpixel_bits;
+    json["exact_inputs"] = exact_inputs_object(comparison);
+    if (comparison.evaluation) {
+        add_evaluation(json, comparison, *comparison.evaluation);
+    }
+    return store::json_text(json, 2) + "\n";
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,195 @@
+#include "reports/json/diagnosis_json.hpp"
+
+#include "analysis/metrics/part_table.hpp"
+#include "reports/json/advice_json.hpp"
+#include "reports/json/metric_json.hpp"
+#include "reports/words/findings.hpp"
+#include "store/json_values.hpp"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace gnomon::reports {
+
+namespace {
+
+store::Json quantiles(const std::optional<analysis::Quantiles>& values)
+{
+    return values ? store::Json{{"count", values->count},
+                                {"min", values->min},
+                                {"median", values->median},
+                                {"p95", values->p95},
+                                {"max", values->max}}
+                  : store::Json(nullptr);
+}
+
+/// JSON has no infinities: a limit that does not exist is null.
+store::Json finite_or_null(float value)
+{
+    return std::isfinite(value) ? store::Json(value) : store::Json(nullptr);
+}
+
+store::Json interval(const analysis::BiasInterval& interval)
+{
+    return store::Json::array({finite_or_null(interval.lo), finite_or_null(interval.hi)});
+}
+
+void add_limits(store::Json& json, const analysis::BiasLimits& limits)
+{
+    json["acne_free"] = finite_or_null(limits.acne_free);
+    json["acne_free_count"] = finite_or_null(limits.acne_free_count);
+    json["panning_free"] = finite_or_null(limits.panning_free);
+    json["panning_free_beyond_zero"] = finite_or_null(limits.panning_free_beyond_zero);
+}
+
+void add_pareto_front(store::Json& bias_curve, const analysis::BiasCurve& curve)
+{
+    bias_curve["pareto_front"] = store::Json::array();
+    for (const analysis::CurvePoint& point : analysis::pareto_front(curve, 33)) {
+        bias_curve["pareto_front"].push_back({{"bias", finite_or_null(point.bias)},
+                                              {"false_shadow", point.errors.false_shadow},
+                                              {"false_lit", point.errors.false_lit}});
+    }
+}
+
+/// Metrics and points of the curve; null without one.
+void add_bias_curve(store::Json& json, const analysis::Diagnosis& diagnosis)
+{
+    if (!diagnosis.biases) {
+        json["bias_curve"] = nullptr;
+        return;
+    }
+    add_metrics(json, analysis::curve_metrics(), diagnosis.curve);
+    add_pareto_front(json["bias_curve"], diagnosis.biases->curve);
+    json["bias_curve"]["amount_ordinate"] = "exact";
+}
+
+store::Json precision_kinds(const std::optional<analysis::PrecisionKinds>& kinds)
+{
+    return kinds ? store::Json{{"format", kinds->format}, {"transform", kinds->transform}}
+                 : store::Json(nullptr);
+}
+
+store::Json slope_answers(const analysis::BiasAnswers& answers)
+{
+    store::Json json = store::Json::array();
+    for (std::size_t i = 0; i < answers.slopes.size(); ++i) {
+        const analysis::SlopeAnswer& answer = answers.slopes[i];
+        store::Json entry{{"slope", answer.slope},
+                          {"is_best", i == answers.best_slope},
+                          {"best_interval", interval(answer.best.interval)},
+                          {"best_errors", answer.best.errors.total()}};
+        add_limits(entry, answer.bounds.strict);
+        entry["no_constant_bias_serves"] = answer.bounds.no_constant_bias_serves;
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+store::Json part(const analysis::PartCounts& counts)
+{
+    store::Json json = store::Json::object();
+    for (const analysis::PartQuantity& quantity : analysis::part_quantities()) {
+        json[std::string{quantity.name}] = value_json(quantity.value(counts));
+    }
+    for (const analysis::PartRate& rate : analysis::part_rates()) {
+        json[std::string{rate.name}] = store::number_or_null(rate_of(rate, counts));
+    }
+    return json;
+}
+
+store::Json bins(const std::vector<analysis::ErrorBin>& bins)
+{
+    store::Json json = store::Json::array();
+    for (const analysis::ErrorBin& bin : bins) {
+        store::Json entry{{"lower", bin.lower}, {"upper", bin.upper}};
+        entry.update(part(bin.counts));
+        entry["needed_bias"] = quantiles(bin.needed_bias);
+        entry["map_error_m"] = quantiles(bin.map_error_m);
+        entry["envelope_m"] = store::number_or_null(bin.envelope_m);
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+store::Json by_object(const std::vector<analysis::ObjectErrors>& objects)
+{
+    store::Json json = store::Json::array();
+    for (const analysis::ObjectErrors& object : objects) {
+        store::Json entry{{"object", object.name}};
+        entry.update(part(object.counts));
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
+store::Json reruns(const std::vector<analysis::BiasRerun>& reruns)
+{
+    store::Json json = store::Json::array();
+    for (const analysis::BiasRerun& rerun : reruns) {
+        json.push_back({{"bias", rerun.bias},
+                        {"false_shadow", rerun.errors.false_shadow},
+                        {"false_lit", rerun.errors.false_lit},
+                        {"false_shadow_rate", store::number_or_null(rerun.false_shadow_rate)},
+                        {"false_lit_rate", store::number_or_null(rerun.false_lit_rate)},
+                        {"error_rate", store::number_or_null(rerun.error_rate)},
+                        {"shadow_amount", rerun.amounts.shadow},
+                        {"light_amount", rerun.amounts.light}});
+    }
+    return json;
+}
+
+store::Json verification(const std::optional<analysis::BiasVerification>& verification)
+{
+    if (!verification) {
+        return nullptr;
+    }
+    store::Json reruns = store::Json::array();
+    for (const analysis::BiasVerification::Rerun& rerun : verification->reruns) {
+        reruns.push_back({{"bias", rerun.bias},
+                          {"lit", rerun.lit},
+                          {"shadowed", rerun.shadowed},
+                          {"differences", rerun.differences}});
+    }
+    return {{"biases", verification->reruns.size()},
+            {"verdicts", verification->verdicts()},
+            {"differences", verification->differences()},
+            {"reruns", std::move(reruns)}};
+}
+
+} // namespace
+
+void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
+{
+    const auto& diagnosis = comparison.diagnosis;
+    if (!diagnosis) {
+        for (const char* const name :
+             {"causes", "labels", "cause_amounts", "label_amounts", "cause_arithmetic",
+              "precision_kinds", "bias_curve", "bias_source", "bias_reruns", "verification",
+              "slope_curves", "by_light_distance_m", "by_receiver_angle_rad", "by_object",
+              "findings", "advice", "remedies", "views", "views_passed_over"}) {
+            json[name] = nullptr;
+        }
+        if (comparison.evaluation) {
+            json["by_object"] = by_object(comparison.evaluation->by_object);
+        }
+        return;
+    }
+    json["cause_arithmetic"] = "exact";
+    json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
+    add_bias_curve(json, *diagnosis);
+    json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
+    json["bias_reruns"] =
+        comparison.reruns.empty() ? store::Json(nullptr) : reruns(comparison.reruns);
+    json["verification"] = verification(comparison.verification);
+    json["slope_curves"] =
+        diagnosis->biases ? slope_answers(*diagnosis->biases) : store::Json(nullptr);
+    json["by_light_distance_m"] = bins(diagnosis->by_distance);
+    json["by_receiver_angle_rad"] = bins(diagnosis->by_angle);
+    json["by_object"] = by_object(diagnosis->by_object);
+    json["findings"] = findings(comparison);
+    add_advice(json, comparison);
+}
+
+} // namespace gnomon::reports

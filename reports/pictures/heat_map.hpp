@@ -1,0 +1,44 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "reports/pictures/canvas.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+/// A quantity that is drawn with the same colours for the same value in every image.
+enum class HeatMap : std::uint8_t {
+    needed_bias, ///< that a lit pixel needs, or a blocked one allows [texels], from -100 to 100
+    depth_error, ///< stored minus exact distance [m], from -1 to 1
+    amount,      ///< truth minus verdict: above 0 false shadow, below 0 false light
+    cause,
+    label,
+};
+
+/// "needed-bias", "depth-error", "amount", "cause", "label".
+[[nodiscard]] std::optional<HeatMap> heat_map_from_name(std::string_view name);
+[[nodiscard]] std::vector<std::string_view> heat_map_names();
+
+/// Where a value stands on a scale that is linear up to `linear` in size and logarithmic beyond:
+/// 0 at -largest, 1/2 at 0, 1 at largest; what lies beyond is 0 or 1.
+[[nodiscard]] double share_on_scale(double value, double linear, double largest);
+
+/// A picture of one quantity with its legend. Large images are scaled down, each pixel of the
+/// picture then showing the value of the largest size beneath it.
+/// @throws scene::EnvironmentError  naming the package, if the font is missing.
+/// @throws scene::InputError        if the comparison does not know it (`hardware` has no biases).
+[[nodiscard]] store::RgbImage
+draw_heat_map(const analysis::Comparison& comparison, HeatMap kind,
+              const std::filesystem::path& font_folder = default_font_folder);
+
+/// Draws it into a PNG file.
+/// @throws  as `draw_heat_map`; scene::EnvironmentError also if it cannot be written.
+void write_heat_map(const std::filesystem::path& path, const analysis::Comparison& comparison,
+                    HeatMap kind);
+
+} // namespace gnomon::reports

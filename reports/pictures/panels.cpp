@@ -1,0 +1,267 @@
+#include "reports/pictures/panels.hpp"
+
+#include "scene/view/camera.hpp"
+#include "store/exr/facing_normal.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon::reports {
+
+namespace {
+
+using scene::PixelClass;
+using scene::Vec3d;
+using scene::Vec3f;
+
+/// Light that a pixel sends back, linear; no surface where `ambient` is 0.
+struct Shade {
+    float ambient = 0;
+    float diffuse = 0; ///< of the light itself: 0 where it cannot arrive
+
+    [[nodiscard]] bool is_surface() const { return ambient > 0; }
+};
+
+// Linear RGB. The light is a little warm and the ambient a little cool, as outdoors.
+constexpr Vec3f background{0.80F, 0.84F, 0.90F};
+constexpr Vec3f diffuse_tint{0.86F, 0.81F, 0.73F};
+constexpr Vec3f ambient_tint{0.76F, 0.80F, 0.88F};
+/// How much of the ambient light a shadow leaves: contact makes shadows darker than mere absence
+/// of the light, and attached surfaces count as shadowed.
+constexpr float shadowed_ambient = 0.72F;
+/// How far the error panel fades towards white beneath its marks.
+constexpr float fade = 0.62F;
+
+Vec3d towards_light(const scene::Light& light, const Vec3d& point)
+{
+    const Vec3d way =
+        light.type == scene::LightType::directional ? -light.direction : light.position - point;
+    const double length = glm::length(way);
+    return length > 0 ? way / length : Vec3d{0, 1, 0};
+}
+
+/// Shades one pixel whose receiver is `triangle`.
+Shade shade_pixel(const analysis::Comparison& comparison, std::uint32_t triangle, int x, int y,
+                  PixelClass pixel_class)
+{
+    const Vec3d origin{comparison.triangles->corners(triangle)[0]};
+    const scene::Ray ray = scene::pixel_ray(comparison.view.camera, comparison.view.image, x, y);
+    const Vec3d view = -glm::normalize(ray.direction);
+    const Vec3d normal = store::facing_normal(comparison, x, y);
+    const double along = glm::dot(normal, ray.direction);
+    const double distance = along != 0 ? glm::dot(normal, origin - ray.origin) / along : 0;
+    const Vec3d light = towards_light(comparison.view.light, ray.origin + distance * ray.direction);
+
+    // Sky above, and a faint lamp at the eye that keeps unlit surfaces readable.
+    const double sky = 0.5 + 0.5 * normal.y;
+    const double ambient = 0.09 + 0.10 * sky + 0.10 * std::abs(glm::dot(normal, view));
+    const bool receives_light =
+        pixel_class != PixelClass::attached && pixel_class != PixelClass::out_of_light;
+    const double diffuse = receives_light ? 0.80 * std::max(0.0, glm::dot(normal, light)) : 0.0;
+    return {static_cast<float>(ambient), static_cast<float>(diffuse)};
+}
+
+scene::Image<Shade> shade_image(const analysis::Comparison& comparison)
+{
+    const scene::Image<std::uint32_t>& triangles = comparison.receivers.triangle;
+    scene::Image<Shade> shades{triangles.size()};
+    for (int y = 0; y < triangles.size().height_px; ++y) {
+        for (int x = 0; x < triangles.size().width_px; ++x) {
+            if (triangles(x, y) != scene::no_triangle) {
+                shades(x, y) = shade_pixel(comparison, triangles(x, y), x, y,
+                                           comparison.truth.pixel_class(x, y));
+            }
+        }
+    }
+    return shades;
+}
+
+/// The pixel's colour when the fraction `lit` of the light arrives, linear.
+Vec3f colour(const Shade& shade, float lit)
+{
+    if (!shade.is_surface()) {
+        return background;
+    }
+    const float arriving = shade.diffuse > 0 ? lit : 0.0F;
+    const float ambient = shade.ambient * (shadowed_ambient + (1 - shadowed_ambient) * arriving);
+    return ambient * ambient_tint + shade.diffuse * arriving * diffuse_tint;
+}
+
+/// The true fraction of light; halfway where the truth takes no side.
+float true_fraction(PixelClass pixel_class)
+{
+    if (!scene::is_scored(pixel_class)) {
+        return 0.5F;
+    }
+    return pixel_class == PixelClass::lit ? 1.0F : 0.0F;
+}
+
+std::uint8_t encode_srgb(float linear)
+{
+    const float value = std::clamp(linear, 0.0F, 1.0F);
+    const float encoded =
+        value <= 0.0031308F ? 12.92F * value : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
+    return static_cast<std::uint8_t>(std::lround(255 * encoded));
+}
+
+store::Rgb encode_srgb(const Vec3f& linear)
+{
+    return {encode_srgb(linear.r), encode_srgb(linear.g), encode_srgb(linear.b)};
+}
+
+/// The pixels [first, last) that panel pixel `index` of `panel_px` covers; at least one.
+struct Span {
+    int first;
+    int last;
+};
+
+Span covered(int index, int panel_px, int image_px)
+{
+    const auto scaled = [&](std::int64_t edge) { return edge * image_px / panel_px; };
+    const int first = static_cast<int>(scaled(index));
+    const auto round_up =
+        static_cast<int>((static_cast<std::int64_t>(index) + 1) * image_px + panel_px - 1) /
+        panel_px;
+    return {first, std::clamp(round_up, first + 1, image_px)};
+}
+
+/// Gathers what the pixels under one panel pixel show.
+class Gatherer {
+public:
+    void add(const Shade& shade, PixelClass pixel_class, float verdict)
+    {
+        gl_ += colour(shade, verdict);
+        truth_ += colour(shade, true_fraction(pixel_class));
+        const Mark mark = mark_of(pixel_class, verdict);
+        ++marks_[static_cast<std::size_t>(mark)];
+        if (mark == Mark::none && scene::is_scored(pixel_class)) {
+            (pixel_class == PixelClass::lit ? shadow_ : light_) +=
+                std::abs(verdict - true_fraction(pixel_class));
+        }
+        ++pixels_;
+    }
+
+    [[nodiscard]] store::Rgb gl() const { return encode_srgb(gl_ / static_cast<float>(pixels_)); }
+    [[nodiscard]] store::Rgb truth() const
+    {
+        return encode_srgb(truth_ / static_cast<float>(pixels_));
+    }
+    [[nodiscard]] store::Rgb error() const
+    {
+        const Mark mark = strongest_mark();
+        if (mark != Mark::none) {
+            return mark_colour(mark);
+        }
+        const Vec3f mean = truth_ / static_cast<float>(pixels_);
+        // A little of the tint goes too, so that only marks are coloured.
+        const Vec3f grey{glm::dot(mean, Vec3f{0.2126F, 0.7152F, 0.0722F})};
+        return tinted(encode_srgb(glm::mix(glm::mix(mean, grey, 0.5F), Vec3f{1}, fade)));
+    }
+
+private:
+    [[nodiscard]] std::uint32_t count(Mark mark) const
+    {
+        return marks_[static_cast<std::size_t>(mark)];
+    }
+    [[nodiscard]] Mark strongest_mark() const
+    {
+        const std::uint32_t false_shadow = count(Mark::false_shadow);
+        const std::uint32_t false_lit = count(Mark::false_lit);
+        if (false_shadow + false_lit > 0) {
+            return false_lit >= false_shadow ? Mark::false_lit : Mark::false_shadow;
+        }
+        if (count(Mark::unmatched) > 0) {
+            return Mark::unmatched;
+        }
+        return count(Mark::indeterminate) > 0 ? Mark::indeterminate : Mark::none;
+    }
+
+    /// As far towards the mark's colour as the pixels, all on the right side of one half, are off.
+    [[nodiscard]] store::Rgb tinted(const store::Rgb& faded) const
+    {
+        const store::Rgb mark =
+            mark_colour(light_ >= shadow_ ? Mark::false_lit : Mark::false_shadow);
+        const float share = std::max(light_, shadow_) / static_cast<float>(pixels_);
+        const auto mixed = [&](std::uint8_t from, std::uint8_t to) {
+            return static_cast<std::uint8_t>(
+                std::lround(std::lerp(static_cast<float>(from), static_cast<float>(to), share)));
+        };
+        return {mixed(faded.r, mark.r), mixed(faded.g, mark.g), mixed(faded.b, mark.b)};
+    }
+
+    Vec3f gl_{0};
+    Vec3f truth_{0};
+    float shadow_ = 0; ///< by how much lit pixels without a mark are off
+    float light_ = 0;  ///< and blocked ones
+    std::array<std::uint32_t, 5> marks_{};
+    std::uint32_t pixels_ = 0;
+};
+
+} // namespace
+
+Mark mark_of(PixelClass pixel_class, float verdict)
+{
+    switch (pixel_class) {
+    case PixelClass::lit:
+        return scene::is_false_shadow(pixel_class, verdict) ? Mark::false_shadow : Mark::none;
+    case PixelClass::blocked:
+        return scene::is_false_lit(pixel_class, verdict) ? Mark::false_lit : Mark::none;
+    case PixelClass::unmatched:
+        return Mark::unmatched;
+    case PixelClass::indeterminate:
+        return Mark::indeterminate;
+    case PixelClass::background:
+    case PixelClass::attached:
+    case PixelClass::out_of_light:
+        return Mark::none;
+    }
+    return Mark::none; // not reached
+}
+
+store::Rgb mark_colour(Mark mark)
+{
+    switch (mark) {
+    case Mark::false_shadow:
+        return {0xD5, 0x5E, 0x00}; // vermillion
+    case Mark::false_lit:
+        return {0x00, 0x72, 0xB2}; // blue
+    case Mark::unmatched:
+        return {0xCC, 0x79, 0xA7}; // reddish purple
+    case Mark::indeterminate:
+        return {0x00, 0x00, 0x00};
+    case Mark::none:
+        break;
+    }
+    return {0xFF, 0xFF, 0xFF};
+}
+
+Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size)
+{
+    const scene::Image<Shade> shades = shade_image(comparison);
+    const auto& classes = comparison.truth.pixel_class;
+    const auto& samples = comparison.lookup.samples;
+    const scene::ImageSize source = shades.size();
+    Panels panels{store::RgbImage{size}, store::RgbImage{size}, store::RgbImage{size}};
+    for (int y = 0; y < size.height_px; ++y) {
+        const Span rows = covered(y, size.height_px, source.height_px);
+        for (int x = 0; x < size.width_px; ++x) {
+            const Span columns = covered(x, size.width_px, source.width_px);
+            Gatherer gatherer;
+            for (int row = rows.first; row < rows.last; ++row) {
+                for (int column = columns.first; column < columns.last; ++column) {
+                    gatherer.add(shades(column, row), classes(column, row),
+                                 samples(column, row).verdict);
+                }
+            }
+            panels.gl(x, y) = gatherer.gl();
+            panels.truth(x, y) = gatherer.truth();
+            panels.errors(x, y) = gatherer.error();
+        }
+    }
+    return panels;
+}
+
+} // namespace gnomon::reports

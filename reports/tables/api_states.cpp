@@ -1,0 +1,127 @@
+#include "reports/tables/api_states.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::TunedSetting;
+using scene::Cull;
+using scene::DepthFormat;
+
+/// The names of a depth format; empty where the interface has none.
+struct FormatNames {
+    std::string_view gl;
+    std::string_view direct3d;
+    std::string_view vulkan;
+};
+
+FormatNames names_of(DepthFormat format)
+{
+    switch (format.kind) {
+    case DepthFormat::Kind::d16:
+        return {"GL_DEPTH_COMPONENT16", "DXGI_FORMAT_D16_UNORM", "VK_FORMAT_D16_UNORM"};
+    case DepthFormat::Kind::d24:
+        return {"GL_DEPTH_COMPONENT24", "DXGI_FORMAT_D24_UNORM_S8_UINT",
+                "VK_FORMAT_X8_D24_UNORM_PACK32"};
+    case DepthFormat::Kind::d32:
+        return {"GL_DEPTH_COMPONENT32", "", ""};
+    case DepthFormat::Kind::d32f:
+        return {"GL_DEPTH_COMPONENT32F", "DXGI_FORMAT_D32_FLOAT", "VK_FORMAT_D32_SFLOAT"};
+    case DepthFormat::Kind::unorm:
+        break;
+    }
+    return {};
+}
+
+/// The same of what is culled; front faces are counter-clockwise.
+FormatNames cull_names(Cull cull)
+{
+    switch (cull) {
+    case Cull::front:
+        return {"glEnable(GL_CULL_FACE); glCullFace(GL_FRONT);", "D3D12_CULL_MODE_FRONT",
+                "VK_CULL_MODE_FRONT_BIT"};
+    case Cull::back:
+        return {"glEnable(GL_CULL_FACE); glCullFace(GL_BACK);", "D3D12_CULL_MODE_BACK",
+                "VK_CULL_MODE_BACK_BIT"};
+    case Cull::none:
+        break;
+    }
+    return {"glDisable(GL_CULL_FACE);", "D3D12_CULL_MODE_NONE", "VK_CULL_MODE_NONE"};
+}
+
+std::string no_format(const TunedSetting& setting, std::string_view api)
+{
+    return fmt::format("no depth format of {} stores {}", api,
+                       scene::depth_format_name(setting.map.depth_format));
+}
+
+ApiState gl_state(const TunedSetting& setting)
+{
+    const std::string_view format = names_of(setting.map.depth_format).gl;
+    if (format.empty()) {
+        return {"GL", {no_format(setting, "GL")}};
+    }
+    const bool reversed = setting.map.frustum.reversed;
+    return {"GL",
+            {fmt::format("glTexStorage2D(GL_TEXTURE_2D, 1, {0}, {1}, {1});", format,
+                         setting.map.resolution_texels),
+             std::string{cull_names(setting.map.cull).gl}, "glDisable(GL_POLYGON_OFFSET_FILL);",
+             reversed ? "glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);"
+                      : "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);",
+             fmt::format("glDepthFunc({0}); glClearDepth({1}); // lookup compares with {2}",
+                         reversed ? "GL_GREATER" : "GL_LESS", reversed ? 0 : 1,
+                         reversed ? "GL_GEQUAL" : "GL_LEQUAL")}};
+}
+
+ApiState direct3d_state(const TunedSetting& setting)
+{
+    const std::string_view format = names_of(setting.map.depth_format).direct3d;
+    if (format.empty()) {
+        return {"Direct3D", {no_format(setting, "Direct3D")}};
+    }
+    const bool reversed = setting.map.frustum.reversed;
+    return {"Direct3D",
+            {fmt::format("D3D12_DEPTH_STENCIL_VIEW_DESC::Format = {};", format),
+             fmt::format("D3D12_RASTERIZER_DESC: CullMode = {}, FrontCounterClockwise = TRUE, "
+                         "DepthBias = 0, SlopeScaledDepthBias = 0, DepthClipEnable = TRUE;",
+                         cull_names(setting.map.cull).direct3d),
+             fmt::format("D3D12_DEPTH_STENCIL_DESC::DepthFunc = D3D12_COMPARISON_FUNC_{}; clear to "
+                         "{}",
+                         reversed ? "GREATER" : "LESS", reversed ? 0 : 1),
+             fmt::format("D3D12_SAMPLER_DESC::ComparisonFunc = D3D12_COMPARISON_FUNC_{};",
+                         reversed ? "GREATER_EQUAL" : "LESS_EQUAL")}};
+}
+
+ApiState vulkan_state(const TunedSetting& setting)
+{
+    const std::string_view format = names_of(setting.map.depth_format).vulkan;
+    if (format.empty()) {
+        return {"Vulkan", {no_format(setting, "Vulkan")}};
+    }
+    const bool reversed = setting.map.frustum.reversed;
+    return {"Vulkan",
+            {fmt::format("VkImageCreateInfo::format = {};", format),
+             fmt::format("VkPipelineRasterizationStateCreateInfo: cullMode = {}, frontFace = "
+                         "VK_FRONT_FACE_COUNTER_CLOCKWISE, depthBiasEnable = VK_FALSE, "
+                         "depthClampEnable = VK_FALSE;",
+                         cull_names(setting.map.cull).vulkan),
+             fmt::format("VkPipelineDepthStencilStateCreateInfo::depthCompareOp = "
+                         "VK_COMPARE_OP_{}; clear to {}",
+                         reversed ? "GREATER" : "LESS", reversed ? 0 : 1),
+             fmt::format("VkSamplerCreateInfo::compareOp = VK_COMPARE_OP_{};",
+                         reversed ? "GREATER_OR_EQUAL" : "LESS_OR_EQUAL")}};
+}
+
+} // namespace
+
+std::vector<ApiState> api_states(const TunedSetting& setting)
+{
+    return {gl_state(setting), direct3d_state(setting), vulkan_state(setting)};
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "analysis/tune/tune.hpp"
+#include "store/json_values.hpp"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::reports {
+
+/// What a setting is in one graphics interface.
+struct ApiState {
+    std::string api;                ///< "GL", "Direct3D", "Vulkan"
+    std::vector<std::string> lines; ///< of code, or why there is none
+};
+
+/// The states that draw and look up such a map: format, comparison, culling, polygon offset. Biases
+/// are not among them: they are subtracted from the receiver's depth in the shader.
+[[nodiscard]] std::vector<ApiState> api_states(const analysis::TunedSetting& setting);
+
+} // namespace gnomon::reports

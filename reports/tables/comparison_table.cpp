@@ -1,0 +1,170 @@
+#include "reports/tables/comparison_table.hpp"
+
+#include "reports/tables/diagnosis_table.hpp"
+#include "reports/tables/evaluation_table.hpp"
+#include "reports/tables/table_lines.hpp"
+#include "reports/words/description.hpp"
+#include "reports/words/text.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::reports {
+
+namespace {
+
+using scene::ClassReason;
+using scene::PixelClass;
+
+/// "5 of 1,234 signs needed integers"; empty for a method that decides none.
+std::string signs(const scene::TruthSigns& signs)
+{
+    const std::uint64_t all = signs.filtered + signs.exact;
+    return all == 0 ? std::string{}
+                    : setting_line("", fmt::format("{} of {} signs needed integers",
+                                                   grouped(signs.exact), grouped(all)));
+}
+
+std::string settings(const analysis::Comparison& comparison)
+{
+    if (comparison.evaluation) {
+        return evaluation_settings(comparison, *comparison.evaluation) +
+               signs(comparison.truth.signs);
+    }
+    const Description words = describe(comparison);
+    const analysis::Environment& environment = comparison.environment;
+    std::string text = setting_line("scene", comparison.scene.name);
+    text += setting_line("", words.size);
+    text += note_lines(comparison.scene.notes);
+    text += setting_line("image", words.image);
+    text += setting_line("light", words.light);
+    text += setting_line("shadow map", words.map);
+    text += setting_line("", words.range);
+    text += setting_line("lookup", words.lookup);
+    text += setting_line("bias", words.bias);
+    text += setting_line("GL", environment.gl_renderer);
+    text += setting_line("", environment.gl_version);
+    text +=
+        setting_line("truth", fmt::format("{}, {}", comparison.truth_method, environment.embree));
+    text += signs(comparison.truth.signs);
+    return text;
+}
+
+/// "snap 3, tie 1", of the reasons that occur.
+std::string reasons(const analysis::ClassCounts& counts,
+                    std::initializer_list<std::pair<ClassReason, std::string_view>> named)
+{
+    std::string text;
+    for (const auto& [reason, name] : named) {
+        if (counts.of(reason) > 0) {
+            text +=
+                fmt::format("{}{} {}", text.empty() ? "" : ", ", name, grouped(counts.of(reason)));
+        }
+    }
+    return text;
+}
+
+std::string class_note(const analysis::ClassCounts& counts, PixelClass pixel_class)
+{
+    if (pixel_class == PixelClass::unmatched) {
+        return reasons(counts, {{ClassReason::snap, "snap"},
+                                {ClassReason::tie, "tie"},
+                                {ClassReason::mismatch, "mismatch"}});
+    }
+    if (pixel_class == PixelClass::indeterminate) {
+        return reasons(counts, {{ClassReason::silhouette, "silhouette"},
+                                {ClassReason::vertex, "vertex"},
+                                {ClassReason::graze, "graze"},
+                                {ClassReason::rounding, "rounding"}});
+    }
+    return scene::is_scored(pixel_class) ? "scored" : "";
+}
+
+std::string classes(const analysis::ClassCounts& counts)
+{
+    std::string text = count_line("class", "pixels", "share", "");
+    for (std::size_t i = 0; i < scene::pixel_class_count; ++i) {
+        const auto pixel_class = static_cast<PixelClass>(i);
+        const std::uint64_t count = counts.of(pixel_class);
+        std::optional<double> share;
+        if (counts.total > 0) {
+            share = static_cast<double>(count) / static_cast<double>(counts.total);
+        }
+        text += count_line(scene::pixel_class_names[i], grouped(count), percent(share),
+                           class_note(counts, pixel_class));
+    }
+    return text + count_line("total", grouped(counts.total), "", "");
+}
+
+std::string errors(const analysis::Metrics& metrics)
+{
+    const analysis::ClassCounts& counts = metrics.pixels;
+    const auto denominator = [](std::uint64_t count, std::string_view noun) {
+        return fmt::format("of {} {}", grouped(count), noun);
+    };
+    std::string text = count_line("error", "pixels", "rate", "");
+    text += count_line("false shadow", grouped(metrics.false_shadow),
+                       percent(metrics.false_shadow_rate),
+                       denominator(counts.of(PixelClass::lit), "lit"));
+    text += count_line("false lit", grouped(metrics.false_lit), percent(metrics.false_lit_rate),
+                       denominator(counts.of(PixelClass::blocked), "blocked"));
+    text += count_line("both", grouped(metrics.false_shadow + metrics.false_lit),
+                       percent(metrics.error_rate), denominator(counts.scored(), "scored"));
+    if (!has_fractions(metrics)) {
+        return text;
+    }
+    text += count_line("amount", "pixels", "rate", "");
+    text += count_line("false shadow", grouped_amount(metrics.amounts.shadow),
+                       percent(metrics.shadow_amount_rate), "dark where lit");
+    text += count_line("false light", grouped_amount(metrics.amounts.light),
+                       percent(metrics.light_amount_rate), "lit where blocked");
+    text += count_line("both", grouped_amount(metrics.amounts.total()),
+                       percent(metrics.mean_abs_error), "mean |verdict - truth|");
+    return text + count_line("partial", grouped(metrics.amounts.partial), "",
+                             "right by side, wrong by amount");
+}
+
+std::string float_audit(const analysis::Comparison& comparison)
+{
+    if (comparison.float_audit.empty()) {
+        return "";
+    }
+    std::string text = "\n";
+    text += count_line("float method", "false blocked", "false lit", "");
+    for (const scene::FloatMethodErrors& method : comparison.float_audit) {
+        text += count_line(method.name, grouped(method.false_blocked), grouped(method.false_lit),
+                           "wrong pixels");
+    }
+    return text;
+}
+
+std::string seconds_line(const analysis::StageSeconds& seconds)
+{
+    return setting_line("seconds",
+                        fmt::format("scene {:.3f}  bvh {:.3f}  receivers {:.3f}  shadow map {:.3f}",
+                                    seconds.scene, seconds.bvh, seconds.receivers,
+                                    seconds.shadow_map)) +
+           setting_line("", fmt::format("lookup {:.3f}  truth {:.3f}  analysis {:.3f}",
+                                        seconds.lookup, seconds.truth, seconds.analysis));
+}
+
+} // namespace
+
+std::string comparison_table(const analysis::Comparison& comparison)
+{
+    if (comparison.evaluation) {
+        return fmt::format(
+            "{}\n{}\n{}{}{}{}", settings(comparison), classes(comparison.metrics.pixels),
+            errors(comparison.metrics), diagnosis_table(comparison),
+            evaluation_table(comparison, *comparison.evaluation), findings_text(comparison));
+    }
+    return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
+                       classes(comparison.metrics.pixels), errors(comparison.metrics),
+                       diagnosis_table(comparison), float_audit(comparison),
+                       seconds_line(comparison.seconds) + findings_text(comparison));
+}
+
+} // namespace gnomon::reports

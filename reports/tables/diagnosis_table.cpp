@@ -1,0 +1,270 @@
+#include "reports/tables/diagnosis_table.hpp"
+
+#include "analysis/advice/remedies.hpp"
+#include "analysis/metrics/ratio.hpp"
+#include "reports/tables/table_lines.hpp"
+#include "reports/words/findings.hpp"
+#include "reports/words/remedy_words.hpp"
+#include "reports/words/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+std::string shown_name(std::string_view name)
+{
+    std::string shown{name};
+    std::ranges::replace(shown, '_', '-');
+    return shown;
+}
+
+/// Wrong pixels by name; the first name, "none", is left out.
+std::string named_counts(std::string_view head, std::span<const std::string_view> names,
+                         std::span<const std::uint64_t> counts, std::uint64_t wrong)
+{
+    std::string text = count_line(head, "pixels", "of wrong", "");
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        std::optional<double> share;
+        if (wrong > 0) {
+            share = static_cast<double>(counts[i]) / static_cast<double>(wrong);
+        }
+        text += count_line(shown_name(names[i]), grouped(counts[i]), percent(share), "");
+    }
+    return text;
+}
+
+/// The same where verdicts are fractions: by how much they are off beside how many are wrong.
+std::string named_amounts(std::string_view head, std::span<const std::string_view> names,
+                          std::span<const std::uint64_t> counts, std::span<const double> amounts)
+{
+    std::string text = count_line(head, "wrong", "amount", "");
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        text +=
+            count_line(shown_name(names[i]), grouped(counts[i]), grouped_amount(amounts[i]), "");
+    }
+    return text;
+}
+
+std::string causes(const analysis::Comparison& comparison)
+{
+    if (!comparison.diagnosis) {
+        return "";
+    }
+    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
+    const std::uint64_t wrong = comparison.metrics.false_shadow + comparison.metrics.false_lit;
+    std::string text = "\n";
+    const analysis::CauseCounts& counts = diagnosis.causes.counts;
+    const analysis::CauseAmounts& amounts = diagnosis.causes.amounts;
+    if (analysis::has_fractions(comparison.metrics)) {
+        text += named_amounts("cause", analysis::cause_names, counts.by_cause, amounts.by_cause);
+        text += "\n";
+        text += named_amounts("called", analysis::label_names, counts.by_label, amounts.by_label);
+        text += setting_line("", fmt::format("softened borders (edge by filter): {} px",
+                                             grouped_amount(amounts.softening())));
+    } else {
+        text += named_counts("cause", analysis::cause_names, counts.by_cause, wrong);
+        text += "\n";
+        text += named_counts("called", analysis::label_names, counts.by_label, wrong);
+    }
+    if (const auto& kinds = comparison.precision_kinds;
+        kinds && kinds->format + kinds->transform > 0) {
+        text += setting_line("", fmt::format("precision: {} by the format, {} by transforms",
+                                             grouped(kinds->format), grouped(kinds->transform)));
+    }
+    const auto& [gap, gap_texels] = diagnosis.peter_panning;
+    if (gap && gap_texels) {
+        text += setting_line(
+            "", fmt::format("peter-panning gap of {}: median {:.4g} m, 95 % {:.4g} m, largest "
+                            "{:.4g} m ({:.3g} texels)",
+                            counted(gap->count, "pixel"), gap->median, gap->p95, gap->max,
+                            gap_texels->max));
+    }
+    return text + object_table(diagnosis.by_object);
+}
+
+/// A limit that need not exist.
+std::string limit(float bias, std::string_view none)
+{
+    return std::isfinite(bias) ? fmt::format("{:.4g}", plain_zero(bias)) : std::string{none};
+}
+
+/// "0.0024 (by count 0.0008)": where taps tell them apart.
+std::string acne_limit(const analysis::BiasLimits& limits)
+{
+    std::string text = limit(limits.acne_free, "-");
+    if (limits.acne_free != limits.acne_free_count) {
+        text += fmt::format(" (by count {})", limit(limits.acne_free_count, "-"));
+    }
+    return text;
+}
+
+/// "17 reruns of GL: 0 of 39,168 verdicts differ"
+std::string verification(const analysis::Comparison& comparison)
+{
+    const auto& found = comparison.verification;
+    return found ? setting_line("", fmt::format("{} of GL: {} of {} differ",
+                                                counted(found->reruns.size(), "rerun"),
+                                                grouped(found->differences()),
+                                                counted(found->verdicts(), "verdict")))
+                 : std::string{};
+}
+
+/// "recommended 0.029 (0.21 m, 3 texels); 0.021 to 0.04 are nearly as good"
+std::string recommended_bias(const analysis::Recommendation& recommended)
+{
+    const analysis::BiasLength& bias = recommended.pasted_length;
+    std::string text = fmt::format("recommended {:.4g} ({:.3g} m, {:.3g} texels)", bias.depth,
+                                   bias.metres, bias.texels);
+    text += std::isfinite(recommended.high.depth)
+                ? fmt::format("; {:.4g} to {:.4g} are nearly as good", recommended.low.depth,
+                              recommended.high.depth)
+                : fmt::format("; all from {:.4g} are nearly as good", recommended.low.depth);
+    return recommended.views > 1 ? fmt::format("{}, over {} views", text, recommended.views) : text;
+}
+
+/// "fewest errors (12) from 0.002 to 0.003", or without an end where the interval has none.
+std::string fewest_errors(const analysis::BestBiases& best)
+{
+    const auto& [lo, hi] = best.interval;
+    std::string text = fmt::format("fewest errors ({})", grouped(best.errors.total()));
+    if (!std::isfinite(lo) && !std::isfinite(hi)) {
+        return text + " with any bias";
+    }
+    if (!std::isfinite(lo)) {
+        return text + fmt::format(" with {:.4g} or less", plain_zero(hi));
+    }
+    return text + (std::isfinite(hi)
+                       ? fmt::format(" from {:.4g} to {:.4g}", plain_zero(lo), plain_zero(hi))
+                       : fmt::format(" with {:.4g} or more", plain_zero(lo)));
+}
+
+std::string constant_bias(const analysis::Comparison& comparison)
+{
+    if (!comparison.diagnosis || !comparison.diagnosis->biases ||
+        comparison.metrics.pixels.scored() == 0) {
+        return "";
+    }
+    const analysis::BiasAnswers& answers = *comparison.diagnosis->biases;
+    const analysis::BiasLimits& strict = answers.bounds.strict;
+    const analysis::BiasLimits& lenient = answers.bounds.allowances[1];
+    std::string text = "\n";
+    text += setting_line("constant bias", fewest_errors(answers.best));
+    text += setting_line("", fmt::format("no acne from {}, no peter-panning up to {}",
+                                         acne_limit(strict), limit(strict.panning_free, "-")));
+    text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
+                                         acne_limit(lenient), limit(lenient.panning_free, "-")));
+    if (const auto& recommended = comparison.diagnosis->curve.recommended) {
+        text += setting_line("", recommended_bias(*recommended));
+    }
+    return text + verification(comparison);
+}
+
+/// Each view, with the job as it is and with the first remedy.
+std::string views(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    const auto& views = comparison.advice_views.views;
+    std::string passed_over;
+    if (comparison.advice_views.passed_over > 0) {
+        passed_over =
+            setting_line("", fmt::format("{} passed over: they show too little, or make no view",
+                                         counted(comparison.advice_views.passed_over, "view")));
+    }
+    if (views.size() < 2 || remedy.views.size() != views.size()) {
+        return passed_over;
+    }
+    std::string text = "\n";
+    text += count_line("view", "as it is", "remedy 1", "");
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        text += count_line(views[i].name, percent(views[i].now.error_rate()),
+                           percent(remedy.views[i].error_rate()), "");
+    }
+    text += count_line("all", "", percent(analysis::pooled(remedy.views).error_rate()), "");
+    return text + passed_over;
+}
+
+/// What helps, ranked: what it leaves, what it costs, and how that is known.
+std::string remedies(const analysis::Comparison& comparison)
+{
+    constexpr std::size_t most_lines = 12;
+    const auto ranked = analysis::ranked_remedies(comparison);
+    if (ranked.empty()) {
+        return "";
+    }
+    const std::uint64_t scored = comparison.metrics.pixels.scored();
+    const auto share = [&](double amount) { return percent(analysis::ratio(amount, scored)); };
+    std::string text = "\n";
+    text += count_line("remedy", "wrong", "error", "");
+    text += count_line("the job as it is",
+                       grouped(comparison.metrics.false_shadow + comparison.metrics.false_lit),
+                       share(analysis::error_amount(comparison)), "");
+    for (std::size_t i = 0; i < std::min(ranked.size(), most_lines); ++i) {
+        const analysis::Remedy& remedy = ranked[i];
+        text += count_line(fmt::format("{}", i + 1), grouped(remedy.outcome.errors.total()),
+                           share(remedy.outcome.error_amount()),
+                           fmt::format("{}: {}, {}, by {}", remedy_keys(remedy),
+                                       mebibytes(remedy.map_bytes),
+                                       counted(static_cast<std::uint64_t>(remedy.taps), "tap"),
+                                       shown_name(analysis::measured_by_names.at(
+                                           static_cast<std::size_t>(remedy.measured_by)))));
+    }
+    if (ranked.size() > most_lines) {
+        text += setting_line("", fmt::format("and {} more", ranked.size() - most_lines));
+    }
+    return text + views(comparison, ranked.front());
+}
+
+} // namespace
+
+std::string object_table(const std::vector<analysis::ObjectErrors>& objects)
+{
+    constexpr std::size_t most_lines = 12;
+    std::vector<analysis::ObjectErrors> wrong;
+    std::ranges::copy_if(objects, std::back_inserter(wrong), [](const auto& object) {
+        return object.counts.false_shadow + object.counts.false_lit > 0;
+    });
+    if (objects.size() < 2 || wrong.empty()) {
+        return "";
+    }
+    std::ranges::stable_sort(wrong, std::greater{}, [](const analysis::ObjectErrors& object) {
+        return object.counts.false_shadow + object.counts.false_lit;
+    });
+    std::string text = "\n";
+    text += count_line("on object", "false shadow", "false lit", "");
+    for (std::size_t i = 0; i < std::min(wrong.size(), most_lines); ++i) {
+        text += count_line(wrong[i].name, grouped(wrong[i].counts.false_shadow),
+                           grouped(wrong[i].counts.false_lit), "");
+    }
+    if (wrong.size() > most_lines) {
+        text += setting_line("", fmt::format("and on {} more", wrong.size() - most_lines));
+    }
+    return text;
+}
+
+std::string diagnosis_table(const analysis::Comparison& comparison)
+{
+    return causes(comparison) + constant_bias(comparison) + remedies(comparison);
+}
+
+std::string findings_text(const analysis::Comparison& comparison)
+{
+    std::string text;
+    for (const std::string& sentence : findings(comparison)) {
+        text += sentence + "\n";
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,43 @@
+#include "reports/tables/table_lines.hpp"
+
+#include "reports/words/text.hpp"
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr std::size_t name_columns = 16;
+constexpr std::size_t count_columns = 13;
+constexpr std::size_t rate_columns = 11;
+
+/// A line without the blanks that padding left at its end.
+std::string trimmed(std::string line)
+{
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + "\n";
+}
+
+} // namespace
+
+std::string setting_line(std::string_view name, std::string_view value)
+{
+    return trimmed(pad_right(name, name_columns) + std::string{value});
+}
+
+std::string count_line(std::string_view name, std::string_view count, std::string_view rate,
+                       std::string_view note)
+{
+    return trimmed(pad_right(name, name_columns) + pad_left(count, count_columns) +
+                   pad_left(rate, rate_columns) + "  " + std::string{note});
+}
+
+std::string note_lines(std::span<const scene::SceneNote> notes)
+{
+    std::string text;
+    for (const scene::SceneNote& note : notes) {
+        text += setting_line(text.empty() ? "note" : "", note.text);
+    }
+    return text;
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,341 @@
+#include "reports/tables/tune_report.hpp"
+
+#include "analysis/advice/fit_setting.hpp"
+#include "analysis/advice/map_cost.hpp"
+#include "reports/json/advice_json.hpp"
+#include "reports/tables/api_states.hpp"
+#include "reports/words/findings.hpp"
+#include "reports/words/remedy_words.hpp"
+#include "reports/words/text.hpp"
+#include "store/json_values.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::TunedSetting;
+using analysis::TuneLimits;
+using analysis::TuneResult;
+using analysis::ViewOutcome;
+
+std::string plane_text(const std::optional<double>& plane_m)
+{
+    return plane_m ? fmt::format("{}", *plane_m) : "\"auto\"";
+}
+
+store::Json plane_json(const std::optional<double>& plane_m)
+{
+    return plane_m ? store::Json(*plane_m) : store::Json("auto");
+}
+
+store::Json setting_json(const TunedSetting& setting)
+{
+    const analysis::BiasInterval& run = setting.bias.run;
+    store::Json json{
+        {"shadow_map.resolution", setting.map.resolution_texels},
+        {"shadow_map.depth_format", scene::depth_format_name(setting.map.depth_format)},
+        {"shadow_map.fit", scene::fit_name(setting.map.frustum.fit)},
+        {"shadow_map.near", plane_json(setting.map.frustum.near_m)},
+        {"shadow_map.far", plane_json(setting.map.frustum.far_m)},
+        {"shadow_map.cull", scene::cull_name(setting.map.cull)},
+        {"lookup.filter", scene::filter_name(setting.filter)},
+        {"bias.constant", setting.bias.constant()},
+        {"bias.slope", setting.slope},
+        {"bias.normal_texels", setting.normal_texels},
+        {"map_bytes", analysis::map_bytes(setting.map)},
+        {"taps", analysis::tap_count(setting.filter)}};
+    json.update(outcome_json(setting.pooled()));
+    json["best_interval"] = {run.lo,
+                             std::isfinite(run.hi) ? store::Json(run.hi) : store::Json(nullptr)};
+    json["views"] = setting.bias.outcomes.size();
+    json["meets_limits"] = setting.meets_limits();
+    return json;
+}
+
+/// Maps that differ only in slope, offset and bias share a line: the best of them.
+std::vector<const TunedSetting*> best_of_each_map(const TuneResult& result)
+{
+    using Key = std::tuple<int, std::string, scene::Fit, std::optional<double>,
+                           std::optional<double>, scene::Cull, scene::Filter>;
+    std::map<Key, std::size_t> lines;
+    std::vector<const TunedSetting*> best;
+    for (const TunedSetting& setting : result.considered) {
+        const scene::FrustumSettings& frustum = setting.map.frustum;
+        const Key key{setting.map.resolution_texels,
+                      scene::depth_format_name(setting.map.depth_format),
+                      frustum.fit,
+                      frustum.near_m,
+                      frustum.far_m,
+                      setting.map.cull,
+                      setting.filter};
+        const auto [line, is_new] = lines.try_emplace(key, best.size());
+        if (is_new) {
+            best.push_back(&setting);
+        } else if (analysis::is_better(setting, *best[line->second])) {
+            best[line->second] = &setting;
+        }
+    }
+    return best;
+}
+
+/// "auto", or "0.5 to 10".
+std::string range(const scene::FrustumSettings& frustum)
+{
+    const auto plane = [](const std::optional<double>& plane_m) {
+        return plane_m ? fmt::format("{:.4g}", *plane_m) : std::string{"auto"};
+    };
+    return frustum.near_m || frustum.far_m
+               ? fmt::format("{} to {}", plane(frustum.near_m), plane(frustum.far_m))
+               : "auto";
+}
+
+std::string map_name(const TunedSetting& setting)
+{
+    return fmt::format("{} {}", setting.map.resolution_texels,
+                       scene::depth_format_name(setting.map.depth_format));
+}
+
+std::string table_line(const TunedSetting& setting)
+{
+    const ViewOutcome pooled = setting.pooled();
+    return fmt::format("{:<11}{:<8}{:<13}{:<7}{:<10}{:>10}{:>12.4g}{:>11.4g}{:>8.3g}{:>14}{:>12}  "
+                       "{}\n",
+                       map_name(setting), scene::fit_name(setting.map.frustum.fit),
+                       range(setting.map.frustum), scene::cull_name(setting.map.cull),
+                       scene::filter_name(setting.filter),
+                       mebibytes(analysis::map_bytes(setting.map)), setting.bias.constant(),
+                       setting.slope, setting.normal_texels, percent(pooled.shadow_rate()),
+                       percent(pooled.light_rate()), setting.meets_limits() ? "met" : "-");
+}
+
+std::string table(const TuneResult& result, TuneDetail detail)
+{
+    std::string text =
+        fmt::format("{:<11}{:<8}{:<13}{:<7}{:<10}{:>10}{:>12}{:>11}{:>8}{:>14}{:>12}  {}\n", "map",
+                    "fit", "near, far", "cull", "filter", "memory", "constant", "slope", "offset",
+                    "false shadow", "false lit", "limits");
+    if (detail == TuneDetail::tried) {
+        for (const TunedSetting& setting : result.considered) {
+            text += table_line(setting);
+        }
+        return text;
+    }
+    for (const TunedSetting* setting : best_of_each_map(result)) {
+        text += table_line(*setting);
+    }
+    return text;
+}
+
+/// "; by count false lit at most 1 %": of the limits that are some.
+std::string counts_asked(const TuneLimits& limits)
+{
+    std::vector<std::string> asked;
+    if (limits.max_false_shadow_rate < 1) {
+        asked.push_back(
+            fmt::format("false shadow at most {}", percent(limits.max_false_shadow_rate)));
+    }
+    if (limits.max_false_lit_rate < 1) {
+        asked.push_back(fmt::format("false lit at most {}", percent(limits.max_false_lit_rate)));
+    }
+    return asked.empty() ? "" : fmt::format("; by count {}", fmt::join(asked, ", "));
+}
+
+std::string verdict(const TuneResult& result, const TuneLimits& limits)
+{
+    const std::string asked = fmt::format(
+        "false shadow at most {} of the lit pixels, false lit at most {} of the blocked ones{}",
+        percent(limits.max_shadow_amount_rate), percent(limits.max_light_amount_rate),
+        counts_asked(limits));
+    const std::string views = result.views.size() == 1
+                                  ? "in this view"
+                                  : fmt::format("in each of {} views", result.views.size());
+    if (result.meets_limits()) {
+        return fmt::format("The cheapest of these settings that meets the limits {} ({}); its "
+                           "keys, in place of the job's own:\n",
+                           views, asked);
+    }
+    return fmt::format("No setting up to {0}x{0} meets the limits {1} ({2}); the one that is least "
+                       "wrong; its keys, in place of the job's own:\n",
+                       limits.max_resolution_texels, views, asked);
+}
+
+std::vector<std::string> hopeless_maps(const TuneResult& result)
+{
+    std::vector<std::string> names;
+    for (const analysis::MapSize& size : result.hopeless) {
+        names.push_back(
+            fmt::format("{} {}", size.resolution_texels, scene::depth_format_name(size.format)));
+    }
+    return names;
+}
+
+/// "Other culling and filters were not tried with 256 d16, 256 d24: …"
+std::string not_tried(const TuneResult& result)
+{
+    return result.hopeless.empty()
+               ? ""
+               : fmt::format("Other culling and filters were not tried with {}, whose errors are "
+                             "more than eight times the limits.\n",
+                             fmt::join(hopeless_maps(result), ", "));
+}
+
+/// What GL measured with it, in each view.
+std::string measured(const TuneResult& result, const TuneLimits& limits)
+{
+    std::string text = fmt::format("\n{:<14}{:>14}{:>12}{:>14}{:>12}  {}\n", "measured in",
+                                   "false shadow", "false lit", "by count", "by count", "limits");
+    for (std::size_t i = 0; i < result.measured_views.size(); ++i) {
+        const ViewOutcome& view = result.measured_views[i];
+        text +=
+            fmt::format("{:<14}{:>14}{:>12}{:>14}{:>12}  {}\n", result.views[i].name,
+                        percent(view.shadow_rate()), percent(view.light_rate()),
+                        percent(view.metrics.false_shadow_rate),
+                        percent(view.metrics.false_lit_rate), meets(view, limits) ? "met" : "-");
+    }
+    if (result.measured_views.size() > 1) {
+        const std::size_t worst = analysis::worst_view(result.measured_views);
+        text += fmt::format("All together {}; the worst is {} with {}.\n",
+                            percent(analysis::pooled(result.measured_views).error_rate()),
+                            result.views[worst].name,
+                            percent(result.measured_views[worst].error_rate()));
+    }
+    if (result.passed_over > 0) {
+        text += fmt::format("{} passed over: they show too little, or make no view.\n",
+                            counted(result.passed_over, "view"));
+    }
+    return text;
+}
+
+std::string states(const TunedSetting& setting)
+{
+    std::string text;
+    for (const ApiState& state : api_states(setting)) {
+        text += fmt::format("\n{}:\n  {}\n", state.api, fmt::join(state.lines, "\n  "));
+    }
+    return text;
+}
+
+store::Json views_json(const TuneResult& result, const TuneLimits& limits)
+{
+    store::Json json = store::Json::array();
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+        const scene::Job& job = result.views[i].job;
+        store::Json view = view_json(result.views[i].name, *job.camera, *job.light);
+        view["measured"] = outcome_json(result.measured_views[i]);
+        view["meets_limits"] = meets(result.measured_views[i], limits);
+        json.push_back(std::move(view));
+    }
+    return json;
+}
+
+store::Json states_json(const TunedSetting& setting)
+{
+    store::Json json = store::Json::object();
+    for (const ApiState& state : api_states(setting)) {
+        json[state.api] = state.lines;
+    }
+    return json;
+}
+
+} // namespace
+
+std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit)
+{
+    return fmt::format(
+        "[shadow_map]\n"
+        "resolution = {}\n"
+        "depth_format = \"{}\"\n"
+        "{}\n"
+        "near = {}\n"
+        "far = {}\n"
+        "cull = \"{}\"\n"
+        "[lookup]\n"
+        "filter = \"{}\"\n"
+        "[bias]\n"
+        "{}\n"
+        "slope = {}\n"
+        "normal_texels = {}\n",
+        setting.map.resolution_texels, scene::depth_format_name(setting.map.depth_format),
+        analysis::fit_setting(own_fit, setting.map.frustum.fit),
+        plane_text(setting.map.frustum.near_m), plane_text(setting.map.frustum.far_m),
+        scene::cull_name(setting.map.cull), scene::filter_name(setting.filter),
+        setting.bias.pasted.key.substr(std::size("bias.") - 1), setting.slope,
+        setting.normal_texels);
+}
+
+std::string tuned_setting_line(const TunedSetting& setting)
+{
+    const ViewOutcome pooled = setting.pooled();
+    return fmt::format("{}, fit {}, cull {}, {}, slope {:.4g}, offset {:.3g}: false shadow {}, "
+                       "false lit {}{}",
+                       map_name(setting), scene::fit_name(setting.map.frustum.fit),
+                       scene::cull_name(setting.map.cull), scene::filter_name(setting.filter),
+                       setting.slope, setting.normal_texels, percent(pooled.shadow_rate()),
+                       percent(pooled.light_rate()),
+                       setting.meets_limits() ? ", meets the limits" : "");
+}
+
+std::string tune_text(const TuneResult& result, const TuneLimits& limits, TuneDetail detail)
+{
+    if (detail == TuneDetail::answer) {
+        return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit);
+    }
+    std::string text = fmt::format(
+        "{} considered; of each map and filter the best bias, slope and normal offset [texels], "
+        "and its errors by amount, without what the filter softens on purpose:\n\n",
+        counted(result.considered.size(), "setting"));
+    text += table(result, detail) + not_tried(result) + "\n";
+    text += verdict(result, limits) + "\n" +
+            tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit);
+    text += states(result.best());
+    text += measured(result, limits) + "\n";
+    for (const std::string& sentence : errors_in_words(result.measured)) {
+        text += sentence + "\n";
+    }
+    return text;
+}
+
+std::string tune_json(const TuneResult& result, const TuneLimits& limits)
+{
+    const analysis::Metrics& measured = result.measured.metrics;
+    store::Json json{
+        {"schema", 1},
+        {"meets_limits", result.meets_limits()},
+        {"limits",
+         {{"max_shadow_amount_rate", limits.max_shadow_amount_rate},
+          {"max_light_amount_rate", limits.max_light_amount_rate},
+          {"max_false_shadow_rate", limits.max_false_shadow_rate},
+          {"max_false_lit_rate", limits.max_false_lit_rate},
+          {"max_resolution", limits.max_resolution_texels}}},
+        {"recommended", setting_json(result.best())},
+        {"toml", tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit)},
+        {"states", states_json(result.best())},
+        {"measured",
+         {{"false_shadow", measured.false_shadow},
+          {"false_lit", measured.false_lit},
+          {"false_shadow_rate", store::number_or_null(measured.false_shadow_rate)},
+          {"false_lit_rate", store::number_or_null(measured.false_lit_rate)},
+          {"error_rate", store::number_or_null(measured.error_rate)},
+          {"shadow_amount", measured.amounts.shadow},
+          {"light_amount", measured.amounts.light}}},
+        {"views", views_json(result, limits)},
+        {"views_passed_over", result.passed_over},
+        {"pooled", outcome_json(analysis::pooled(result.measured_views))},
+        {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
+        {"why", errors_in_words(result.measured)},
+        {"hopeless_maps", hopeless_maps(result)}};
+    json["considered"] = store::Json::array();
+    for (const TunedSetting& setting : result.considered) {
+        json["considered"].push_back(setting_json(setting));
+    }
+    return json.dump(2) + "\n";
+}
+
+} // namespace gnomon::reports

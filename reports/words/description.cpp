@@ -1,0 +1,74 @@
+#include "reports/words/description.hpp"
+
+#include "reports/words/text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace gnomon::reports {
+
+namespace {
+
+std::string describe_size(const analysis::SceneSummary& scene)
+{
+    return fmt::format("{}, {}", counted(scene.triangles, "triangle"),
+                       counted(scene.objects, "object"));
+}
+
+std::string describe_light(const scene::Light& light)
+{
+    if (light.type == scene::LightType::directional) {
+        const scene::Vec3d& d = light.direction;
+        return fmt::format("directional ({:.4g}, {:.4g}, {:.4g})", d.x, d.y, d.z);
+    }
+    if (light.type == scene::LightType::point) {
+        const scene::Vec3d& p = light.position;
+        return fmt::format("point at ({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
+    }
+    constexpr double deg_from_rad = 180 / std::numbers::pi;
+    return fmt::format("spot, cone {:.4g} deg", 2 * std::acos(light.cos_half_cone) * deg_from_rad);
+}
+
+std::string describe_map(const scene::ShadowMapSettings& map)
+{
+    return fmt::format("{0}x{0} {1}, fit {2}", map.resolution_texels,
+                       scene::depth_format_name(map.depth_format),
+                       scene::fit_name(map.frustum.fit));
+}
+
+std::string describe_range(const scene::LightFrustum& frustum, scene::Cull cull)
+{
+    return fmt::format("near {:.4g}, far {:.4g}, cull {}{}", frustum.near_m, frustum.far_m,
+                       scene::cull_name(cull), frustum.reversed ? ", reversed" : "");
+}
+
+std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias& bias)
+{
+    const std::string metres =
+        settings.constant_m ? fmt::format(" ({:.4g} m)", *settings.constant_m) : std::string{};
+    return fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
+                       plain_zero(bias.constant), metres, plain_zero(bias.slope),
+                       plain_zero(bias.normal_texels));
+}
+
+} // namespace
+
+Description describe(const analysis::Comparison& comparison)
+{
+    const scene::Job& job = comparison.job;
+    const scene::View& view = comparison.view;
+    return {
+        .size = describe_size(comparison.scene),
+        .light = describe_light(view.light),
+        .map = describe_map(job.shadow_map),
+        .range = describe_range(view.frustum, job.shadow_map.cull),
+        .lookup = fmt::format("{}, outside {}", scene::filter_name(job.lookup.filter),
+                              scene::outside_name(job.lookup.outside)),
+        .bias = describe_bias(job.bias, view.bias),
+        .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),
+    };
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,397 @@
+#include "reports/words/error_words.hpp"
+
+#include "analysis/bias/bias_units.hpp"
+#include "analysis/metrics/quantiles.hpp"
+#include "analysis/metrics/ratio.hpp"
+#include "reports/words/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::Cause;
+using scene::PixelClass;
+
+constexpr double worth_naming = 0.25; // of the error
+
+std::string_view words(Cause cause)
+{
+    switch (cause) {
+    case Cause::bias:
+        return "the bias";
+    case Cause::precision:
+        return "the precision of depths";
+    case Cause::resolution:
+        return "the map's resolution";
+    case Cause::coverage:
+        return "what the map does not cover";
+    case Cause::filter:
+        return "the filter's footprint";
+    case Cause::none:
+        break;
+    }
+    return "";
+}
+
+/// What of the map to look at for a cause; empty for the bias, which is not the map's.
+std::string_view to_try(Cause cause)
+{
+    switch (cause) {
+    case Cause::precision:
+        return "For precision, try a format with more bits, or near and far closer together";
+    case Cause::resolution:
+        return "For resolution, try more texels on what the camera sees: a larger map or a tighter "
+               "fit";
+    case Cause::coverage:
+        return "For coverage, look at near, far, the frustum and culling: the light's camera "
+               "misses casters";
+    case Cause::filter:
+        return "For the filter, try a smaller kernel, or more texels under it";
+    case Cause::bias:
+    case Cause::none:
+        break;
+    }
+    return "";
+}
+
+/// "4.51 % of the lit surface shadows itself (acne)"
+std::string words(analysis::Label label, double amount, const analysis::ClassCounts& pixels)
+{
+    const auto of = [&](std::uint64_t whole) { return percent(analysis::ratio(amount, whole)); };
+    const std::string lit = of(pixels.of(PixelClass::lit));
+    const std::string blocked = of(pixels.of(PixelClass::blocked));
+    switch (label) {
+    case analysis::Label::acne:
+        return fmt::format("{} of the lit surface shadows itself (acne)", lit);
+    case analysis::Label::overshadow:
+        return fmt::format("{} of the lit surface is shadowed by nothing that is there "
+                           "(overshadow)",
+                           lit);
+    case analysis::Label::peter_panning:
+        return fmt::format("{} of the shadowed surface is lit because the bias detaches shadows "
+                           "(peter-panning)",
+                           blocked);
+    case analysis::Label::leak:
+        return fmt::format("{} of the shadowed surface is lit because the map lost what shadows it "
+                           "(leaks)",
+                           blocked);
+    case analysis::Label::bleed:
+        return fmt::format("{} of the shadowed surface is lit by the method alone (bleed)",
+                           blocked);
+    case analysis::Label::edge:
+        return fmt::format("{} of the surface is wrong along ragged or displaced shadow edges",
+                           of(pixels.scored()));
+    case analysis::Label::none:
+        break;
+    }
+    return "";
+}
+
+/// "82 %": a share as people say it.
+std::string share(double part, double whole)
+{
+    const double percent = 100.0 * part / whole;
+    if (part != whole && percent > 99) {
+        return "over 99 %";
+    }
+    return percent < 1 ? "under 1 %" : fmt::format("{:.0f} %", percent);
+}
+
+/// Of each name or cause: the amount without softening; where verdicts are no fractions that is the
+/// count.
+template <std::size_t size>
+std::array<double, size> errors_of(const analysis::Comparison& comparison,
+                                   const std::array<std::uint64_t, size>& counts,
+                                   const std::array<double, size>& amounts, std::size_t softened)
+{
+    std::array<double, size> errors{};
+    std::ranges::copy(counts, errors.begin());
+    if (has_fractions(comparison.metrics)) {
+        errors = amounts;
+        errors.at(softened) -= comparison.diagnosis->causes.amounts.softening();
+    }
+    return errors;
+}
+
+auto errors_by_label(const analysis::Comparison& comparison)
+{
+    const analysis::CauseLayers& causes = comparison.diagnosis->causes;
+    return errors_of(comparison, causes.counts.by_label, causes.amounts.by_label,
+                     static_cast<std::size_t>(analysis::Label::edge));
+}
+
+auto errors_by_cause(const analysis::Comparison& comparison)
+{
+    const analysis::CauseLayers& causes = comparison.diagnosis->causes;
+    return errors_of(comparison, causes.counts.by_cause, causes.amounts.by_cause,
+                     static_cast<std::size_t>(Cause::filter));
+}
+
+template <std::size_t size>
+double sum_of(const std::array<double, size>& errors)
+{
+    double sum = 0;
+    for (const double error : errors) {
+        sum += error;
+    }
+    return sum;
+}
+
+/// Those that are worth naming, the largest first.
+template <std::size_t size>
+std::vector<std::size_t> largest(const std::array<double, size>& errors)
+{
+    std::vector<std::size_t> order;
+    for (std::size_t i = 1; i < size; ++i) { // the first is "none"
+        const bool is_largest = errors.at(i) == std::ranges::max(errors);
+        if (errors.at(i) > 0 && (is_largest || errors.at(i) >= worth_naming * sum_of(errors))) {
+            order.push_back(i);
+        }
+    }
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return errors.at(i); });
+    return order;
+}
+
+/// Nothing but what a kernel does on purpose, or is too little to have a cause.
+std::string softened_alone(const analysis::Comparison& comparison)
+{
+    const analysis::Metrics& metrics = comparison.metrics;
+    if (!has_fractions(metrics)) {
+        return fmt::format("All {} scored pixels are right.", grouped(metrics.pixels.scored()));
+    }
+    return fmt::format("All {} scored pixels are right but for borders that the kernel softens on "
+                       "purpose: verdicts are off by {} on average.",
+                       grouped(metrics.pixels.scored()), percent(metrics.mean_abs_error));
+}
+
+/// What a kernel does on purpose, where it does.
+std::string softened_too(const analysis::Comparison& comparison)
+{
+    const double softening = comparison.diagnosis->causes.amounts.softening();
+    if (!has_fractions(comparison.metrics) || softening <= 0) {
+        return "";
+    }
+    return fmt::format(" Borders that the kernel softens on purpose are left out of this; they are "
+                       "{} of the surface.",
+                       percent(analysis::ratio(softening, comparison.metrics.pixels.scored())));
+}
+
+/// Light distances of the scored receivers [m].
+std::optional<analysis::Quantiles> distances_m(const analysis::Comparison& comparison)
+{
+    const auto& zeta_m = comparison.diagnosis->zeta_m;
+    return analysis::find_quantiles(std::vector<float>(zeta_m.begin(), zeta_m.end()));
+}
+
+/// ", whose step is 0.34 m at the median receiver"
+std::string step_at_median(const analysis::Comparison& comparison)
+{
+    const auto zeta_m = distances_m(comparison);
+    return zeta_m
+               ? fmt::format(", whose step is {:.2g} m at the median receiver",
+                             analysis::depth_step_length_m(comparison.view.frustum,
+                                                           comparison.job.shadow_map.depth_format,
+                                                           double{zeta_m->median}))
+               : "";
+}
+
+/// Whether near and far leave so few depths to the receivers that float32 transforms cannot tell
+/// them apart, whatever the format; empty where they can.
+std::string blind_depths(const analysis::Comparison& comparison)
+{
+    constexpr double too_long = 0.05; // of the receivers' range: no more than twenty depths
+    constexpr scene::DepthFormat of_transforms{scene::DepthFormat::Kind::d24, 24};
+    const auto zeta_m = distances_m(comparison);
+    const scene::LightFrustum& frustum = comparison.view.frustum;
+    if (!zeta_m || double{zeta_m->median} <= frustum.near_m ||
+        double{zeta_m->median} >= frustum.far_m) {
+        return "";
+    }
+    const double step_m =
+        analysis::depth_step_length_m(frustum, of_transforms, double{zeta_m->median});
+    const double texel_m =
+        frustum.texel_width_m(double{zeta_m->median}, comparison.job.shadow_map.resolution_texels);
+    // Flat receivers have no range, and a step below a texel's width is none that one sees.
+    if (step_m < texel_m || step_m < too_long * (double{zeta_m->max} - double{zeta_m->min})) {
+        return "";
+    }
+    return fmt::format("the map cannot tell depths apart, for with near = {:.3g} and far = {:.3g} "
+                       "a step of 24 bits is {:.2g} m at the median receiver; try near = \"auto\"",
+                       frustum.near_m, frustum.far_m, step_m);
+}
+
+/// What decides precision: the format, or matrices and positions.
+std::string precision_kinds(const analysis::Comparison& comparison)
+{
+    const auto& kinds = comparison.precision_kinds;
+    if (!kinds || kinds->format + kinds->transform == 0) {
+        return "";
+    }
+    const auto all = static_cast<double>(kinds->format + kinds->transform);
+    if (kinds->format >= kinds->transform) {
+        return fmt::format(", {} of that to the format {}{}",
+                           share(static_cast<double>(kinds->format), all),
+                           scene::depth_format_name(comparison.job.shadow_map.depth_format),
+                           step_at_median(comparison));
+    }
+    const scene::Box box = comparison.triangles->bounds();
+    const double away_m = glm::length(box.centre());
+    const std::string what = fmt::format(", {} of that to float32 matrices and positions",
+                                         share(static_cast<double>(kinds->transform), all));
+    return away_m > box.diagonal_m() ? fmt::format("{}: the scene's centre is {} m from its origin",
+                                                   what, grouped_amount(away_m))
+                                     : what;
+}
+
+/// Slope and normal offset are biases too, which no constant one makes up for.
+std::string other_biases(const scene::Bias& bias)
+{
+    std::vector<std::string> others;
+    if (bias.slope != 0) {
+        others.push_back(fmt::format("a slope bias of {:.3g}", bias.slope));
+    }
+    if (bias.normal_texels != 0) {
+        others.push_back(fmt::format("a normal offset of {:.3g} texels", bias.normal_texels));
+    }
+    return others.empty() ? "" : fmt::format("There is {} as well", fmt::join(others, " and "));
+}
+
+constexpr std::size_t one_in_a_thousand = 1; // of the allowances
+
+/// What keeps a pixel of a surface from being scored; "of the surface" fits before it.
+std::string_view why_not_scored(PixelClass pixel_class)
+{
+    switch (pixel_class) {
+    case PixelClass::unmatched:
+        return "is seen differently by GL and by the exact rays";
+    case PixelClass::attached:
+        return "faces away from the light";
+    case PixelClass::out_of_light:
+        return "is outside the light's cone";
+    case PixelClass::indeterminate:
+        return "lies exactly on a shadow's border";
+    case PixelClass::background:
+    case PixelClass::lit:
+    case PixelClass::blocked:
+        break;
+    }
+    return "";
+}
+
+/// Where there is no surface in the picture.
+std::string why_none_is_seen(const analysis::Comparison& comparison)
+{
+    const auto& objects = comparison.triangles->objects;
+    if (std::ranges::none_of(objects, &scene::Object::receives)) {
+        return "No pixel is scored: every object is in scene.no_receive, so none is drawn.";
+    }
+    return "No pixel is scored: the camera sees only background; point it at the scene.";
+}
+
+std::string why_none_is_scored(const analysis::Comparison& comparison)
+{
+    const analysis::ClassCounts& pixels = comparison.metrics.pixels;
+    const std::uint64_t surface = pixels.total - pixels.of(PixelClass::background);
+    if (surface == 0) {
+        return why_none_is_seen(comparison);
+    }
+    std::vector<std::string> parts;
+    for (const PixelClass pixel_class : {PixelClass::attached, PixelClass::out_of_light,
+                                         PixelClass::unmatched, PixelClass::indeterminate}) {
+        const std::uint64_t count = pixels.of(pixel_class);
+        if (count == surface) {
+            return fmt::format("No pixel is scored: all of the surface that the camera sees {}.",
+                               why_not_scored(pixel_class));
+        }
+        if (count > 0) {
+            parts.push_back(fmt::format("{} {}{}", percent(analysis::ratio(count, surface)),
+                                        parts.empty() ? "of the surface that the camera sees " : "",
+                                        why_not_scored(pixel_class)));
+        }
+    }
+    return fmt::format("No pixel is scored: {}.", fmt::join(parts, ", "));
+}
+
+} // namespace
+
+std::string what_is_wrong(const analysis::Comparison& comparison)
+{
+    const analysis::ClassCounts& pixels = comparison.metrics.pixels;
+    if (pixels.scored() == 0) {
+        return why_none_is_scored(comparison);
+    }
+    const auto errors = errors_by_label(comparison);
+    std::vector<std::string> parts;
+    for (const std::size_t label : largest(errors)) {
+        parts.push_back(words(static_cast<analysis::Label>(label), errors.at(label), pixels));
+    }
+    if (parts.empty()) {
+        return softened_alone(comparison);
+    }
+    if (const std::string blind = blind_depths(comparison); !blind.empty()) {
+        return fmt::format("{} of the surface is wrong: {}.",
+                           percent(analysis::ratio(sum_of(errors), pixels.scored())), blind);
+    }
+    return fmt::format("{}.{}", fmt::join(parts, ", and "), softened_too(comparison));
+}
+
+std::string what_it_comes_from(const analysis::Comparison& comparison)
+{
+    const auto errors = errors_by_cause(comparison);
+    const double all = sum_of(errors);
+    std::vector<std::string> parts;
+    if (!blind_depths(comparison).empty()) {
+        return "The error is due to the map's near and far planes.";
+    }
+    for (const std::size_t i : largest(errors)) {
+        const auto cause = static_cast<Cause>(i);
+        parts.push_back(fmt::format("{}{}{}{}", share(errors.at(i), all),
+                                    parts.empty() ? " of the error is due to " : " is due to ",
+                                    words(cause),
+                                    cause == Cause::precision ? precision_kinds(comparison) : ""));
+    }
+    return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
+}
+
+std::string what_to_try(const analysis::Comparison& comparison)
+{
+    const auto causes = largest(errors_by_cause(comparison));
+    if (causes.empty()) {
+        return "";
+    }
+    const auto cause = static_cast<Cause>(causes.front());
+    return cause == Cause::bias ? other_biases(comparison.view.bias) : std::string{to_try(cause)};
+}
+
+std::string why_none_serves(const analysis::Comparison& comparison)
+{
+    const auto& biases = comparison.diagnosis->biases;
+    if (!biases || !biases->bounds.no_constant_bias_serves) {
+        return "";
+    }
+    const analysis::BiasLimits& limits = biases->bounds.allowances[one_in_a_thousand];
+    if (!std::isfinite(limits.acne_free_count)) {
+        return "No constant bias frees this map of acne.";
+    }
+    if (limits.panning_free < 0) {
+        return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
+                           "least {:.3g}, and even 0 leaves more false light.",
+                           limits.acne_free_count);
+    }
+    return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
+                       "least {:.3g}, and false light allows at most {:.3g}.",
+                       limits.acne_free_count, limits.panning_free);
+}
+
+} // namespace gnomon::reports

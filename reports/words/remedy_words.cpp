@@ -1,0 +1,107 @@
+#include "reports/words/remedy_words.hpp"
+
+#include "analysis/advice/map_cost.hpp"
+#include "analysis/metrics/ratio.hpp"
+#include "reports/words/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr double finer_step = 2; // worth telling: a step at most half as long
+
+/// A share of the scored pixels.
+std::string of_surface(const analysis::Comparison& comparison, double amount)
+{
+    return percent(analysis::ratio(amount, comparison.metrics.pixels.scored()));
+}
+
+/// "; it lights 99.9 % of the shadowed surface": the error that a remedy brings, where that is most
+/// of one side.
+std::string price_words(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    constexpr double most = 0.5;
+    const analysis::Metrics& now = comparison.metrics;
+    const auto lit =
+        analysis::ratio(remedy.outcome.amounts.light, now.pixels.of(scene::PixelClass::blocked));
+    const auto shadowed =
+        analysis::ratio(remedy.outcome.amounts.shadow, now.pixels.of(scene::PixelClass::lit));
+    if (lit > most && lit > now.light_amount_rate) {
+        return fmt::format("; but it lights {} of the shadowed surface", percent(lit));
+    }
+    if (shadowed > most && shadowed > now.shadow_amount_rate) {
+        return fmt::format("; but it shadows {} of the lit surface", percent(shadowed));
+    }
+    return "";
+}
+
+/// "; a step of d16 is then 0.0012 m in place of 0.34 m"
+std::string step_words(const analysis::Remedy& remedy)
+{
+    const auto& [before_m, after_m] = remedy.step;
+    if (!(after_m > 0) || before_m < finer_step * after_m) {
+        return "";
+    }
+    return fmt::format("; a step of the stored depth is then {:.2g} m at the median receiver, in "
+                       "place of {:.2g} m",
+                       after_m, before_m);
+}
+
+/// " In the worst of 9 views it leaves 0.41 % (camera 3)."
+std::string views_words(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    if (remedy.views.size() < 2) {
+        return "";
+    }
+    const std::size_t worst = analysis::worst_view(remedy.views);
+    return fmt::format(" Over {} views it leaves at most {} ({}).", remedy.views.size(),
+                       percent(remedy.views[worst].error_rate()),
+                       comparison.advice_views.views.at(worst).name);
+}
+
+} // namespace
+
+std::string remedy_keys(const analysis::Remedy& remedy)
+{
+    constexpr std::string_view comment = "# move "; // what is no key of a job
+    std::string text = fmt::format("{}", fmt::join(remedy.keys, ", "));
+    if (text.starts_with(comment)) {
+        return fmt::format("Moving {}", text.substr(comment.size()));
+    }
+    if (remedy.bias && remedy.bias->depth > 0 && std::isfinite(remedy.bias->metres)) {
+        text += fmt::format(" ({:.3g} m, {:.3g} {})", remedy.bias->metres, remedy.bias->texels,
+                            remedy.bias->texels == 1 ? "texel" : "texels");
+    }
+    return text;
+}
+
+std::string remedy_toml(const analysis::Remedy& remedy)
+{
+    return fmt::format("{}\n", fmt::join(remedy.keys, "\n"));
+}
+
+std::string remedy_sentence(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    std::string text =
+        fmt::format("{} leaves {} of the surface wrong, in place of {}", remedy_keys(remedy),
+                    of_surface(comparison, remedy.outcome.error_amount()),
+                    of_surface(comparison, analysis::error_amount(comparison)));
+    if (remedy.map_bytes != analysis::map_bytes(comparison.job.shadow_map)) {
+        text += fmt::format(", with a map of {}", mebibytes(remedy.map_bytes));
+    }
+    return text + price_words(comparison, remedy) + step_words(remedy) + "." +
+           views_words(comparison, remedy);
+}
+
+std::string mebibytes(std::uint64_t bytes)
+{
+    return fmt::format("{:.3g} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+} // namespace gnomon::reports

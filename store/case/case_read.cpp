@@ -1,0 +1,243 @@
+#include "store/case/case_read.hpp"
+
+#include "scene/job/file.hpp"
+#include "scene/job/toml.hpp"
+#include "scene/triangles.hpp"
+#include "store/case/case_image_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::store {
+
+namespace {
+
+using scene::CaseLayers;
+using scene::Vec3f;
+
+constexpr float no_position = std::numeric_limits<float>::quiet_NaN();
+
+scene::Image<Vec3f> read_position(CaseImageFile& file, const scene::CaseFile& description)
+{
+    const auto& names = description.conventions.channels.position;
+    const auto channels = file.find_vector(names);
+    if (!channels) {
+        file.refuse(
+            fmt::format("no channel {}.X: the world position of each pixel is required; {}; "
+                        "channels.position gives it another name; `gnomon capture-kit` writes "
+                        "what makes it",
+                        scene::one_line(names.front()), file.listing()));
+    }
+    constexpr std::string_view why =
+        "near 100 half's step is 0.0625, and no shadow can be judged from there; write full floats";
+    const auto x = file.exact_numbers((*channels)[0], why);
+    const auto y = file.exact_numbers((*channels)[1], why);
+    const auto z = file.exact_numbers((*channels)[2], why);
+    scene::Image<Vec3f> position{file.size()};
+    for (std::size_t i = 0; i < position.pixel_count(); ++i) {
+        position[i] = {x[i], y[i], z[i]};
+    }
+    return position;
+}
+
+bool is_finite(const Vec3f& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Leaves positions where something is to be judged alone.
+void drop_positions(CaseImageFile& file, const scene::CaseFile& description,
+                    scene::Image<Vec3f>& position)
+{
+    const std::string valid_name = file.find(description.conventions.channels.valid);
+    const auto valid = valid_name.empty() ? scene::Image<float>{} : file.numbers(valid_name);
+    const auto& background = description.conventions.background;
+    std::size_t judged = 0;
+    for (std::size_t i = 0; i < position.pixel_count(); ++i) {
+        if (!valid.empty() && std::isnan(valid[i])) {
+            file.refuse_pixel("valid is NaN", i, "write 1 or 0");
+        }
+        const bool is_void = background && Vec3f{*background} == position[i];
+        if ((!valid.empty() && valid[i] == 0) || is_void ||
+            (valid.empty() && !is_finite(position[i]))) {
+            position[i] = Vec3f{no_position};
+            continue;
+        }
+        if (!is_finite(position[i])) {
+            file.refuse_pixel("P is not finite", i, "write valid = 0 where nothing is seen");
+        }
+        const Vec3f size = glm::abs(position[i]);
+        if (std::max({size.x, size.y, size.z}) > static_cast<float>(scene::max_coordinate_m)) {
+            file.refuse_pixel("P is beyond 1e15", i, "write valid = 0 where nothing is seen");
+        }
+        ++judged;
+    }
+    if (judged == 0) {
+        file.refuse("no pixel is to be judged: valid is 0 or P not finite everywhere");
+    }
+}
+
+scene::Image<float> read_case_mask(CaseImageFile& file, const scene::CaseFile& description,
+                                   const scene::Image<Vec3f>& position)
+{
+    const auto& names = description.conventions.channels.shadow;
+    const std::string name = file.find(names);
+    if (name.empty()) {
+        file.refuse(fmt::format("no channel {}: the mask is required; {}; channels.shadow gives it "
+                                "another name; `gnomon capture-kit` writes what makes it",
+                                scene::one_line(names.front()), file.listing()));
+    }
+    scene::Image<float> mask = file.numbers(name);
+    const auto& lit_above = description.conventions.lit_above;
+    for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
+        if (!is_finite(position[i])) {
+            mask[i] = 0;
+        } else if (std::isnan(mask[i])) {
+            file.refuse_pixel(fmt::format("{} is NaN", scene::one_line(name)), i,
+                              "a mask is 1 where lit, 0 where shadowed; write valid = 0 where "
+                              "there is none");
+        } else if (lit_above) {
+            mask[i] = static_cast<double>(mask[i]) > *lit_above ? 1.0F : 0.0F;
+        } else if (!(mask[i] >= 0 && mask[i] <= 1)) {
+            file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), mask[i]), i,
+                              "a mask is from 0 to 1; if this is light, set channels.lit_above");
+        }
+    }
+    return mask;
+}
+
+constexpr std::string_view why_depths = "half would round depths away; write full floats";
+
+/// A channel that a case may lack.
+scene::Image<float> read_optional(CaseImageFile& file, const std::string& name)
+{
+    return name.empty() ? scene::Image<float>{} : file.exact_numbers(name, why_depths);
+}
+
+/// Depths of the map; NaN where the lookup ended without a comparison.
+scene::Image<float> read_map_depths(CaseImageFile& file, const std::string& name,
+                                    const scene::Image<Vec3f>& position)
+{
+    scene::Image<float> depths = read_optional(file, name);
+    for (std::size_t i = 0; i < depths.pixel_count(); ++i) {
+        if (!std::isnan(position[i].x) && std::isfinite(depths[i]) &&
+            !(depths[i] >= 0 && depths[i] <= 1)) {
+            file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), depths[i]), i,
+                              "a shadow map's depths are from 0 to 1; write NaN where none was "
+                              "compared");
+        }
+    }
+    return depths;
+}
+
+/// Depths of receivers. Some that were compared may be before the near or behind the far plane, but
+/// not most of them.
+/// @param map_depths  NaN where nothing was compared; may be empty.
+scene::Image<float> read_receiver_depths(CaseImageFile& file, const std::string& name,
+                                         const scene::Image<Vec3f>& position,
+                                         const scene::Image<float>& map_depths)
+{
+    scene::Image<float> depths = read_optional(file, name);
+    std::size_t compared = 0;
+    std::size_t outside = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < depths.pixel_count(); ++i) {
+        if (std::isnan(position[i].x) || !std::isfinite(depths[i]) ||
+            (!map_depths.empty() && std::isnan(map_depths[i]))) {
+            continue;
+        }
+        ++compared;
+        if (!(depths[i] >= 0 && depths[i] <= 1)) {
+            first = outside == 0 ? i : first;
+            ++outside;
+        }
+    }
+    if (outside * 2 > compared) {
+        file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), depths[first]), first,
+                          "most depths are not from 0 to 1; write what the lookup compares, not a "
+                          "distance");
+    }
+    return depths;
+}
+
+scene::Image<scene::Vec2f> read_texels(CaseImageFile& file, const std::string& name)
+{
+    if (file.find({name}, ".X").empty()) {
+        return {};
+    }
+    const auto x = file.exact_numbers(name + ".X", why_depths);
+    const auto y = file.exact_numbers(name + ".Y", why_depths);
+    scene::Image<scene::Vec2f> texels{file.size()};
+    for (std::size_t i = 0; i < texels.pixel_count(); ++i) {
+        texels[i] = {x[i], y[i]};
+    }
+    return texels;
+}
+
+scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>& tan_theta)
+{
+    if (file.find({"unmoved.V"}).empty()) {
+        return {};
+    }
+    const auto r = file.exact_numbers("unmoved.z.light", why_depths);
+    const auto d = file.exact_numbers("unmoved.z.map", why_depths);
+    const auto verdict = file.numbers("unmoved.V");
+    scene::LookupLayers unmoved{scene::Image<scene::LookupSample>{file.size()},
+                                read_texels(file, "unmoved.texel")};
+    for (std::size_t i = 0; i < verdict.pixel_count(); ++i) {
+        unmoved.samples[i] = {r[i], d[i], tan_theta.empty() ? 0.0F : tan_theta[i], verdict[i]};
+    }
+    return unmoved;
+}
+
+scene::Image<float> read_map(const std::filesystem::path& path, std::uint64_t memory_bytes)
+{
+    CaseImageFile file{path, memory_bytes};
+    if (file.size().width_px != file.size().height_px) {
+        file.refuse(fmt::format("the shadow map is {}x{} texels: it must be square",
+                                file.size().width_px, file.size().height_px));
+    }
+    return file.exact_numbers("map.d", why_depths);
+}
+
+} // namespace
+
+CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t memory_bytes)
+{
+    CaseImageFile file{description.image, memory_bytes};
+    const scene::ChannelNames& names = description.conventions.channels;
+    CaseLayers layers;
+    layers.position = read_position(file, description);
+    drop_positions(file, description, layers.position);
+    layers.mask = read_case_mask(file, description, layers.position);
+    if (const auto normal = file.find_vector(names.normal)) {
+        const auto x = file.numbers((*normal)[0]);
+        const auto y = file.numbers((*normal)[1]);
+        const auto z = file.numbers((*normal)[2]);
+        layers.normal = scene::Image<Vec3f>{file.size()};
+        for (std::size_t i = 0; i < x.pixel_count(); ++i) {
+            layers.normal[i] = {x[i], y[i], z[i]};
+        }
+    }
+    if (const std::string object = file.find(names.object); !object.empty()) {
+        layers.object_number = file.whole_numbers(object, layers.position);
+    }
+    layers.z_map = read_map_depths(file, file.find(names.z_map), layers.position);
+    layers.z_light =
+        read_receiver_depths(file, file.find(names.z_light), layers.position, layers.z_map);
+    layers.texels = read_texels(file, "texel");
+    layers.tan_theta = read_optional(file, file.find({"tan_theta"}));
+    layers.unmoved = read_unmoved(file, layers.tan_theta);
+    if (!description.map.empty()) {
+        layers.map_depths = read_map(description.map, memory_bytes);
+    }
+    return layers;
+}
+
+} // namespace gnomon::store

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "scene/triangles.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace gnomon::store {
+
+/// A scene as binary glTF, without loss: importing it gives the same triangles in the same order,
+/// bit by bit, and the same objects by their names.
+/// @throws scene::InputError  if it takes more than the 4 GiB that the format can hold.
+[[nodiscard]] std::vector<std::byte> encode_glb(const scene::TriangleScene& scene);
+
+} // namespace gnomon::store

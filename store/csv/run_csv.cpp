@@ -1,0 +1,347 @@
+#include "store/csv/run_csv.hpp"
+
+#include "store/csv/csv_text.hpp"
+#include "store/output_file.hpp"
+#include "store/run/run_schema.hpp"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_pipeline.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::store {
+
+namespace {
+
+using sqlite::Database;
+using sqlite::Statement;
+using sqlite::Transaction;
+
+void append_cell(std::string& out, const sqlite::ValueView& value)
+{
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        const fmt::format_int text{*integer};
+        out.append(text.data(), text.size());
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        append_csv_number(out, *real);
+    } else if (const auto* text = std::get_if<std::string_view>(&value)) {
+        append_csv_text(out, *text);
+    }
+}
+
+/// Appends columns of the statement's row, with commas between them.
+void append_cells(std::string& out, const Statement& statement, int first, int count)
+{
+    for (int i = first; i < first + count; ++i) {
+        if (i > first) {
+            out += ',';
+        }
+        append_cell(out, statement.value(i));
+    }
+}
+
+/// Appends the statement's rows, as far as it has any.
+/// @param most_bytes  where to stop, after a whole row.
+/// @return  False after the last row.
+bool append_rows(std::string& out, Statement& statement, std::size_t most_bytes)
+{
+    const int columns = statement.column_count();
+    while (out.size() < most_bytes) {
+        if (!statement.step()) {
+            return false;
+        }
+        append_cells(out, statement, 0, columns);
+        out += '\n';
+    }
+    return true;
+}
+
+/// A CSV file that is written row by row, and appears when it is whole.
+class CsvFile {
+public:
+    explicit CsvFile(const std::filesystem::path& path) : file_{path} {}
+
+    void write_header(const Statement& statement)
+    {
+        for (int i = 0; i < statement.column_count(); ++i) {
+            pending_ += i == 0 ? "" : ",";
+            append_csv_text(pending_, statement.column_name(i));
+        }
+        pending_ += '\n';
+    }
+
+    void write_rows(Statement& statement)
+    {
+        while (append_rows(pending_, statement, block_bytes)) {
+            flush();
+        }
+    }
+
+    /// Whole rows, after those that were written before.
+    void write_text(std::string_view rows)
+    {
+        flush();
+        file_.write(rows);
+    }
+
+    void commit()
+    {
+        flush();
+        file_.commit();
+    }
+
+private:
+    static constexpr std::size_t block_bytes = 1U << 18U;
+
+    void flush()
+    {
+        file_.write(pending_);
+        pending_.clear();
+    }
+
+    OutputFile file_;
+    std::string pending_;
+};
+
+/// A curve that a result of this part belongs to.
+struct ExportedCurve {
+    std::string id;
+    std::string job_biases; ///< of the jobs that ask for it, as a JSON array
+};
+
+/// In the order of the first result's ordinal.
+std::vector<ExportedCurve> exported_curves(const Database& database)
+{
+    Statement find{database,
+                   "SELECT v.id, json_group_array(a.job_bias), min(a.ordinal) AS first FROM"
+                   " (SELECT c.curve, p.job_bias, min(p.ordinal) AS ordinal FROM part p"
+                   " CROSS JOIN configurations c ON c.number = p.configuration"
+                   " WHERE c.status = 'done' GROUP BY c.curve, p.job_bias) a"
+                   " JOIN curves v ON v.number = a.curve GROUP BY a.curve ORDER BY first"};
+    std::vector<ExportedCurve> curves;
+    while (find.step()) {
+        curves.push_back({find.text(0), find.text(1)});
+    }
+    return curves;
+}
+
+/// Columns of `results` that stand side by side and are all of the same kind.
+struct ResultsSpan {
+    ResultsColumn::Of of;
+    int columns = 0;
+};
+
+std::vector<ResultsSpan> results_spans()
+{
+    std::vector<ResultsSpan> spans;
+    for (const ResultsColumn& column : results_columns()) {
+        if (spans.empty() || spans.back().of != column.of) {
+            spans.push_back({column.of, 0});
+        }
+        ++spans.back().columns;
+    }
+    return spans;
+}
+
+/// The columns of one kind, each after a comma.
+std::string listed_columns(ResultsColumn::Of of)
+{
+    std::string text;
+    for (const ResultsColumn& column : results_columns()) {
+        text += column.of == of ? ", " + column.expression : std::string{};
+    }
+    return text;
+}
+
+/// Reads a range of the results, on a connection of its own. What is the same for a curve's
+/// configurations is read and written out once.
+class ResultsReader {
+public:
+    explicit ResultsReader(const std::filesystem::path& path)
+        : database_{path, Database::Access::read},
+          schema_{prepare_reading(database_)},
+          rows_{database_, fmt::format("SELECT c.curve, c.status = 'done'{} FROM part p CROSS JOIN"
+                                       " configurations c ON c.number = p.configuration"
+                                       " WHERE ordinal >= ? AND ordinal < ? ORDER BY ordinal",
+                                       listed_columns(ResultsColumn::Of::configuration))},
+          curve_{database_, fmt::format("SELECT k.number{} FROM curves k LEFT JOIN curves v"
+                                        " ON v.number = k.number AND ?2 WHERE k.number = ?1",
+                                        listed_columns(ResultsColumn::Of::curve))}
+    {
+    }
+
+    [[nodiscard]] std::string text(std::int64_t first, std::int64_t last)
+    {
+        std::string text;
+        rows_.bind(1, first).bind(2, last);
+        while (rows_.step()) {
+            read_curve({rows_.integer(0), rows_.integer(1)});
+            append_row(text);
+        }
+        return text;
+    }
+
+private:
+    /// A curve's number, and whether the configuration is done.
+    using CurveKey = std::pair<std::int64_t, std::int64_t>;
+
+    void read_curve(const CurveKey& key)
+    {
+        if (curve_key_ == key) {
+            return;
+        }
+        curve_texts_.clear();
+        if (!curve_.bind(1, key.first).bind(2, key.second).step()) {
+            throw std::logic_error{"ResultsReader: a configuration's curve is missing"};
+        }
+        int column = 1;
+        for (const ResultsSpan& span : spans_) {
+            if (span.of == ResultsColumn::Of::curve) {
+                std::string text;
+                append_cells(text, curve_, column, span.columns);
+                curve_texts_.push_back(std::move(text));
+                column += span.columns;
+            }
+        }
+        curve_.reset();
+        curve_key_ = key;
+    }
+
+    void append_row(std::string& out)
+    {
+        int column = 2;
+        auto curve_text = curve_texts_.begin();
+        for (const ResultsSpan& span : spans_) {
+            out += &span == spans_.data() ? "" : ",";
+            if (span.of == ResultsColumn::Of::curve) {
+                out += *curve_text++;
+            } else {
+                append_cells(out, rows_, column, span.columns);
+                column += span.columns;
+            }
+        }
+        out += '\n';
+    }
+
+    Database database_;
+    RunSchema schema_; ///< whichever: the statements are those of the present one
+    Statement rows_;
+    Statement curve_;
+    std::vector<ResultsSpan> spans_ = results_spans();
+    std::optional<CurveKey> curve_key_;
+    std::vector<std::string> curve_texts_; ///< of its spans
+};
+
+/// Writes the results by ordinal; several threads read and format them. Nobody writes to the
+/// database meanwhile, so that all of them see the same.
+void write_results(const std::filesystem::path& results, const std::filesystem::path& path)
+{
+    const Database database{results, Database::Access::read};
+    prepare_reading(database);
+    constexpr std::int64_t rows_at_once = 512;
+    constexpr std::size_t texts_at_once = 16;
+    CsvFile file{path};
+    file.write_header(Statement{database, "SELECT * FROM results"});
+    const std::int64_t end = database.integer("SELECT max(ordinal) + 1 FROM part");
+    tbb::enumerable_thread_specific<std::unique_ptr<ResultsReader>> readers;
+    std::int64_t next = 0;
+    const auto take = [&](tbb::flow_control& control) {
+        const std::int64_t first = next;
+        next += rows_at_once;
+        if (first >= end) {
+            control.stop();
+        }
+        return first;
+    };
+    const auto read = [&](std::int64_t first) {
+        auto& reader = readers.local();
+        if (!reader) {
+            reader = std::make_unique<ResultsReader>(results);
+        }
+        return reader->text(first, first + rows_at_once);
+    };
+    const auto write = [&](const std::string& rows) { file.write_text(rows); };
+    using tbb::filter_mode;
+    // What fails beside it must not end it early: half of the rows would pass for the whole.
+    tbb::task_group_context own{tbb::task_group_context::isolated};
+    tbb::parallel_pipeline(
+        texts_at_once,
+        tbb::make_filter<void, std::int64_t>(filter_mode::serial_in_order, take) &
+            tbb::make_filter<std::int64_t, std::string>(filter_mode::parallel, read) &
+            tbb::make_filter<std::string, void>(filter_mode::serial_in_order, write),
+        own);
+    file.commit();
+}
+
+/// Writes the rows of each curve.
+/// @param query  with the curve's id as its first parameter; a second one is its jobs' biases.
+void write_curves(const Database& database, const std::vector<ExportedCurve>& curves,
+                  const std::string& query, const std::filesystem::path& path)
+{
+    CsvFile file{path};
+    Statement rows{database, query};
+    file.write_header(rows);
+    const bool asks_for_biases = rows.parameter_count() > 1;
+    for (const ExportedCurve& curve : curves) {
+        rows.bind(1, std::string_view{curve.id});
+        if (asks_for_biases) {
+            rows.bind(2, std::string_view{curve.job_biases});
+        }
+        file.write_rows(rows);
+    }
+    file.commit();
+}
+
+/// The errors by distance of a curve: at its jobs' biases, then at the best one. Two jobs may say
+/// the same bias in different words.
+std::string error_vs_z_query()
+{
+    return "SELECT DISTINCT " + error_vs_z_columns() +
+           " WHERE v.id = ?1 AND (b.job_bias = '' OR b.job_bias IN"
+           " (SELECT value FROM json_each(?2)))"
+           " ORDER BY b.\"at\" DESC, b.bias, b.lower_m";
+}
+
+} // namespace
+
+std::string cell_text(const sqlite::ValueView& value)
+{
+    std::string text;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        text = fmt::format("{}", *integer);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        append_csv_number(text, *real);
+    } else if (const auto* words = std::get_if<std::string_view>(&value)) {
+        text = *words;
+    }
+    return text;
+}
+
+void write_run_csv(const Database& database, const std::filesystem::path& folder)
+{
+    Transaction moment{database, Transaction::Kind::read};
+    const auto [results, error_vs_z, bias_curves] = run_csv_names;
+    const std::filesystem::path results_file = folder / results;
+    const std::filesystem::path error_file = folder / error_vs_z;
+    const std::filesystem::path curves_file = folder / bias_curves;
+    tbb::parallel_invoke([&] { write_results(database.path(), results_file); },
+                         [&] {
+                             const auto curves = exported_curves(database);
+                             write_curves(database, curves, error_vs_z_query(), error_file);
+                             write_curves(database, curves,
+                                          "SELECT * FROM bias_curves WHERE curve = ? ORDER BY bias",
+                                          curves_file);
+                         });
+    moment.commit();
+}
+
+} // namespace gnomon::store

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "store/sqlite.hpp"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gnomon::store {
+
+/// What `write_run_csv` writes.
+inline constexpr std::array<std::string_view, 3> run_csv_names{"results.csv", "error_vs_z.csv",
+                                                               "bias_curves.csv"};
+
+/// A value as the CSV files have it, but a text as it is; empty for none.
+[[nodiscard]] std::string cell_text(const sqlite::ValueView& value);
+
+/// `RunStore::write_csv`: all three files show the database at one moment.
+void write_run_csv(const sqlite::Database& database, const std::filesystem::path& folder);
+
+} // namespace gnomon::store

@@ -1,0 +1,154 @@
+#include "store/exr/aov_write.hpp"
+
+#include "store/exr/facing_normal.hpp"
+#include "store/exr/header.hpp"
+#include "store/images/image_encoding.hpp"
+#include "store/output_file.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <initializer_list>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::store {
+
+namespace {
+
+constexpr float not_a_bias = std::numeric_limits<float>::quiet_NaN();
+constexpr std::uint32_t no_object = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t bits(float value)
+{
+    return std::bit_cast<std::uint32_t>(value);
+}
+
+float truth_code(scene::PixelClass pixel_class)
+{
+    if (!scene::is_scored(pixel_class)) {
+        return -1.0F;
+    }
+    return pixel_class == scene::PixelClass::lit ? 1.0F : 0.0F;
+}
+
+/// What the camera sees at each pixel.
+struct Surface {
+    scene::Image<scene::Vec3f> normal;  ///< NaN for none
+    scene::Image<std::uint32_t> object; ///< `no_object` for none
+};
+
+Surface seen_surface(const analysis::Comparison& comparison)
+{
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    const scene::Image<std::uint32_t>& triangle = comparison.receivers.triangle;
+    const scene::ImageSize size = triangle.size();
+    Surface surface{scene::Image<scene::Vec3f>{size, {none, none, none}},
+                    scene::Image<std::uint32_t>{size, no_object}};
+    for (int y = 0; y < size.height_px; ++y) {
+        for (int x = 0; x < size.width_px; ++x) {
+            if (triangle(x, y) < comparison.triangles->triangles.size()) {
+                surface.normal(x, y) = scene::Vec3f{facing_normal(comparison, x, y)};
+                surface.object(x, y) =
+                    static_cast<std::uint32_t>(comparison.triangles->object_of(triangle(x, y)));
+            }
+        }
+    }
+    return surface;
+}
+
+void add_surface(std::vector<ExrChannel>& channels, const Surface& surface)
+{
+    using enum ChannelType;
+    const auto& normal = surface.normal;
+    channels.push_back({"N.X", float32, [&](std::size_t i) { return bits(normal[i].x); }});
+    channels.push_back({"N.Y", float32, [&](std::size_t i) { return bits(normal[i].y); }});
+    channels.push_back({"N.Z", float32, [&](std::size_t i) { return bits(normal[i].z); }});
+    channels.push_back({"object", uint32, [&](std::size_t i) { return surface.object[i]; }});
+}
+
+void add_images(std::vector<ExrChannel>& channels,
+                std::initializer_list<std::pair<const char*, const scene::Image<float>*>> images)
+{
+    for (const auto& [name, image] : images) {
+        channels.push_back({name, ChannelType::float32,
+                            [image = image](std::size_t i) { return bits((*image)[i]); }});
+    }
+}
+
+void add_diagnosis(std::vector<ExrChannel>& channels, const analysis::Diagnosis& diagnosis,
+                   const scene::Image<scene::PixelClass>& classes)
+{
+    using enum ChannelType;
+    add_images(channels,
+               {{"light_distance_m", &diagnosis.zeta_m}, {"map_error_m", &diagnosis.map_error_m}});
+    if (diagnosis.biases) {
+        const scene::Image<float>& critical = diagnosis.biases->critical_bias;
+        channels.push_back({"critical_bias", float32, [&](std::size_t i) {
+                                return bits(is_scored(classes[i]) ? critical[i] : not_a_bias);
+                            }});
+        const analysis::BiasMap& map = diagnosis.biases->map;
+        add_images(channels, {{"needed_bias_m", &map.metres},
+                              {"needed_bias_texels", &map.texels},
+                              {"needed_bias_steps", &map.steps}});
+    }
+    const analysis::CauseLayers& causes = diagnosis.causes;
+    channels.push_back({"cause", uint32, [&](std::size_t i) {
+                            return static_cast<std::uint32_t>(causes.cause[i]);
+                        }});
+    channels.push_back({"label", uint32, [&](std::size_t i) {
+                            return static_cast<std::uint32_t>(causes.label[i]);
+                        }});
+}
+
+std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
+                                 const scene::Image<scene::Vec3f>& points, const Surface& surface)
+{
+    using enum ChannelType;
+    const auto& classes = comparison.truth.pixel_class;
+    const auto& witness = comparison.truth.witness;
+    const auto& triangle = comparison.receivers.triangle;
+    const auto& samples = comparison.lookup.samples;
+    std::vector<ExrChannel> channels{
+        {"truth", float32, [&](std::size_t i) { return bits(truth_code(classes[i])); }},
+        {"class", uint32, [&](std::size_t i) { return static_cast<std::uint32_t>(classes[i]); }},
+        {"verdict", float32, [&](std::size_t i) { return bits(samples[i].verdict); }},
+        {"prim", uint32, [&](std::size_t i) { return triangle[i]; }},
+        {"P.X", float32, [&](std::size_t i) { return bits(points[i].x); }},
+        {"P.Y", float32, [&](std::size_t i) { return bits(points[i].y); }},
+        {"P.Z", float32, [&](std::size_t i) { return bits(points[i].z); }},
+        {"witness", uint32, [&](std::size_t i) { return witness[i]; }},
+        {"receiver_depth", float32, [&](std::size_t i) { return bits(samples[i].receiver_depth); }},
+        {"map_depth", float32, [&](std::size_t i) { return bits(samples[i].map_depth); }},
+        {"tan_theta", float32, [&](std::size_t i) { return bits(samples[i].tan_theta); }},
+    };
+    const auto& texels = comparison.lookup.texels;
+    if (!texels.empty()) { // another renderer's mask has none
+        channels.push_back({"texel.X", float32, [&](std::size_t i) { return bits(texels[i].x); }});
+        channels.push_back({"texel.Y", float32, [&](std::size_t i) { return bits(texels[i].y); }});
+    }
+    add_surface(channels, surface);
+    if (comparison.diagnosis) {
+        add_diagnosis(channels, *comparison.diagnosis, classes);
+    }
+    return channels;
+}
+
+} // namespace
+
+void write_aov(const std::filesystem::path& path, const analysis::Comparison& comparison,
+               const scene::Image<scene::Vec3f>& points)
+{
+    const scene::ImageSize size = comparison.truth.pixel_class.size();
+    if (points.size() != size) {
+        throw std::invalid_argument(fmt::format(
+            "write_aov: points are {}x{} but the image is {}x{}", points.size().width_px,
+            points.size().height_px, size.width_px, size.height_px));
+    }
+    const Surface surface = seen_surface(comparison);
+    write_file(path,
+               encode_exr(size, channels(comparison, points, surface), exr_header(comparison)));
+}
+
+} // namespace gnomon::store

@@ -1,0 +1,112 @@
+#include "store/exr/exact_inputs.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+
+namespace gnomon::store {
+
+namespace {
+
+std::vector<std::string> numbers(std::initializer_list<double> values)
+{
+    std::vector<std::string> texts;
+    for (const double value : values) {
+        texts.push_back(hexadecimal(value));
+    }
+    return texts;
+}
+
+std::vector<std::string> numbers(const scene::Vec3d& v)
+{
+    return numbers({v.x, v.y, v.z});
+}
+
+std::vector<std::string> row_major(const scene::Mat4f& matrix)
+{
+    std::vector<std::string> texts;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            texts.push_back(hexadecimal(static_cast<double>(matrix[column][row])));
+        }
+    }
+    return texts;
+}
+
+void add_light(std::vector<ExactInput>& inputs, const scene::Light& light)
+{
+    if (light.type == scene::LightType::directional) {
+        inputs.push_back({"light_type", {"directional"}});
+        inputs.push_back({"light_direction", numbers(light.direction)});
+        return;
+    }
+    inputs.push_back({"light_type", {std::string{scene::light_type_name(light.type)}}});
+    inputs.push_back({"light_position", numbers(light.position)});
+    if (light.type == scene::LightType::point) {
+        return;
+    }
+    inputs.push_back({"light_axis", numbers(light.direction)});
+    inputs.push_back({"cos_half_cone", numbers({light.cos_half_cone})});
+}
+
+void add_camera(std::vector<ExactInput>& inputs, const scene::Camera& camera)
+{
+    inputs.push_back({"projection", {std::string{scene::projection_name(camera.projection)}}});
+    inputs.push_back({"eye", numbers(camera.eye)});
+    inputs.push_back({"forward", numbers(camera.forward)});
+    inputs.push_back({"right", numbers(camera.right)});
+    inputs.push_back({"up", numbers(camera.up)});
+    inputs.push_back({"half_height", numbers({camera.half_height})});
+}
+
+void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
+{
+    inputs.push_back({"light_clip_from_world", row_major(view.frustum.light_clip_from_world)});
+    inputs.push_back({"near", numbers({view.frustum.near_m})});
+    inputs.push_back({"far", numbers({view.frustum.far_m})});
+    inputs.push_back({"bias_constant", numbers({static_cast<double>(view.bias.constant)})});
+    inputs.push_back({"bias_slope", numbers({static_cast<double>(view.bias.slope)})});
+    inputs.push_back(
+        {"bias_normal_texels", numbers({static_cast<double>(view.bias.normal_texels)})});
+}
+
+} // namespace
+
+std::string hexadecimal(double value)
+{
+    // Sign, 13 hexadecimal digits, point, "p-1074".
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(value),
+                                   std::chars_format::hex)
+                         .ptr;
+    return (std::signbit(value) ? "-0x" : "0x") + std::string{buffer.data(), end};
+}
+
+std::vector<ExactInput> exact_inputs(const scene::View& view)
+{
+    std::vector<ExactInput> inputs;
+    add_camera(inputs, view.camera);
+    add_light(inputs, view.light);
+    add_map(inputs, view);
+    return inputs;
+}
+
+std::vector<ExactInput> exact_inputs(const analysis::Comparison& comparison)
+{
+    const auto& evaluation = comparison.evaluation;
+    if (!evaluation) {
+        return exact_inputs(comparison.view);
+    }
+    std::vector<ExactInput> inputs;
+    if (evaluation->has_camera) {
+        add_camera(inputs, comparison.view.camera);
+    }
+    add_light(inputs, comparison.view.light);
+    if (evaluation->has_map) {
+        add_map(inputs, comparison.view);
+    }
+    return inputs;
+}
+
+} // namespace gnomon::store

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "scene/vec.hpp"
+
+namespace gnomon::store {
+
+/// The unit normal of the triangle that a pixel shows, on the side that the camera sees; NaN where
+/// another renderer's case does not tell that side.
+/// Precondition: the pixel shows a triangle of the scene.
+[[nodiscard]] scene::Vec3d facing_normal(const analysis::Comparison& comparison, int x, int y);
+
+} // namespace gnomon::store

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "scene/pixel_class.hpp"
+#include "store/images/image_codec.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::store {
+
+/// An EXR file whose channels are read by their names: of `write_aov` (docs/aov.md), or of another
+/// renderer's case (docs/evaluate.md).
+///
+/// The file may be hostile: its header is checked before anything is decoded or memory taken.
+/// Every function throws scene::InputError, one line, if the file is missing, no EXR file of
+/// scanlines, damaged or truncated, or if the channel is missing or of another type; and
+/// scene::EnvironmentError if there is no reader of EXR files.
+class LayerFile {
+public:
+    /// Reads no more than the header.
+    /// @param advice  ends every message: how to get a sound file.
+    LayerFile(const std::filesystem::path& path, std::string advice);
+
+    [[nodiscard]] scene::ImageSize size() const { return size_; }
+    [[nodiscard]] bool has(const std::string& name);
+    [[nodiscard]] LayerType type(const std::string& name);
+    [[nodiscard]] std::vector<std::string> names();
+    /// What reading a channel takes, for all of them are decoded at once [bytes].
+    [[nodiscard]] std::uint64_t decoded_bytes();
+    [[nodiscard]] scene::Image<float> floats(const std::string& name);
+    [[nodiscard]] scene::Image<std::uint32_t> integers(const std::string& name);
+    /// A channel of any type that `type` names, as float32.
+    [[nodiscard]] scene::Image<float> numbers(const std::string& name);
+    /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
+    [[nodiscard]] scene::Image<scene::PixelClass> classes();
+    /// "zip", "dwaa", …; empty: not said.
+    [[nodiscard]] std::string compression();
+    /// False where the display window is another than the data window.
+    [[nodiscard]] bool is_whole_display();
+    /// The header's texts that begin with "gnomon:", by their names without it: "eye", "job", ….
+    [[nodiscard]] std::map<std::string, std::string> texts();
+
+private:
+    [[nodiscard]] const ExrHeader& header();
+    /// Null if the file has no such channel.
+    [[nodiscard]] const ExrHeader::Channel* find(const std::string& name);
+    template <typename Value>
+    [[nodiscard]] scene::Image<Value> channel(const std::string& name, LayerType type);
+
+    [[noreturn]] void refuse(std::string_view what) const;
+
+    std::filesystem::path path_;
+    std::string advice_;
+    scene::ImageSize size_;
+    std::unique_ptr<ExrInput> input_; ///< once the file's size is known to be right
+    /// All channels as the file has them: they are compressed together, so that reading one by one
+    /// would decompress each of them every time.
+    std::vector<std::byte> pixels_;
+};
+
+} // namespace gnomon::store

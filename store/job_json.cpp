@@ -1,0 +1,29 @@
+#include "store/job_json.hpp"
+
+#include "scene/job/file.hpp"
+
+#include <algorithm>
+
+namespace gnomon::store {
+
+Json job_object(const analysis::Comparison& comparison)
+{
+    const auto& evaluation = comparison.evaluation;
+    Json json = Json::object();
+    for (const auto& [key, value] : scene::resolved_keys(comparison.job)) {
+        if (evaluation &&
+            std::ranges::find(evaluation->given_keys, key) == evaluation->given_keys.end()) {
+            continue;
+        }
+        Json parsed = Json::parse(value, nullptr, false);
+        json[key] = parsed.is_discarded() ? Json(value) : parsed;
+    }
+    return json;
+}
+
+std::string job_json(const analysis::Comparison& comparison)
+{
+    return json_text(job_object(comparison), -1);
+}
+
+} // namespace gnomon::store

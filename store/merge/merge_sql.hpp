@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// SQL that unites the run attached as `input` with the main one. Numbers of rows differ between
+/// the two; ids, ordinals and environments' names are the same.
+namespace gnomon::store::merge_sql {
+
+/// Finds an ordinal that the two plans give to different configurations.
+[[nodiscard]] std::string other_plan();
+
+/// Finds two results that differ: the id of what they are of, and a column.
+struct Conflict {
+    std::string_view subject; ///< what the id names
+    std::string query;
+};
+[[nodiscard]] std::vector<Conflict> conflicts();
+
+/// What makes the main run the union, once there are no conflicts; in this order.
+[[nodiscard]] std::vector<std::string> union_statements();
+
+} // namespace gnomon::store::merge_sql

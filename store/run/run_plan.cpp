@@ -1,0 +1,361 @@
+#include "store/run/run_plan.hpp"
+
+#include "scene/error.hpp"
+#include "scene/job/toml.hpp"
+#include "store/json_values.hpp"
+#include "store/run/planned_scenes.hpp"
+#include "store/run/run_columns.hpp"
+#include "store/run/run_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace gnomon::store {
+
+namespace {
+
+using analysis::Configuration;
+using analysis::Environment;
+using sqlite::Database;
+using sqlite::sql_name;
+using sqlite::Statement;
+using sqlite::Transaction;
+using sqlite::Value;
+
+constexpr std::array<std::pair<std::string_view, std::string Environment::*>, 4>
+    environment_columns{{{"gl_renderer", &Environment::gl_renderer},
+                         {"gl_version", &Environment::gl_version},
+                         {"embree", &Environment::embree},
+                         {"gnomon", &Environment::gnomon}}};
+
+/// "INSERT INTO table (first, …, columns) VALUES (?, …)", followed by `rest`.
+std::string insertion(std::string_view table, std::string_view first, int first_count,
+                      const std::vector<JobColumn>& columns, std::string_view rest)
+{
+    std::string names;
+    std::string values = "?";
+    for (int i = 1; i < first_count; ++i) {
+        values += ", ?";
+    }
+    for (const JobColumn& column : columns) {
+        names += ", " + sql_name(column.name);
+        values += ", ?";
+    }
+    return fmt::format("INSERT INTO {} ({}{}) VALUES ({}){}", table, first, names, values, rest);
+}
+
+/// The parameters that stand for job keys in a statement.
+class KeyParameters {
+public:
+    /// @param first  the parameter of the first column.
+    KeyParameters(int first, const std::vector<JobColumn>& columns)
+    {
+        for (const JobColumn& column : columns) {
+            parameters_.emplace_back(column.name, first++);
+        }
+    }
+
+    /// Binds those of the configuration's values that have a parameter, and NULL to the others.
+    void bind(Statement& statement, const Configuration& configuration) const
+    {
+        const auto& held = configuration.parameters;
+        for (const auto& [key, parameter] : parameters_) {
+            const auto found =
+                std::ranges::find(held, key, &std::pair<std::string, std::string>::first);
+            statement.bind(parameter, found == held.end() ? Value{} : job_cell(found->second));
+        }
+    }
+
+private:
+    std::vector<std::pair<std::string_view, int>> parameters_; ///< with their keys
+};
+
+/// Writes configurations into the plan.
+class Planner {
+public:
+    explicit Planner(const Database& database)
+        : database_{&database},
+          insert_{database, insertion("configurations", "id, curve, status", 3,
+                                      configuration_key_columns(), " ON CONFLICT (id) DO NOTHING")},
+          find_{database, "SELECT number FROM configurations WHERE id = ?"},
+          insert_curve_{database, insertion("curves", "id, scene_hash", 2, curve_key_columns(),
+                                            " ON CONFLICT (id) DO NOTHING")},
+          find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
+          plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?, ?)"}
+    {
+    }
+
+    void add(const Configuration& configuration)
+    {
+        const std::int64_t number = configuration_number(configuration);
+        remember_planned(static_cast<std::size_t>(number));
+        plan_.bind(1, static_cast<std::int64_t>(configuration.ordinal))
+            .bind(2, number)
+            .bind(3, std::string_view{configuration.case_name})
+            .bind(4, std::int64_t{configuration.shard})
+            .bind(5, std::string_view{configuration.job_bias})
+            .run();
+        if (database_->changes() != 1) {
+            throw std::invalid_argument(fmt::format(
+                "RunStore::plan: two configurations of ordinal {}", configuration.ordinal));
+        }
+    }
+
+    [[nodiscard]] bool has_equal_ids() const { return has_equal_ids_; }
+
+private:
+    void remember_planned(std::size_t number)
+    {
+        is_planned_.resize(std::max(is_planned_.size(), number + 1));
+        has_equal_ids_ = has_equal_ids_ || is_planned_[number];
+        is_planned_[number] = true;
+    }
+
+    /// Runs an insertion that does nothing if the id is known; returns the number of its row.
+    std::int64_t insert(Statement& insertion, Statement& find, const std::string& id)
+    {
+        insertion.run();
+        if (database_->changes() == 1) {
+            return database_->last_inserted();
+        }
+        return find.bind(1, std::string_view{id}).first().value_or(0); // it is there
+    }
+
+    std::int64_t configuration_number(const Configuration& configuration)
+    {
+        insert_.bind(1, std::string_view{configuration.id})
+            .bind(2, curve_number(configuration))
+            .bind(3, std::string_view{"planned"});
+        own_keys_.bind(insert_, configuration);
+        return insert(insert_, find_, configuration.id);
+    }
+
+    std::int64_t curve_number(const Configuration& configuration)
+    {
+        const auto [entry, is_new] = curves_.try_emplace(configuration.curve);
+        if (is_new) {
+            require_known_keys(configuration);
+            insert_curve_.bind(1, std::string_view{configuration.curve})
+                .bind(2, std::string_view{configuration.scene_hash});
+            curve_keys_.bind(insert_curve_, configuration);
+            entry->second = insert(insert_curve_, find_curve_, configuration.curve);
+        }
+        return entry->second;
+    }
+
+    static void require_known_keys(const Configuration& configuration)
+    {
+        for (const auto& [key, value] : configuration.parameters) {
+            if (std::ranges::find(job_columns(), key, &JobColumn::name) == job_columns().end()) {
+                throw std::invalid_argument(fmt::format("RunStore::plan: no job key {}", key));
+            }
+        }
+    }
+
+    const Database* database_;
+    Statement insert_;
+    Statement find_;
+    Statement insert_curve_;
+    Statement find_curve_;
+    Statement plan_;
+    KeyParameters own_keys_{4, configuration_key_columns()}; ///< of `insert_`
+    KeyParameters curve_keys_{3, curve_key_columns()};       ///< of `insert_curve_`
+    std::unordered_map<std::string, std::int64_t> curves_;   ///< numbers by id
+    std::vector<bool> is_planned_;                           ///< by number of the configuration
+    bool has_equal_ids_ = false;
+};
+
+/// Deletes what was planned and is no longer; returns how many results stay that the plan does not
+/// ask for.
+std::uint64_t retire(const Database& database)
+{
+    const std::string unplanned = "number NOT IN (SELECT configuration FROM plan)";
+    database.run("DELETE FROM configurations WHERE status = 'planned' AND " + unplanned);
+    return static_cast<std::uint64_t>(database.integer(
+        "SELECT count(*) FROM configurations WHERE status = 'done' AND " + unplanned));
+}
+
+void require_valid(const Shard& shard)
+{
+    if (shard.index < 1 || shard.index > shard.count) {
+        throw std::invalid_argument(
+            fmt::format("RunStore::plan: shard {} of {}", shard.index, shard.count));
+    }
+}
+
+Environment environment_of(Statement& row)
+{
+    Environment environment;
+    int column = 0;
+    for (const auto& [name, member] : environment_columns) {
+        environment.*member = row.text(column++);
+    }
+    return environment;
+}
+
+/// The environment's number; it is recorded if it was not.
+std::int64_t recorded(const Database& database, const Environment& environment)
+{
+    Statement insert{database, "INSERT OR IGNORE INTO environments"
+                               " (gl_renderer, gl_version, embree, gnomon) VALUES (?, ?, ?, ?)"};
+    Statement find{database, "SELECT number FROM environments WHERE gl_renderer = ?"
+                             " AND gl_version = ? AND embree = ? AND gnomon = ?"};
+    int parameter = 1;
+    for (const auto& [name, member] : environment_columns) {
+        insert.bind(parameter, std::string_view{environment.*member});
+        find.bind(parameter++, std::string_view{environment.*member});
+    }
+    insert.run();
+    return find.first().value_or(0); // it is there now
+}
+
+/// @throws scene::InputError  naming what differs, if a result is of another environment.
+void require_one_environment(const Database& database, const Environment& here)
+{
+    Statement others{database,
+                     "SELECT gl_renderer, gl_version, embree, gnomon FROM environments e WHERE"
+                     " number <> ? AND EXISTS"
+                     " (SELECT 1 FROM configurations WHERE environment = e.number)"};
+    if (!others.bind(1, recorded(database, here)).step()) {
+        return;
+    }
+    const Environment there = environment_of(others);
+    for (const auto& [name, member] : environment_columns) {
+        if (here.*member != there.*member) {
+            throw scene::InputError(scene::one_line(fmt::format(
+                "{}: its results come from another environment, {} was \"{}\" and is \"{}\": name "
+                "another folder, or pass --allow-mixed",
+                database.path().string(), name, there.*member, here.*member)));
+        }
+    }
+}
+
+void write_value(const Database& database, std::string_view key, const Value& value)
+{
+    Statement{database, "INSERT OR REPLACE INTO run VALUES (?, ?)"}
+        .bind(1, key)
+        .bind(2, value)
+        .run();
+}
+
+std::int64_t read_integer(const Database& database, std::string_view key)
+{
+    Statement find{database, "SELECT value FROM run WHERE key = ?"};
+    return find.bind(1, key).first().value_or(0);
+}
+
+std::string read_text(const Database& database, std::string_view key)
+{
+    Statement find{database, "SELECT value FROM run WHERE key = ?"};
+    return find.bind(1, key).step() ? find.text(0) : std::string{};
+}
+
+} // namespace
+
+void write_description(const Database& database, const RunDescription& description)
+{
+    const auto text = [](const auto& json) {
+        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    write_value(database, "environment", recorded(database, description.environment));
+    write_value(database, "shard_index", std::int64_t{description.shard.index});
+    write_value(database, "shard_count", std::int64_t{description.shard.count});
+    write_value(database, "size", static_cast<std::int64_t>(description.size));
+    write_value(database, "axes", text(Json(description.axes)));
+    write_value(database, "job", description.job);
+    write_value(database, "command", description.command);
+    write_value(database, "compare_command", description.compare_command);
+    write_value(database, "notes", notes_json(description.notes));
+}
+
+PlanOutcome write_plan(const Database& database, const RunDescription& description,
+                       const ShowConfigurations& show, Environments environments,
+                       OtherScenes other_scenes)
+{
+    require_valid(description.shard);
+    Transaction transaction{database};
+    if (environments == Environments::one) {
+        require_one_environment(database, description.environment);
+    }
+    const PlannedScenes earlier{database};
+    write_description(database, description);
+    database.run("DELETE FROM plan");
+    const bool has_earlier_rows = has_configurations(database);
+    Planner planner{database};
+    bool has_known_scene = earlier.empty() || other_scenes == OtherScenes::replaced;
+    show([&](const Configuration& configuration) {
+        planner.add(configuration);
+        has_known_scene = has_known_scene || earlier.have(configuration);
+    });
+    if (!has_known_scene) {
+        throw scene::InputError(scene::one_line(fmt::format(
+            "{}: holds results of another scene, {}: name another folder, or pass --force to "
+            "replace them",
+            database.path().parent_path().string(), earlier.example())));
+    }
+    const std::uint64_t retired = has_earlier_rows ? retire(database) : 0;
+    PlanOutcome result = read_outcome(database);
+    result.retired = retired;
+    result.has_equal_ids = planner.has_equal_ids();
+    transaction.commit();
+    return result;
+}
+
+bool has_configurations(const Database& database)
+{
+    return database.integer("SELECT 1 FROM configurations LIMIT 1") == 1;
+}
+
+PlanOutcome read_outcome(const Database& database)
+{
+    Statement counts{database, "SELECT coalesce(sum(c.status = 'done'), 0),"
+                               " coalesce(sum(c.status = 'failed'), 0),"
+                               " coalesce(sum(c.status = 'planned'), 0)"
+                               " FROM part p CROSS JOIN configurations c"
+                               " ON c.number = p.configuration"};
+    counts.step(); // an aggregate has one row
+    const auto count = [&](int column) {
+        return static_cast<std::uint64_t>(counts.integer(column));
+    };
+    PlanOutcome result;
+    result.done = count(0);
+    result.failed = count(1);
+    result.planned = count(2);
+    return result;
+}
+
+RunDescription read_description(const Database& database)
+{
+    RunDescription description;
+    Statement find{database, "SELECT gl_renderer, gl_version, embree, gnomon FROM environments"
+                             " WHERE number = ?"};
+    if (find.bind(1, environment_number(database)).step()) {
+        description.environment = environment_of(find);
+    }
+    description.shard = {static_cast<std::uint32_t>(read_integer(database, "shard_index")),
+                         static_cast<std::uint32_t>(read_integer(database, "shard_count"))};
+    description.size = static_cast<std::uint64_t>(read_integer(database, "size"));
+    const Json axes = Json::parse(read_text(database, "axes"), nullptr, false);
+    if (axes.is_array()) {
+        description.axes = axes.get<std::vector<std::string>>();
+    }
+    description.job = read_text(database, "job");
+    description.command = read_text(database, "command");
+    description.compare_command = read_text(database, "compare_command");
+    description.notes = read_notes(read_text(database, "notes"));
+    return description;
+}
+
+std::int64_t environment_number(const Database& database)
+{
+    return read_integer(database, "environment");
+}
+
+} // namespace gnomon::store

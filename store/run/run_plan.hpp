@@ -1,0 +1,30 @@
+#pragma once
+
+#include "store/run/run_store.hpp"
+#include "store/sqlite.hpp"
+
+#include <cstdint>
+
+namespace gnomon::store {
+
+/// `RunStore::plan`, in one transaction.
+PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& description,
+                       const ShowConfigurations& show, Environments environments,
+                       OtherScenes other_scenes);
+
+/// `RunStore::has_configurations`
+[[nodiscard]] bool has_configurations(const sqlite::Database& database);
+
+/// How the plan's configurations stand.
+[[nodiscard]] PlanOutcome read_outcome(const sqlite::Database& database);
+
+/// `RunStore::description`; everything is empty where nothing was planned yet.
+[[nodiscard]] RunDescription read_description(const sqlite::Database& database);
+
+/// Records what the run is, as part of a transaction.
+void write_description(const sqlite::Database& database, const RunDescription& description);
+
+/// The number under which the environment of the last plan is recorded; 0 without a plan.
+[[nodiscard]] std::int64_t environment_number(const sqlite::Database& database);
+
+} // namespace gnomon::store

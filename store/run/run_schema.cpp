@@ -1,0 +1,399 @@
+#include "store/run/run_schema.hpp"
+
+#include "analysis/metrics/part_table.hpp"
+#include "scene/error.hpp"
+#include "scene/job/sweep_space.hpp"
+#include "scene/job/toml.hpp"
+#include "store/run/run_columns.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::store {
+
+namespace {
+
+using sqlite::Database;
+using sqlite::sql_name;
+using sqlite::Statement;
+using sqlite::Transaction;
+
+constexpr int application_id = 0x474E4D4E; ///< "GNMN"
+
+template <typename Columns>
+std::string definitions(const Columns& columns)
+{
+    std::string text;
+    for (const auto& column : columns) {
+        text += fmt::format(", {} {}", sql_name(column.name), column.type);
+    }
+    return text;
+}
+
+constexpr const char* run_table = "CREATE TABLE run (key TEXT PRIMARY KEY, value) WITHOUT ROWID";
+
+constexpr const char* environments_table =
+    "CREATE TABLE environments (number INTEGER PRIMARY KEY, gl_renderer TEXT NOT NULL,"
+    " gl_version TEXT NOT NULL, embree TEXT NOT NULL, gnomon TEXT NOT NULL,"
+    " UNIQUE (gl_renderer, gl_version, embree, gnomon))";
+
+constexpr const char* plan_table = "CREATE TABLE plan (ordinal INTEGER PRIMARY KEY,"
+                                   " configuration INTEGER NOT NULL REFERENCES configurations,"
+                                   " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL,"
+                                   " job_bias TEXT NOT NULL)";
+
+std::string points_table()
+{
+    return fmt::format("CREATE TABLE curve_points (curve INTEGER NOT NULL REFERENCES curves,"
+                       " point INTEGER{}, PRIMARY KEY (curve, point)) WITHOUT ROWID",
+                       definitions(point_columns()));
+}
+
+constexpr const char* verifications_table =
+    "CREATE TABLE verifications (curve INTEGER PRIMARY KEY REFERENCES curves,"
+    " biases INTEGER NOT NULL, verdicts INTEGER NOT NULL, differences INTEGER NOT NULL)";
+
+std::string curves_table()
+{
+    return fmt::format("CREATE TABLE curves (number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE,"
+                       " scene_hash TEXT NOT NULL{}, environment INTEGER REFERENCES environments,"
+                       " lit INTEGER, blocked INTEGER{}{})",
+                       definitions(curve_key_columns()), definitions(map_columns()),
+                       definitions(bias_curve_columns()));
+}
+
+std::string configurations_table()
+{
+    return fmt::format("CREATE TABLE configurations (number INTEGER PRIMARY KEY,"
+                       " id TEXT NOT NULL UNIQUE, curve INTEGER NOT NULL REFERENCES curves,"
+                       " environment INTEGER REFERENCES environments, status TEXT NOT NULL,"
+                       " message TEXT, may_pass INTEGER{}{}{})",
+                       definitions(configuration_key_columns()), definitions(result_columns()),
+                       definitions(part_columns()));
+}
+
+std::string bins_table()
+{
+    return fmt::format("CREATE TABLE curve_bins (curve INTEGER NOT NULL REFERENCES curves,"
+                       " job_bias TEXT NOT NULL, \"at\" TEXT NOT NULL, bin INTEGER, bias REAL{},"
+                       " PRIMARY KEY (curve, job_bias, \"at\", bin)) WITHOUT ROWID",
+                       definitions(bin_columns()));
+}
+
+/// The rows of `plan` that this run computes: all of them unless the sweep is divided.
+std::string part_view()
+{
+    return "CREATE VIEW part AS SELECT * FROM plan"
+           " WHERE (SELECT value FROM run WHERE key = 'shard_count') = 1"
+           " OR shard = (SELECT value FROM run WHERE key = 'shard_index')";
+}
+
+std::string results_view()
+{
+    std::string columns;
+    for (const ResultsColumn& column : results_columns()) {
+        columns += fmt::format("{}{} AS {}", columns.empty() ? "" : ", ", column.expression,
+                               sql_name(column.name));
+    }
+    return fmt::format("CREATE VIEW results AS SELECT {} FROM {}", columns, results_tables());
+}
+
+/// The sum of columns of a table.
+std::string sum_of(std::span<const std::string_view> names, std::string_view table)
+{
+    std::string sum;
+    for (const std::string_view name : names) {
+        sum += fmt::format("{}{}.{}", sum.empty() ? "" : " + ", table, name);
+    }
+    return sum;
+}
+
+/// All rates as columns, each after a comma; NULL where there is nothing to divide by.
+/// @param errors  the table of what is wrong.
+/// @param pixels  that of what there is.
+std::string rates(std::string_view errors, std::string_view pixels)
+{
+    std::string columns;
+    for (const analysis::PartRate& rate : analysis::part_rates()) {
+        columns += fmt::format(", CAST({} AS REAL) / nullif({}, 0) AS {}",
+                               sum_of(rate.errors, errors), sum_of(rate.pixels, pixels), rate.name);
+    }
+    return columns;
+}
+
+} // namespace
+
+std::vector<ResultsColumn> results_columns()
+{
+    using Of = ResultsColumn::Of;
+    std::vector<ResultsColumn> all{{"schema", fmt::format("{}", run_schema), Of::curve},
+                                   {"ordinal", "p.ordinal", Of::configuration},
+                                   {"id", "c.id", Of::configuration},
+                                   {"curve", "k.id", Of::curve},
+                                   {"case", "p.\"case\"", Of::configuration},
+                                   {"status", "c.status", Of::configuration},
+                                   {"message", "c.message", Of::configuration},
+                                   {"scene_hash", "k.scene_hash", Of::curve}};
+    const auto add = [&](const auto& columns, std::string_view table, Of of) {
+        for (const auto& column : columns) {
+            all.push_back({column.name, fmt::format("{}.{}", table, sql_name(column.name)), of});
+        }
+    };
+    for (const JobColumn& column : job_columns()) {
+        const bool is_own = is_configuration_key(column.name);
+        add(std::array{column}, is_own ? "c" : "k", is_own ? Of::configuration : Of::curve);
+    }
+    add(map_columns(), "v", Of::curve);
+    add(result_columns(), "c", Of::configuration);
+    add(bias_curve_columns(), "v", Of::curve);
+    return all;
+}
+
+std::string results_tables()
+{
+    return "part p CROSS JOIN configurations c ON c.number = p.configuration"
+           " JOIN curves k ON k.number = c.curve"
+           " LEFT JOIN curves v ON v.number = c.curve AND c.status = 'done'";
+}
+
+std::string error_vs_z_columns()
+{
+    std::string counts;
+    std::string depths; // from the first quantile on
+    for (const auto& column : bin_columns()) {
+        const bool is_count = depths.empty() && column.name.find('.') == std::string::npos;
+        (is_count ? counts : depths) += fmt::format(", b.{}", sql_name(column.name));
+    }
+    return fmt::format("v.id AS curve, b.\"at\" AS \"at\", b.bias AS bias{}{}{}"
+                       " FROM curve_bins b JOIN curves v ON v.number = b.curve",
+                       counts, rates("b", "b"), depths);
+}
+
+namespace {
+
+std::string bias_curves_view()
+{
+    std::string columns;
+    for (const auto& column : point_columns()) {
+        columns += fmt::format(", b.{0} AS {0}", sql_name(column.name));
+    }
+    return fmt::format("CREATE VIEW bias_curves AS SELECT v.id AS curve{}{}"
+                       " FROM curve_points b JOIN curves v ON v.number = b.curve",
+                       columns, rates("b", "v"));
+}
+
+std::vector<std::string> table_statements()
+{
+    return {run_table,  environments_table, curves_table(), configurations_table(),
+            plan_table, points_table(),     bins_table(),   verifications_table};
+}
+
+std::vector<std::string> view_statements()
+{
+    return {part_view(), results_view(), "CREATE VIEW error_vs_z AS SELECT " + error_vs_z_columns(),
+            bias_curves_view()};
+}
+
+std::vector<std::string> schema_statements()
+{
+    std::vector<std::string> all = table_statements();
+    const std::vector<std::string> views = view_statements();
+    all.insert(all.end(), views.begin(), views.end());
+    return all;
+}
+
+[[noreturn]] void refuse_database(const Database& database, std::string_view what)
+{
+    throw scene::InputError(fmt::format("{}: {}: name another folder",
+                                        scene::one_line(database.path().string()), what));
+}
+
+/// As SQLite keeps it, the text of what makes a table or a view.
+bool was_made_by(const Database& database, const std::string& statement)
+{
+    Statement search{database, "SELECT 1 FROM sqlite_schema WHERE sql = ?"};
+    return search.bind(1, std::string_view{statement}).first().has_value();
+}
+
+/// Whether it has nothing yet: it is new, or the disk was full when it got its tables.
+bool is_empty(const Database& database)
+{
+    return database.integer("SELECT count(*) FROM sqlite_schema") == 0;
+}
+
+void create_schema(const Database& database)
+{
+    for (const std::string& statement : schema_statements()) {
+        database.run(statement);
+    }
+    database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application_id,
+                             run_schema));
+}
+
+} // namespace
+
+namespace {
+
+constexpr std::int64_t oldest_readable = 1;
+
+/// "CREATE TABLE plan (…" as one of this connection alone.
+std::string made_temporary(const std::string& statement)
+{
+    constexpr std::string_view create = "CREATE ";
+    return fmt::format("{}TEMP {}", create, std::string_view{statement}.substr(create.size()));
+}
+
+std::vector<std::string> column_names(const Database& database, const std::string& table)
+{
+    std::vector<std::string> names;
+    Statement columns{database,
+                      fmt::format("SELECT name FROM pragma_table_info({})", sql_name(table))};
+    while (columns.step()) {
+        names.push_back(columns.text(0));
+    }
+    return names;
+}
+
+/// A column of the present schema, selected from an older table; empty: it has none.
+std::string older_expression(const std::string& column, const std::vector<std::string>& older)
+{
+    const auto has = [&](const std::string& name) {
+        return std::ranges::find(older, name) != older.end();
+    };
+    // Limits of acne were counts.
+    constexpr std::string_view acne_free = "acne_free";
+    constexpr std::string_view acne_free_count = "acne_free_count";
+    if (column.ends_with(acne_free_count) && !has(column)) {
+        const std::string counted =
+            column.substr(0, column.size() - acne_free_count.size()) + std::string{acne_free};
+        return has(counted) ? sql_name(counted) : std::string{};
+    }
+    if (column.ends_with(acne_free) && has(column)) {
+        return fmt::format("CASE WHEN \"lookup.filter\" IN ('nearest', 'linear') THEN {} END",
+                           sql_name(column));
+    }
+    return has(column) ? sql_name(column) : std::string{};
+}
+
+/// Shows an older table as one of the present schema.
+/// @param lacks  the columns that it has not are added.
+void show_older_table(const Database& database, const std::string& statement,
+                      std::vector<std::string>& lacks)
+{
+    constexpr std::string_view create = "CREATE TABLE ";
+    const std::string table =
+        statement.substr(create.size(), statement.find(' ', create.size()) - create.size());
+    const std::vector<std::string> older = column_names(database, table);
+    if (older.empty()) {
+        refuse_database(database, fmt::format("is a run of schema 1 without its {}", table));
+    }
+    database.run(made_temporary(statement)); // hides the older one until it is gone
+    const std::vector<std::string> present = column_names(database, table);
+    database.run(fmt::format("DROP TABLE temp.{}", table));
+    std::string columns;
+    for (const std::string& column : present) {
+        const std::string expression = older_expression(column, older);
+        columns += fmt::format("{}{} AS {}", columns.empty() ? "" : ", ",
+                               expression.empty() ? "NULL" : expression, sql_name(column));
+        if (expression.empty() && std::ranges::find(lacks, column) == lacks.end()) {
+            lacks.push_back(column);
+        }
+    }
+    database.run(fmt::format("CREATE TEMP VIEW {0} AS SELECT {1} FROM main.{0}", table, columns));
+}
+
+} // namespace
+
+RunSchema prepare_reading(const Database& database)
+{
+    const std::int64_t version = database.integer("PRAGMA user_version");
+    if (version < oldest_readable || version >= run_schema ||
+        database.integer("PRAGMA application_id") != application_id) {
+        require_run_schema(database);
+        return {};
+    }
+    RunSchema schema{version, {}};
+    for (const std::string& statement : table_statements()) {
+        show_older_table(database, statement, schema.lacks);
+    }
+    for (const std::string& statement : view_statements()) {
+        database.run(made_temporary(statement));
+    }
+    return schema;
+}
+
+std::string schema_text(const RunSchema& schema)
+{
+    if (schema.version == run_schema) {
+        return {};
+    }
+    constexpr std::size_t shown = 3;
+    const std::size_t named = std::min(schema.lacks.size(), shown);
+    const std::string others = schema.lacks.size() > named
+                                   ? fmt::format(" and {} others", schema.lacks.size() - named)
+                                   : std::string{};
+    return fmt::format(
+        "this run is of schema {}: an older Gnomon wrote it, which did not know {}{}, and "
+        "defined causes, names and gaps otherwise; computed anew into another folder "
+        "it has them",
+        schema.version,
+        fmt::join(schema.lacks.begin(), schema.lacks.begin() + static_cast<std::ptrdiff_t>(named),
+                  ", "),
+        others);
+}
+
+std::filesystem::path results_path(const std::filesystem::path& folder)
+{
+    return folder / "results.sqlite";
+}
+
+void require_run_schema(const Database& database)
+{
+    if (is_empty(database)) {
+        throw scene::InputError(
+            scene::one_line(fmt::format("{}: nothing is recorded in it yet, for the run was cut "
+                                        "off as it was begun: repeat the "
+                                        "command that began it",
+                                        database.path().string())));
+    }
+    if (database.integer("PRAGMA application_id") != application_id) {
+        refuse_database(database, "is a database, but not of a sweep's results");
+    }
+    const auto version = database.integer("PRAGMA user_version");
+    if (version != run_schema) {
+        refuse_database(database, fmt::format("its schema is {}, this Gnomon's is {}; compute it "
+                                              "anew",
+                                              version, run_schema));
+    }
+    // A key or a result that came or went makes other columns.
+    for (const std::string& statement : schema_statements()) {
+        if (!was_made_by(database, statement)) {
+            refuse_database(database, "a Gnomon with other keys or results wrote it");
+        }
+    }
+}
+
+void prepare_run(Database& database)
+{
+    const bool is_new = is_empty(database);
+    if (!is_new) {
+        require_run_schema(database); // before anything of somebody else's is changed
+        database.require_sound();
+    }
+    database.enter_wal_mode();
+    database.run("PRAGMA cache_size = -32768"); // KiB
+    if (is_new) {
+        Transaction transaction{database};
+        create_schema(database);
+        transaction.commit();
+    }
+}
+
+} // namespace gnomon::store

@@ -1,0 +1,249 @@
+#include "store/exr/aov_write.hpp"
+
+#include "analysis/depth/depth_mapping.hpp"
+#include "example_comparison.hpp"
+#include "scene/error.hpp"
+#include "store/exr/depth_map.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace gnomon::store {
+namespace {
+
+using testing::UnorderedElementsAre;
+
+/// An EXR file as it was read; channels are found by name, for their order in the file is not ours.
+class ReadLayers {
+public:
+    explicit ReadLayers(const std::filesystem::path& path)
+    {
+        auto input = OIIO::ImageInput::open(path.string());
+        if (input == nullptr) {
+            throw std::runtime_error(OIIO::geterror());
+        }
+        spec_ = input->spec();
+        bits_.resize(spec_.image_pixels() * static_cast<std::size_t>(spec_.nchannels));
+        // All channels are 32 bits wide, so that the native layout is an array of words.
+        input->read_image(0, 0, 0, spec_.nchannels, OIIO::TypeDesc::UNKNOWN, bits_.data());
+    }
+
+    [[nodiscard]] const OIIO::ImageSpec& spec() const { return spec_; }
+    [[nodiscard]] OIIO::TypeDesc type(const char* channel) const
+    {
+        return spec_.channelformat(spec_.channelindex(channel));
+    }
+    [[nodiscard]] std::uint32_t bits(const char* channel, std::size_t pixel) const
+    {
+        return bits_[pixel * static_cast<std::size_t>(spec_.nchannels) +
+                     static_cast<std::size_t>(spec_.channelindex(channel))];
+    }
+    [[nodiscard]] float value(const char* channel, std::size_t pixel) const
+    {
+        return std::bit_cast<float>(bits(channel, pixel));
+    }
+    [[nodiscard]] std::string text(const std::string& attribute) const
+    {
+        return spec_.get_string_attribute("gnomon:" + attribute);
+    }
+    [[nodiscard]] std::vector<double> numbers(const std::string& attribute) const
+    {
+        std::istringstream stream{text(attribute)};
+        std::vector<double> result;
+        for (std::string word; stream >> word;) {
+            result.push_back(std::strtod(word.c_str(), nullptr));
+        }
+        return result;
+    }
+
+private:
+    OIIO::ImageSpec spec_;
+    std::vector<std::uint32_t> bits_;
+};
+
+ReadLayers written_and_read(const Example& source)
+{
+    const TemporaryFolder folder;
+    write_aov(folder / "layers.exr", source.comparison, source.points);
+    return ReadLayers{folder / "layers.exr"};
+}
+
+TEST(WriteAov, NamesItsChannels)
+{
+    const ReadLayers layers = written_and_read(example());
+    EXPECT_THAT(layers.spec().channelnames,
+                UnorderedElementsAre("truth", "class", "verdict", "prim", "P.X", "P.Y", "P.Z",
+                                     "N.X", "N.Y", "N.Z", "object", "witness", "receiver_depth",
+                                     "map_depth", "tan_theta"));
+    for (const char* name : {"class", "prim", "object", "witness"}) {
+        EXPECT_EQ(layers.type(name), OIIO::TypeDesc::UINT32) << name;
+    }
+    for (const char* name : {"truth", "verdict", "P.X", "receiver_depth", "map_depth"}) {
+        EXPECT_EQ(layers.type(name), OIIO::TypeDesc::FLOAT) << name;
+    }
+    EXPECT_EQ(layers.spec().get_string_attribute("compression"), "zip");
+}
+
+TEST(WriteAov, KeepsEveryBit)
+{
+    const ReadLayers layers = written_and_read(example());
+    const analysis::Comparison& comparison = example().comparison;
+    ASSERT_EQ(layers.spec().image_pixels(), comparison.truth.pixel_class.pixel_count());
+    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+    for (std::size_t i = 0; i < layers.spec().image_pixels(); ++i) {
+        const scene::LookupSample& sample = comparison.lookup.samples[i];
+        ASSERT_EQ(layers.bits("class", i),
+                  static_cast<std::uint32_t>(comparison.truth.pixel_class[i]));
+        ASSERT_EQ(layers.bits("prim", i), comparison.receivers.triangle[i]);
+        ASSERT_EQ(layers.bits("witness", i), comparison.truth.witness[i]);
+        ASSERT_EQ(layers.bits("verdict", i), bits(sample.verdict));
+        ASSERT_EQ(layers.bits("receiver_depth", i), bits(sample.receiver_depth));
+        ASSERT_EQ(layers.bits("map_depth", i), bits(sample.map_depth));
+        ASSERT_EQ(layers.bits("P.X", i), bits(example().points[i].x));
+        ASSERT_EQ(layers.bits("P.Y", i), bits(example().points[i].y));
+        ASSERT_EQ(layers.bits("P.Z", i), bits(example().points[i].z));
+    }
+}
+
+TEST(WriteAov, KeepsNanAndTheLargestIndices)
+{
+    Example changed;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    changed.comparison.lookup.samples[0].map_depth = nan;
+    changed.comparison.receivers.triangle[0] = 0xFFFFFFFF;
+    changed.comparison.receivers.triangle[1] = 0xFFFFFFFE; // a float would round this one
+    const ReadLayers layers = written_and_read(changed);
+    EXPECT_EQ(layers.bits("map_depth", 0), std::bit_cast<std::uint32_t>(nan));
+    EXPECT_EQ(layers.bits("prim", 0), 0xFFFFFFFF);
+    EXPECT_EQ(layers.bits("prim", 1), 0xFFFFFFFE);
+}
+
+TEST(WriteAov, GivesTruthOnlyToScoredPixels)
+{
+    const ReadLayers layers = written_and_read(example());
+    for (std::size_t i = 0; i < layers.spec().image_pixels(); ++i) {
+        const scene::PixelClass pixel_class = example().comparison.truth.pixel_class[i];
+        const float expected = pixel_class == scene::PixelClass::lit       ? 1.0F
+                               : pixel_class == scene::PixelClass::blocked ? 0.0F
+                                                                           : -1.0F;
+        ASSERT_EQ(layers.value("truth", i), expected) << "pixel " << i;
+    }
+}
+
+TEST(WriteAov, WritesExactInputsThatReadBackToTheSameBits)
+{
+    const ReadLayers layers = written_and_read(example());
+    const scene::View& view = example().comparison.view;
+    const auto components = [](const scene::Vec3d& v) {
+        return std::vector<double>{v.x, v.y, v.z};
+    };
+    EXPECT_EQ(layers.numbers("eye"), components(view.camera.eye));
+    EXPECT_EQ(layers.numbers("forward"), components(view.camera.forward));
+    EXPECT_EQ(layers.numbers("right"), components(view.camera.right));
+    EXPECT_EQ(layers.numbers("up"), components(view.camera.up));
+    EXPECT_EQ(layers.numbers("half_height"), std::vector<double>{view.camera.half_height});
+    EXPECT_EQ(layers.numbers("light_direction"), components(view.light.direction));
+    const std::vector<double> matrix = layers.numbers("light_clip_from_world");
+    ASSERT_EQ(matrix.size(), 16U);
+    for (std::size_t i = 0; i < 16; ++i) {
+        const auto row = static_cast<int>(i / 4);
+        const auto column = static_cast<int>(i % 4);
+        EXPECT_EQ(matrix[i], static_cast<double>(view.frustum.light_clip_from_world[column][row]));
+    }
+}
+
+TEST(WriteAov, CarriesTheJobAsJson)
+{
+    const ReadLayers layers = written_and_read(example());
+    const auto job = nlohmann::json::parse(layers.text("job"));
+    EXPECT_EQ(job["shadow_map.resolution"], 48);
+    EXPECT_EQ(layers.text("scene_hash"), example().comparison.scene.hash);
+    EXPECT_EQ(layers.text("truth_method"), "exact");
+}
+
+TEST(WriteAov, WritesTheSameBytesAgain)
+{
+    const TemporaryFolder folder;
+    write_aov(folder / "a.exr", example().comparison, example().points);
+    write_aov(folder / "b.exr", example().comparison, example().points);
+    EXPECT_EQ(read_text(folder / "a.exr"), read_text(folder / "b.exr"));
+    const ReadLayers layers{folder / "a.exr"};
+    EXPECT_EQ(layers.spec().get_string_attribute("DateTime"), "1970:01:01 00:00:00");
+}
+
+TEST(WriteAov, ReportsAFullDiskAndAMissingFolder)
+{
+    const TemporaryFolder folder;
+    for (const std::filesystem::path& path :
+         {std::filesystem::path{"/dev/full"}, folder / "none/layers.exr"}) {
+        EXPECT_THROW(write_aov(path, example().comparison, example().points),
+                     scene::EnvironmentError)
+            << path;
+    }
+    EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+TEST(WriteAov, RejectsPointsOfAnotherSize)
+{
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_aov(folder / "layers.exr", example().comparison,
+                           scene::Image<scene::Vec3f>{scene::ImageSize{1, 1}}),
+                 std::invalid_argument);
+}
+
+/// Depths from 0 to 1 over the example's map.
+scene::Image<float> ramp()
+{
+    const int side = example().comparison.job.shadow_map.resolution_texels;
+    scene::Image<float> depths{scene::ImageSize{side, side}, 0.0F};
+    for (std::size_t i = 0; i < depths.pixel_count(); ++i) {
+        depths[i] = static_cast<float>(i) / static_cast<float>(depths.pixel_count() - 1);
+    }
+    return depths;
+}
+
+TEST(WriteDepthMap, HoldsDepthsAndTheDistancesThatTheyStandFor)
+{
+    const TemporaryFolder folder;
+    const scene::Image<float> depths = ramp();
+    for (const bool is_reversed : {false, true}) {
+        Example changed;
+        changed.comparison.view.frustum.reversed = is_reversed;
+        write_depth_map(folder / "map.exr", changed.comparison, depths);
+        const ReadLayers map{folder / "map.exr"};
+        EXPECT_THAT(map.spec().channelnames, UnorderedElementsAre("depth", "light_distance_m"));
+        const analysis::DepthMapping mapping{changed.comparison.view.frustum.depth_range()};
+        const std::size_t last = depths.pixel_count() - 1;
+        const std::size_t farthest = is_reversed ? 0 : last;
+        for (std::size_t i = 0; i <= last; ++i) {
+            ASSERT_EQ(map.value("depth", i), depths[i]);
+            if (i != farthest) {
+                ASSERT_EQ(map.value("light_distance_m", i),
+                          static_cast<float>(mapping.zeta_m(double{depths[i]})));
+            }
+        }
+        EXPECT_TRUE(std::isnan(map.value("light_distance_m", farthest)));
+        EXPECT_EQ(map.value("light_distance_m", last - farthest),
+                  static_cast<float>(mapping.near_m()));
+        EXPECT_EQ(map.text("scene"), changed.comparison.scene.name);
+    }
+}
+
+TEST(WriteDepthMap, RefusesDepthsOfAnotherSize)
+{
+    const TemporaryFolder folder;
+    EXPECT_THROW(write_depth_map(folder / "map.exr", example().comparison,
+                                 scene::Image<float>{scene::ImageSize{2, 2}, 0.0F}),
+                 std::invalid_argument);
+    EXPECT_EQ(folder.entry_count(), 0U);
+}
+
+} // namespace
+} // namespace gnomon::store
