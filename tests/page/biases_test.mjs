@@ -6,13 +6,13 @@ import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
   [
-    "pixel_names.js",
-    "bias_order.js",
-    "bias_units.js",
-    "bias_counts.js",
+    "image/pixel_names.js",
+    "bias/bias_order.js",
+    "bias/bias_units.js",
+    "bias/bias_counts.js",
     "numbers.js",
-    "slider_scale.js",
-    "image_data.js",
+    "bias/slider_scale.js",
+    "image/image_data.js",
   ],
   [
     "criticalBiases",

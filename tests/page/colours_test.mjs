@@ -6,7 +6,7 @@ import { describe, it } from "node:test";
 import { loadScripts } from "./scripts.mjs";
 
 const page = loadScripts(
-  ["numbers.js", "scales.js", "colours.js"],
+  ["numbers.js", "charts/scales.js", "charts/colours.js"],
   ["okabeIto", "causeColours", "labelColours", "errorColours", "mixStops", "shareOnScale", "texelScale"],
 );
 const source = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), "utf8");

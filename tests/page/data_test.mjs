@@ -8,13 +8,13 @@ import { loadScripts, seededRandom } from "./scripts.mjs";
 const page = loadScripts(
   [
     "blocks.js",
-    "columns.js",
-    "bins.js",
-    "curve_amounts.js",
+    "tables/columns.js",
+    "charts/bins.js",
+    "bias/curve_amounts.js",
     "numbers.js",
-    "filter_language.js",
+    "tables/filter_language.js",
     "sweep_data.js",
-    "scales.js",
+    "charts/scales.js",
   ],
   [
     "BlockReader",
