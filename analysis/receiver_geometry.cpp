@@ -39,15 +39,15 @@ double ReceiverGeometry::footprint_m(std::size_t pixel) const
 scene::Image<float> light_distances_m(const scene::Image<scene::PixelClass>& classes,
                                       const ReceiverGeometry& geometry)
 {
-    scene::Image<float> zeta_m{classes.size(), std::numeric_limits<float>::quiet_NaN()};
+    scene::Image<float> light_distance_m{classes.size(), std::numeric_limits<float>::quiet_NaN()};
     for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             if (scene::is_scored(classes[i])) {
-                zeta_m[i] = static_cast<float>(geometry.zeta_m(i));
+                light_distance_m[i] = static_cast<float>(geometry.light_distance_m(i));
             }
         }
     });
-    return zeta_m;
+    return light_distance_m;
 }
 
 } // namespace gnomon::analysis

@@ -25,9 +25,9 @@ public:
     /// P, the pixel-centre ray ∩ plane(T) [m]. Precondition: the pixel has a receiver.
     [[nodiscard]] scene::Vec3d point(std::size_t pixel) const;
     /// Light distance of P [m].
-    [[nodiscard]] double zeta_m(std::size_t pixel) const
+    [[nodiscard]] double light_distance_m(std::size_t pixel) const
     {
-        return view_.frustum.zeta_m(point(pixel));
+        return view_.frustum.light_distance_m(point(pixel));
     }
     /// Width of the pixel at P, across the view [m].
     [[nodiscard]] double footprint_m(std::size_t pixel) const;

@@ -78,7 +78,7 @@ RawEmbreePass::RawEmbreePass(const scene::TriangleScene& triangles, const scene:
 
     const auto diagonal_m = static_cast<float>(triangles.bounds().diagonal_m());
     const bool spot = view.light.type == scene::LightType::spot;
-    const scene::Vec3f to_sun{-view.light.direction};
+    const scene::Vec3f to_directional{-view.light.direction};
     const scene::Vec3f spot_position{view.light.position};
     for (int y0 = 0; y0 < view.image.height_px; y0 += tile_px) {
         for (int x0 = 0; x0 < view.image.width_px; x0 += tile_px) {
@@ -90,7 +90,7 @@ RawEmbreePass::RawEmbreePass(const scene::TriangleScene& triangles, const scene:
                 if (x < view.image.width_px && y < view.image.height_px &&
                     is_scored(truth.pixel_class(x, y))) {
                     const scene::Vec3f origin = points(x, y);
-                    const scene::Vec3f towards = spot ? spot_position - origin : to_sun;
+                    const scene::Vec3f towards = spot ? spot_position - origin : to_directional;
                     const float length = std::sqrt(towards.x * towards.x + towards.y * towards.y +
                                                    towards.z * towards.z);
                     set_ray(packet, static_cast<std::size_t>(lane), origin, towards,

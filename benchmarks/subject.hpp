@@ -10,7 +10,7 @@
 
 namespace gnomon::benchmarks {
 
-/// A scene in both renderers' hands, and what it took to get there.
+/// A scene that both renderers have loaded, and how long that took.
 struct Subject {
     explicit Subject(const scene::Job& job_in);
 

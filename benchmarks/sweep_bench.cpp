@@ -1,6 +1,6 @@
-#include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/plan.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 #include "raw_embree.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
@@ -96,8 +96,8 @@ fs::path program()
 /// The floor of a plan.
 class Floor {
 public:
-    Floor(const analysis::SweepCatalogue& catalogue, Subject& subject)
-        : catalogue_{catalogue},
+    Floor(const analysis::SweepCurves& sweep_curves, Subject& subject)
+        : sweep_curves_{sweep_curves},
           subject_{subject}
     {
     }
@@ -108,7 +108,7 @@ public:
     void run(const analysis::SweepPlan& plan)
     {
         for (const analysis::SweepStep& step : plan.steps) {
-            const scene::Job job = catalogue_.job(step.curve);
+            const scene::Job job = sweep_curves_.job(step.curve);
             const scene::View view =
                 scene::resolve_view(job, subject_.file.scene, subject_.file.defaults);
             subject_.gl->select_receivers(step.slot);
@@ -159,7 +159,7 @@ private:
         embree_s += seconds_of([&] { benchmark::DoNotOptimize(raw_->run()); });
     }
 
-    const analysis::SweepCatalogue& catalogue_;
+    const analysis::SweepCurves& sweep_curves_;
     Subject& subject_;
     scene::ReceiverLayers receivers_;
     std::unique_ptr<RawEmbreePass> raw_;
@@ -217,16 +217,16 @@ void sweep_against_floor(benchmark::State& state, bool is_whole)
     const fs::path run = folder.path() / "run";
     std::ofstream{job} << job_text(is_whole);
     const scene::SweepSpace space{scene::read_job_source(job, {}), {}};
-    const analysis::SweepCatalogue catalogue{space, false, "bench"};
-    const auto& requests = catalogue.requests();
+    const analysis::SweepCurves sweep_curves{space, false, "bench"};
+    const auto& requests = sweep_curves.requests();
     const auto plan = analysis::make_plan(requests, analysis::camera_slots(requests));
     double floor_s = 0;
     double gl_s = 0;
     double sweep_s = 0;
     for (auto _ : state) {
         {
-            Subject subject{catalogue.job(0)};
-            Floor floor{catalogue, subject};
+            Subject subject{sweep_curves.job(0)};
+            Floor floor{sweep_curves, subject};
             floor.run(plan);
             floor_s += floor.gl_s + floor.embree_s;
             gl_s += floor.gl_s;

@@ -119,7 +119,7 @@ scene::DepthMeasurement RasterPlanes::measure(scene::DepthFormat format)
             continue;
         }
         scene::DepthSample sample{
-            planes_.zeta_m(i),
+            planes_.light_distance_m(i),
             {raster_[i].depth(at), raster_[i].driver_bound(at, subpixel_bits_), codes(x, y)}};
         if (has_z) {
             sample.shader_depth = z(x, y);
@@ -127,7 +127,7 @@ scene::DepthMeasurement RasterPlanes::measure(scene::DepthFormat format)
         measurement.samples.push_back(sample);
     }
     // Rounding the vertices can exchange planes that are less than a float32 step apart.
-    std::ranges::stable_sort(measurement.samples, {}, &scene::DepthSample::zeta_m);
+    std::ranges::stable_sort(measurement.samples, {}, &scene::DepthSample::light_distance_m);
     return measurement;
 }
 

@@ -76,8 +76,8 @@ Image<Vec3f> receiver_points(const scene::TriangleScene& triangles, const View& 
             if (triangle != no_triangle) {
                 SignCounts ignored; // points only
                 const CameraRay ray{pixel_ray(view.camera, view.image, x, y)};
-                const Facet facet{triangle, corners_of(triangles, triangle)};
-                points(x, y) = Vec3f{Receiver{facet, ray, ignored}.point()};
+                const ExactTriangle face{triangle, corners_of(triangles, triangle)};
+                points(x, y) = Vec3f{Receiver{face, ray, ignored}.point()};
             }
         }
     });

@@ -55,7 +55,7 @@ private:
             search.add_view(with_view_of(variant.job, judged.view.job), judged);
         }
         const BiasPlace place{search.own_view().frustum, variant.job.shadow_map.resolution_texels,
-                              views_.own().median_zeta_m};
+                              views_.own().median_light_distance_m};
         const auto slope = static_cast<float>(variant.job.bias.slope);
         const std::vector<ViewOutcome> as_it_is = search.measure_as_set(slope);
         if (variant.keys.empty()) {
@@ -118,7 +118,7 @@ private:
                                                      file_.scene, file_.defaults);
         const auto length_m = [&](const scene::View& of, const Job& with) {
             return depth_step_length_m(of.frustum, with.shadow_map.depth_format,
-                                       views_.own().median_zeta_m);
+                                       views_.own().median_light_distance_m);
         };
         return {length_m(comparison_.view, comparison_.job), length_m(view, job)};
     }

@@ -48,12 +48,13 @@ scene::CameraSettings turning_camera(const Job& job, const scene::SceneFile& fil
     return camera;
 }
 
-double median_zeta_m(const JudgedView& judged, const scene::View& view,
-                     const scene::TriangleScene& triangles)
+double median_light_distance_m(const JudgedView& judged, const scene::View& view,
+                               const scene::TriangleScene& triangles)
 {
     const ReceiverGeometry geometry{triangles, view, judged.receivers.triangle};
-    const auto zeta_m = light_distances_m(judged.truth.pixel_class, geometry);
-    const auto quantiles = find_quantiles(std::vector<float>(zeta_m.begin(), zeta_m.end()));
+    const auto light_distance_m = light_distances_m(judged.truth.pixel_class, geometry);
+    const auto quantiles =
+        find_quantiles(std::vector<float>(light_distance_m.begin(), light_distance_m.end()));
     return quantiles ? double{quantiles->median} : 0;
 }
 
@@ -77,7 +78,7 @@ public:
             found_.views.empty() || static_cast<double>(judged.pixels.scored()) >=
                                         least * static_cast<double>(found_.own().pixels.scored());
         if (scores_enough) {
-            judged.median_zeta_m = median_zeta_m(judged, resolved, file_.scene);
+            judged.median_light_distance_m = median_light_distance_m(judged, resolved, file_.scene);
             found_.views.push_back(std::move(judged));
         }
         return scores_enough;

@@ -31,7 +31,7 @@ struct JudgedView {
     scene::ReceiverLayers receivers;
     scene::TruthLayers truth;
     ClassCounts pixels;
-    double median_zeta_m = 0; ///< light distance of the scored receivers [m]
+    double median_light_distance_m = 0; ///< light distance of the scored receivers [m]
 };
 
 struct JudgedViews {

@@ -18,8 +18,8 @@ Outcome outcome_of(const ErrorCounts& errors)
 
 BiasLength BiasPlace::length_of(float bias) const
 {
-    const double metres = bias_length_m(frustum, double{bias}, zeta_m);
-    return {bias, metres, metres / frustum.texel_width_m(zeta_m, resolution_texels)};
+    const double metres = bias_length_m(frustum, double{bias}, light_distance_m);
+    return {bias, metres, metres / frustum.texel_width_m(light_distance_m, resolution_texels)};
 }
 
 std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const BiasPlace& place,

@@ -24,7 +24,7 @@ struct BiasLength {
 struct BiasPlace {
     scene::LightFrustum frustum;
     int resolution_texels = 0;
-    double zeta_m = 0; ///< median light distance of the scored receivers [m]
+    double light_distance_m = 0; ///< median light distance of the scored receivers [m]
 
     /// Infinite for an infinite bias.
     [[nodiscard]] BiasLength length_of(float bias) const;

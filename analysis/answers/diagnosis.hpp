@@ -17,10 +17,10 @@ namespace gnomon::analysis {
 
 /// Why pixels are wrong, at the job's bias and at every other.
 struct Diagnosis {
-    scene::Image<float> zeta_m;      ///< light distance of the scored receivers [m], else NaN
-    scene::Image<float> map_error_m; ///< `map_depth_errors_m`
-    CauseLayers causes;              ///< at the job's
-    Gaps peter_panning;              ///< at the job's
+    scene::Image<float> light_distance_m; ///< light distance of the scored receivers [m], else NaN
+    scene::Image<float> map_error_m;      ///< `map_depth_errors_m`
+    CauseLayers causes;                   ///< at the job's
+    Gaps peter_panning;                   ///< at the job's
     /// Empty for `hardware`: its weights are the driver's own.
     std::optional<BiasAnswers> biases;
     std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below

@@ -19,7 +19,7 @@ ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
       cull_{job.shadow_map.cull},
       geometry_{triangles, view_, receivers_->receivers().triangle},
       light_{renderers.make_exact_light(job, view_, receivers_->receivers())},
-      zeta_m_{receivers_->zeta_m(view_.frustum, geometry_)},
+      light_distance_m_{receivers_->light_distance_m(view_.frustum, geometry_)},
       distances_{receivers_->distances(view_.frustum, geometry_)},
       remembers_causes_{receivers_->use().by_many_maps &&
                         scene::promises(job.lookup.filter).has_one_tap()},
@@ -33,17 +33,19 @@ scene::ImageSize ExactLightCache::size_if(bool is_kept) const
     return is_kept ? view_.image : scene::ImageSize{0, 0};
 }
 
-std::optional<double> ExactLightCache::representative_zeta_m()
+std::optional<double> ExactLightCache::representative_light_distance_m()
 {
     if (view_.frustum.projection == scene::Projection::orthographic) {
         const auto scored =
-            std::ranges::find_if(*zeta_m_, [](float m) { return std::isfinite(m); });
-        return scored != zeta_m_->end() ? std::optional{double{*scored}} : std::nullopt;
+            std::ranges::find_if(*light_distance_m_, [](float m) { return std::isfinite(m); });
+        return scored != light_distance_m_->end() ? std::optional{double{*scored}} : std::nullopt;
     }
-    if (!zeta_quantiles_m_) {
-        zeta_quantiles_m_ = find_quantiles(std::vector<float>(zeta_m_->begin(), zeta_m_->end()));
+    if (!light_distance_quantiles_m_) {
+        light_distance_quantiles_m_ = find_quantiles(
+            std::vector<float>(light_distance_m_->begin(), light_distance_m_->end()));
     }
-    return zeta_quantiles_m_ ? std::optional{double{zeta_quantiles_m_->median}} : std::nullopt;
+    return light_distance_quantiles_m_ ? std::optional{double{light_distance_quantiles_m_->median}}
+                                       : std::nullopt;
 }
 
 const PartMap& ExactLightCache::parts()

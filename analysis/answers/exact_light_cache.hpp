@@ -38,11 +38,11 @@ public:
     [[nodiscard]] const scene::ExactLight& light() const { return *light_; }
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
     /// Light distance of the scored receivers [m], else NaN.
-    [[nodiscard]] const scene::Image<float>& zeta_m() const { return *zeta_m_; }
+    [[nodiscard]] const scene::Image<float>& light_distance_m() const { return *light_distance_m_; }
     /// The light distance at which biases are told as lengths [m]: the median of the scored
     /// receivers', or any of them where lengths are the same everywhere (a directional light's);
     /// empty if there are none.
-    [[nodiscard]] std::optional<double> representative_zeta_m();
+    [[nodiscard]] std::optional<double> representative_light_distance_m();
     /// The scored receivers by light distance.
     [[nodiscard]] const Binning& distances() const { return *distances_; }
     /// The scored receivers by object and light distance.
@@ -76,8 +76,9 @@ private:
     scene::Cull cull_;
     ReceiverGeometry geometry_;
     std::unique_ptr<scene::ExactLight> light_;
-    std::shared_ptr<const scene::Image<float>> zeta_m_;
-    std::optional<Quantiles> zeta_quantiles_m_; ///< empty until asked for, or without receivers
+    std::shared_ptr<const scene::Image<float>> light_distance_m_;
+    std::optional<Quantiles>
+        light_distance_quantiles_m_; ///< empty until asked for, or without receivers
     std::shared_ptr<const Binning> distances_;
     std::shared_ptr<const PartMap> parts_; ///< nullptr until asked for
     std::optional<CentreHits> centre_hits_;

@@ -16,7 +16,7 @@ JudgedReceivers::JudgedReceivers(const scene::ReceiverLayers& receivers,
 void JudgedReceivers::count_from(const scene::LightFrustum& frustum)
 {
     if (distances_from_ != frustum.origin || distances_along_ != frustum.forward) {
-        zeta_m_ = nullptr;
+        light_distance_m_ = nullptr;
         distances_ = nullptr;
         parts_ = nullptr;
         distances_from_ = frustum.origin;
@@ -25,14 +25,15 @@ void JudgedReceivers::count_from(const scene::LightFrustum& frustum)
 }
 
 std::shared_ptr<const scene::Image<float>>
-JudgedReceivers::zeta_m(const scene::LightFrustum& frustum, const ReceiverGeometry& geometry)
+JudgedReceivers::light_distance_m(const scene::LightFrustum& frustum,
+                                  const ReceiverGeometry& geometry)
 {
     count_from(frustum);
-    if (zeta_m_ == nullptr) {
-        zeta_m_ = std::make_shared<const scene::Image<float>>(
+    if (light_distance_m_ == nullptr) {
+        light_distance_m_ = std::make_shared<const scene::Image<float>>(
             light_distances_m(truth_.pixel_class, geometry));
     }
-    return zeta_m_;
+    return light_distance_m_;
 }
 
 std::shared_ptr<const Binning> JudgedReceivers::distances(const scene::LightFrustum& frustum,
@@ -41,7 +42,7 @@ std::shared_ptr<const Binning> JudgedReceivers::distances(const scene::LightFrus
     count_from(frustum);
     if (distances_ == nullptr) {
         distances_ = std::make_shared<const Binning>(
-            bin_by_distance(truth_.pixel_class, *zeta_m(frustum, geometry)));
+            bin_by_distance(truth_.pixel_class, *light_distance_m(frustum, geometry)));
     }
     return distances_;
 }
@@ -55,7 +56,8 @@ std::shared_ptr<const PartMap> JudgedReceivers::parts(const scene::LightFrustum&
         const auto& classes = truth_.pixel_class;
         parts_ = std::make_shared<const PartMap>(
             use_.counts_parts
-                ? find_parts(classes, receivers_.triangle, *zeta_m(frustum, geometry), triangles)
+                ? find_parts(classes, receivers_.triangle, *light_distance_m(frustum, geometry),
+                             triangles)
                 : PartMap{scene::Image<std::uint16_t>{classes.size(), PartMap::none}, {}});
     }
     return parts_;

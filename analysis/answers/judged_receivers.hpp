@@ -42,7 +42,7 @@ public:
     /// Light distance of the scored receivers [m], else NaN. This and what follows from it are
     /// found anew only where it is counted otherwise than the last time.
     [[nodiscard]] std::shared_ptr<const scene::Image<float>>
-    zeta_m(const scene::LightFrustum& frustum, const ReceiverGeometry& geometry);
+    light_distance_m(const scene::LightFrustum& frustum, const ReceiverGeometry& geometry);
     /// The scored receivers by light distance.
     [[nodiscard]] std::shared_ptr<const Binning> distances(const scene::LightFrustum& frustum,
                                                            const ReceiverGeometry& geometry);
@@ -63,7 +63,7 @@ private:
     ClassCounts classes_;
     BlockerGaps gaps_;
     FirstHitMemory first_hits_;
-    std::shared_ptr<const scene::Image<float>> zeta_m_;
+    std::shared_ptr<const scene::Image<float>> light_distance_m_;
     std::shared_ptr<const Binning> distances_;
     std::shared_ptr<const PartMap> parts_;
     scene::Vec3d distances_from_{}; ///< ζ is 0 there

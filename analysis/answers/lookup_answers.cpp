@@ -277,18 +277,18 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
 {
     Diagnosis diagnosis;
     explain(own, diagnosis);
-    // What follows asks for neither, and takes the most memory.
-    lookup_.unbiased = {};
-    exact_->forget_texels();
+    require_lit_causes(0, 0); // as curves() asks, while what the rays saw is still known
+    exact_->forget_texels();  // what follows takes the most memory
     if (rule_.promises().has_curve()) {
         const SlopeInputs inputs = curves();
         SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
         diagnosis.curve = describe(curve, profile_bias);
-        diagnosis.biases = answer_biases({lookup_.job, lookup_.view, inputs, exact_->zeta_m(),
-                                          exact_->representative_zeta_m().value_or(0)},
-                                         std::move(curve), diagnosis.curve.recommended);
+        diagnosis.biases =
+            answer_biases({lookup_.job, lookup_.view, inputs, exact_->light_distance_m(),
+                           exact_->representative_light_distance_m().value_or(0)},
+                          std::move(curve), diagnosis.curve.recommended);
     }
-    diagnosis.zeta_m = exact_->zeta_m();
+    diagnosis.light_distance_m = exact_->light_distance_m();
     diagnosis.map_error_m = map_error_m_;
     break_down(own, verdict_taps, diagnosis);
     if (!diagnosis.biases) {

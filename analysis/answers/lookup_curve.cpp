@@ -117,11 +117,12 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
 
 std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
 {
-    const auto zeta_m = exact_->representative_zeta_m();
-    if (curve.curve.lit().empty() || !zeta_m) {
+    const auto light_distance_m = exact_->representative_light_distance_m();
+    if (curve.curve.lit().empty() || !light_distance_m) {
         return std::nullopt;
     }
-    const BiasPlace place{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels, *zeta_m};
+    const BiasPlace place{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
+                          *light_distance_m};
     return has_taps() ? recommend_by_amount(curve, place)
                       : recommend_by_count(curve.curve, place, lookup_.job.bias);
 }

@@ -15,7 +15,8 @@ namespace gnomon::analysis {
 /// The smallest biases that leave no more than so much acne; −∞ where every bias does, +∞ where
 /// none does.
 struct AcneFree {
-    float by_tap = 0;   ///< counted in shadowed taps of lit pixels that see their own sheet
+    float by_tap =
+        0; ///< counted in shadowed taps of lit pixels that see their self-shadowing surface
     float by_count = 0; ///< counted in pixels of the label `acne`, on the wrong side of one half
 };
 
@@ -33,7 +34,7 @@ struct AcneInputs {
 };
 
 /// Above the critical bias of a tap it shadows no more; a pixel is acne as long as it is wrong and
-/// at least half of what shadows it is its own sheet.
+/// at least half of what shadows it is its self-shadowing surface.
 /// Source: docs/bias_curve.md#limits.
 [[nodiscard]] std::vector<AcneFree> find_acne_free(const AcneInputs& inputs,
                                                    std::span<const std::uint64_t> allowed_pixels);

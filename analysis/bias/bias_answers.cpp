@@ -12,9 +12,9 @@ namespace {
 std::vector<float> slopes(const BiasQuestion& question)
 {
     const scene::LightFrustum& frustum = question.view.frustum;
-    const double zeta_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
+    const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
     return default_slopes(depth_per_footprint(frustum, question.job.shadow_map.resolution_texels,
-                                              question.job.lookup.filter, zeta_m));
+                                              question.job.lookup.filter, light_distance_m));
 }
 
 /// Nothing where even the slope's best bias leaves no less than `own` does: it is no remedy then.
@@ -26,10 +26,10 @@ std::optional<Recommendation> recommended(const BiasQuestion& question, const Sl
     if (!can_leave_less || scene::promises(question.job.lookup.filter).has_fractions()) {
         return std::nullopt;
     }
-    return recommend_by_count(
-        curve.curve,
-        {question.view.frustum, question.job.shadow_map.resolution_texels, question.unit_zeta_m},
-        question.job.bias);
+    return recommend_by_count(curve.curve,
+                              {question.view.frustum, question.job.shadow_map.resolution_texels,
+                               question.unit_light_distance_m},
+                              question.job.bias);
 }
 
 void answer_slopes(const BiasQuestion& question, const std::optional<Recommendation>& own,
@@ -52,7 +52,7 @@ BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own,
                           const std::optional<Recommendation>& recommended)
 {
     BiasMap map = map_biases({own.critical_bias, question.curves.classes, question.curves.samples,
-                              question.zeta_m, question.view.frustum,
+                              question.light_distance_m, question.view.frustum,
                               question.job.shadow_map.resolution_texels,
                               question.job.shadow_map.depth_format});
     BiasAnswers answers{std::move(own.critical_bias),

@@ -41,8 +41,8 @@ struct BiasQuestion {
     const scene::Job& job;
     const scene::View& view;
     SlopeInputs curves;
-    const scene::Image<float>& zeta_m; ///< light distance of the receivers [m]
-    double unit_zeta_m = 0;            ///< at which biases are told as lengths [m]
+    const scene::Image<float>& light_distance_m; ///< light distance of the receivers [m]
+    double unit_light_distance_m = 0;            ///< at which biases are told as lengths [m]
 };
 
 /// @param own          the curve of the job's own slope.

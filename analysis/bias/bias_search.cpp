@@ -140,9 +140,9 @@ float BiasSearch::carried(std::size_t to, float bias) const
     }
     const SearchedView& own = views_.front();
     const double length_m =
-        bias_length_m(own.view.frustum, double{bias}, own.judged->median_zeta_m);
-    return as_bias(
-        bias_of_length(views_[to].view.frustum, length_m, views_[to].judged->median_zeta_m));
+        bias_length_m(own.view.frustum, double{bias}, own.judged->median_light_distance_m);
+    return as_bias(bias_of_length(views_[to].view.frustum, length_m,
+                                  views_[to].judged->median_light_distance_m));
 }
 
 float BiasSearch::carried_back(std::size_t from, float bias) const
@@ -151,9 +151,9 @@ float BiasSearch::carried_back(std::size_t from, float bias) const
         return bias;
     }
     const SearchedView& own = views_.front();
-    const double length_m =
-        bias_length_m(views_[from].view.frustum, double{bias}, views_[from].judged->median_zeta_m);
-    return as_bias(bias_of_length(own.view.frustum, length_m, own.judged->median_zeta_m));
+    const double length_m = bias_length_m(views_[from].view.frustum, double{bias},
+                                          views_[from].judged->median_light_distance_m);
+    return as_bias(bias_of_length(own.view.frustum, length_m, own.judged->median_light_distance_m));
 }
 
 std::vector<BiasCurve> BiasSearch::curves(float slope) const

@@ -30,14 +30,14 @@ void require_same_sizes(const BiasMapInputs& inputs)
 {
     const scene::ImageSize size = inputs.classes.size();
     if (inputs.criticals.size() != size || inputs.lookup.samples.size() != size ||
-        inputs.zeta_m.size() != size) {
+        inputs.light_distance_m.size() != size) {
         throw std::invalid_argument("map_biases: inputs: the images differ in size");
     }
 }
 
 } // namespace
 
-double bias_length_m(const scene::LightFrustum& frustum, double bias, double zeta_m)
+double bias_length_m(const scene::LightFrustum& frustum, double bias, double light_distance_m)
 {
     if (std::isinf(bias)) {
         return bias;
@@ -45,27 +45,29 @@ double bias_length_m(const scene::LightFrustum& frustum, double bias, double zet
     if (!is_perspective(frustum)) {
         return bias * frustum.range_m();
     }
-    const double relative = inverse_distance_range(frustum) * bias * zeta_m;
+    const double relative = inverse_distance_range(frustum) * bias * light_distance_m;
     if (relative <= -1.0) {
         return -std::numeric_limits<double>::infinity();
     }
-    return relative * zeta_m / (1.0 + relative);
+    return relative * light_distance_m / (1.0 + relative);
 }
 
-double bias_of_length(const scene::LightFrustum& frustum, double length_m, double zeta_m)
+double bias_of_length(const scene::LightFrustum& frustum, double length_m, double light_distance_m)
 {
     if (!is_perspective(frustum)) {
         return length_m / frustum.range_m();
     }
-    return length_m < zeta_m
-               ? length_m / (inverse_distance_range(frustum) * zeta_m * (zeta_m - length_m))
+    return length_m < light_distance_m
+               ? length_m / (inverse_distance_range(frustum) * light_distance_m *
+                             (light_distance_m - length_m))
                : std::numeric_limits<double>::infinity();
 }
 
-double depth_per_metre(const scene::LightFrustum& frustum, double zeta_m)
+double depth_per_metre(const scene::LightFrustum& frustum, double light_distance_m)
 {
-    return is_perspective(frustum) ? 1.0 / (inverse_distance_range(frustum) * zeta_m * zeta_m)
-                                   : 1.0 / frustum.range_m();
+    return is_perspective(frustum)
+               ? 1.0 / (inverse_distance_range(frustum) * light_distance_m * light_distance_m)
+               : 1.0 / frustum.range_m();
 }
 
 double depth_step(scene::DepthFormat format, float depth)
@@ -78,10 +80,10 @@ double depth_step(scene::DepthFormat format, float depth)
 }
 
 double depth_step_length_m(const scene::LightFrustum& frustum, scene::DepthFormat format,
-                           double zeta_m)
+                           double light_distance_m)
 {
-    const double depth = DepthMapping{frustum.depth_range()}.depth(zeta_m);
-    return bias_length_m(frustum, depth_step(format, static_cast<float>(depth)), zeta_m);
+    const double depth = DepthMapping{frustum.depth_range()}.depth(light_distance_m);
+    return bias_length_m(frustum, depth_step(format, static_cast<float>(depth)), light_distance_m);
 }
 
 BiasMap map_biases(const BiasMapInputs& inputs)
@@ -96,9 +98,10 @@ BiasMap map_biases(const BiasMapInputs& inputs)
         const bool allows_all = critical == std::numeric_limits<float>::infinity();
         const bool is_allowed = inputs.classes[i] == PixelClass::blocked && !allows_all;
         const double bias{is_allowed ? previous_bias(critical) : critical};
-        const double zeta_m{inputs.zeta_m[i]};
-        const double length_m = bias_length_m(inputs.frustum, bias, zeta_m);
-        const double texel_m = inputs.frustum.texel_width_m(zeta_m, inputs.resolution_texels);
+        const double light_distance_m{inputs.light_distance_m[i]};
+        const double length_m = bias_length_m(inputs.frustum, bias, light_distance_m);
+        const double texel_m =
+            inputs.frustum.texel_width_m(light_distance_m, inputs.resolution_texels);
         const float depth = inputs.lookup.samples[i].receiver_depth;
         map.depth[i] = static_cast<float>(bias);
         map.metres[i] = static_cast<float>(length_m);

@@ -12,10 +12,11 @@ namespace gnomon::analysis {
 ///
 /// Reversed depth gives the same lengths.
 /// @param bias    Depth units; any sign; an infinite bias gives an infinite length.
-/// @param zeta_m  Light distance of the receiver [m]; > 0 for a spot.
+/// @param light_distance_m  Light distance of the receiver [m]; > 0 for a spot.
 /// @return  [m]; −∞ where a negative bias moves a spot's receiver beyond every distance.
 /// Source: DESIGN §6 with Δ = −b; docs/bias_curve.md#units.
-[[nodiscard]] double bias_length_m(const scene::LightFrustum& frustum, double bias, double zeta_m);
+[[nodiscard]] double bias_length_m(const scene::LightFrustum& frustum, double bias,
+                                   double light_distance_m);
 
 /// The inverse of `bias_length_m`: the constant bias that moves a receiver at ζ by that length.
 ///
@@ -24,12 +25,12 @@ namespace gnomon::analysis {
 /// @param length_m  [m], at least 0.
 /// @return  Infinite where a spot's receiver would be moved to the light or beyond it.
 [[nodiscard]] double bias_of_length(const scene::LightFrustum& frustum, double length_m,
-                                    double zeta_m);
+                                    double light_distance_m);
 
 /// Depth units per metre along the light's axis at ζ, always positive.
 ///
 ///     directional:  1 / (far − near)        spot:  1 / (A ζ²)
-[[nodiscard]] double depth_per_metre(const scene::LightFrustum& frustum, double zeta_m);
+[[nodiscard]] double depth_per_metre(const scene::LightFrustum& frustum, double light_distance_m);
 
 /// The smallest step of a depth format, GL's unit of polygon offset: the difference of neighbouring
 /// depths.
@@ -42,7 +43,7 @@ namespace gnomon::analysis {
 
 /// How many metres along the light's axis such a step is at ζ.
 [[nodiscard]] double depth_step_length_m(const scene::LightFrustum& frustum,
-                                         scene::DepthFormat format, double zeta_m);
+                                         scene::DepthFormat format, double light_distance_m);
 
 /// Per pixel the bias that it needs (lit: the smallest with which it is lit) or allows (blocked:
 /// the largest with which it stays shadowed), in four units; NaN where the pixel is not scored.
@@ -61,7 +62,7 @@ struct BiasMapInputs {
     const scene::Image<float>& criticals;
     const scene::Image<scene::PixelClass>& classes;
     const scene::LookupLayers& lookup;
-    const scene::Image<float>& zeta_m; ///< light distance of each receiver [m]
+    const scene::Image<float>& light_distance_m; ///< light distance of each receiver [m]
     const scene::LightFrustum& frustum;
     int resolution_texels;
     scene::DepthFormat depth_format;

@@ -14,10 +14,11 @@
 namespace gnomon::analysis {
 
 double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
-                           scene::Filter filter, double zeta_m)
+                           scene::Filter filter, double light_distance_m)
 {
-    return scene::filter_width_texels(filter) * frustum.texel_width_m(zeta_m, resolution_texels) *
-           depth_per_metre(frustum, zeta_m);
+    return scene::filter_width_texels(filter) *
+           frustum.texel_width_m(light_distance_m, resolution_texels) *
+           depth_per_metre(frustum, light_distance_m);
 }
 
 std::vector<float> default_slopes(double per_footprint)

@@ -13,10 +13,10 @@ namespace gnomon::analysis {
 ///     footprint · texel width(ζ) · depth per metre(ζ)        footprint: the filter's width in
 ///     texels
 ///
-/// @param zeta_m  Light distance [m]; matters for a spot, whose texels grow and whose depth
-/// flattens. Source: docs/bias_curve.md#slope.
+/// @param light_distance_m  Light distance [m]; matters for a spot, whose texels grow and whose
+/// depth flattens. Source: docs/bias_curve.md#slope.
 [[nodiscard]] double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
-                                         scene::Filter filter, double zeta_m);
+                                         scene::Filter filter, double light_distance_m);
 
 /// Slope factors worth a curve: 0, ¼, ½, 1, 2 and 4 times `per_footprint`.
 ///

@@ -1,7 +1,7 @@
 #include "analysis/causes/blocked_causes.hpp"
 
-#include "analysis/causes/own_sheets.hpp"
 #include "analysis/causes/pixel_squares.hpp"
+#include "analysis/causes/self_shadowing.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "analysis/metrics/amounts.hpp"
 
@@ -245,8 +245,8 @@ private:
         look_around(lookups, own, between_texels);
     }
 
-    /// Sets `sees` where some texel at or around the taps, of those that do not see the own sheet,
-    /// sees the blocker, or anything as near to the light.
+    /// Sets `sees` where some texel at or around the taps, of those that do not see the
+    /// self-shadowing surface, sees the blocker, or anything as near to the light.
     /// @param places  among the lookups.
     void look_around(const TracedLookups& lookups, std::span<const TapSet> own,
                      std::span<const std::size_t> places)
@@ -269,13 +269,14 @@ private:
         }
         const TexelHits hits{inputs_.light, texels, scene::HitDetail::placed};
         const auto blockers = inputs_.light.find_blockers(pixels);
-        std::vector<std::vector<scene::SheetQuery>> nearer(pixels.size());
+        std::vector<std::vector<scene::SelfShadowingQuery>> nearer(pixels.size());
         std::size_t next = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            const double middle_m = 0.5 * (blockers[i].zeta_m + blockers[i].receiver_zeta_m);
+            const double middle_m =
+                0.5 * (blockers[i].light_distance_m + blockers[i].receiver_light_distance_m);
             for (; next < ends[i]; ++next) {
                 const scene::TexelHit& hit = hits[texels[next]];
-                if (hit.zeta_m < middle_m) {
+                if (hit.light_distance_m < middle_m) {
                     nearer[i].push_back({pixels[i], texels[next], hit.triangle});
                 }
             }
@@ -283,17 +284,17 @@ private:
         find_seen(std::move(nearer));
     }
 
-    /// One texel of each pixel after the other: mostly the first is not its own sheet.
-    void find_seen(std::vector<std::vector<scene::SheetQuery>> nearer)
+    /// One texel of each pixel after the other: mostly the first is not its self-shadowing surface.
+    void find_seen(std::vector<std::vector<scene::SelfShadowingQuery>> nearer)
     {
         std::erase_if(nearer, [](const auto& queries) { return queries.empty(); });
         while (!nearer.empty()) {
-            std::vector<scene::SheetQuery> asked;
+            std::vector<scene::SelfShadowingQuery> asked;
             for (auto& queries : nearer) {
                 asked.push_back(queries.back());
                 queries.pop_back();
             }
-            const auto own = inputs_.light.are_own_sheets(asked);
+            const auto own = inputs_.light.are_self_shadowing(asked);
             for (std::size_t i = 0; i < nearer.size(); ++i) {
                 if (own[i] == 0) {
                     causes_.pixels[asked[i].pixel].sees = true;

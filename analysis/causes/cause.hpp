@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 6> cause_names{"none",       "bias
 /// What people call it (DESIGN §4). The values are the EXR codes.
 enum class Label : std::uint8_t {
     none = 0,          ///< it is right
-    acne = 1,          ///< false shadow by the receiver's own sheet
+    acne = 1,          ///< false shadow by the receiver's self-shadowing surface
     peter_panning = 2, ///< false lit by the bias
     leak = 3,          ///< false lit where the map lost the blocker
     edge = 4,          ///< the jagged, displaced or softened border of a real shadow

@@ -13,7 +13,7 @@ namespace gnomon::analysis {
 /// What was found of the causes for `nearest`, kept for maps of other depth formats: with a single
 /// tap nothing but whether V1 is right depends on what is stored.
 ///
-/// Valid as long as truth, light, receivers, resolution, culling and policy stay the same.
+/// Valid as long as truth, light, receivers, resolution, culling and border mode stay the same.
 class CauseMemory {
 public:
     explicit CauseMemory(scene::ImageSize size) : causes_{size}, known_{size} {}
@@ -28,7 +28,7 @@ public:
         known_[pixel] |= knows_cause;
     }
 
-    /// Whether the texel of a blocked pixel sees its own sheet; empty: not known.
+    /// Whether the texel of a blocked pixel sees its self-shadowing surface; empty: not known.
     [[nodiscard]] std::optional<bool> own(std::size_t pixel) const
     {
         return has(pixel, knows_own) ? std::optional{has(pixel, is_own)} : std::nullopt;

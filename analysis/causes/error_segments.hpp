@@ -279,7 +279,7 @@ private:
     }
 
     /// Index of the first bias with which the centre texel alone is lit: by exact depths, or
-    /// because the bias has cured what its own sheet shadows.
+    /// because the bias has cured what its self-shadowing surface shadows.
     [[nodiscard]] std::size_t first_repaired_by_centre(std::size_t pixel, const FilterCause& filter,
                                                        std::span<const TapChange> taps) const
     {

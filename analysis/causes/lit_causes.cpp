@@ -1,7 +1,7 @@
 #include "analysis/causes/lit_causes.hpp"
 
-#include "analysis/causes/own_sheets.hpp"
 #include "analysis/causes/pixel_squares.hpp"
+#include "analysis/causes/self_shadowing.hpp"
 #include "analysis/metrics/amounts.hpp"
 #include "analysis/pixel_runs.hpp"
 
@@ -78,7 +78,7 @@ private:
                     causes_.filters[pixel] = {scene::infinity, scene::infinity, false, {}};
                 }
             } else {
-                // V3: nothing crosses the segment, so only a policy can shadow.
+                // V3: nothing crosses the segment, so only the border mode can shadow.
                 const bool is_lit = !inputs_.is_uncovered(footprint_, pixel) ||
                                     inputs_.lookup.outside == Outside::lit;
                 set(pixel, is_lit ? Cause::resolution : Cause::coverage);
@@ -116,7 +116,7 @@ private:
         }
     }
 
-    /// Taps of the job's lookup, and those of them that see the receiver's own sheet.
+    /// Taps of the job's lookup, and those of them that see the receiver's self-shadowing surface.
     struct OwnTaps {
         std::vector<TapSet> asked;
         std::vector<TapSet> own;

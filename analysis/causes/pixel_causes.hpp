@@ -18,8 +18,8 @@ struct PixelCause {
     Cause if_wrong = Cause::none;
     /// The same where it is partial.
     Cause if_partial = Cause::none;
-    /// A lit pixel before a single tap: is the surface seen there its own sheet? A blocked pixel of
-    /// cause `resolution`: does a texel at or around its taps see the blocker?
+    /// A lit pixel before a single tap: is the surface seen there its self-shadowing surface? A
+    /// blocked pixel of cause `resolution`: does a texel at or around its taps see the blocker?
     bool sees = false;
     /// A lit pixel: the smallest bias with which exact depths are lit (V2), the slope's part
     /// included.
@@ -38,8 +38,8 @@ struct FilterCause {
     float exact_full_bias = -scene::infinity;
     /// The same of the texel alone that holds the receiver (V2n).
     float centre_bias = -scene::infinity;
-    /// Whether that texel sees the receiver's own sheet; said only where `centre_bias` is above 0,
-    /// or biases below 0 are asked about.
+    /// Whether that texel sees the receiver's self-shadowing surface; said only where `centre_bias`
+    /// is above 0, or biases below 0 are asked about.
     bool centre_is_own = false;
     /// Taps of the job's lookup that see it, of those that shadow without bias, or of all.
     TapSet own;
@@ -53,7 +53,8 @@ struct PixelCauses {
 };
 
 /// True when a lit pixel before a single tap is acne wherever it is false shadow: this does not
-/// depend on the bias. Without branches: which pixels are acne is hardly to be foreseen.
+/// depend on the bias. Without branches, which would often be mispredicted: neighbouring pixels
+/// differ in whether they are acne.
 [[nodiscard]] inline bool is_acne_if_shadowed(const PixelCause& pixel, scene::PixelClass truth)
 {
     return (static_cast<unsigned>(truth == scene::PixelClass::lit) &
@@ -63,7 +64,7 @@ struct PixelCauses {
 
 /// Weights of the taps that shadow a lit pixel.
 struct ShadowingTaps {
-    double own = 0;    ///< of those that see its own sheet
+    double own = 0;    ///< of those that see its self-shadowing surface
     double others = 0; ///< of the others
 };
 

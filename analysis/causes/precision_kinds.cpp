@@ -1,6 +1,6 @@
 #include "analysis/causes/precision_kinds.hpp"
 
-#include "analysis/causes/own_sheets.hpp"
+#include "analysis/causes/self_shadowing.hpp"
 
 namespace gnomon::analysis {
 

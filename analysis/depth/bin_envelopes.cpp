@@ -18,8 +18,8 @@ double largest_in(const DepthMapping& mapping, const DepthCoding& coding, double
                                 error_envelope_m(mapping, coding, upper_m));
     constexpr int steps = 64;
     for (int i = 1; i < steps; ++i) {
-        const double zeta_m = std::lerp(lower_m, upper_m, i / double{steps});
-        largest_m = std::max(largest_m, error_envelope_m(mapping, coding, zeta_m));
+        const double light_distance_m = std::lerp(lower_m, upper_m, i / double{steps});
+        largest_m = std::max(largest_m, error_envelope_m(mapping, coding, light_distance_m));
     }
     return largest_m;
 }
@@ -31,8 +31,8 @@ void add_envelopes(std::vector<ErrorBin>& by_distance, const scene::LightFrustum
 {
     const DepthMapping mapping{frustum.depth_range()};
     const DepthCoding coding = DepthCoding::of(format);
-    const auto within = [&](double zeta_m) {
-        return std::clamp(zeta_m, frustum.near_m, frustum.far_m);
+    const auto within = [&](double light_distance_m) {
+        return std::clamp(light_distance_m, frustum.near_m, frustum.far_m);
     };
     for (ErrorBin& bin : by_distance) {
         bin.envelope_m = largest_in(mapping, coding, within(bin.lower), within(bin.upper));

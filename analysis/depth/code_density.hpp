@@ -11,7 +11,7 @@ namespace gnomon::analysis {
 /// qAζ² for evenly spaced codes.
 /// Source: docs/depth_precision.md#codes-per-metre.
 [[nodiscard]] double code_step_m(const DepthMapping& mapping, const DepthCoding& coding,
-                                 double zeta_m);
+                                 double light_distance_m);
 
 /// The largest distance between neighbouring codes from near to far [m], to first order: far's but
 /// for float32.
@@ -19,12 +19,12 @@ namespace gnomon::analysis {
 
 /// Codes per metre at ζ [1/m]: 1/step.
 [[nodiscard]] double codes_per_metre(const DepthMapping& mapping, const DepthCoding& coding,
-                                     double zeta_m);
+                                     double light_distance_m);
 
 /// Share of all codes that stand for distances up to ζ; in [0, 1].
-/// @param zeta_m  clamped to [near, far].
+/// @param light_distance_m  clamped to [near, far].
 [[nodiscard]] double code_share_within(const DepthMapping& mapping, const DepthCoding& coding,
-                                       double zeta_m);
+                                       double light_distance_m);
 
 /// The distance at which neighbouring evenly spaced codes are this far apart [m]: √(step/(Aq)).
 ///

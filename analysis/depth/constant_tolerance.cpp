@@ -30,7 +30,7 @@ ConstantTolerance constant_tolerance(const DepthMapping& mapping, const DepthCod
         const double start_m = borders[i - 1];
         const double end_m = borders[i];
         const double between = depth_tolerance(mapping, coding, 0.5 * (start_m + end_m));
-        if (mapping.largest_zeta_error_m(end_m, between) > tolerance_m) {
+        if (mapping.largest_light_distance_error_m(end_m, between) > tolerance_m) {
             return {
                 tolerance_m,
                 mapping.is_perspective()

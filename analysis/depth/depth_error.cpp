@@ -48,9 +48,10 @@ CoarsestDepth coarsest_float_depth(const DepthMapping& mapping, const DepthCodin
 {
     CoarsestDepth coarsest;
     for (const double depth : float_borders()) {
-        const CoarsestDepth here{mapping.zeta_m(depth), tolerance_at_depth(mapping, coding, depth)};
-        if (here.tolerance * mapping.slope_m(here.zeta_m) >
-            coarsest.tolerance * mapping.slope_m(coarsest.zeta_m)) {
+        const CoarsestDepth here{mapping.light_distance_m(depth),
+                                 tolerance_at_depth(mapping, coding, depth)};
+        if (here.tolerance * mapping.slope_m(here.light_distance_m) >
+            coarsest.tolerance * mapping.slope_m(coarsest.light_distance_m)) {
             coarsest = here;
         }
     }
@@ -59,20 +60,22 @@ CoarsestDepth coarsest_float_depth(const DepthMapping& mapping, const DepthCodin
 
 } // namespace
 
-StoredDepth stored_depth(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
+StoredDepth stored_depth(const DepthMapping& mapping, const DepthCoding& coding,
+                         double light_distance_m)
 {
     StoredDepth stored;
-    stored.code = code_of(mapping, coding, mapping.depth(zeta_m));
+    stored.code = code_of(mapping, coding, mapping.depth(light_distance_m));
     const SplitDepth depth = coding.split_depth(stored.code);
     stored.depth = depth.depth;
-    stored.error_m = mapping.stored_error_m(zeta_m, depth);
-    stored.zeta_m = mapping.zeta_m(depth);
+    stored.error_m = mapping.stored_error_m(light_distance_m, depth);
+    stored.light_distance_m = mapping.light_distance_m(depth);
     return stored;
 }
 
-double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
+double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding,
+                       double light_distance_m)
 {
-    return tolerance_at_depth(mapping, coding, mapping.depth(zeta_m));
+    return tolerance_at_depth(mapping, coding, mapping.depth(light_distance_m));
 }
 
 CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding)
@@ -86,7 +89,8 @@ std::vector<double> tolerance_borders_m(const DepthMapping& mapping, const Depth
     std::vector<double> borders{mapping.near_m(), mapping.far_m()};
     if (coding.is_float()) {
         for (const double depth : float_borders()) {
-            borders.push_back(std::clamp(mapping.zeta_m(depth), mapping.near_m(), mapping.far_m()));
+            borders.push_back(
+                std::clamp(mapping.light_distance_m(depth), mapping.near_m(), mapping.far_m()));
         }
     }
     std::sort(borders.begin(), borders.end());
@@ -94,31 +98,33 @@ std::vector<double> tolerance_borders_m(const DepthMapping& mapping, const Depth
     return borders;
 }
 
-double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m,
-                        double codes)
+double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding,
+                        double light_distance_m, double codes)
 {
-    return mapping.largest_zeta_error_m(zeta_m, codes * depth_tolerance(mapping, coding, zeta_m));
+    return mapping.largest_light_distance_error_m(
+        light_distance_m, codes * depth_tolerance(mapping, coding, light_distance_m));
 }
 
 double largest_error_m(const DepthMapping& mapping, const DepthCoding& coding)
 {
     if (coding.is_float()) {
-        const auto [zeta_m, tolerance] = coarsest_depth(mapping, coding);
-        return mapping.largest_zeta_error_m(zeta_m, tolerance);
+        const auto [light_distance_m, tolerance] = coarsest_depth(mapping, coding);
+        return mapping.largest_light_distance_error_m(light_distance_m, tolerance);
     }
     const double far_m = mapping.far_m();
     const double before_far = coding.half_step(1);
-    return -mapping.zeta_error_m(far_m, mapping.range().reversed ? before_far : -before_far);
+    return -mapping.light_distance_error_m(far_m,
+                                           mapping.range().reversed ? before_far : -before_far);
 }
 
 double exact_distance_m(const DepthMapping& mapping, const DepthCoding& coding, std::uint32_t code)
 {
-    return mapping.zeta_m(coding.split_depth(code));
+    return mapping.light_distance_m(coding.split_depth(code));
 }
 
-double smooth_float_envelope_m(const DepthMapping& mapping, double zeta_m)
+double smooth_float_envelope_m(const DepthMapping& mapping, double light_distance_m)
 {
-    return 0x1p-24 * mapping.depth(zeta_m) * mapping.slope_m(zeta_m);
+    return 0x1p-24 * mapping.depth(light_distance_m) * mapping.slope_m(light_distance_m);
 }
 
 } // namespace gnomon::analysis

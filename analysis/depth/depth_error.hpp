@@ -15,19 +15,19 @@ namespace gnomon::analysis {
 struct StoredDepth {
     std::uint32_t code = 0;
     double depth = 0;
-    double zeta_m = 0;  ///< the distance that the code stands for
-    double error_m = 0; ///< zeta_m less the true distance: the sawtooth
+    double light_distance_m = 0; ///< the distance that the code stands for
+    double error_m = 0;          ///< light_distance_m less the true distance: the sawtooth
 };
 
-/// @param zeta_m  [near, far]
+/// @param light_distance_m  [near, far]
 /// Source: docs/depth_precision.md#sawtooth.
 [[nodiscard]] StoredDepth stored_depth(const DepthMapping& mapping, const DepthCoding& coding,
-                                       double zeta_m);
+                                       double light_distance_m);
 
 /// Bound Δ on |stored − exact| depth at a distance: q/2 for evenly spaced codes; for float32 half a
 /// unit in the last place of d, and with the clip range [−1, 1] half of z_ndc's on top.
 [[nodiscard]] double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding,
-                                     double zeta_m);
+                                     double light_distance_m);
 
 /// The envelope of the sawtooth, which it never leaves [m]:
 ///
@@ -36,11 +36,11 @@ struct StoredDepth {
 /// Doubling Δ (`codes` = 2) allows either of the two nearest codes, as GL does, or truncation.
 /// Source: docs/depth_precision.md#envelope.
 [[nodiscard]] double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding,
-                                      double zeta_m, double codes = 1);
+                                      double light_distance_m, double codes = 1);
 
 /// Where between near and far the envelope, and with it the step between codes, is largest.
 struct CoarsestDepth {
-    double zeta_m = 0;
+    double light_distance_m = 0;
     double tolerance = 0; ///< Δ there
 };
 
@@ -70,6 +70,6 @@ struct CoarsestDepth {
 ///     orthographic  u(ζ − n);      reversed  u(f − ζ)
 ///
 /// First order in u. Source: docs/depth_precision.md#float32.
-[[nodiscard]] double smooth_float_envelope_m(const DepthMapping& mapping, double zeta_m);
+[[nodiscard]] double smooth_float_envelope_m(const DepthMapping& mapping, double light_distance_m);
 
 } // namespace gnomon::analysis

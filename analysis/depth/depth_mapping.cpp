@@ -18,19 +18,19 @@ DepthMapping::DepthMapping(const scene::DepthRange& range)
     }
 }
 
-SplitDepth DepthMapping::split_depth(double zeta_m) const
+SplitDepth DepthMapping::split_depth(double light_distance_m) const
 {
     const double extent_m = far_m() - near_m();
-    double from_near = (zeta_m - near_m()) / extent_m;
-    double from_far = (far_m() - zeta_m) / extent_m;
+    double from_near = (light_distance_m - near_m()) / extent_m;
+    double from_far = (far_m() - light_distance_m) / extent_m;
     if (is_perspective()) {
-        from_near = far_m() * from_near / zeta_m;
-        from_far = near_m() * from_far / zeta_m;
+        from_near = far_m() * from_near / light_distance_m;
+        from_far = near_m() * from_far / light_distance_m;
     }
     return range_.reversed ? SplitDepth{from_far, from_near} : SplitDepth{from_near, from_far};
 }
 
-double DepthMapping::zeta_m(const SplitDepth& depth) const
+double DepthMapping::light_distance_m(const SplitDepth& depth) const
 {
     const auto [from_near, from_far] =
         range_.reversed ? SplitDepth{depth.complement, depth.depth} : depth;
@@ -43,34 +43,37 @@ double DepthMapping::zeta_m(const SplitDepth& depth) const
                           : far_m() / (from_near + far_m() / near_m() * from_far);
 }
 
-double DepthMapping::stored_error_m(double zeta_m, const SplitDepth& stored) const
+double DepthMapping::stored_error_m(double light_distance_m, const SplitDepth& stored) const
 {
-    const double raised = difference(stored, split_depth(zeta_m));
+    const double raised = difference(stored, split_depth(light_distance_m));
     const double towards_far = range_.reversed ? -raised : raised;
-    return is_perspective() ? depth_per_inverse_m_ * towards_far * zeta_m * this->zeta_m(stored)
+    return is_perspective() ? depth_per_inverse_m_ * towards_far * light_distance_m *
+                                  this->light_distance_m(stored)
                             : towards_far * (far_m() - near_m());
 }
 
-double DepthMapping::slope_m(double zeta_m) const
+double DepthMapping::slope_m(double light_distance_m) const
 {
-    return is_perspective() ? depth_per_inverse_m_ * zeta_m * zeta_m : far_m() - near_m();
+    return is_perspective() ? depth_per_inverse_m_ * light_distance_m * light_distance_m
+                            : far_m() - near_m();
 }
 
-double DepthMapping::zeta_error_m(double zeta_m, double depth_error) const
+double DepthMapping::light_distance_error_m(double light_distance_m, double depth_error) const
 {
     const double towards_far = range_.reversed ? -depth_error : depth_error;
     if (!is_perspective()) {
         return towards_far * (far_m() - near_m());
     }
-    const double relative = depth_per_inverse_m_ * towards_far * zeta_m;
-    return relative < 1 ? relative * zeta_m / (1 - relative)
+    const double relative = depth_per_inverse_m_ * towards_far * light_distance_m;
+    return relative < 1 ? relative * light_distance_m / (1 - relative)
                         : std::numeric_limits<double>::infinity();
 }
 
-double DepthMapping::largest_zeta_error_m(double zeta_m, double depth_error) const
+double DepthMapping::largest_light_distance_error_m(double light_distance_m,
+                                                    double depth_error) const
 {
     const double magnitude = std::abs(depth_error);
-    return zeta_error_m(zeta_m, range_.reversed ? -magnitude : magnitude);
+    return light_distance_error_m(light_distance_m, range_.reversed ? -magnitude : magnitude);
 }
 
 } // namespace gnomon::analysis

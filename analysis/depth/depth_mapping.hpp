@@ -26,26 +26,33 @@ public:
     }
 
     /// Window depth of a distance; in [0, 1] for ζ in [near, far].
-    [[nodiscard]] double depth(double zeta_m) const { return split_depth(zeta_m).depth; }
+    [[nodiscard]] double depth(double light_distance_m) const
+    {
+        return split_depth(light_distance_m).depth;
+    }
     /// The same with 1 − d, both to a few 2^-53 of themselves and exact at near and far.
-    [[nodiscard]] SplitDepth split_depth(double zeta_m) const;
+    [[nodiscard]] SplitDepth split_depth(double light_distance_m) const;
     /// The distance that a window depth stands for [m]; near and far are exact. With t the depth,
     /// or reversed 1 − d, sums of positive terms, to a few 2^-53 of the distance:
     ///
     ///     perspective    n/((1 − t) + (n/f)t) = f/(t + (f/n)(1 − t))
     ///     orthographic   n + t(f − n) = f − (1 − t)(f − n)
-    [[nodiscard]] double zeta_m(const SplitDepth& depth) const;
-    [[nodiscard]] double zeta_m(double depth) const { return zeta_m({depth, 1 - depth}); }
+    [[nodiscard]] double light_distance_m(const SplitDepth& depth) const;
+    [[nodiscard]] double light_distance_m(double depth) const
+    {
+        return light_distance_m({depth, 1 - depth});
+    }
     /// How far the distance ζ' of a depth lies behind ζ [m]: AΔζζ', Δ(f − n) for an orthographic
     /// projection, to a few 2^-53 of the larger of the two distances.
-    [[nodiscard]] double stored_error_m(double zeta_m, const SplitDepth& stored) const;
+    [[nodiscard]] double stored_error_m(double light_distance_m, const SplitDepth& stored) const;
     /// |dζ/dd| at ζ [m]: Aζ² for a perspective, far − near for an orthographic projection.
-    [[nodiscard]] double slope_m(double zeta_m) const;
+    [[nodiscard]] double slope_m(double light_distance_m) const;
     /// How far a signed depth error moves the distance [m]: AΔζ²/(1 − AΔζ), exactly; Δ(f − n) for
     /// an orthographic projection; infinite where the depth stands for no distance any more.
-    [[nodiscard]] double zeta_error_m(double zeta_m, double depth_error) const;
+    [[nodiscard]] double light_distance_error_m(double light_distance_m, double depth_error) const;
     /// The same, for the sign of the depth error with which |ζ' − ζ| is larger.
-    [[nodiscard]] double largest_zeta_error_m(double zeta_m, double depth_error) const;
+    [[nodiscard]] double largest_light_distance_error_m(double light_distance_m,
+                                                        double depth_error) const;
 
 private:
     scene::DepthRange range_;

@@ -16,10 +16,10 @@ using scene::Projection;
 constexpr double smallest_near_share = 1e-6; // of far; a perspective's near plane is above 0
 constexpr int grid_points = 128;
 
-double evaluation_error_m(const DepthMapping& mapping, double zeta_m)
+double evaluation_error_m(const DepthMapping& mapping, double light_distance_m)
 {
     // At the origin the view matrix has no sums to round: S = 0.
-    return transform_error_m(mapping, TransformOrder::view_then_projection, zeta_m, 0);
+    return transform_error_m(mapping, TransformOrder::view_then_projection, light_distance_m, 0);
 }
 
 /// Distances from near to far, evenly spaced by ratio, or by difference for an orthographic range.
@@ -87,19 +87,19 @@ std::optional<double> smallest_near_m(const PlanTarget& target, const PlannedFor
 std::optional<double> reach_m(const DepthMapping& mapping, const DepthCoding& coding,
                               double max_error_m)
 {
-    const auto errs = [&](double zeta_m) {
-        return gl_error_bound_m(mapping, coding, zeta_m) > max_error_m;
+    const auto errs = [&](double light_distance_m) {
+        return gl_error_bound_m(mapping, coding, light_distance_m) > max_error_m;
     };
     double previous_m = mapping.near_m();
     if (errs(previous_m)) {
         return std::nullopt;
     }
     for (int point = 1; point <= grid_points; ++point) {
-        const double zeta_m = grid_distance_m(mapping, point);
-        if (errs(zeta_m)) {
-            return bisected(previous_m, zeta_m, errs);
+        const double light_distance_m = grid_distance_m(mapping, point);
+        if (errs(light_distance_m)) {
+            return bisected(previous_m, light_distance_m, errs);
         }
-        previous_m = zeta_m;
+        previous_m = light_distance_m;
     }
     return mapping.far_m();
 }
@@ -147,10 +147,12 @@ std::vector<PlannedFormat> planned_formats()
             {"d32f", DepthCoding::float32(), true}};
 }
 
-double gl_error_bound_m(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
+double gl_error_bound_m(const DepthMapping& mapping, const DepthCoding& coding,
+                        double light_distance_m)
 {
     const double codes = coding.is_float() ? 1 : 2;
-    return error_envelope_m(mapping, coding, zeta_m, codes) + evaluation_error_m(mapping, zeta_m);
+    return error_envelope_m(mapping, coding, light_distance_m, codes) +
+           evaluation_error_m(mapping, light_distance_m);
 }
 
 std::vector<PlanAnswer> plan_depth(const PlanTarget& target)

@@ -28,7 +28,7 @@ struct PlannedFormat {
 /// It leaves out what the rasteriser adds in steep or small triangles, which `gnomon doctor
 /// --depth` measures.
 [[nodiscard]] double gl_error_bound_m(const DepthMapping& mapping, const DepthCoding& coding,
-                                      double zeta_m);
+                                      double light_distance_m);
 
 /// What to ask of a depth buffer.
 struct PlanTarget {

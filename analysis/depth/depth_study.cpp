@@ -53,8 +53,9 @@ std::vector<DepthErrorRow> rows_at(const std::vector<double>& distances_m,
                                    const DepthMapping& mapping, const DepthCoding& coding)
 {
     std::vector<DepthErrorRow> rows(distances_m.size());
-    std::transform(distances_m.begin(), distances_m.end(), rows.begin(),
-                   [&](double zeta_m) { return formula_row(mapping, coding, zeta_m); });
+    std::transform(
+        distances_m.begin(), distances_m.end(), rows.begin(),
+        [&](double light_distance_m) { return formula_row(mapping, coding, light_distance_m); });
     return rows;
 }
 
@@ -77,7 +78,7 @@ DepthTheory depth_theory(const DepthMapping& mapping, const DepthCoding& coding,
     theory.step_at_far_m = code_step_m(mapping, coding, far_m);
     const auto [coarsest_at_m, tolerance] = coarsest_depth(mapping, coding);
     theory.coarsest_at_m = coarsest_at_m;
-    theory.largest_envelope_m = mapping.largest_zeta_error_m(coarsest_at_m, tolerance);
+    theory.largest_envelope_m = mapping.largest_light_distance_error_m(coarsest_at_m, tolerance);
     theory.largest_step_m = largest_code_step_m(mapping, coding);
     theory.half_of_codes_within_m = exact_distance_m(mapping, coding, coding.largest_code() / 2);
     theory.code_share_within_1m = code_share_within(mapping, coding, 1);

@@ -36,7 +36,7 @@ void include_extremes(MeasuredDepthError& error, const DepthErrorRow& row)
     const double magnitude_m = std::abs(row.error_m);
     if (magnitude_m > error.max_error_m) {
         error.max_error_m = magnitude_m;
-        error.max_error_zeta_m = row.zeta_m;
+        error.max_error_light_distance_m = row.light_distance_m;
     }
     error.max_excess_m = std::max(error.max_excess_m, magnitude_m - row.envelope_m);
     error.max_transform_error_m =
@@ -52,35 +52,37 @@ double model_bound_m(const DepthMapping& mapping, const DepthCoding& coding,
     const auto& [plane_depth, driver_bound, code] = sample.texel;
     const double drop = driver_bound + conversion_drop(coding, plane_depth - driver_bound);
     const double rise = driver_bound + conversion_rise(coding, plane_depth + driver_bound);
-    return std::max(std::abs(mapping.zeta_error_m(sample.zeta_m, transform - drop)),
-                    std::abs(mapping.zeta_error_m(sample.zeta_m, transform + rise)));
+    return std::max(
+        std::abs(mapping.light_distance_error_m(sample.light_distance_m, transform - drop)),
+        std::abs(mapping.light_distance_error_m(sample.light_distance_m, transform + rise)));
 }
 
 } // namespace
 
-DepthErrorRow formula_row(const DepthMapping& mapping, const DepthCoding& coding, double zeta_m)
+DepthErrorRow formula_row(const DepthMapping& mapping, const DepthCoding& coding,
+                          double light_distance_m)
 {
-    const StoredDepth formula = stored_depth(mapping, coding, zeta_m);
+    const StoredDepth formula = stored_depth(mapping, coding, light_distance_m);
     DepthErrorRow row;
-    row.zeta_m = zeta_m;
-    row.depth = mapping.depth(zeta_m);
+    row.light_distance_m = light_distance_m;
+    row.depth = mapping.depth(light_distance_m);
     row.formula_code = formula.code;
     row.formula_error_m = formula.error_m;
-    row.envelope_m = error_envelope_m(mapping, coding, zeta_m);
+    row.envelope_m = error_envelope_m(mapping, coding, light_distance_m);
     return row;
 }
 
 DepthErrorRow depth_error_row(const DepthMapping& mapping, const DepthCoding& coding,
                               const scene::DepthSample& sample)
 {
-    const double zeta_m = sample.zeta_m;
-    DepthErrorRow row = formula_row(mapping, coding, zeta_m);
+    const double light_distance_m = sample.light_distance_m;
+    DepthErrorRow row = formula_row(mapping, coding, light_distance_m);
     row.code = sample.texel.code;
     const SplitDepth stored = coding.split_depth(row.code);
-    row.error_m = mapping.stored_error_m(zeta_m, stored);
-    row.stored_zeta_m = mapping.zeta_m(stored);
+    row.error_m = mapping.stored_error_m(light_distance_m, stored);
+    row.stored_light_distance_m = mapping.light_distance_m(stored);
     const double transform = sample.texel.plane_depth - row.depth;
-    row.transform_error_m = mapping.zeta_error_m(zeta_m, transform);
+    row.transform_error_m = mapping.light_distance_error_m(light_distance_m, transform);
     row.model_m = model_bound_m(mapping, coding, sample, transform);
     row.texel_class = classify_texel(coding, sample.texel);
     return row;

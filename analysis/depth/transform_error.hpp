@@ -24,6 +24,6 @@ enum class TransformOrder : std::uint8_t {
 ///                   [m], at least |ζ|; |offset| + |vertex| for an axis-parallel view.
 /// Source: docs/depth_precision.md#vertex-transform.
 [[nodiscard]] double transform_error_m(const DepthMapping& mapping, TransformOrder order,
-                                       double zeta_m, double row_sum_m);
+                                       double light_distance_m, double row_sum_m);
 
 } // namespace gnomon::analysis

@@ -84,7 +84,7 @@ public:
     bool judge(const GateEntry* before, const GateEntry& now, std::size_t entry)
     {
         if (rule_->metric == new_pixels_metric) {
-            return before != nullptr && judge_places(*before, now, entry);
+            return before != nullptr && judge_new_pixels(*before, now, entry);
         }
         bool is_judged = false;
         for (const PixelFilter& filter : filters_of(*rule_, before, now)) {
@@ -95,7 +95,7 @@ public:
     }
 
 private:
-    bool judge_places(const GateEntry& before, const GateEntry& now, std::size_t entry)
+    bool judge_new_pixels(const GateEntry& before, const GateEntry& now, std::size_t entry)
     {
         if (rule_->is_optional && before.pixels.empty()) {
             return false;

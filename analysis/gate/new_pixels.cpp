@@ -10,7 +10,7 @@ namespace gnomon::analysis {
 bool WrongPixels::knows(const PixelFilter& filter) const
 {
     return !(filter.cause && cause.empty()) && !(filter.label && label.empty()) &&
-           !(filter.object && object.empty()) && !(filter.bands && zeta_m.empty());
+           !(filter.object && object.empty()) && !(filter.bands && light_distance_m.empty());
 }
 
 bool WrongPixels::is_taken(std::size_t pixel, const PixelFilter& filter) const
@@ -19,8 +19,8 @@ bool WrongPixels::is_taken(std::size_t pixel, const PixelFilter& filter) const
         (object[pixel] >= objects.size() || objects[object[pixel]] != *filter.object)) {
         return false;
     }
-    if (filter.bands &&
-        (std::isnan(zeta_m[pixel]) || !filter.bands->has(zeta_band_of(zeta_m[pixel])))) {
+    if (filter.bands && (std::isnan(light_distance_m[pixel]) ||
+                         !filter.bands->has(light_distance_band_of(light_distance_m[pixel])))) {
         return false;
     }
     return (!filter.cause || cause[pixel] == *filter.cause) &&

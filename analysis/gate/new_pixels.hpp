@@ -25,7 +25,7 @@ struct WrongPixels {
     scene::Image<Label> label;
     scene::Image<std::uint32_t> object; ///< index into `objects`, or beyond for none
     std::vector<std::string> objects;
-    scene::Image<float> zeta_m; ///< light distance [m]; NaN where nothing is scored
+    scene::Image<float> light_distance_m; ///< light distance [m]; NaN where nothing is scored
 
     /// Whether it is known of each pixel if the filter takes it.
     [[nodiscard]] bool knows(const PixelFilter& filter) const;

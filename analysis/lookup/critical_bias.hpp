@@ -77,7 +77,7 @@ void set_verdicts(scene::LookupLayers& lookup, const scene::Image<float>& critic
 
 /// The critical bias of each pixel.
 /// @param lookup  Of a nearest or linear lookup, or from `deciding_samples`. Where `map_depth` is
-///                NaN the policy decides. Pixels without a receiver, all zero, get 0.
+///                NaN the border mode decides. Pixels without a receiver, all zero, get 0.
 [[nodiscard]] scene::Image<float> critical_biases(const scene::LookupLayers& lookup,
                                                   const LookupRule& rule);
 

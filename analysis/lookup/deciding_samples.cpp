@@ -20,7 +20,7 @@ namespace {
 
 constexpr float no_depth = std::numeric_limits<float>::quiet_NaN();
 
-/// The median of the taps' depths; NaN where the policy decides.
+/// The median of the taps' depths; NaN where the border mode decides.
 float deciding_depth(const StoredTaps& taps, const scene::LookupSample& sample, Vec2f texel)
 {
     std::array<float, scene::most_taps> depths; // filled as far as it is read

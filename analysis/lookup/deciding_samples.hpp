@@ -9,7 +9,7 @@
 namespace gnomon::analysis {
 
 /// The comparison that decides each pixel's verdict: a lookup's samples with `map_depth` replaced
-/// by the depth of the deciding tap, NaN where the policy for texels outside decides.
+/// by the depth of the deciding tap, NaN where the border mode decides.
 ///
 /// nearest and linear make one comparison: their samples are returned as they came. pcfK makes K ×
 /// K and is lit when at least ⌈K²/2⌉ are; the critical bias is monotone in the map depth, so the

@@ -15,7 +15,7 @@ namespace gnomon::analysis {
 /// One tap of a lookup: which texel it reads, and how much it counts.
 struct Tap {
     scene::Texel texel;
-    bool is_inside = true; ///< else there is no texel: the policy decides
+    bool is_inside = true; ///< else there is no texel: the border mode decides
     double weight = 1;     ///< exact: sums of a lookup's weights do not round
 };
 

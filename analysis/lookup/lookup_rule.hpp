@@ -31,10 +31,10 @@ struct LookupRule {
     /// The depth of what a map cannot see: the far plane's.
     [[nodiscard]] float farthest_depth() const { return reversed ? 0.0F : 1.0F; }
     /// The depth that stands for a tap outside the map: that of GL's border where the filter
-    /// interpolates; else infinitely far or near, so that the comparison is the policy's whatever
-    /// the bias.
+    /// interpolates; else infinitely far or near, so that the comparison is the border mode's
+    /// whatever the bias.
     [[nodiscard]] float outside_depth() const;
-    /// The critical bias of what the policy decides: −∞ lit, +∞ shadowed.
+    /// The critical bias of what the border mode decides: −∞ lit, +∞ shadowed.
     [[nodiscard]] float policy_critical_bias() const
     {
         return outside == scene::Outside::shadowed ? scene::infinity : -scene::infinity;
@@ -42,7 +42,7 @@ struct LookupRule {
     /// True when r is beyond the far plane. `clamp` hands out a limited r: there the plane counts
     /// as beyond, which a receiver in it hardly ever is.
     [[nodiscard]] bool is_beyond_far(float r) const;
-    /// True when the policy decides all taps of the lookup.
+    /// True when the border mode decides all taps of the lookup.
     [[nodiscard]] bool is_policy(float r, std::span<const Tap> taps) const;
 };
 

@@ -20,7 +20,7 @@ public:
     /// `outside_depth`.
     /// @param texel  uv · resolution of the lookup.
     /// @param out    As long as there are taps.
-    /// @return  What was written; empty where the policy decides for all taps: beyond far, or
+    /// @return  What was written; empty where the border mode decides for all taps: beyond far, or
     ///          behind a spot.
     [[nodiscard]] std::span<float> gather(const scene::LookupSample& sample, scene::Vec2f texel,
                                           std::span<float> out) const;

@@ -40,7 +40,7 @@ public:
     }
     /// Calls `visit(pixel, criticals)` for the pixels in [first, last) that `wants(pixel)`, with
     /// the critical biases of the pixel's taps, in the order of the footprint. Those that the
-    /// policy decides have its critical bias.
+    /// border mode decides have its critical bias.
     template <typename Wants, typename Visit>
     void visit(std::size_t first, std::size_t last, const Wants& wants, const Visit& visit) const
     {

@@ -73,19 +73,20 @@ struct Range {
     double upper = -std::numeric_limits<double>::infinity();
 };
 
-Range scored_range(const scene::Image<PixelClass>& classes, const scene::Image<float>& zeta_m)
+Range scored_range(const scene::Image<PixelClass>& classes,
+                   const scene::Image<float>& light_distance_m)
 {
     Range range;
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (!scene::is_scored(classes[i])) {
             continue;
         }
-        if (!std::isfinite(zeta_m[i])) {
+        if (!std::isfinite(light_distance_m[i])) {
             throw std::invalid_argument(fmt::format(
-                "bin_by_distance: zeta_m: that of scored pixel {} is {}", i, zeta_m[i]));
+                "bin_by_distance: zeta_m: that of scored pixel {} is {}", i, light_distance_m[i]));
         }
-        range.lower = std::min(range.lower, double{zeta_m[i]});
-        range.upper = std::max(range.upper, double{zeta_m[i]});
+        range.lower = std::min(range.lower, double{light_distance_m[i]});
+        range.upper = std::max(range.upper, double{light_distance_m[i]});
     }
     return range;
 }
@@ -226,19 +227,19 @@ double Binning::edge(int i) const
     return std::lerp(lower, upper, static_cast<double>(i) / bins);
 }
 
-Binning bin_by_distance(const scene::Image<PixelClass>& classes, const scene::Image<float>& zeta_m,
-                        int bins)
+Binning bin_by_distance(const scene::Image<PixelClass>& classes,
+                        const scene::Image<float>& light_distance_m, int bins)
 {
     require_bins("bin_by_distance", bins);
-    require_size("bin_by_distance", zeta_m.size(), classes.size());
-    const Range range = scored_range(classes, zeta_m);
+    require_size("bin_by_distance", light_distance_m.size(), classes.size());
+    const Range range = scored_range(classes, light_distance_m);
     Binning binning;
     if (range.lower <= range.upper) {
         binning.lower = range.lower;
         binning.upper = range.upper;
         binning.bins = range.lower < range.upper ? bins : 1;
     }
-    fill(binning, classes, [&](std::size_t i) { return double{zeta_m[i]}; });
+    fill(binning, classes, [&](std::size_t i) { return double{light_distance_m[i]}; });
     return binning;
 }
 

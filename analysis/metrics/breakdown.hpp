@@ -69,7 +69,7 @@ struct Binning {
 /// @throws std::invalid_argument  if `bins` is not in [1, 254], the images differ in size, or a
 ///                                scored pixel's ζ is not finite.
 [[nodiscard]] Binning bin_by_distance(const scene::Image<scene::PixelClass>& classes,
-                                      const scene::Image<float>& zeta_m, int bins = 32);
+                                      const scene::Image<float>& light_distance_m, int bins = 32);
 
 /// By the receiver's angle θ between geometric normal and light [rad], from 0 to π/2, 5 degrees a
 /// bin unless told otherwise.

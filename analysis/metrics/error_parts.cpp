@@ -78,14 +78,15 @@ constexpr std::uint64_t no_key = std::numeric_limits<std::uint64_t>::max();
 /// Each scored pixel's object and band as one number, in the order of the parts; else `no_key`.
 scene::Image<std::uint64_t> part_keys(const scene::Image<PixelClass>& classes,
                                       const scene::Image<std::uint32_t>& triangles,
-                                      const scene::Image<float>& zeta_m,
+                                      const scene::Image<float>& light_distance_m,
                                       const NamedObjects& objects)
 {
     scene::Image<std::uint64_t> keys{classes.size(), no_key};
     for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i != end; ++i) {
             if (scene::is_scored(classes[i])) {
-                const int band = zeta_band_of(zeta_m[i]).place - ZetaBand::lowest;
+                const int band =
+                    light_distance_band_of(light_distance_m[i]).place - ZetaBand::lowest;
                 keys[i] =
                     objects.place_of(triangles[i]) * band_count + static_cast<std::uint64_t>(band);
             }
@@ -202,23 +203,24 @@ double ZetaBand::upper_m() const
     return border_m(place + 1);
 }
 
-ZetaBand zeta_band_of(float zeta_m)
+ZetaBand light_distance_band_of(float light_distance_m)
 {
-    if (zeta_m >= 0) {
-        return {place_of_distance(zeta_m)};
+    if (light_distance_m >= 0) {
+        return {place_of_distance(light_distance_m)};
     }
     // The bands below 0 mirror those above, but hold their lower end as those do.
-    return {-1 - place_of_distance(std::nextafter(-zeta_m, 0.0F))};
+    return {-1 - place_of_distance(std::nextafter(-light_distance_m, 0.0F))};
 }
 
 PartMap find_parts(const scene::Image<PixelClass>& classes,
-                   const scene::Image<std::uint32_t>& triangles, const scene::Image<float>& zeta_m,
-                   const scene::TriangleScene& scene)
+                   const scene::Image<std::uint32_t>& triangles,
+                   const scene::Image<float>& light_distance_m, const scene::TriangleScene& scene)
 {
     require_equal_sizes("find_parts", triangles.size(), classes.size());
-    require_equal_sizes("find_parts", zeta_m.size(), classes.size());
+    require_equal_sizes("find_parts", light_distance_m.size(), classes.size());
     const NamedObjects objects{scene};
-    const scene::Image<std::uint64_t> keys = part_keys(classes, triangles, zeta_m, objects);
+    const scene::Image<std::uint64_t> keys =
+        part_keys(classes, triangles, light_distance_m, objects);
     std::map<std::uint64_t, ErrorPart> found;
     ErrorPart* last = nullptr; // neighbours are mostly of one part
     std::uint64_t last_key = no_key;

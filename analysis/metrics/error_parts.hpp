@@ -34,8 +34,8 @@ struct ZetaBand {
     friend auto operator<=>(const ZetaBand&, const ZetaBand&) = default;
 };
 
-/// @param zeta_m  Anything but NaN.
-[[nodiscard]] ZetaBand zeta_band_of(float zeta_m);
+/// @param light_distance_m  Anything but NaN.
+[[nodiscard]] ZetaBand light_distance_band_of(float light_distance_m);
 
 /// Wrong and partial pixels of one kind.
 struct KindOfError {
@@ -71,11 +71,12 @@ struct PartMap {
 };
 
 /// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
-/// @param zeta_m     Light distance of the scored pixels [m], as `light_distances_m` has it.
+/// @param light_distance_m     Light distance of the scored pixels [m], as `light_distances_m` has
+/// it.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] PartMap find_parts(const scene::Image<scene::PixelClass>& classes,
                                  const scene::Image<std::uint32_t>& triangles,
-                                 const scene::Image<float>& zeta_m,
+                                 const scene::Image<float>& light_distance_m,
                                  const scene::TriangleScene& scene);
 
 /// The parts with their errors at each of several biases.

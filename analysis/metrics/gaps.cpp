@@ -9,7 +9,8 @@ std::vector<PixelGap> gaps_of_pixels(const BlockerGaps& gaps, std::span<const st
     std::vector<PixelGap> result;
     result.reserve(pixels.size());
     for (const std::size_t pixel : pixels) {
-        const double texel_m = frustum.texel_width_m(geometry.zeta_m(pixel), resolution_texels);
+        const double texel_m =
+            frustum.texel_width_m(geometry.light_distance_m(pixel), resolution_texels);
         result.push_back({static_cast<float>(gaps.gap_m(pixel)),
                           static_cast<float>(gaps.gap_m(pixel) / texel_m)});
     }

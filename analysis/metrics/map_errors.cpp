@@ -78,8 +78,8 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
             const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
                                                              depth_step(format, farthest);
             if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
-                errors_m[seen[i].pixel] =
-                    static_cast<float>(mapping.zeta_m(double{stored}) - hit.zeta_m);
+                errors_m[seen[i].pixel] = static_cast<float>(
+                    mapping.light_distance_m(double{stored}) - hit.light_distance_m);
             }
         }
     });

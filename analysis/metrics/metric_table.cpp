@@ -384,7 +384,8 @@ CurveMetrics describe_curve_metrics()
     CurveMetrics all;
     add_best(all);
     add_limits(all, "bias_curve.",
-               {"the smallest bias with which no tap of a lit pixel is shadowed by its own sheet",
+               {"the smallest bias with which no tap of a lit pixel is shadowed by its "
+                "self-shadowing surface",
                 "the smallest bias with which no pixel is called acne: by side of one half",
                 "the largest bias below every blocked pixel's critical bias",
                 "the largest that adds no new false light to what is false lit without any bias"},

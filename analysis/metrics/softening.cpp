@@ -58,7 +58,7 @@ std::vector<Softening> softening_at(const BiasRowInputs& inputs, std::span<const
     if (!inputs.rule.promises().has_fractions()) {
         return std::vector<Softening>(biases.size());
     }
-    // What its own sheet alone shadows is acne, whatever the bias.
+    // What its self-shadowing surface alone shadows is acne, whatever the bias.
     const auto may_be_soft = [&](std::size_t pixel) {
         const PixelCause& why = inputs.causes.pixels[pixel];
         return inputs.classes[pixel] == PixelClass::lit

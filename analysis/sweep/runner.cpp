@@ -4,8 +4,8 @@
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/sweep/background.hpp"
 #include "analysis/sweep/curve_question.hpp"
-#include "analysis/sweep/lookup_work.hpp"
-#include "analysis/sweep/made.hpp"
+#include "analysis/sweep/lookup_stage.hpp"
+#include "analysis/sweep/stage_result.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
@@ -114,7 +114,7 @@ private:
 
     [[nodiscard]] scene::View view_of(const scene::Job& job) const
     {
-        const scene::SceneFile& file = *need(scene_)->open.file;
+        const scene::SceneFile& file = *require_result(scene_)->open.file;
         return scene::resolve_view(job, file.scene, file.defaults);
     }
     /// The step's view without constant bias: one that is none fails its own row, not the stages.
@@ -125,7 +125,10 @@ private:
         job.bias.constant_m.reset();
         return view_of(job);
     }
-    [[nodiscard]] const Renderers& renderers() const { return *need(scene_)->open.renderers; }
+    [[nodiscard]] const Renderers& renderers() const
+    {
+        return *require_result(scene_)->open.renderers;
+    }
     void select(std::size_t slot) const
     {
         if (renderers().select_receivers) {
@@ -142,7 +145,7 @@ private:
         receivers_.assign(plan_.slots, {});
         subjects_.assign(plan_.slots, {});
         ++counts_.scenes;
-        scene_ = make<ReadScene>([&] {
+        scene_ = run_stage<ReadScene>([&] {
             const OpenScene open = hooks_.open_scene(task_.job);
             return std::make_shared<ReadScene>(
                 ReadScene{open, summarise_scene(task_.job.scene, open.file->scene)});
@@ -153,7 +156,7 @@ private:
     void draw_receivers(std::size_t slot)
     {
         ++counts_.receiver_passes;
-        receivers_[slot] = make<scene::ReceiverLayers>([&] {
+        receivers_[slot] = run_stage<scene::ReceiverLayers>([&] {
             const scene::View view = stage_view();
             select(slot);
             return std::make_shared<scene::ReceiverLayers>(renderers().draw_receivers(view));
@@ -163,8 +166,8 @@ private:
     void find_truth(std::size_t slot)
     {
         ++counts_.truths;
-        subjects_[slot] = make<SweepSubject>([&] {
-            const auto receivers = need(receivers_[slot]);
+        subjects_[slot] = run_stage<SweepSubject>([&] {
+            const auto receivers = require_result(receivers_[slot]);
             return std::make_shared<SweepSubject>(
                 *receivers, renderers().find_truth(stage_view(), *receivers),
                 ReceiverUse{.by_many_maps = true, .counts_parts = hooks_.counts_parts});
@@ -175,7 +178,7 @@ private:
     {
         ++counts_.shadow_maps;
         make_room_for_depths();
-        map_ = make<bool>([&] {
+        map_ = run_stage<bool>([&] {
             renderers().draw_shadow_map(task_.job, stage_view());
             return std::make_shared<bool>(true);
         });
@@ -198,15 +201,15 @@ private:
             return; // each bias by itself, when it is answered
         }
         make_room_for_depths();
-        lookup_ = make<LookupWork>([&] {
-            static_cast<void>(need(map_));
-            static_cast<void>(need(receivers_[slot]));
-            auto subject = need(subjects_[slot]);
+        lookup_ = run_stage<LookupStage>([&] {
+            static_cast<void>(require_result(map_));
+            static_cast<void>(require_result(receivers_[slot]));
+            auto subject = require_result(subjects_[slot]);
             select(slot);
             // The subject lives as long as its part is used.
             std::shared_ptr<JudgedReceivers> judged{subject, &subject->judged};
-            return std::make_shared<LookupWork>(*need(scene_), std::move(judged), slot, caches_,
-                                                look_up_for_every_bias());
+            return std::make_shared<LookupStage>(*require_result(scene_), std::move(judged), slot,
+                                                 caches_, look_up_for_every_bias());
         });
     }
 
@@ -244,11 +247,11 @@ private:
 
     /// Called by a lane, or where GL verifies by its own thread. Only the work is a stage: what the
     /// hooks throw ends the sweep.
-    void answer_by_curve(SweepTask& task, const Made<LookupWork>& lookup, std::size_t slot)
+    void answer_by_curve(SweepTask& task, const StageResult<LookupStage>& lookup, std::size_t slot)
     {
         std::vector<RefusedRow> refused;
-        const auto made = make<std::optional<FinishedCurve>>([&] {
-            const auto work = need(lookup);
+        const auto made = run_stage<std::optional<FinishedCurve>>([&] {
+            const auto work = require_result(lookup);
             const CurveQuestion question = question_of(task, work->frustum(), refused);
             auto finished = std::make_shared<std::optional<FinishedCurve>>();
             if (!question.rows.empty()) {
@@ -270,11 +273,11 @@ private:
     }
 
     /// Holds the curve to GL's reruns. Source: docs/bias_curve.md#verification.
-    void verify(LookupWork& work, const CurveQuestion& question, std::size_t slot,
+    void verify(LookupStage& work, const CurveQuestion& question, std::size_t slot,
                 CurveResult& curve) const
     {
         const scene::Image<float> criticals = work.critical_biases(question.slope);
-        const auto& triangles = need(receivers_[slot])->triangle;
+        const auto& triangles = require_result(receivers_[slot])->triangle;
         select(slot);
         curve.verification = verify_biases(
             task_.job, stage_view(), triangles, criticals,
@@ -283,8 +286,8 @@ private:
 
     void answer_by_comparison(std::size_t slot, const SweepTask::Row& row)
     {
-        const auto made =
-            make<Comparison>([&] { return std::make_shared<Comparison>(compare_row(slot, row)); });
+        const auto made = run_stage<Comparison>(
+            [&] { return std::make_shared<Comparison>(compare_row(slot, row)); });
         if (!made.value) {
             return sink_.failed({row.ordinal}, made.error, made.retry);
         }
@@ -305,10 +308,10 @@ private:
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
     {
-        static_cast<void>(need(map_));
-        static_cast<void>(need(receivers_[slot]));
-        const auto subject = need(subjects_[slot]);
-        const auto scene = need(scene_);
+        static_cast<void>(require_result(map_));
+        static_cast<void>(require_result(receivers_[slot]));
+        const auto subject = require_result(subjects_[slot]);
+        const auto scene = require_result(scene_);
         select(slot);
         scene::Job job = task_.job;
         job.bias = row.bias;
@@ -328,12 +331,12 @@ private:
     PlanCounts counts_;
     SweepTask task_;                        ///< of the step
     std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
-    Made<ReadScene> scene_;
-    std::vector<Made<scene::ReceiverLayers>> receivers_; ///< by slot
-    std::vector<Made<SweepSubject>> subjects_;           ///< by slot
-    Made<bool> map_;
+    StageResult<ReadScene> scene_;
+    std::vector<StageResult<scene::ReceiverLayers>> receivers_; ///< by slot
+    std::vector<StageResult<SweepSubject>> subjects_;           ///< by slot
+    StageResult<bool> map_;
     ExactLightCaches caches_; ///< the lanes'
-    Made<LookupWork> lookup_;
+    StageResult<LookupStage> lookup_;
     std::string verified_; ///< the curve that was verified last, of those compared bias by bias
     std::vector<std::unique_ptr<Background>> lanes_; ///< last: they work on the others
 };

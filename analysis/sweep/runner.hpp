@@ -15,7 +15,7 @@
 
 namespace gnomon::analysis {
 
-/// A scene in both renderers' hands.
+/// A scene that both renderers have loaded.
 struct OpenScene {
     const scene::SceneFile* file = nullptr;
     const Renderers* renderers = nullptr;

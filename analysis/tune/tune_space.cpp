@@ -120,8 +120,8 @@ std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrus
                            int resolution_texels)
 {
     // A spot's at the geometric mean of near and far.
-    const double zeta_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
-    const double depth = depth_per_footprint(frustum, resolution_texels, filter, zeta_m);
+    const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
+    const double depth = depth_per_footprint(frustum, resolution_texels, filter, light_distance_m);
     std::set<double> tried{0.0, job.bias.slope};
     for (const float slope : default_slopes(depth)) {
         const bool is_the_unit = slope == static_cast<float>(depth);

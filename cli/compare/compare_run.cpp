@@ -1,7 +1,7 @@
 #include "cli/compare/compare_run.hpp"
 
 #include "analysis/answers/finished_curve.hpp"
-#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 #include "cli/compare/kept_pixels.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep_space.hpp"
@@ -54,12 +54,13 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
         source.cases.clear();
     }
     const scene::SweepSpace space{std::move(source), {}, case_name};
-    const analysis::SweepCatalogue catalogue{space, true, GNOMON_VERSION};
+    const analysis::SweepCurves sweep_curves{space, true, GNOMON_VERSION};
     std::vector<analysis::Configuration> configurations;
-    catalogue.describe(0, analysis::identify_scene(comparison.job, comparison.scene.hash, defaults),
-                       [&](const analysis::Configuration& configuration) {
-                           configurations.push_back(configuration);
-                       });
+    sweep_curves.describe(0,
+                          analysis::identify_scene(comparison.job, comparison.scene.hash, defaults),
+                          [&](const analysis::Configuration& configuration) {
+                              configurations.push_back(configuration);
+                          });
     if (comparison.evaluation) {
         keep_given(configurations.front().parameters, comparison.evaluation->given_keys);
     }

@@ -18,7 +18,7 @@ scene::SceneFile load_checked(const scene::Job& job)
 ComparisonSession::ComparisonSession(const scene::Job& job, const SessionOptions& options)
     : file_{timed(scene_s_, [&] { return load_checked(job); })},
       context_{options.device},
-      hands_{context_, file_.scene, options}
+      scene_session_{context_, file_.scene, options}
 {
 }
 

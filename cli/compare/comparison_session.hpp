@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/compare/scene_hands.hpp"
+#include "cli/compare/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "scene/load_scene.hpp"
 
@@ -19,19 +19,22 @@ public:
     [[nodiscard]] const scene::SceneFile& file() const { return file_; }
     [[nodiscard]] const reference_rt::ReferenceScene& reference() const
     {
-        return hands_.reference();
+        return scene_session_.reference();
     }
     [[nodiscard]] const raster_gl::Context& context() const { return context_; }
     /// Valid as long as the session.
-    [[nodiscard]] const analysis::Renderers& renderers() const { return hands_.renderers(); }
+    [[nodiscard]] const analysis::Renderers& renderers() const
+    {
+        return scene_session_.renderers();
+    }
     [[nodiscard]] double scene_seconds() const { return scene_s_; }
-    [[nodiscard]] double bvh_seconds() const { return hands_.bvh_seconds(); }
+    [[nodiscard]] double bvh_seconds() const { return scene_session_.bvh_seconds(); }
 
 private:
     double scene_s_ = 0;
     scene::SceneFile file_;
     raster_gl::Context context_;
-    SceneHands hands_;
+    SceneSession scene_session_;
 };
 
 /// Adds --device and --threads.

@@ -18,9 +18,9 @@ void advise_origin(analysis::Comparison& comparison, const ComparisonSession& se
     if (!moved) {
         return;
     }
-    const SceneHands hands{session.context(), moved->file.scene, options};
+    const SceneSession scene_session{session.context(), moved->file.scene, options};
     const analysis::Comparison there =
-        analysis::compare(moved->job, moved->file, hands.renderers());
+        analysis::compare(moved->job, moved->file, scene_session.renderers());
     comparison.advice.push_back(
         {{fmt::format("# move the scene's origin to [{}, {}, {}]", moved->origin.x, moved->origin.y,
                       moved->origin.z)},

@@ -1,9 +1,10 @@
 #include "cli/sweep/extreme_pixels.hpp"
 
-#include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/scene_identity.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 #include "cli/compare/comparison_session.hpp"
 #include "cli/compare/kept_pixels.hpp"
+#include "cli/system/memory.hpp"
 #include "cli/system/process.hpp"
 #include "reports/page/run_overview.hpp"
 #include "scene/error.hpp"
@@ -41,14 +42,14 @@ std::string id_without_axes(scene::JobSource source, std::string_view case_name)
     }
     source.sweep = {};
     const scene::SweepSpace space{std::move(source), {}, case_name};
-    const analysis::SweepCatalogue catalogue{space, true, GNOMON_VERSION};
-    if (catalogue.requests().empty()) {
+    const analysis::SweepCurves sweep_curves{space, true, GNOMON_VERSION};
+    if (sweep_curves.requests().empty()) {
         return {};
     }
-    const scene::Job job = catalogue.job(0);
+    const scene::Job job = sweep_curves.job(0);
     const scene::SceneFile file = scene::load_scene(job.scene);
     std::string id;
-    catalogue.describe(
+    sweep_curves.describe(
         0, analysis::identify_scene(job, scene::content_hash(file.scene), file.defaults),
         [&](const analysis::Configuration& own) { id = own.id; });
     return id;
@@ -97,6 +98,7 @@ std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder
         }
         if (!std::filesystem::exists(store::pixels_path(folder, kept.id))) {
             const scene::Job job = space.job(space.at(kept.ordinal));
+            give_back_freed_memory(); // of the sweep, and of the session before
             const ComparisonSession session{job, options};
             keep_pixels(folder, kept.id,
                         analysis::compare(job, session.file(), session.renderers()));

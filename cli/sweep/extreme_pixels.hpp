@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/compare/scene_hands.hpp"
+#include "cli/compare/scene_session.hpp"
 #include "scene/job/sweep_space.hpp"
 
 #include <filesystem>

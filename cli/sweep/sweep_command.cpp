@@ -1,7 +1,7 @@
 #include "cli/sweep/sweep_command.hpp"
 
-#include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 #include "cli/compare/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
@@ -97,14 +97,14 @@ std::string flags_text(const SweepOptions& options)
 
 void print_plan(const SweepOptions& options, const scene::SweepSpace& space, bool keeps)
 {
-    const analysis::SweepCatalogue catalogue{space, keeps, GNOMON_VERSION};
-    const auto& requests = catalogue.requests();
+    const analysis::SweepCurves sweep_curves{space, keeps, GNOMON_VERSION};
+    const auto& requests = sweep_curves.requests();
     const auto plan = analysis::make_plan(requests, analysis::camera_slots(requests));
     SweepSummary summary;
     summary.configurations = space.size();
-    for (const analysis::Refusal& refusal : catalogue.refusals()) {
+    for (const analysis::Refusal& refusal : sweep_curves.refusals()) {
         summary.refused += refusal.ordinals.size();
-        summary.first_refusal = catalogue.refusals().front().message;
+        summary.first_refusal = sweep_curves.refusals().front().message;
     }
     summary.counts = plan.counts(requests);
     summary.estimated_seconds = analysis::estimate_seconds(plan, requests);

@@ -47,7 +47,7 @@ namespace fs = std::filesystem;
 using analysis::Configuration;
 using analysis::CurveRequest;
 using analysis::Refusal;
-using analysis::SweepCatalogue;
+using analysis::SweepCurves;
 using store::RunState;
 using store::RunStore;
 
@@ -79,8 +79,8 @@ public:
         : space_{space},
           options_{options},
           lock_{options.folder},
-          catalogue_{space, options.keeps_pixels, GNOMON_VERSION},
-          refusals_{catalogue_.refusals()},
+          sweep_curves_{space, options.keeps_pixels, GNOMON_VERSION},
+          refusals_{sweep_curves_.refusals()},
           context_{options.session.device},
           scenes_{context_, options.session},
           store_{options.folder, RunStore::Access::write}
@@ -115,9 +115,9 @@ private:
     void read_scenes()
     {
         std::map<std::string, std::pair<SweepScenes::Content, std::string>> known; // and error
-        for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
-            const CurveRequest& request = catalogue_.requests()[i];
-            const scene::Job job = catalogue_.job(i);
+        for (std::size_t i = 0; i < sweep_curves_.requests().size(); ++i) {
+            const CurveRequest& request = sweep_curves_.requests()[i];
+            const scene::Job job = sweep_curves_.job(i);
             const auto [entry, is_new] = known.try_emplace(request.keys.scene);
             auto& [content, error] = entry->second;
             if (is_new) {
@@ -153,7 +153,7 @@ private:
     /// Begins to record what the run is to compute; nothing is recorded before it is.
     void start_planning()
     {
-        const auto& requests = catalogue_.requests();
+        const auto& requests = sweep_curves_.requests();
         const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
         auto shards = analysis::divide(whole, requests, options_.shard.count);
         keep_equals_together(shards);
@@ -175,11 +175,11 @@ private:
             }
             visit(configuration);
         };
-        for (const Refusal& refusal : catalogue_.refusals()) {
-            catalogue_.describe(refusal, keep_id);
+        for (const Refusal& refusal : sweep_curves_.refusals()) {
+            sweep_curves_.describe(refusal, keep_id);
         }
-        for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
-            catalogue_.describe(i, identities_[i], keep_id, shards[i]);
+        for (std::size_t i = 0; i < sweep_curves_.requests().size(); ++i) {
+            sweep_curves_.describe(i, identities_[i], keep_id, shards[i]);
         }
     }
 
@@ -199,7 +199,7 @@ private:
     [[nodiscard]] bool begins_at_once() const
     {
         return !has_earlier_results_ && !options_.keeps_pixels && options_.shard.count == 1 &&
-               refusals_.empty() && !catalogue_.may_repeat(identities_);
+               refusals_.empty() && !sweep_curves_.may_repeat(identities_);
     }
 
     /// Moves requests that differ in nothing but the place of the same scene to one shard, which
@@ -209,7 +209,7 @@ private:
         std::unordered_map<std::string, std::uint32_t> known;
         for (std::size_t i = 0; i < shards.size(); ++i) {
             if (!is_refused_[i]) {
-                const std::string key = catalogue_.curve_key(i, identities_[i]);
+                const std::string key = sweep_curves_.curve_key(i, identities_[i]);
                 shards[i] = known.try_emplace(key, shards[i]).first->second;
             }
         }
@@ -258,7 +258,7 @@ private:
 
     void select_all()
     {
-        requests_ = catalogue_.requests();
+        requests_ = sweep_curves_.requests();
         request_numbers_.resize(requests_.size());
         std::iota(request_numbers_.begin(), request_numbers_.end(), std::size_t{0});
         outcome_.configurations = space_.size();
@@ -275,8 +275,8 @@ private:
             refusal.ordinals = common(missing, refusal.ordinals);
         }
         std::erase_if(refusals_, [](const Refusal& refusal) { return refusal.ordinals.empty(); });
-        for (std::size_t i = 0; i < catalogue_.requests().size(); ++i) {
-            CurveRequest request = catalogue_.requests()[i];
+        for (std::size_t i = 0; i < sweep_curves_.requests().size(); ++i) {
+            CurveRequest request = sweep_curves_.requests()[i];
             request.ordinals = common(missing, request.ordinals);
             if (!request.ordinals.empty() && !is_refused_[i]) {
                 requests_.push_back(std::move(request));
@@ -350,7 +350,7 @@ private:
     analysis::SweepTask task(std::size_t curve)
     {
         const std::size_t number = request_numbers_[curve];
-        analysis::SweepTask task = catalogue_.task(number, identities_[number]);
+        analysis::SweepTask task = sweep_curves_.task(number, identities_[number]);
         const auto& wanted = requests_[curve].ordinals;
         std::erase_if(task.rows, [&](const analysis::SweepTask::Row& row) {
             return !std::binary_search(wanted.begin(), wanted.end(), row.ordinal);
@@ -362,7 +362,7 @@ private:
     const scene::SweepSpace& space_;
     const SweepRunOptions& options_;
     store::RunLock lock_;
-    SweepCatalogue catalogue_;
+    SweepCurves sweep_curves_;
     std::vector<Refusal> refusals_;
     raster_gl::Context context_;
     SweepScenes scenes_;
@@ -382,7 +382,7 @@ private:
     std::unique_ptr<Progress> progress_; ///< while configurations are computed
     /// Has the store to itself from the first piece of work until all of them are finished; reads
     /// what is above.
-    analysis::Background recording_{waiting_curves(catalogue_.requests())};
+    analysis::Background recording_{waiting_curves(sweep_curves_.requests())};
 };
 
 } // namespace

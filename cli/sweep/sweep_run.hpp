@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/plan.hpp"
-#include "cli/compare/scene_hands.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
+#include "cli/compare/scene_session.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 

@@ -17,7 +17,7 @@ void SweepScenes::read(const scene::Job& job)
     if (file_ != nullptr && key == key_) {
         return;
     }
-    hands_.reset(); // refers to the file
+    scene_session_.reset(); // refers to the file
     file_.reset();
     file_ = std::make_unique<scene::SceneFile>(scene::load_scene(job.scene));
     key_ = std::move(key);
@@ -37,10 +37,10 @@ SweepScenes::Content SweepScenes::content(const scene::Job& job)
 analysis::OpenScene SweepScenes::open(const scene::Job& job)
 {
     read(job);
-    if (!hands_) {
-        hands_.emplace(context_, file_->scene, options_);
+    if (!scene_session_) {
+        scene_session_.emplace(context_, file_->scene, options_);
     }
-    return {file_.get(), &hands_->renderers()};
+    return {file_.get(), &scene_session_->renderers()};
 }
 
 } // namespace gnomon::cli

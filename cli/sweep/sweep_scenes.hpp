@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/sweep/runner.hpp"
-#include "cli/compare/scene_hands.hpp"
+#include "cli/compare/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
@@ -41,7 +41,7 @@ private:
     SessionOptions options_;
     std::string key_; ///< of the scene in memory
     std::unique_ptr<scene::SceneFile> file_;
-    std::optional<SceneHands> hands_;
+    std::optional<SceneSession> scene_session_;
 };
 
 } // namespace gnomon::cli

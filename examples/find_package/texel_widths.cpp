@@ -19,12 +19,12 @@ void print_texel_widths(const char* name)
     const Job job = builtin.default_job(parameters);
     const LightFrustum frustum = resolve_view(job, scene, {}).frustum;
 
-    const double zeta_m = frustum.zeta_m(scene.bounds().centre());
+    const double light_distance_m = frustum.light_distance_m(scene.bounds().centre());
     std::printf("%s: %zu triangles, light camera from %g m to %g m\n", name, scene.triangles.size(),
                 frustum.near_m, frustum.far_m);
     for (const int resolution_texels : {512, 1024, 2048, 4096}) {
         std::printf("  %4d texels: %.6f m wide at the scene's centre\n", resolution_texels,
-                    frustum.texel_width_m(zeta_m, resolution_texels));
+                    frustum.texel_width_m(light_distance_m, resolution_texels));
     }
 }
 

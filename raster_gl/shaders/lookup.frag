@@ -38,7 +38,7 @@ bool is_inside(vec2 texel)
     return all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(resolution)));
 }
 
-// Depth of the texel whose integer coordinates are `texel`; false where the policy decides.
+// Depth of the texel whose integer coordinates are `texel`; false where the border mode decides.
 bool fetch_depth(vec2 texel, out float d)
 {
 #if OUTSIDE_CLAMP

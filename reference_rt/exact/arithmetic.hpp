@@ -147,8 +147,9 @@ struct SignCounts {
 };
 
 /// True when no product of the components with coordinates can underflow, and with it the error
-/// bound: each is 0 or at least 2^-96. Every float32 is tame as well (docs/truth.md#the-filter).
-[[nodiscard]] inline bool is_tame(const scene::Vec3d& v)
+/// bound: each is 0 or at least 2^-96. Every float32 is well scaled, too
+/// (docs/truth.md#the-filter).
+[[nodiscard]] inline bool is_well_scaled(const scene::Vec3d& v)
 {
     // Without branches, for loops over lanes.
     const auto fits = [](double x) {
@@ -157,12 +158,13 @@ struct SignCounts {
     return (fits(v.x) & fits(v.y) & fits(v.z)) != 0;
 }
 
-/// The sign of `formula(Field{})` where the filter proves it; never when the inputs are not tame.
+/// The sign of `formula(Field{})` where the filter proves it; never when the inputs are not well
+/// scaled.
 template <typename Formula>
-[[nodiscard]] std::optional<Sign> filtered_sign(SignCounts& counts, bool is_tame,
+[[nodiscard]] std::optional<Sign> filtered_sign(SignCounts& counts, bool is_well_scaled,
                                                 const Formula& formula)
 {
-    const auto sign = is_tame ? formula(FilterField{}).certain_sign() : std::nullopt;
+    const auto sign = is_well_scaled ? formula(FilterField{}).certain_sign() : std::nullopt;
     counts.filtered += sign ? 1U : 0U;
     return sign;
 }
@@ -174,9 +176,9 @@ template <typename Formula>
 }
 /// The sign of `formula(Field{})`: in double if that proves it, else exactly.
 template <typename Formula>
-[[nodiscard]] Sign sign_of(SignCounts& counts, bool is_tame, const Formula& formula)
+[[nodiscard]] Sign sign_of(SignCounts& counts, bool is_well_scaled, const Formula& formula)
 {
-    const auto sign = filtered_sign(counts, is_tame, formula);
+    const auto sign = filtered_sign(counts, is_well_scaled, formula);
     return sign ? *sign : exact_sign(counts, formula);
 }
 

@@ -56,7 +56,7 @@ std::array<Bounded, 4> BilinearWeights::bounded() const
 
 std::array<Wide, 4> BilinearWeights::sharp() const
 {
-    if (!hit_.is_tame()) {
+    if (!hit_.is_well_scaled()) {
         std::array<Wide, 4> unknown;
         unknown.fill({0, 0, std::numeric_limits<double>::infinity()});
         return unknown;

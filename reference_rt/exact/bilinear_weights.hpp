@@ -31,7 +31,7 @@ public:
     }
 
     [[nodiscard]] std::array<Bounded, 4> bounded() const;
-    /// Bounded far more closely, at a cost; not at all where the hit is not tame.
+    /// Bounded far more closely, at a cost; not at all where the hit is not well scaled.
     [[nodiscard]] std::array<Wide, 4> sharp() const;
     [[nodiscard]] std::array<Fraction, 4> exact() const;
 

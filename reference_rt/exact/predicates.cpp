@@ -22,7 +22,7 @@ Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
     const auto formula = [&]<typename Field>(Field field) {
         return scaled_side(field, receiver, normal_of<Field>(s), s[0]);
     };
-    if (const auto sign = filtered_sign(counts, receiver.is_tame(), formula)) {
+    if (const auto sign = filtered_sign(counts, receiver.is_well_scaled(), formula)) {
         return receiver.delta_sign * *sign;
     }
     // P lies in the plane of T: where S does too, three signs of low degree say so sooner.
@@ -51,12 +51,12 @@ std::optional<double> exact_difference(double a, double b)
 /// P − origin, where it takes no integers to know what those would give.
 std::optional<Vec3d> certain_offset(const Receiver& receiver, const Vec3d& origin)
 {
-    if (!receiver.is_tame()) {
+    if (!receiver.is_well_scaled()) {
         return std::nullopt;
     }
     const Ray& ray = receiver.ray();
     const auto [delta, nu] = plane_hit(WideField{}, receiver);
-    const auto& normal = receiver.facet->normal;
+    const auto& normal = receiver.face->normal;
     const std::array<bool, 3> is_across{normal.x.permanent == 0, normal.y.permanent == 0,
                                         normal.z.permanent == 0};
     Vec3d offset{0.0};
@@ -113,7 +113,7 @@ Vec3d exact_offset(const Ray& ray, double t, const Vec3d& origin)
 
 Sign passing_side(const CameraRay& ray, const Vec3d& u, const Vec3d& v, SignCounts& counts)
 {
-    return sign_of(counts, ray.is_tame, [&]<typename Field>(Field) {
+    return sign_of(counts, ray.is_well_scaled, [&]<typename Field>(Field) {
         const auto normal = cross(difference<Field>(u, ray.ray.origin), difference<Field>(v, u));
         return dot(normal, vector<Field>(ray.ray.direction));
     });
@@ -134,7 +134,7 @@ bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts)
 
 bool is_beyond(const Receiver& hit, double near, SignCounts& counts)
 {
-    return hit.delta_sign * sign_of(counts, hit.is_tame(),
+    return hit.delta_sign * sign_of(counts, hit.is_well_scaled(),
                                     [&]<typename Field>(Field field) {
                                         const auto [delta, nu] = plane_hit(field, hit);
                                         return nu - Field::number(near) * delta;
@@ -149,7 +149,7 @@ Sign compare_distance(const Receiver& a, const Receiver& b, SignCounts& counts)
         const auto q = plane_hit(field, b);
         return p.nu * q.delta - q.nu * p.delta;
     };
-    if (const auto sign = filtered_sign(counts, a.is_tame(), formula)) {
+    if (const auto sign = filtered_sign(counts, a.is_well_scaled(), formula)) {
         return a.delta_sign * b.delta_sign * *sign;
     }
     return is_coplanar(a, b.corners(), counts)
@@ -175,13 +175,13 @@ Sign light_side(const Corners& corners, const Light& light, SignCounts& counts)
     });
 }
 
-Sign light_side(const Facet& facet, const Light& light, SignCounts& counts)
+Sign light_side(const ExactTriangle& face, const Light& light, SignCounts& counts)
 {
     const auto sign = filtered_sign(counts, true, [&]<typename Field>(Field) {
-        return dot(facet.normal, towards<Field>(light, facet.corners[0]));
+        return dot(face.normal, towards<Field>(light, face.corners[0]));
     });
     return sign ? *sign : exact_sign(counts, [&]<typename Field>(Field) {
-        return dot(normal_of<Field>(facet.corners), towards<Field>(light, facet.corners[0]));
+        return dot(normal_of<Field>(face.corners), towards<Field>(light, face.corners[0]));
     });
 }
 
@@ -196,14 +196,14 @@ bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& c
         return delta * difference<Field>(ray.origin, light.position) +
                nu * vector<Field>(ray.direction);
     };
-    const bool is_tame = receiver.is_tame();
-    const Sign along = sign_of(counts, is_tame, [&]<typename Field>(Field field) {
+    const bool is_well_scaled = receiver.is_well_scaled();
+    const Sign along = sign_of(counts, is_well_scaled, [&]<typename Field>(Field field) {
         return dot(from_light(field), vector<Field>(light.direction));
     });
     if (receiver.delta_sign * along <= 0) {
         return true;
     }
-    return sign_of(counts, is_tame, [&]<typename Field>(Field field) {
+    return sign_of(counts, is_well_scaled, [&]<typename Field>(Field field) {
                const auto axis = vector<Field>(light.direction);
                const auto offset = from_light(field);
                const auto projection = dot(offset, axis);
@@ -227,7 +227,7 @@ Sign point_side(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const 
                 SignCounts& counts)
 {
     return receiver.delta_sign *
-           sign_of(counts, receiver.is_tame() && is_tame(light.direction),
+           sign_of(counts, receiver.is_well_scaled() && is_well_scaled(light.direction),
                    [&]<typename Field>(Field field) {
                        const auto normal = cross(difference<Field>(v, u), towards<Field>(light, u));
                        return scaled_side(field, receiver, normal, u);
@@ -256,7 +256,7 @@ Contact find_contact(const Receiver& receiver, const Corners& s, const Light& li
 Sign apex_side(const Light& light, const Vec3d& u, const Vec3d& v, const Vec3d& apex,
                SignCounts& counts)
 {
-    return sign_of(counts, is_tame(light.direction), [&]<typename Field>(Field) {
+    return sign_of(counts, is_well_scaled(light.direction), [&]<typename Field>(Field) {
         return dot(cross(difference<Field>(v, u), towards<Field>(light, u)),
                    difference<Field>(apex, u));
     });
@@ -280,7 +280,7 @@ Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a, const
         return std::pair{scaled_side(field, receiver, normal, s[0]),
                          dot(normal, towards<Field>(light, s[0]))};
     };
-    const Sign product = sign_of(counts, receiver.is_tame(), [&](auto field) {
+    const Sign product = sign_of(counts, receiver.is_well_scaled(), [&](auto field) {
         const auto [a_point, a_light] = heights(field, a);
         const auto [b_point, b_light] = heights(field, b);
         return a_point * b_light - b_point * a_light;

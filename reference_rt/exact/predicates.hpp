@@ -24,15 +24,16 @@ using Corners = std::array<scene::Vec3d, 3>;
 
 /// A pixel's ray.
 struct CameraRay {
-    scene::Ray ray{};    ///< E, d
-    bool is_tame = true; ///< may the filter be asked (arithmetic.hpp)
+    scene::Ray ray{};           ///< E, d
+    bool is_well_scaled = true; ///< may the filter be asked (arithmetic.hpp)
 
     CameraRay() = default;
     /// Copies each number by itself: wider loads would wait for the stores that just made them.
     explicit CameraRay(const scene::Ray& ray_in)
         : ray{{ray_in.origin.x, ray_in.origin.y, ray_in.origin.z},
               {ray_in.direction.x, ray_in.direction.y, ray_in.direction.z}},
-          is_tame{reference_rt::is_tame(ray.origin) && reference_rt::is_tame(ray.direction)}
+          is_well_scaled{reference_rt::is_well_scaled(ray.origin) &&
+                         reference_rt::is_well_scaled(ray.direction)}
     {
     }
 };
@@ -47,9 +48,9 @@ template <typename Field>
 using FilteredNormal = decltype(normal_of<FilterField>({}));
 
 /// What of a triangle T = (a, b, c) does not depend on the ray.
-struct Facet {
-    Facet() = default;
-    Facet(std::uint32_t triangle_in, const Corners& corners_in)
+struct ExactTriangle {
+    ExactTriangle() = default;
+    ExactTriangle(std::uint32_t triangle_in, const Corners& corners_in)
         : triangle{triangle_in},
           corners{corners_in},
           normal{normal_of<FilterField>(corners)}
@@ -62,9 +63,9 @@ struct Facet {
 };
 
 /// ν of the plane of T for rays from E: n·(a − E).
-[[nodiscard]] inline Filtered<8> nu_of(const Facet& facet, const scene::Vec3d& eye)
+[[nodiscard]] inline Filtered<8> nu_of(const ExactTriangle& face, const scene::Vec3d& eye)
 {
-    return dot(facet.normal, difference<FilterField>(facet.corners[0], eye));
+    return dot(face.normal, difference<FilterField>(face.corners[0], eye));
 }
 
 /// How far along a ray the plane of T is, and the bound of that number's error: infinite where δ is
@@ -74,7 +75,7 @@ struct PlaneDistance {
     double t_error = std::numeric_limits<double>::infinity();
 };
 [[nodiscard]] inline PlaneDistance plane_distance(const Filtered<7>& delta, const Filtered<8>& nu,
-                                                  bool is_tame)
+                                                  bool is_well_scaled)
 {
     const double inverse = 1 / delta.value;
     const double t = nu.value * inverse;
@@ -83,44 +84,44 @@ struct PlaneDistance {
     const double error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
                          3 * unit_roundoff * std::abs(t);
     const bool is_known = std::abs(delta.value) > 8 * delta.error();
-    return {t, (is_known & is_tame) ? error : std::numeric_limits<double>::infinity()};
+    return {t, (is_known & is_well_scaled) ? error : std::numeric_limits<double>::infinity()};
 }
 
 /// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of
 /// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
 struct Receiver {
     Receiver() = default;
-    /// Facet and ray must outlive the receiver.
-    Receiver(const Facet& facet_in, const CameraRay& ray_in, SignCounts& counts)
-        : Receiver{facet_in, ray_in, nu_of(facet_in, ray_in.ray.origin), counts}
+    /// ExactTriangle and ray must outlive the receiver.
+    Receiver(const ExactTriangle& face_in, const CameraRay& ray_in, SignCounts& counts)
+        : Receiver{face_in, ray_in, nu_of(face_in, ray_in.ray.origin), counts}
     {
     }
     /// @param nu_in  ν, which all rays from one eye share.
-    Receiver(const Facet& facet_in, const CameraRay& ray_in, const Filtered<8>& nu_in,
+    Receiver(const ExactTriangle& face_in, const CameraRay& ray_in, const Filtered<8>& nu_in,
              SignCounts& counts)
-        : facet{&facet_in},
+        : face{&face_in},
           camera_ray{&ray_in},
-          delta{dot(facet->normal, vector<FilterField>(ray_in.ray.direction))},
+          delta{dot(face->normal, vector<FilterField>(ray_in.ray.direction))},
           nu{nu_in}
     {
-        const auto sign = filtered_sign(counts, is_tame(), [&](auto) { return delta; });
+        const auto sign = filtered_sign(counts, is_well_scaled(), [&](auto) { return delta; });
         delta_sign = sign ? *sign : exact_delta_sign(counts);
-        const PlaneDistance distance = plane_distance(delta, nu, is_tame());
+        const PlaneDistance distance = plane_distance(delta, nu, is_well_scaled());
         t = distance.t;
         t_error = distance.t_error;
     }
-    Receiver(const Facet&&, const CameraRay&, SignCounts&) = delete;
-    Receiver(const Facet&, const CameraRay&&, SignCounts&) = delete;
+    Receiver(const ExactTriangle&&, const CameraRay&, SignCounts&) = delete;
+    Receiver(const ExactTriangle&, const CameraRay&&, SignCounts&) = delete;
 
-    [[nodiscard]] std::uint32_t triangle() const { return facet->triangle; }
-    [[nodiscard]] const Corners& corners() const { return facet->corners; }
+    [[nodiscard]] std::uint32_t triangle() const { return face->triangle; }
+    [[nodiscard]] const Corners& corners() const { return face->corners; }
     [[nodiscard]] const scene::Ray& ray() const { return camera_ray->ray; }
-    [[nodiscard]] bool is_tame() const { return camera_ray->is_tame; }
+    [[nodiscard]] bool is_well_scaled() const { return camera_ray->is_well_scaled; }
 
     /// P rounded [m]; its error is a few roundings of E and of t·d, and t's.
     [[nodiscard]] scene::Vec3d point() const { return ray().origin + t * ray().direction; }
 
-    const Facet* facet = nullptr;          ///< T; not owned
+    const ExactTriangle* face = nullptr;   ///< T; not owned
     const CameraRay* camera_ray = nullptr; ///< not owned
     Filtered<7> delta;
     Filtered<8> nu;
@@ -162,7 +163,8 @@ private:
 /// Side of the light from the plane of a triangle.
 [[nodiscard]] Sign light_side(const Corners& corners, const scene::Light& light,
                               SignCounts& counts);
-[[nodiscard]] Sign light_side(const Facet& facet, const scene::Light& light, SignCounts& counts);
+[[nodiscard]] Sign light_side(const ExactTriangle& face, const scene::Light& light,
+                              SignCounts& counts);
 
 /// True when the light is behind, or in the plane of, the side of T that the camera sees.
 /// @param light_side  of the light from the plane of T.

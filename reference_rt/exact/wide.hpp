@@ -8,7 +8,8 @@
 namespace gnomon::reference_rt {
 
 /// A value held as the sum of two doubles, some 106 digits, and a bound of its distance from the
-/// exact value: between `Bounded` and `Dyadic` in precision and cost. The inputs must be tame.
+/// exact value: between `Bounded` and `Dyadic` in precision and cost. The inputs must be well
+/// scaled.
 struct Wide {
     double high = 0;
     double low = 0; ///< at most half an ulp of `high`

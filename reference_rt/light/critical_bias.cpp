@@ -16,7 +16,7 @@ using scene::infinity;
 /// What a texel's ray meets; it stays where it is, as the hit refers to its ray and facet.
 struct TapHit {
     CameraRay ray;
-    Facet facet;
+    ExactTriangle face;
     Receiver hit;
 };
 
@@ -155,8 +155,8 @@ Wide DepthTerm::sharp() const
     if (hit_ == nullptr) {
         return {bounded_.value, 0, bounded_.error};
     }
-    return hit_->is_tame() ? depth_->widely_at(*hit_)
-                           : Wide{0, 0, std::numeric_limits<double>::infinity()};
+    return hit_->is_well_scaled() ? depth_->widely_at(*hit_)
+                                  : Wide{0, 0, std::numeric_limits<double>::infinity()};
 }
 
 Fraction DepthTerm::exact() const
@@ -207,8 +207,8 @@ float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::Exac
         } else {
             TapHit& tap = hits[i];
             tap.ray = CameraRay{rays_.ray(taps[i].texel)};
-            tap.facet = Facet{taps[i].triangle, corners_of(triangles_, taps[i].triangle)};
-            tap.hit = Receiver{tap.facet, tap.ray, counts};
+            tap.face = ExactTriangle{taps[i].triangle, corners_of(triangles_, taps[i].triangle)};
+            tap.hit = Receiver{tap.face, tap.ray, counts};
             terms[i] = DepthTerm{depth_, tap.hit, known[i]};
         }
     }

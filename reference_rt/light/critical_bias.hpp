@@ -29,7 +29,7 @@ public:
     }
 
     [[nodiscard]] Bounded bounded() const { return bounded_; }
-    /// Bounded far more closely, at a cost; not at all where the hit is not tame.
+    /// Bounded far more closely, at a cost; not at all where the hit is not well scaled.
     [[nodiscard]] Wide sharp() const;
     [[nodiscard]] Fraction exact() const;
     /// The same, limited to [0, 1].

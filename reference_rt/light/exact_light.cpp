@@ -4,7 +4,7 @@
 #include "reference_rt/light/critical_bias.hpp"
 #include "reference_rt/light/known_hits.hpp"
 #include "reference_rt/light/light_depth.hpp"
-#include "reference_rt/light/own_sheet.hpp"
+#include "reference_rt/light/self_shadowing.hpp"
 #include "reference_rt/light/texel_first_hits.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "reference_rt/pixels/pixel_packets.hpp"
@@ -25,7 +25,7 @@ using scene::KnownHits;
 using scene::LinearQuery;
 using scene::NearestQuery;
 using scene::no_triangle;
-using scene::SheetQuery;
+using scene::SelfShadowingQuery;
 using scene::Texel;
 using scene::TexelHit;
 using scene::Vec3d;
@@ -60,15 +60,15 @@ public:
         }
         pixel_ = pixel;
         ray_ = seen_.ray_of(pixel);
-        const bool is_same_facet = seen_.receivers[pixel] == facet_.triangle;
-        if (!is_same_facet) {
-            facet_ = seen_.facet_of(pixel);
+        const bool is_same_face = seen_.receivers[pixel] == face_.triangle;
+        if (!is_same_face) {
+            face_ = seen_.face_of(pixel);
         }
-        if (!is_same_facet || !has_eye_) {
-            nu_ = nu_of(facet_, ray_.ray.origin);
+        if (!is_same_face || !has_eye_) {
+            nu_ = nu_of(face_, ray_.ray.origin);
         }
         SignCounts counts;
-        receiver_ = Receiver{facet_, ray_, nu_, counts};
+        receiver_ = Receiver{face_, ray_, nu_, counts};
         has_term_ = false;
     }
     [[nodiscard]] const Receiver& receiver() const { return receiver_; }
@@ -91,7 +91,7 @@ private:
     const LightDepth& depth_;
     bool has_eye_;
     std::size_t pixel_ = static_cast<std::size_t>(-1);
-    Facet facet_;
+    ExactTriangle face_;
     Filtered<8> nu_; ///< of all rays from one eye
     CameraRay ray_;
     Receiver receiver_;
@@ -182,9 +182,10 @@ public:
         return crossed;
     }
 
-    std::vector<std::uint8_t> are_own_sheets(std::span<const SheetQuery> queries) const override
+    std::vector<std::uint8_t>
+    are_self_shadowing(std::span<const SelfShadowingQuery> queries) const override
     {
-        const OwnSheet sheet{reference_.triangles, reference_.corner_fans(), rays_};
+        const SelfShadowingSurface sheet{reference_.triangles, reference_.corner_fans(), rays_};
         std::vector<std::uint8_t> answers(queries.size(), 0);
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
             const auto& [pixel, texel, triangle] = queries[i];
@@ -335,13 +336,15 @@ private:
     [[nodiscard]] BlockerHit blocker_hit(const Receiver& receiver, std::uint32_t blocker) const
     {
         const scene::Light& light = view_.light;
-        const bool is_sun = light.type == scene::LightType::directional;
+        const bool is_directional = light.type == scene::LightType::directional;
         const Vec3d point = sharp_point(receiver);
-        const Vec3d towards = is_sun ? -light.direction : -exact_offset(receiver, light.position);
+        const Vec3d towards =
+            is_directional ? -light.direction : -exact_offset(receiver, light.position);
         const double way =
             way_to_crossing(receiver, corners_of(reference_.triangles, blocker), light);
-        return {blocker, way * glm::length(towards), view_.frustum.zeta_m(point + way * towards),
-                view_.frustum.zeta_m(point)};
+        return {blocker, way * glm::length(towards),
+                view_.frustum.light_distance_m(point + way * towards),
+                view_.frustum.light_distance_m(point)};
     }
 
     const ReferenceScene::Implementation& reference_;

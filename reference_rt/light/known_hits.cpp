@@ -83,20 +83,20 @@ void KnownHitPlacer::place(std::span<const Texel> texels, std::span<const std::u
     assert(texels.size() == triangles.size() && texels.size() == hits.size());
     SignCounts counts;
     LightDepth::PlaceMemory memory;
-    Facet facet;
+    ExactTriangle face;
     for (std::size_t i = 0; i < texels.size(); ++i) {
         if (triangles[i] == no_triangle) {
             continue;
         }
-        if (triangles[i] != facet.triangle) {
-            facet = {triangles[i], corners_of(triangles_, triangles[i])};
+        if (triangles[i] != face.triangle) {
+            face = {triangles[i], corners_of(triangles_, triangles[i])};
         }
         const CameraRay ray{rays_.ray(texels[i])};
-        const Receiver hit{facet, ray, counts};
+        const Receiver hit{face, ray, counts};
         const ClipLine line = depth_.plainly_along(ray.ray);
         if (depth_.is_in_range(line, hit, depth_.at(line, parameter_of(hit)))) {
-            const auto [depth, zeta_m] = depth_.place(hit, memory);
-            hits[i] = {triangles[i], depth.value, zeta_m, depth.error};
+            const auto [depth, light_distance_m] = depth_.place(hit, memory);
+            hits[i] = {triangles[i], depth.value, light_distance_m, depth.error};
         }
     }
 }

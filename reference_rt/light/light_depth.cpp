@@ -21,9 +21,10 @@ Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, 
 }
 
 /// As close as a place's ζ is to be.
-bool is_near_zeta(const Bounded& zeta_m)
+bool is_near_light_distance(const Bounded& light_distance_m)
 {
-    return std::isfinite(zeta_m.value) && zeta_m.error <= 0x1p-45 * std::abs(zeta_m.value);
+    return std::isfinite(light_distance_m.value) &&
+           light_distance_m.error <= 0x1p-45 * std::abs(light_distance_m.value);
 }
 
 } // namespace
@@ -36,16 +37,16 @@ LightDepth::LightDepth(const scene::LightFrustum& frustum)
 {
 }
 
-bool LightDepth::is_level(const Facet& facet) const
+bool LightDepth::is_level(const ExactTriangle& face) const
 {
-    const auto slope = cross(vector<FilterField>(Vec3d{rows_.z}), facet.normal);
+    const auto slope = cross(vector<FilterField>(Vec3d{rows_.z}), face.normal);
     return is_parallel_ && slope.x.permanent == 0 && slope.y.permanent == 0 &&
            slope.z.permanent == 0;
 }
 
 Fraction LightDepth::exactly_at(const Receiver& hit) const
 {
-    if (is_level(*hit.facet)) { // short numbers, for a common case that doubles never decide
+    if (is_level(*hit.face)) { // short numbers, for a common case that doubles never decide
         const Dyadic w{rows_.w.w};
         const Dyadic z =
             dot(vector<ExactField>(Vec3d{rows_.z}), vector<ExactField>(hit.corners()[0])) +
@@ -114,14 +115,14 @@ void LightDepth::remember_origin(const Receiver& hit, PlaceMemory& memory) const
     memory.origin = origin;
     memory.z_start = row_at(rows_.z, origin, 1);
     memory.w_start = is_parallel_ ? Bounded{rows_.w.w, 0} : row_at(rows_.w, origin, 1);
-    memory.zeta_start =
+    memory.light_distance_start =
         compensated_dot<6>({forward.x, forward.y, forward.z, -forward.x, -forward.y, -forward.z},
                            {origin.x, origin.y, origin.z, eye.x, eye.y, eye.z});
 }
 
 Bounded LightDepth::sharp_parameter(const Receiver& hit, PlaceMemory& memory)
 {
-    if (!hit.is_tame()) {
+    if (!hit.is_well_scaled()) {
         return parameter_of(hit);
     }
     if (memory.triangle != hit.triangle()) {
@@ -145,18 +146,20 @@ LightDepth::Place LightDepth::place(const Receiver& hit, PlaceMemory& memory) co
     };
     const Bounded plain_t = parameter_of(hit);
     const Bounded plain_depth = closely_at(line_along(plain_row_at), plain_t);
-    const Bounded plain_zeta = memory.zeta_start + plain_t * plain_row_at(forward, direction, 0);
-    if (plain_depth.error <= largest_error && is_near_zeta(plain_zeta)) {
-        return {plain_depth, plain_zeta.value};
+    const Bounded plain_light_distance =
+        memory.light_distance_start + plain_t * plain_row_at(forward, direction, 0);
+    if (plain_depth.error <= largest_error && is_near_light_distance(plain_light_distance)) {
+        return {plain_depth, plain_light_distance.value};
     }
     const Bounded t = sharp_parameter(hit, memory);
     const Bounded depth = at(line_along(row_at), t);
-    const Bounded zeta = memory.zeta_start + t * row_at(forward, direction, 0);
+    const Bounded light_distance = memory.light_distance_start + t * row_at(forward, direction, 0);
     return {depth.error <= largest_error ? depth : Bounded{exactly_at(hit).value(), largest_error},
-            is_near_zeta(zeta) ? zeta.value : exact_zeta_m(hit)};
+            is_near_light_distance(light_distance) ? light_distance.value
+                                                   : exact_light_distance_m(hit)};
 }
 
-double LightDepth::exact_zeta_m(const Receiver& hit) const
+double LightDepth::exact_light_distance_m(const Receiver& hit) const
 {
     const Ray& ray = hit.ray();
     const Vec3d& origin = frustum_.origin;

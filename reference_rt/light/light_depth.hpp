@@ -69,7 +69,7 @@ public:
     /// camera plane. Precondition: δ is not 0.
     [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
 
-    /// The same in twice double's precision. Precondition: the hit is tame.
+    /// The same in twice double's precision. Precondition: the hit is well scaled.
     [[nodiscard]] Wide widely_at(const Receiver& hit) const;
 
     /// True when the point is in front of the light and its depth in [0, 1].
@@ -80,14 +80,14 @@ public:
     /// Depth, where it is in [0, 1] within 2^-48, and ζ to a relative 2^-44.
     struct Place {
         Bounded depth;
-        double zeta_m = 0;
+        double light_distance_m = 0;
     };
     /// What places of hits have in common: with rays of one origin, and with one facet.
     struct PlaceMemory {
         bool has_origin = false;
         scene::Vec3d origin{};
         Bounded z_start, w_start;
-        Bounded zeta_start; ///< ζ of the origin
+        Bounded light_distance_start; ///< ζ of the origin
         std::uint32_t triangle = scene::no_triangle;
         Vec3<Wide> normal{}; ///< n
         Wide nu;             ///< n·(a − E)
@@ -97,14 +97,14 @@ public:
 
 private:
     /// True where the facet's plane certainly has one depth: it faces a directional light.
-    [[nodiscard]] bool is_level(const Facet& facet) const;
+    [[nodiscard]] bool is_level(const ExactTriangle& face) const;
     void remember_origin(const Receiver& hit, PlaceMemory& memory) const;
     /// The parameter of a hit within a few roundings, wherever twice the precision is enough for
     /// that.
     /// @param memory  of the hit's origin.
     [[nodiscard]] static Bounded sharp_parameter(const Receiver& hit, PlaceMemory& memory);
     /// ζ of the hit, rounded. Precondition: δ is not 0.
-    [[nodiscard]] double exact_zeta_m(const Receiver& hit) const;
+    [[nodiscard]] double exact_light_distance_m(const Receiver& hit) const;
 
     const scene::LightFrustum& frustum_;
     ClipRows rows_;

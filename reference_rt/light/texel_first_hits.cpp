@@ -1,7 +1,7 @@
 #include "reference_rt/light/texel_first_hits.hpp"
 
 #include "reference_rt/exact/crossing.hpp"
-#include "reference_rt/traversal/stand_in.hpp"
+#include "reference_rt/traversal/proxy_rays.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -81,7 +81,7 @@ public:
 
     explicit TexelPacket(const Setting& setting) : setting_{setting}
     {
-        stand_ins_.reserve(packet_size);
+        proxy_rays_.reserve(packet_size);
     }
 
     /// Forgets the texels before.
@@ -92,20 +92,20 @@ public:
         PacketMask valid;
         nearest_.fill({});
         edges_.clear();
-        stand_ins_.clear();
+        proxy_rays_.clear();
         for (std::size_t i = 0; i < texels.size(); ++i) {
             rays_[i] = CameraRay{setting_.rays.ray(texels[i])};
             lines_[i] = setting_.depth.plainly_along(rays_[i].ray);
-            const CameraStandIn& stand_in =
-                stand_ins_.emplace_back(rays_[i], setting_.reference.frame);
-            if (setting_.rays.has_lamp()) {
+            const CameraProxyRays& proxy =
+                proxy_rays_.emplace_back(rays_[i], setting_.reference.frame);
+            if (setting_.rays.has_positional()) {
                 points_.set(i, rays_[i].ray.direction, 0);
             } else {
-                points_.set(i, stand_in.origin().position, stand_in.origin().error);
+                points_.set(i, proxy.origin().position, proxy.origin().error);
             }
             // A triangle in the near plane itself may be before the origin by the origin's
             // roundings: less than the padding has to spare.
-            set_lane(packet.ray, i, stand_in.ray(std::numeric_limits<float>::infinity(), casters));
+            set_lane(packet.ray, i, proxy.ray(std::numeric_limits<float>::infinity(), casters));
             packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
             valid.add(i);
         }
@@ -123,10 +123,10 @@ public:
             return {kept.triangle, kept.depth.value, std::numeric_limits<double>::quiet_NaN(),
                     kept.depth.error};
         }
-        const Facet facet = facet_of(kept.triangle);
-        const Receiver hit{facet, rays_[lane], counts_};
-        const auto [depth, zeta_m] = setting_.depth.place(hit, place_memory_);
-        return {kept.triangle, depth.value, zeta_m, depth.error};
+        const ExactTriangle face = face_of(kept.triangle);
+        const Receiver hit{face, rays_[lane], counts_};
+        const auto [depth, light_distance_m] = setting_.depth.place(hit, place_memory_);
+        return {kept.triangle, depth.value, light_distance_m, depth.error};
     }
 
     LaneBits judge_packet(std::uint32_t /*triangle*/, LaneBits /*asking*/) override { return 0; }
@@ -136,22 +136,22 @@ public:
         const Corners corners = corners_of(setting_.reference.triangles, triangle);
         const TrianglePlanes planes =
             make_planes(setting_.reference.frame, setting_.pencil, corners,
-                        setting_.rays.has_lamp() ? LaneKind::directions : LaneKind::points);
+                        setting_.rays.has_positional() ? LaneKind::directions : LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
         if (open == 0 || (planes.towards != 0 && !is_left(setting_.cull, planes.towards))) {
             return;
         }
-        const Facet facet{triangle, corners};
+        const ExactTriangle face{triangle, corners};
         const auto first = static_cast<std::size_t>(std::countr_zero(open));
-        const Filtered<8> lamp_nu = nu_of(facet, rays_[first].ray.origin);
+        const Filtered<8> positional_nu = nu_of(face, rays_[first].ray.origin);
         for (; open != 0; open &= open - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(open));
-            const Receiver hit = setting_.rays.has_lamp()
-                                     ? Receiver{facet, rays_[lane], lamp_nu, counts_}
-                                     : Receiver{facet, rays_[lane], counts_};
+            const Receiver hit = setting_.rays.has_positional()
+                                     ? Receiver{face, rays_[lane], positional_nu, counts_}
+                                     : Receiver{face, rays_[lane], counts_};
             if (meet(lane, hit, (lines.inside >> lane & 1U) != 0)) {
-                t_far[lane] = std::min(t_far[lane], stand_ins_[lane].t_beyond(hit));
+                t_far[lane] = std::min(t_far[lane], proxy_rays_[lane].t_beyond(hit));
             }
         }
     }
@@ -163,7 +163,7 @@ private:
         int edge;
     };
 
-    [[nodiscard]] Facet facet_of(std::uint32_t triangle) const
+    [[nodiscard]] ExactTriangle face_of(std::uint32_t triangle) const
     {
         return {triangle, corners_of(setting_.reference.triangles, triangle)};
     }
@@ -208,8 +208,8 @@ private:
 
     [[nodiscard]] Sign compare_with_kept(std::size_t lane, const Receiver& hit)
     {
-        const Facet facet = facet_of(nearest_[lane].triangle);
-        return compare_distance(hit, Receiver{facet, rays_[lane], counts_}, counts_);
+        const ExactTriangle face = face_of(nearest_[lane].triangle);
+        return compare_distance(hit, Receiver{face, rays_[lane], counts_}, counts_);
     }
 
     bool meet_edge(std::size_t lane, const Receiver& hit, const Bounded& depth, int edge)
@@ -233,7 +233,7 @@ private:
     LanePoints points_;
     PacketOf<CameraRay> rays_;
     PacketOf<ClipLine> lines_;
-    std::vector<CameraStandIn> stand_ins_;
+    std::vector<CameraProxyRays> proxy_rays_;
     PacketOf<KeptHit> nearest_;
     std::vector<EdgeContact> edges_;
     LightDepth::PlaceMemory place_memory_;

@@ -29,7 +29,7 @@ TexelRays::TexelRays(const scene::LightFrustum& frustum, const scene::Light& lig
       resolution_{resolution_texels},
       light_{light}
 {
-    if (!has_lamp()) {
+    if (!has_positional()) {
         light_.direction = direction(rows_.x, rows_.y); // W·(point, 1) is 1 everywhere
     }
 }
@@ -54,7 +54,7 @@ Ray TexelRays::ray(scene::Texel texel) const
     const double v = double(2 * texel.y + 1 - resolution_) / resolution_;
     const Vec4d a = rows_.x - u * rows_.w;
     const Vec4d b = rows_.y - v * rows_.w;
-    if (has_lamp()) {
+    if (has_positional()) {
         return {light_.position, direction(a, b)};
     }
     const auto& [b_near, near_a, a_b, a_b_near] = crosses_;

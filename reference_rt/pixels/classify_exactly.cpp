@@ -96,9 +96,9 @@ private:
     {
         const Tile& tile = worker.tile;
         LaneBits attached = 0;
-        for (std::size_t f = 0; f < tile.facet_count; ++f) {
-            const Sign side = light_side(tile.facets[f], view_.light, worker.counts);
-            attached |= tile.facet_lanes[f] & are_attached(tile.hits, side);
+        for (std::size_t f = 0; f < tile.face_count; ++f) {
+            const Sign side = light_side(tile.faces[f], view_.light, worker.counts);
+            attached |= tile.face_lanes[f] & are_attached(tile.hits, side);
         }
         return attached;
     }

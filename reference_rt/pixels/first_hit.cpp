@@ -1,6 +1,6 @@
 #include "reference_rt/pixels/first_hit.hpp"
 
-#include "reference_rt/traversal/stand_in.hpp"
+#include "reference_rt/traversal/proxy_rays.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>
@@ -16,13 +16,13 @@ using scene::PixelClass;
 namespace {
 
 /// True when the ray meets the closed facet beyond the near plane; `hit` is made where it meets it.
-bool is_hit(const CameraRay& ray, const Facet& facet, double near_m, SignCounts& counts,
+bool is_hit(const CameraRay& ray, const ExactTriangle& face, double near_m, SignCounts& counts,
             Receiver& hit)
 {
-    if (!meets(ray, facet.corners, counts)) {
+    if (!meets(ray, face.corners, counts)) {
         return false;
     }
-    hit = Receiver{facet, ray, counts};
+    hit = Receiver{face, ray, counts};
     return is_beyond(hit, near_m, counts);
 }
 
@@ -64,16 +64,16 @@ public:
         if (traced == 0) {
             return 0;
         }
-        FloatRays stand_ins;
+        FloatRays proxy_rays;
         LanePositions origins;
-        stand_in_for(tile_.rays, tile_.hits, tile_.seen, setting_.reference.frame, stand_ins,
-                     origins);
+        proxy_rays_for(tile_.rays, tile_.hits, tile_.seen, setting_.reference.frame, proxy_rays,
+                       origins);
         points_.set(setting_.has_eye ? directions() : origins);
-        setting_.reference.find_candidates(traced, stand_ins, receivers, *this);
+        setting_.reference.find_candidates(traced, proxy_rays, receivers, *this);
         LaneBits matched = traced & ~hidden_;
         for (LaneBits rest = matched & tile_.seen & ~covered_; rest != 0; rest &= rest - 1) {
             const std::size_t lane = first_lane(rest);
-            if (!meets(tile_.rays.ray(lane), tile_.facet(lane).corners, counts_)) {
+            if (!meets(tile_.rays.ray(lane), tile_.face(lane).corners, counts_)) {
                 matched &= ~(LaneBits{1} << lane);
             }
         }
@@ -101,11 +101,11 @@ public:
         if (rest == 0) {
             return 0;
         }
-        const Facet facet{triangle, corners};
+        const ExactTriangle face{triangle, corners};
         LaneBits hidden = 0;
         for (; rest != 0; rest &= rest - 1) {
             const std::size_t lane = first_lane(rest);
-            hidden |= hides(lane, facet) ? LaneBits{1} << lane : 0;
+            hidden |= hides(lane, face) ? LaneBits{1} << lane : 0;
         }
         hidden_ |= hidden;
         return hidden;
@@ -142,11 +142,11 @@ private:
     }
 
     /// True when the lane's ray meets the facet before its receiver, or without having one.
-    [[nodiscard]] bool hides(std::size_t lane, const Facet& facet)
+    [[nodiscard]] bool hides(std::size_t lane, const ExactTriangle& face)
     {
         const CameraRay ray = tile_.rays.ray(lane);
         Receiver hit;
-        return is_hit(ray, facet, setting_.near_m, counts_, hit) &&
+        return is_hit(ray, face, setting_.near_m, counts_, hit) &&
                ((tile_.seen >> lane & 1U) == 0 ||
                 compare_distance(hit, tile_.receiver(lane), counts_) < 0);
     }
@@ -169,14 +169,14 @@ public:
           ray_{ray},
           near_m_{near_m},
           counts_{counts},
-          stand_in_{ray, reference.frame}
+          proxy_{ray, reference.frame}
     {
     }
 
     std::vector<std::uint32_t> find()
     {
         RTCRayHit single{};
-        set_ray(single.ray, stand_in_.ray(infinity));
+        set_ray(single.ray, proxy_.ray(infinity));
         single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         reference_.find_candidates(single, *this);
         return std::move(triangles_);
@@ -187,21 +187,21 @@ public:
     void judge_distances(std::uint32_t triangle, LaneBits /*asking*/,
                          PacketOf<float>& t_far) override
     {
-        const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
+        const ExactTriangle face{triangle, corners_of(reference_.triangles, triangle)};
         Receiver hit;
-        if (!is_hit(ray_, facet, near_m_, counts_, hit)) {
+        if (!is_hit(ray_, face, near_m_, counts_, hit)) {
             return;
         }
         const Sign order = triangles_.empty() ? -1 : compare_distance(hit, nearest_, counts_);
         if (order < 0) {
             triangles_.clear();
-            nearest_facet_ = facet;
-            nearest_ = Receiver{nearest_facet_, ray_, counts_};
+            nearest_face_ = face;
+            nearest_ = Receiver{nearest_face_, ray_, counts_};
         }
         if (order <= 0) {
             triangles_.push_back(triangle);
         }
-        t_far[0] = std::min(t_far[0], stand_in_.t_beyond(nearest_));
+        t_far[0] = std::min(t_far[0], proxy_.t_beyond(nearest_));
     }
 
 private:
@@ -209,9 +209,9 @@ private:
     const CameraRay& ray_;
     double near_m_;
     SignCounts& counts_;
-    CameraStandIn stand_in_;
+    CameraProxyRays proxy_;
     std::vector<std::uint32_t> triangles_; ///< all at the same distance
-    Facet nearest_facet_;
+    ExactTriangle nearest_face_;
     Receiver nearest_;
 };
 
@@ -255,9 +255,9 @@ UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uin
     if (triangle == no_triangle) {
         return unmatched(ClassReason::mismatch);
     }
-    const Facet facet{triangle, corners_of(reference_.triangles, triangle)};
+    const ExactTriangle face{triangle, corners_of(reference_.triangles, triangle)};
     Receiver hit;
-    const bool is_seen = is_hit(ray, facet, near_m_, counts, hit);
+    const bool is_seen = is_hit(ray, face, near_m_, counts, hit);
     if (raster_.coverage_may_differ(triangle, x, y, is_seen)) {
         return unmatched(ClassReason::snap);
     }

@@ -56,17 +56,17 @@ RationalVec rational_point(const Receiver& receiver)
 // In rationals throughout: it is asked only where two signs are exactly zero.
 bool runs_through(const Receiver& receiver, const Corners& s, const Light& light)
 {
-    const bool is_sun = light.type == LightType::directional;
+    const bool is_directional = light.type == LightType::directional;
     const RationalVec point = rational_point(receiver);
-    const RationalVec step =
-        is_sun ? rational(-light.direction) : rational_difference(rational(light.position), point);
+    const RationalVec step = is_directional ? rational(-light.direction)
+                                            : rational_difference(rational(light.position), point);
     const std::array<RationalVec, 3> corner{rational(s[0]), rational(s[1]), rational(s[2])};
     const RationalVec normal =
         cross(rational_difference(corner[1], corner[0]), rational_difference(corner[2], corner[0]));
     // Clips point + r·step, 0 < r < 1 or without end, by the three half-planes of the triangle.
     Rational enter = 0;
     std::optional<Rational> leave;
-    if (!is_sun) {
+    if (!is_directional) {
         leave = 1;
     }
     const std::optional<Rational> end = leave;

@@ -30,7 +30,7 @@ struct SeenPixels {
     {
         return CameraRay{pixel_ray(view.camera, sx[pixel % sx.size()], sy[pixel / sx.size()])};
     }
-    [[nodiscard]] Facet facet_of(std::size_t pixel) const
+    [[nodiscard]] ExactTriangle face_of(std::size_t pixel) const
     {
         return {receivers[pixel], corners_of(triangles, receivers[pixel])};
     }
@@ -44,9 +44,9 @@ struct PixelPacket {
     PixelPacket(const SeenPixels& seen, std::span<const std::size_t> pixels, SignCounts& counts)
     {
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            facets[i] = seen.facet_of(pixels[i]);
+            faces[i] = seen.face_of(pixels[i]);
             rays[i] = seen.ray_of(pixels[i]);
-            receivers[i] = Receiver{facets[i], rays[i], counts};
+            receivers[i] = Receiver{faces[i], rays[i], counts};
             if (receivers[i].delta_sign != 0) {
                 valid.add(i);
             }
@@ -56,7 +56,7 @@ struct PixelPacket {
     PixelPacket& operator=(const PixelPacket&) = delete;
 
     PacketMask valid; ///< lanes with a point P: not edge-on
-    PacketOf<Facet> facets;
+    PacketOf<ExactTriangle> faces;
     PacketOf<CameraRay> rays;
     PacketOf<Receiver> receivers;
 };

@@ -36,7 +36,7 @@ public:
         resolve_points();
         points_.set(starts_.points);
         FloatRays rays{};
-        light_.stand_in.from(starts_.points, starts_.lanes, rays);
+        light_.proxy.from(starts_.points, starts_.lanes, rays);
         reference_.find_candidates(starts_.lanes, rays, casters, *this);
         resolve_edges();
     }

@@ -6,7 +6,7 @@
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "reference_rt/traversal/pencil.hpp"
-#include "reference_rt/traversal/stand_in.hpp"
+#include "reference_rt/traversal/proxy_rays.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/light.hpp"
 
@@ -33,13 +33,13 @@ struct SegmentLight {
     SegmentLight(const ReferenceScene::Implementation& reference, const scene::Light& light_in)
         : light{light_in},
           pencil{reference.frame, light_in},
-          stand_in{light_in, reference.frame}
+          proxy{light_in, reference.frame}
     {
     }
 
     const scene::Light& light;
     Pencil pencil;
-    ShadowStandIn stand_in;
+    ShadowProxyRays proxy;
 };
 
 /// Where the segments of a packet begin.

@@ -35,13 +35,13 @@ void make_rays(const Camera& camera_in, const TileSide& sx_in, const TileSide& s
         rays.direction.y[i] = ray.direction.y;
         rays.direction.z[i] = ray.direction.z;
     }
-    Lanes<int> tame;
+    Lanes<int> well_scaled;
     for (std::size_t i = 0; i < packet_size; ++i) {
-        tame[i] = static_cast<int>(
-            is_tame({rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]}) &
-            is_tame({rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]}));
+        well_scaled[i] = static_cast<int>(
+            is_well_scaled({rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]}) &
+            is_well_scaled({rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]}));
     }
-    rays.is_tame = bits_of(tame);
+    rays.is_well_scaled = bits_of(well_scaled);
 }
 
 /// The planes of a packet's receivers: n and ν, values and permanents.
@@ -50,8 +50,8 @@ struct LanePlanes {
     Lanes<double> nu, nu_permanent;
 };
 
-/// Fills in `hits` what doubles prove of tame rays. The lanes that are left out of both signs of δ
-/// have to be decided otherwise.
+/// Fills in `hits` what doubles prove of well-scaled rays. The lanes that are left out of both
+/// signs of δ have to be decided otherwise.
 GNOMON_WIDEST_VECTORS
 void meet_planes(const LaneRays& rays, const LanePlanes& planes, LaneHits& hits)
 {
@@ -109,21 +109,21 @@ void set_lane(const FilteredNormal& normal, const Filtered<8>& nu, std::size_t l
 LanePlanes planes_of(const Tile& tile, bool has_eye)
 {
     LanePlanes planes;
-    for (std::size_t f = 0; f < tile.facet_count; ++f) {
-        const Facet& facet = tile.facets[f];
-        const std::size_t first = first_lane(tile.facet_lanes[f]);
-        const Filtered<8> shared_nu = nu_of(facet, tile.rays.ray(first).ray.origin);
+    for (std::size_t f = 0; f < tile.face_count; ++f) {
+        const ExactTriangle& face = tile.faces[f];
+        const std::size_t first = first_lane(tile.face_lanes[f]);
+        const Filtered<8> shared_nu = nu_of(face, tile.rays.ray(first).ray.origin);
         if (f == 0) {
-            broadcast(facet.normal, shared_nu, planes);
+            broadcast(face.normal, shared_nu, planes);
         }
         if (f == 0 && has_eye) {
             continue;
         }
-        for (LaneBits rest = tile.facet_lanes[f]; rest != 0; rest &= rest - 1) {
+        for (LaneBits rest = tile.face_lanes[f]; rest != 0; rest &= rest - 1) {
             const std::size_t lane = first_lane(rest);
             const Filtered<8> nu =
-                has_eye ? shared_nu : nu_of(facet, tile.rays.ray(lane).ray.origin);
-            set_lane(facet.normal, nu, lane, planes);
+                has_eye ? shared_nu : nu_of(face, tile.rays.ray(lane).ray.origin);
+            set_lane(face.normal, nu, lane, planes);
         }
     }
     return planes;
@@ -137,13 +137,13 @@ int tiled(int length_px)
 
 } // namespace
 
-const Facet& Tile::facet(std::size_t lane) const
+const ExactTriangle& Tile::face(std::size_t lane) const
 {
     std::size_t f = 0;
-    while ((facet_lanes[f] >> lane & 1U) == 0) {
+    while ((face_lanes[f] >> lane & 1U) == 0) {
         ++f;
     }
-    return facets[f];
+    return faces[f];
 }
 
 const Receiver& Tile::receiver(std::size_t lane, SignCounts& counts) const
@@ -151,7 +151,7 @@ const Receiver& Tile::receiver(std::size_t lane, SignCounts& counts) const
     if ((made_ >> lane & 1U) == 0) {
         made_ |= LaneBits{1} << lane;
         std::construct_at(&camera_rays_[lane], rays.ray(lane));
-        std::construct_at(&receivers_[lane], facet(lane), camera_rays_[lane], counts);
+        std::construct_at(&receivers_[lane], face(lane), camera_rays_[lane], counts);
     }
     return receivers_[lane];
 }
@@ -186,7 +186,7 @@ void TileSource::fill(Tile& tile, int column, int row, SignCounts& counts) const
     tile.made_ = 0;
     find_rays(tile);
     look_up(tile);
-    find_facets(tile);
+    find_faces(tile);
     if (tile.seen != 0) {
         find_hits(tile, counts);
     }
@@ -215,18 +215,18 @@ void TileSource::look_up(Tile& tile) const
     tile.seen = tile.valid & ~lanes_with(tile.triangles, no_triangle);
 }
 
-void TileSource::find_facets(Tile& tile) const
+void TileSource::find_faces(Tile& tile) const
 {
-    tile.facet_count = 0;
+    tile.face_count = 0;
     for (LaneBits rest = tile.seen; rest != 0;) {
         const std::uint32_t triangle = tile.triangles[first_lane(rest)];
         const LaneBits lanes = lanes_with(tile.triangles, triangle);
-        Facet& facet = tile.facets[tile.facet_count];
-        if (facet.triangle != triangle) { // the tile before often shows the same one
-            facet = Facet{triangle, corners_of(triangles_, triangle)};
+        ExactTriangle& face = tile.faces[tile.face_count];
+        if (face.triangle != triangle) { // the tile before often shows the same one
+            face = ExactTriangle{triangle, corners_of(triangles_, triangle)};
         }
-        tile.facet_lanes[tile.facet_count] = lanes;
-        ++tile.facet_count;
+        tile.face_lanes[tile.face_count] = lanes;
+        ++tile.face_count;
         rest &= ~lanes;
     }
 }
@@ -236,7 +236,7 @@ void TileSource::find_hits(Tile& tile, SignCounts& counts) const
     LaneHits& hits = tile.hits;
     meet_planes(tile.rays, planes_of(tile, has_eye_), hits);
     const LaneBits certain =
-        tile.seen & tile.rays.is_tame & (hits.delta_is_positive | hits.delta_is_negative);
+        tile.seen & tile.rays.is_well_scaled & (hits.delta_is_positive | hits.delta_is_negative);
     counts.filtered += static_cast<std::uint64_t>(std::popcount(certain));
     hits.delta_is_positive &= certain;
     hits.delta_is_negative &= certain;

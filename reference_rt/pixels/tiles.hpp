@@ -28,9 +28,9 @@ public:
     LaneRays rays{};
     LaneHits hits{}; ///< of the lanes in `seen`
     Lanes<std::uint32_t> triangles{};
-    std::size_t facet_count = 0;
-    PacketOf<Facet> facets; ///< the different triangles
-    PacketOf<LaneBits> facet_lanes{};
+    std::size_t face_count = 0;
+    PacketOf<ExactTriangle> faces; ///< the different triangles
+    PacketOf<LaneBits> face_lanes{};
 
     [[nodiscard]] int x(std::size_t lane) const
     {
@@ -41,7 +41,7 @@ public:
         return top + static_cast<int>(lane) / tile_side_px;
     }
     /// Of a lane in `seen`.
-    [[nodiscard]] const Facet& facet(std::size_t lane) const;
+    [[nodiscard]] const ExactTriangle& face(std::size_t lane) const;
     /// Of a lane in `seen`; made when first asked for, and valid until the tile is filled again.
     [[nodiscard]] const Receiver& receiver(std::size_t lane) const
     {
@@ -73,7 +73,7 @@ public:
 private:
     void find_rays(Tile& tile) const;
     void look_up(Tile& tile) const;
-    void find_facets(Tile& tile) const;
+    void find_faces(Tile& tile) const;
     void find_hits(Tile& tile, SignCounts& counts) const;
 
     const scene::TriangleScene& triangles_;

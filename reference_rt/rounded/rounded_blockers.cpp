@@ -25,12 +25,12 @@ struct ProjectedPacket {
     {
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const std::uint32_t triangle = truth.triangle[pixels[i]];
-            facets[i] = {triangle, corners_of(triangles, triangle)};
-            const auto& [x, y, z] = facets[i].normal;
+            faces[i] = {triangle, corners_of(triangles, triangle)};
+            const auto& [x, y, z] = faces[i].normal;
             const Vec3d normal{x.value, y.value, z.value};
             if (largest(normal) > 0) {
                 rays[i] = CameraRay{{Vec3d{given.position[pixels[i]]}, normalised(normal)}};
-                points[i] = Receiver{facets[i], rays[i], counts};
+                points[i] = Receiver{faces[i], rays[i], counts};
                 if (points[i].delta_sign != 0) {
                     valid.add(i);
                 }
@@ -41,7 +41,7 @@ struct ProjectedPacket {
     ProjectedPacket& operator=(const ProjectedPacket&) = delete;
 
     PacketMask valid;
-    PacketOf<Facet> facets;
+    PacketOf<ExactTriangle> faces;
     PacketOf<CameraRay> rays;
     PacketOf<Receiver> points;
 };

@@ -31,13 +31,13 @@ struct Passage {
 
 /// True when no corner of S is on the light's side of the plane of T: the segments that start in
 /// that plane leave it on the other side.
-bool is_behind(const Facet& facet, Sign light_side, const Corners& s, SignCounts& counts)
+bool is_behind(const ExactTriangle& face, Sign light_side, const Corners& s, SignCounts& counts)
 {
     return std::all_of(s.begin(), s.end(), [&](const scene::Vec3d& corner) {
         return light_side * sign_of(counts, true,
                                     [&]<typename Field>(Field) {
-                                        return dot(normal_of<Field>(facet.corners),
-                                                   difference<Field>(corner, facet.corners[0]));
+                                        return dot(normal_of<Field>(face.corners),
+                                                   difference<Field>(corner, face.corners[0]));
                                     }) <=
                0;
     });
@@ -92,7 +92,7 @@ public:
         LaneBits lanes = 0;
         for (std::size_t i = 0; i < starts_.size(); ++i) {
             const RoundedStart& start = starts_[i];
-            triangles_[i] = start.facet.triangle;
+            triangles_[i] = start.face.triangle;
             lanes |= LaneBits{1} << i;
             const scene::Vec3d point = reference_.frame.from_world(start.point);
             // Of the difference and the product.
@@ -103,7 +103,7 @@ public:
         }
         points_.set(positions);
         FloatRays rays{};
-        light_.stand_in.from(positions, lanes, rays);
+        light_.proxy.from(positions, lanes, rays);
         reference_.find_candidates(lanes, rays, casters, *this);
         PacketOf<SuppositionVerdict> verdicts;
         for (std::size_t i = 0; i < starts_.size(); ++i) {
@@ -151,8 +151,8 @@ private:
     /// The lane's bit when the triangle settles it; one that may be touched is kept.
     LaneBits decide(std::size_t lane, std::uint32_t triangle, const Corners& s)
     {
-        const Facet& facet = starts_[lane].facet;
-        if (is_behind(facet, light_side(facet, light_.light, counts_), s, counts_)) {
+        const ExactTriangle& face = starts_[lane].face;
+        if (is_behind(face, light_side(face, light_.light, counts_), s, counts_)) {
             return 0;
         }
         const PlaneSection& section = section_of(lane);
@@ -171,8 +171,7 @@ private:
     [[nodiscard]] const PlaneSection& section_of(std::size_t lane)
     {
         std::optional<PlaneSection>& section = sections_[lane];
-        return section ? *section
-                       : section.emplace(starts_[lane].box, starts_[lane].facet, counts_);
+        return section ? *section : section.emplace(starts_[lane].box, starts_[lane].face, counts_);
     }
 
     [[nodiscard]] SuppositionVerdict verdict(std::size_t lane)

@@ -27,7 +27,7 @@ struct SuppositionVerdict {
 
 /// A supposition's geometry.
 struct RoundedStart {
-    Facet facet; ///< T
+    ExactTriangle face; ///< T
     RoundingBox box{};
     scene::Vec3d point{}; ///< P, as it was rounded
 };

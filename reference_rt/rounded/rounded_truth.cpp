@@ -157,8 +157,9 @@ private:
                                               [](const NearbyTriangle& a, const NearbyTriangle& b) {
                                                   return a.distance_m < b.distance_m;
                                               });
-        const Facet facet{nearest->triangle, corners_of(reference_.triangles, nearest->triangle)};
-        const double growth_m = growth_to_plane_m(position, facet, counts);
+        const ExactTriangle face{nearest->triangle,
+                                 corners_of(reference_.triangles, nearest->triangle)};
+        const double growth_m = growth_to_plane_m(position, face, counts);
         truth_.triangle[pixel] = nearest->triangle;
         truth_.distance_m[pixel] = static_cast<float>(nearest->distance_m);
         truth_.growth_m[pixel] = static_cast<float>(growth_m);
@@ -222,8 +223,8 @@ private:
             const Supposition& supposition = suppositions_[index];
             const Vec3f& position = receivers_.position[supposition.pixel];
             RoundedStart& start = starts[count];
-            start.facet = {supposition.triangle,
-                           corners_of(reference.triangles, supposition.triangle)};
+            start.face = {supposition.triangle,
+                          corners_of(reference.triangles, supposition.triangle)};
             start.box = rounding_box(position, supposition.growth_m);
             start.point = Vec3d{position};
             if (const auto known = class_without_segment(supposition.pixel, start, counts)) {
@@ -247,8 +248,8 @@ private:
     [[nodiscard]] std::optional<PixelClass>
     class_without_segment(std::size_t pixel, const RoundedStart& start, SignCounts& counts) const
     {
-        const Sign side = light_side(start.facet, light_, counts);
-        const Sign seen = seen_side(pixel, start.facet, counts);
+        const Sign side = light_side(start.face, light_, counts);
+        const Sign seen = seen_side(pixel, start.face, counts);
         if (side == 0 || (seen != 0 && seen != side)) {
             return PixelClass::attached;
         }
@@ -267,13 +268,15 @@ private:
     }
 
     /// The side of T that the pixel shows, by the eye or else by the normal; 0 where neither says.
-    [[nodiscard]] Sign seen_side(std::size_t pixel, const Facet& facet, SignCounts& counts) const
+    [[nodiscard]] Sign seen_side(std::size_t pixel, const ExactTriangle& face,
+                                 SignCounts& counts) const
     {
         if (receivers_.eye) {
-            const Sign side = sign_of(counts, is_tame(*receivers_.eye), [&]<typename Field>(Field) {
-                return dot(normal_of<Field>(facet.corners),
-                           difference<Field>(*receivers_.eye, facet.corners[0]));
-            });
+            const Sign side =
+                sign_of(counts, is_well_scaled(*receivers_.eye), [&]<typename Field>(Field) {
+                    return dot(normal_of<Field>(face.corners),
+                               difference<Field>(*receivers_.eye, face.corners[0]));
+                });
             if (side != 0) {
                 return side;
             }
@@ -282,8 +285,8 @@ private:
             return 0;
         }
         const Vec3d normal{receivers_.normal[pixel]};
-        return sign_of(counts, is_tame(normal), [&]<typename Field>(Field) {
-            return dot(normal_of<Field>(facet.corners), vector<Field>(normal));
+        return sign_of(counts, is_well_scaled(normal), [&]<typename Field>(Field) {
+            return dot(normal_of<Field>(face.corners), vector<Field>(normal));
         });
     }
 
@@ -306,7 +309,7 @@ private:
         if (height > margin) {
             return ConePlace::inside;
         }
-        const PlaneSection section{start.box, start.facet, counts};
+        const PlaneSection section{start.box, start.face, counts};
         return std::all_of(
                    section.begin(), section.end(),
                    [&](const Receiver& corner) { return !is_out_of_light(corner, light_, counts); })

@@ -25,10 +25,10 @@ double half_spacing(float p)
 }
 
 /// n·(point − a).
-Sign side_of_plane(const Facet& facet, const Vec3d& point, SignCounts& counts)
+Sign side_of_plane(const ExactTriangle& face, const Vec3d& point, SignCounts& counts)
 {
-    return sign_of(counts, is_tame(point), [&]<typename Field>(Field) {
-        return dot(normal_of<Field>(facet.corners), difference<Field>(point, facet.corners[0]));
+    return sign_of(counts, is_well_scaled(point), [&]<typename Field>(Field) {
+        return dot(normal_of<Field>(face.corners), difference<Field>(point, face.corners[0]));
     });
 }
 
@@ -42,9 +42,9 @@ Vec3d farthest_corner(const RoundingBox& box, const Vec3d& normal, int side)
     return box.corner(index);
 }
 
-Vec3d rounded_normal(const Facet& facet)
+Vec3d rounded_normal(const ExactTriangle& face)
 {
-    return {facet.normal.x.value, facet.normal.y.value, facet.normal.z.value};
+    return {face.normal.x.value, face.normal.y.value, face.normal.z.value};
 }
 
 bool is_certain(const FilteredNormal& normal)
@@ -52,11 +52,12 @@ bool is_certain(const FilteredNormal& normal)
     return normal.x.certain_sign() && normal.y.certain_sign() && normal.z.certain_sign();
 }
 
-std::array<Sign, 8> sides_of_corners(const RoundingBox& box, const Facet& facet, SignCounts& counts)
+std::array<Sign, 8> sides_of_corners(const RoundingBox& box, const ExactTriangle& face,
+                                     SignCounts& counts)
 {
     std::array<Sign, 8> sides{};
     for (unsigned i = 0; i < 8; ++i) {
-        sides[i] = side_of_plane(facet, box.corner(i), counts);
+        sides[i] = side_of_plane(face, box.corner(i), counts);
     }
     return sides;
 }
@@ -88,45 +89,45 @@ RoundingBox rounding_box(const Vec3f& p, double growth_m)
     return box;
 }
 
-bool meets_plane(const RoundingBox& box, const Facet& facet, SignCounts& counts)
+bool meets_plane(const RoundingBox& box, const ExactTriangle& face, SignCounts& counts)
 {
-    const Vec3d normal = rounded_normal(facet);
-    if (side_of_plane(facet, farthest_corner(box, normal, 1), counts) >= 0 &&
-        side_of_plane(facet, farthest_corner(box, normal, -1), counts) <= 0) {
+    const Vec3d normal = rounded_normal(face);
+    if (side_of_plane(face, farthest_corner(box, normal, 1), counts) >= 0 &&
+        side_of_plane(face, farthest_corner(box, normal, -1), counts) <= 0) {
         return true;
     }
-    if (is_certain(facet.normal)) {
+    if (is_certain(face.normal)) {
         return false;
     }
-    const auto sides = sides_of_corners(box, facet, counts);
+    const auto sides = sides_of_corners(box, face, counts);
     const auto [lowest, highest] = std::minmax_element(sides.begin(), sides.end());
     return *lowest <= 0 && *highest >= 0;
 }
 
-double growth_to_plane_m(const Vec3f& p, const Facet& facet, SignCounts& counts)
+double growth_to_plane_m(const Vec3f& p, const ExactTriangle& face, SignCounts& counts)
 {
-    if (meets_plane(rounding_box(p, 0), facet, counts)) {
+    if (meets_plane(rounding_box(p, 0), face, counts)) {
         return 0;
     }
-    const Vec3d n = rounded_normal(facet);
+    const Vec3d n = rounded_normal(face);
     const Vec3d size{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
     const Vec3d half{half_spacing(p.x), half_spacing(p.y), half_spacing(p.z)};
-    const double height = std::abs(glm::dot(n, Vec3d{p} - facet.corners[0]));
+    const double height = std::abs(glm::dot(n, Vec3d{p} - face.corners[0]));
     const double missing = (height - glm::dot(size, half)) / (size.x + size.y + size.z);
     // A sliver's normal may be known badly, or come out as zero.
     double growth = 0x1p-30 * largest(half);
     if (missing > growth) {
         growth = missing * (1 + 0x1p-40);
     }
-    while (!meets_plane(rounding_box(p, growth), facet, counts)) {
+    while (!meets_plane(rounding_box(p, growth), face, counts)) {
         growth *= 2;
     }
     return growth;
 }
 
-PlaneSection::PlaneSection(const RoundingBox& box, const Facet& facet, SignCounts& counts)
+PlaneSection::PlaneSection(const RoundingBox& box, const ExactTriangle& face, SignCounts& counts)
 {
-    const auto sides = sides_of_corners(box, facet, counts);
+    const auto sides = sides_of_corners(box, face, counts);
     for (int axis = 0; axis < 3; ++axis) {
         const unsigned bit = 1U << static_cast<unsigned>(axis);
         Vec3d direction{0.0};
@@ -136,7 +137,7 @@ PlaneSection::PlaneSection(const RoundingBox& box, const Facet& facet, SignCount
                 continue;
             }
             edges_[count_] = CameraRay{{box.corner(i), direction}};
-            corners_[count_] = Receiver{facet, edges_[count_], counts};
+            corners_[count_] = Receiver{face, edges_[count_], counts};
             // An edge in the plane ends in others' corners.
             count_ += corners_[count_].delta_sign != 0 ? 1U : 0U;
         }

@@ -26,11 +26,12 @@ struct RoundingBox {
 [[nodiscard]] RoundingBox rounding_box(const scene::Vec3f& p, double growth_m);
 
 /// True when the plane of a triangle meets a closed box: the signs of two corners decide.
-[[nodiscard]] bool meets_plane(const RoundingBox& box, const Facet& facet, SignCounts& counts);
+[[nodiscard]] bool meets_plane(const RoundingBox& box, const ExactTriangle& face,
+                               SignCounts& counts);
 
 /// By how much the box of all that rounds to p is grown until it meets the plane of a triangle; 0
 /// where it does: (|n·(P − a)| − Σ|n_k|h_k) / Σ|n_k|, and not more than rounding needs beyond that.
-[[nodiscard]] double growth_to_plane_m(const scene::Vec3f& p, const Facet& facet,
+[[nodiscard]] double growth_to_plane_m(const scene::Vec3f& p, const ExactTriangle& face,
                                        SignCounts& counts);
 
 /// The corners of the polygon in which a triangle's plane cuts a box; some twice, none where it
@@ -39,7 +40,7 @@ struct RoundingBox {
 class PlaneSection {
 public:
     /// The facet must outlive the section.
-    PlaneSection(const RoundingBox& box, const Facet& facet, SignCounts& counts);
+    PlaneSection(const RoundingBox& box, const ExactTriangle& face, SignCounts& counts);
     PlaneSection(const PlaneSection&) = delete;
     PlaneSection& operator=(const PlaneSection&) = delete;
 

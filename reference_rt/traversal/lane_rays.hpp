@@ -10,7 +10,7 @@ namespace gnomon::reference_rt {
 /// The rays of a packet: E, d.
 struct LaneRays {
     Lanes3 origin, direction;
-    LaneBits is_tame = 0; ///< may the filter be asked (arithmetic.hpp)
+    LaneBits is_well_scaled = 0; ///< may the filter be asked (arithmetic.hpp)
 
     [[nodiscard]] CameraRay ray(std::size_t lane) const
     {

@@ -16,11 +16,11 @@ std::string depth_csv(const analysis::DepthStudy& study,
     text += study.tolerance ? ",tolerance_m\n" : "\n";
     auto out = std::back_inserter(text);
     for (const analysis::DepthErrorRow& row : rows) {
-        fmt::format_to(out, "{},{},{},{},{},", row.zeta_m, row.depth, row.envelope_m,
+        fmt::format_to(out, "{},{},{},{},{},", row.light_distance_m, row.depth, row.envelope_m,
                        row.formula_code, row.formula_error_m);
         if (study.measured) {
-            fmt::format_to(out, "{},{},{},{},{},{}", row.code, row.stored_zeta_m, row.error_m,
-                           row.transform_error_m, row.model_m,
+            fmt::format_to(out, "{},{},{},{},{},{}", row.code, row.stored_light_distance_m,
+                           row.error_m, row.transform_error_m, row.model_m,
                            analysis::texel_class_name(row.texel_class));
         } else {
             text += ",,,,,";

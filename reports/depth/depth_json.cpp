@@ -40,7 +40,7 @@ store::Json measured_json(const MeasuredDepthError& measured)
     return {{"samples", measured.rows.size()},
             {"missing", measured.missing},
             {"max_error_m", measured.max_error_m},
-            {"max_error_at_m", measured.max_error_zeta_m},
+            {"max_error_at_m", measured.max_error_light_distance_m},
             {"rms_error_m", measured.rms_error_m},
             {"mean_error_m", measured.mean_error_m},
             {"standard_deviation_m", measured.standard_deviation_m},
@@ -52,14 +52,14 @@ store::Json measured_json(const MeasuredDepthError& measured)
 
 store::Json sample_json(const DepthErrorRow& row, bool is_measured)
 {
-    store::Json json{{"zeta_m", row.zeta_m},
+    store::Json json{{"zeta_m", row.light_distance_m},
                      {"depth", row.depth},
                      {"envelope_m", row.envelope_m},
                      {"formula_code", row.formula_code},
                      {"formula_error_m", row.formula_error_m}};
     if (is_measured) {
         json["code"] = row.code;
-        json["stored_zeta_m"] = row.stored_zeta_m;
+        json["stored_zeta_m"] = row.stored_light_distance_m;
         json["error_m"] = row.error_m;
         json["transform_error_m"] = row.transform_error_m;
         json["model_m"] = row.model_m;

@@ -159,13 +159,13 @@ void add_formulas(Drawing& drawing, const DepthStudy& study, const Axes& axes)
     const int count = static_cast<int>(right_px - left_px) * points_per_px;
     for (int i = 0; i <= count; ++i) {
         const double x = left_px + (right_px - left_px) * i / count;
-        const double zeta_m =
+        const double light_distance_m =
             std::clamp(axes.x.value(x), study.mapping.near_m(), study.mapping.far_m());
-        const auto stored = analysis::stored_depth(study.mapping, study.coding, zeta_m);
+        const auto stored = analysis::stored_depth(study.mapping, study.coding, light_distance_m);
         sawtooth.points.push_back({x, axes.y.clamped_px(std::abs(stored.error_m))});
         if (i % points_per_px == 0) {
             envelope.points.push_back({x, axes.y.clamped_px(analysis::error_envelope_m(
-                                              study.mapping, study.coding, zeta_m))});
+                                              study.mapping, study.coding, light_distance_m))});
         }
     }
     drawing.marks.emplace_back(std::move(sawtooth));
@@ -178,7 +178,7 @@ void add_measured(Drawing& drawing, std::span<const DepthErrorRow> rows, const A
     const std::size_t stride = std::max<std::size_t>(1, rows.size() / most_drawn_rows);
     for (std::size_t i = 0; i < rows.size(); i += stride) {
         dots.centres.push_back(
-            {axes.x.px(rows[i].zeta_m), axes.y.clamped_px(std::abs(rows[i].error_m))});
+            {axes.x.px(rows[i].light_distance_m), axes.y.clamped_px(std::abs(rows[i].error_m))});
     }
     // Under the envelope's line, above the sawtooth.
     drawing.marks.insert(drawing.marks.end() - 1, std::move(dots));

@@ -81,7 +81,7 @@ std::string measured_text(const MeasuredDepthError& m)
                                    : fmt::format(", {} left out, clipped or moved by float32",
                                                  grouped(m.missing)));
     text += setting_line("largest error", fmt::format("{} at {}", metres(m.max_error_m),
-                                                      metres(m.max_error_zeta_m)));
+                                                      metres(m.max_error_light_distance_m)));
     text +=
         setting_line("rms error", fmt::format("{}, standard deviation {}", metres(m.rms_error_m),
                                               metres(m.standard_deviation_m)));
@@ -116,12 +116,12 @@ std::string rows_text(const DepthStudy& study, std::span<const DepthErrorRow> ro
     const std::size_t count = std::min(shown_rows, rows.size());
     for (std::size_t i = 0; i < count; ++i) {
         const DepthErrorRow& row = rows[count == 1 ? 0 : i * (rows.size() - 1) / (count - 1)];
-        text += fmt::format("{:>10.5g}{:>13.8f}{:>16}{:>15.3g}{:>14.3g}", row.zeta_m, row.depth,
-                            code_text(study.coding, row.formula_code), row.formula_error_m,
-                            row.envelope_m);
+        text += fmt::format("{:>10.5g}{:>13.8f}{:>16}{:>15.3g}{:>14.3g}", row.light_distance_m,
+                            row.depth, code_text(study.coding, row.formula_code),
+                            row.formula_error_m, row.envelope_m);
         text += is_measured
                     ? fmt::format("{:>16}{:>16.8g}{:>13.3g}\n", code_text(study.coding, row.code),
-                                  row.stored_zeta_m, row.error_m)
+                                  row.stored_light_distance_m, row.error_m)
                     : std::string{"\n"};
     }
     return text;

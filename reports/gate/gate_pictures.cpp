@@ -3,7 +3,7 @@
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_names.hpp"
-#include "reports/gate/place_picture.hpp"
+#include "reports/gate/new_pixels_picture.hpp"
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
@@ -60,13 +60,13 @@ std::optional<Pictured> pictured_pixels(const GateReport& report, const GateFind
 }
 
 /// The pixels of one configuration, then and now.
-struct ComparedPlaces {
+struct ComparedPixels {
     analysis::PixelMask before;
     analysis::WrongPixels now;
     store::RgbImage ground;
 };
 
-ComparedPlaces read_places(const GateReport& report, std::size_t entry)
+ComparedPixels read_places(const GateReport& report, std::size_t entry)
 {
     const analysis::GatePair& pair = *report.outcome.pair_of(entry);
     const analysis::GateEntry& before = report.baseline.entries[pair.before];
@@ -76,33 +76,33 @@ ComparedPlaces read_places(const GateReport& report, std::size_t entry)
 }
 
 /// What became of each pixel; empty if the images cannot be compared.
-std::optional<scene::Image<PlaceMark>> place_marks(const ComparedPlaces& places,
-                                                   const Pictured& pictured)
+std::optional<scene::Image<PixelChange>> pixel_changes(const ComparedPixels& places,
+                                                       const Pictured& pictured)
 {
     const analysis::WrongPixels& now = places.now;
     if (places.before.size() != now.mask.size() || !now.knows(pictured.filter)) {
         return std::nullopt;
     }
-    scene::Image<PlaceMark> marks{now.mask.size()};
+    scene::Image<PixelChange> marks{now.mask.size()};
     for (std::size_t i = 0; i < marks.pixel_count(); ++i) {
         if (now.mask[i] == 0) {
-            marks[i] = places.before[i] == 0 ? PlaceMark::none : PlaceMark::mended;
+            marks[i] = places.before[i] == 0 ? PixelChange::none : PixelChange::mended;
         } else if (places.before[i] != 0) {
-            marks[i] = PlaceMark::wrong_before;
+            marks[i] = PixelChange::wrong_before;
         } else if (now.is_taken(i, pictured.filter) &&
                    (now.is_false_lit[i] != 0 ? pictured.takes_false_lit
                                              : pictured.takes_false_shadow)) {
-            marks[i] =
-                now.is_false_lit[i] != 0 ? PlaceMark::new_false_lit : PlaceMark::new_false_shadow;
+            marks[i] = now.is_false_lit[i] != 0 ? PixelChange::new_false_lit
+                                                : PixelChange::new_false_shadow;
         }
     }
     return marks;
 }
 
-std::size_t new_mark_count(const scene::Image<PlaceMark>& marks)
+std::size_t new_mark_count(const scene::Image<PixelChange>& marks)
 {
-    return static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](PlaceMark mark) {
-        return mark == PlaceMark::new_false_shadow || mark == PlaceMark::new_false_lit;
+    return static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](PixelChange mark) {
+        return mark == PixelChange::new_false_shadow || mark == PixelChange::new_false_lit;
     }));
 }
 
@@ -160,11 +160,11 @@ public:
         if (!shown) {
             return;
         }
-        if (!places_ || places_entry_ != finding.entry) {
+        if (!places_ || compared_entry_ != finding.entry) {
             places_ = read_places(report_, finding.entry);
-            places_entry_ = finding.entry;
+            compared_entry_ = finding.entry;
         }
-        auto marks = place_marks(*places_, *shown);
+        auto marks = pixel_changes(*places_, *shown);
         if (!marks || new_mark_count(*marks) == 0) {
             return;
         }
@@ -184,9 +184,9 @@ public:
 private:
     std::filesystem::path write_picture_of(const GateFinding& finding,
                                            const store::RgbImage& ground,
-                                           scene::Image<PlaceMark> marks)
+                                           scene::Image<PixelChange> marks)
     {
-        PlacePicture picture;
+        NewPixelsPicture picture;
         picture.ground = ground;
         picture.marks = std::move(marks);
         picture.title = fmt::format("{} that were right in the baseline",
@@ -194,14 +194,14 @@ private:
         picture.lines = heading_lines(report_, finding);
         make_picture_folder(folder_);
         auto path = picture_path(folder_, known_.size() + 1, report_.rules[finding.rule].metric);
-        store::write_file(path, store::encode_png(draw_place_picture(picture)));
+        store::write_file(path, store::encode_png(draw_new_pixels_picture(picture)));
         return path;
     }
 
     GateReport& report_;
     std::filesystem::path folder_;
-    std::optional<ComparedPlaces> places_;
-    std::size_t places_entry_ = 0;
+    std::optional<ComparedPixels> places_;
+    std::size_t compared_entry_ = 0;
     std::map<std::pair<std::size_t, std::uint64_t>, std::filesystem::path> known_;
 };
 

@@ -151,8 +151,8 @@ private:
     void check_filter(const GateRule& rule, const TomlMember& first) const
     {
         const bool is_each = rule.each_object || rule.each_band;
-        const bool takes_places = rule.metric == analysis::new_pixels_metric;
-        if ((is_each || !rule.pixels.takes_all()) && !takes_places &&
+        const bool is_of_new_pixels = rule.metric == analysis::new_pixels_metric;
+        if ((is_each || !rule.pixels.takes_all()) && !is_of_new_pixels &&
             !analysis::is_of_pixels(rule.metric)) {
             fail(first,
                  fmt::format("rule \"{}\" names an object, cause, label or zeta_band, but {} "
@@ -164,7 +164,7 @@ private:
                                     "docs/causes.md",
                                     rule.id, rule.metric));
         }
-        if (is_each && takes_places) {
+        if (is_each && is_of_new_pixels) {
             fail(first, fmt::format("rule \"{}\": \"*\" does not go with {}: name one", rule.id,
                                     rule.metric));
         }
@@ -263,7 +263,7 @@ private:
         return static_cast<Code>(found - names.begin());
     }
 
-    /// `zeta_band = [4, 16]`, or "*".
+    /// `light_distance_band = [4, 16]`, or "*".
     void read_bands(GateRule& rule, const TomlMember& setting) const
     {
         constexpr const char* wanted =

@@ -95,7 +95,7 @@ std::string finding_sentence(const GateReport& report, const analysis::GateFindi
     return text + fmt::format("; rule \"{}\"", rule.id);
 }
 
-std::string places_text(const analysis::NewPixels& pixels)
+std::string new_pixels_text(const analysis::NewPixels& pixels)
 {
     constexpr std::size_t most_shown = 4;
     std::string text;

@@ -15,7 +15,7 @@ namespace gnomon::reports {
                                             const analysis::GateFinding& finding);
 
 /// "(12, 7), (13, 7) and 40 more, from (12, 7) to (90, 31); 38 by bias".
-[[nodiscard]] std::string places_text(const analysis::NewPixels& pixels);
+[[nodiscard]] std::string new_pixels_text(const analysis::NewPixels& pixels);
 
 /// The parameters that changed, the first 10: "bias.constant: 0.24 -> 0.96; …". One line.
 [[nodiscard]] std::string suspects_text(const std::vector<analysis::ParameterChange>& changes);

@@ -78,7 +78,7 @@ std::string finding_line(const GateReport& report, const GateFinding& finding)
         line += fmt::format("    of {}\n", part);
     }
     if (finding.new_pixels && finding.new_pixels->count > 0) {
-        line += fmt::format("    {}\n", places_text(*finding.new_pixels));
+        line += fmt::format("    {}\n", new_pixels_text(*finding.new_pixels));
     }
     if (const std::string picture = picture_of(report, finding); !picture.empty()) {
         line += fmt::format("    picture: {}\n", scene::one_line(picture));

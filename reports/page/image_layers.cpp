@@ -107,9 +107,9 @@ bool ImageLayers::can_derive_lengths() const
 {
     const auto holds = [&](std::size_t i) {
         const double bias{limit(i)};
-        const double zeta_m{light_distance_m_[i]};
-        const double length_m = analysis::bias_length_m(rules_.light, bias, zeta_m);
-        const double texels = length_m / rules_.texel_m(zeta_m);
+        const double light_distance_m{light_distance_m_[i]};
+        const double length_m = analysis::bias_length_m(rules_.light, bias, light_distance_m);
+        const double texels = length_m / rules_.texel_m(light_distance_m);
         return are_same(static_cast<float>(length_m), needed_m_[i]) &&
                are_same(static_cast<float>(texels), needed_texels_[i]);
     };

@@ -21,10 +21,10 @@ struct PixelRules {
     /// @throws nlohmann::json::exception  if it lacks something.
     explicit PixelRules(const store::Json& detail);
 
-    [[nodiscard]] double texel_m(double zeta_m) const
+    [[nodiscard]] double texel_m(double light_distance_m) const
     {
         const bool is_perspective = light.projection == scene::Projection::perspective;
-        return is_perspective ? texel_side_m * zeta_m : texel_side_m;
+        return is_perspective ? texel_side_m * light_distance_m : texel_side_m;
     }
 
     store::Json frustum;

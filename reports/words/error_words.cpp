@@ -190,19 +190,20 @@ std::string softened_too(const analysis::Comparison& comparison)
 /// Light distances of the scored receivers [m].
 std::optional<analysis::Quantiles> distances_m(const analysis::Comparison& comparison)
 {
-    const auto& zeta_m = comparison.diagnosis->zeta_m;
-    return analysis::find_quantiles(std::vector<float>(zeta_m.begin(), zeta_m.end()));
+    const auto& light_distance_m = comparison.diagnosis->light_distance_m;
+    return analysis::find_quantiles(
+        std::vector<float>(light_distance_m.begin(), light_distance_m.end()));
 }
 
 /// ", whose step is 0.34 m at the median receiver"
 std::string step_at_median(const analysis::Comparison& comparison)
 {
-    const auto zeta_m = distances_m(comparison);
-    return zeta_m
+    const auto light_distance_m = distances_m(comparison);
+    return light_distance_m
                ? fmt::format(", whose step is {:.2g} m at the median receiver",
                              analysis::depth_step_length_m(comparison.view.frustum,
                                                            comparison.job.shadow_map.depth_format,
-                                                           double{zeta_m->median}))
+                                                           double{light_distance_m->median}))
                : "";
 }
 
@@ -212,18 +213,19 @@ std::string blind_depths(const analysis::Comparison& comparison)
 {
     constexpr double too_long = 0.05; // of the receivers' range: no more than twenty depths
     constexpr scene::DepthFormat of_transforms{scene::DepthFormat::Kind::d24, 24};
-    const auto zeta_m = distances_m(comparison);
+    const auto light_distance_m = distances_m(comparison);
     const scene::LightFrustum& frustum = comparison.view.frustum;
-    if (!zeta_m || double{zeta_m->median} <= frustum.near_m ||
-        double{zeta_m->median} >= frustum.far_m) {
+    if (!light_distance_m || double{light_distance_m->median} <= frustum.near_m ||
+        double{light_distance_m->median} >= frustum.far_m) {
         return "";
     }
     const double step_m =
-        analysis::depth_step_length_m(frustum, of_transforms, double{zeta_m->median});
-    const double texel_m =
-        frustum.texel_width_m(double{zeta_m->median}, comparison.job.shadow_map.resolution_texels);
+        analysis::depth_step_length_m(frustum, of_transforms, double{light_distance_m->median});
+    const double texel_m = frustum.texel_width_m(double{light_distance_m->median},
+                                                 comparison.job.shadow_map.resolution_texels);
     // Flat receivers have no range, and a step below a texel's width is none that one sees.
-    if (step_m < texel_m || step_m < too_long * (double{zeta_m->max} - double{zeta_m->min})) {
+    if (step_m < texel_m ||
+        step_m < too_long * (double{light_distance_m->max} - double{light_distance_m->min})) {
         return "";
     }
     return fmt::format("the map cannot tell depths apart, for with near = {:.3g} and far = {:.3g} "

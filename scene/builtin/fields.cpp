@@ -90,7 +90,7 @@ constexpr std::size_t wave_count = 14;
 {
     Job job = start_job("terrain", values);
     job.camera = CameraSettings{.eye = {9, 18, 29}, .target = {0, -1, 1}, .vertical_fov_deg = 38};
-    job.light = directional_light(sun_direction(number(values, "sun_elevation_deg"), -68));
+    job.light = directional_light(sunlight_direction(number(values, "sun_elevation_deg"), -68));
     job.shadow_map.resolution_texels = 2048;
     job.bias.constant_m = 0.06;
     return job;

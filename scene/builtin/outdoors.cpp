@@ -79,8 +79,8 @@ void add_crates(SceneBuilder& builder)
     // The light's camera stands 50 m from the yard, in the middle between near and far.
     const double light_distance_m = 50;
     LightSettings light;
-    light.position = -light_distance_m * sun_direction(number(values, "sun_elevation_deg"),
-                                                       number(values, "sun_azimuth_deg"));
+    light.position = -light_distance_m * sunlight_direction(number(values, "sun_elevation_deg"),
+                                                            number(values, "sun_azimuth_deg"));
     light.target = Vec3d{0, 0, 0};
     job.light = light;
     job.shadow_map.depth_format = {DepthFormat::Kind::d32f, 32};
@@ -168,7 +168,7 @@ void add_toys(SceneBuilder& builder)
     job.camera =
         CameraSettings{.eye = {3.6, 4.3, 8.0}, .target = {0.1, 0.75, -0.2}, .vertical_fov_deg = 37};
     job.light = directional_light(
-        sun_direction(number(values, "sun_elevation_deg"), number(values, "sun_azimuth_deg")));
+        sunlight_direction(number(values, "sun_elevation_deg"), number(values, "sun_azimuth_deg")));
     job.bias.constant_m = 0.03;
     return job;
 }

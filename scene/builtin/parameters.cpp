@@ -158,7 +158,7 @@ LightSettings spot_light(const Vec3d& position, const Vec3d& target, double cone
     return light;
 }
 
-Vec3d sun_direction(double elevation_deg, double azimuth_deg)
+Vec3d sunlight_direction(double elevation_deg, double azimuth_deg)
 {
     const double elevation_rad = elevation_deg * std::numbers::pi / 180;
     const double azimuth_rad = azimuth_deg * std::numbers::pi / 180;

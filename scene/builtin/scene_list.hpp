@@ -54,7 +54,7 @@ struct ParameterRange {
 /// The way sunlight travels, as a unit vector.
 /// @param elevation_deg  Height of the sun above the horizon; (0, 90).
 /// @param azimuth_deg    Where the sun stands, from +z towards +x.
-[[nodiscard]] Vec3d sun_direction(double elevation_deg, double azimuth_deg);
+[[nodiscard]] Vec3d sunlight_direction(double elevation_deg, double azimuth_deg);
 
 /// Adds one mesh as one object.
 void add_object(SceneBuilder& builder, std::string_view name, const Mesh& mesh);

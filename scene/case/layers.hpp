@@ -16,7 +16,7 @@ struct CaseLayers {
     Image<Vec3f> normal;   ///< on the side that is seen, of any length; zero or NaN: not known
     Image<std::uint32_t> object_number; ///< the renderer's
     Image<float> z_light;               ///< r, before any bias
-    Image<float> z_map;                 ///< d; NaN where the policy decided
+    Image<float> z_map;                 ///< d; NaN where the border mode decided
     Image<Vec2f> texels;                ///< as `LookupLayers::texels`
     Image<float> tan_theta;             ///< as `LookupSample::tan_theta`
     LookupLayers unmoved;    ///< the lookup at the receiver itself without any bias; may be empty

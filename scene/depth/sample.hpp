@@ -18,7 +18,7 @@ struct TexelDepth {
 
 /// A texel of a plane whose distance is known.
 struct DepthSample {
-    double zeta_m = 0; ///< exact distance at the texel's centre [m]
+    double light_distance_m = 0; ///< exact distance at the texel's centre [m]
     TexelDepth texel;
     /// u-formats: the float32 z that the shader quantised; NaN for GL's own formats.
     float shader_depth = std::numeric_limits<float>::quiet_NaN();

@@ -67,7 +67,7 @@ SweepSpace::SweepSpace(JobSource source, const std::vector<std::string>& axis_ar
     check_keys();
     resolve_values();
     check_repetitions();
-    number_zipped_structures();
+    number_zipped_groups();
     count();
 }
 
@@ -159,7 +159,7 @@ void SweepSpace::check_repetitions() const
     }
 }
 
-void SweepSpace::number_zipped_structures()
+void SweepSpace::number_zipped_groups()
 {
     std::map<std::vector<std::size_t>, std::size_t> firsts;
     for (std::size_t i = 0; is_zipped() && !axes().empty() && i < axes().front().values.size();
@@ -170,7 +170,7 @@ void SweepSpace::number_zipped_structures()
                 tuple.push_back(first_equal_[axis][i]);
             }
         }
-        zipped_structures_.push_back(firsts.try_emplace(std::move(tuple), i).first->second);
+        zipped_groups_.push_back(firsts.try_emplace(std::move(tuple), i).first->second);
     }
 }
 
@@ -224,18 +224,18 @@ std::string_view SweepSpace::case_name(const SweepPoint& point) const
     return chosen == nullptr ? std::string_view{} : chosen->name;
 }
 
-std::uint64_t SweepSpace::structure(const SweepPoint& point) const
+std::uint64_t SweepSpace::curve_group(const SweepPoint& point) const
 {
-    std::uint64_t structure = point.case_index;
-    if (!zipped_structures_.empty()) {
-        return structure * zipped_structures_.size() + zipped_structures_[point.values.front()];
+    std::uint64_t curve_group = point.case_index;
+    if (!zipped_groups_.empty()) {
+        return curve_group * zipped_groups_.size() + zipped_groups_[point.values.front()];
     }
     for (std::size_t i = 0; i < axes().size(); ++i) {
         if (!is_constant_bias(axes()[i].key)) {
-            structure = structure * axes()[i].values.size() + first_equal_[i][point.values[i]];
+            curve_group = curve_group * axes()[i].values.size() + first_equal_[i][point.values[i]];
         }
     }
-    return structure;
+    return curve_group;
 }
 
 Layer SweepSpace::axis_settings(const SweepPoint& point) const

@@ -43,7 +43,7 @@ public:
     [[nodiscard]] std::string_view case_name(const SweepPoint& point) const;
 
     /// A number that points share iff they differ in constant biases at most.
-    [[nodiscard]] std::uint64_t structure(const SweepPoint& point) const;
+    [[nodiscard]] std::uint64_t curve_group(const SweepPoint& point) const;
 
     /// The point's job.
     /// @throws InputError  if its keys do not go together.
@@ -52,7 +52,7 @@ public:
     /// together.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>>
     given_keys(const SweepPoint& point) const;
-    /// Makes the job of one point that of another of the same structure; much faster than `job`.
+    /// Makes the job of one point that of another of the same curve group; much faster than `job`.
     void set_constant_bias(Job& job, const SweepPoint& point) const;
     /// The constant bias that the point's job has but for its axes: what the file, its case and the
     /// overrides say; 0 where that does not go together with the point's other keys.
@@ -64,7 +64,7 @@ private:
     void check_keys() const;
     void resolve_values();
     void check_repetitions() const;
-    void number_zipped_structures();
+    void number_zipped_groups();
     void count();
 
     [[nodiscard]] Layer axis_settings(const SweepPoint& point) const;
@@ -76,7 +76,7 @@ private:
     /// For each value of each axis the first that equals it: with zip, values may come again.
     std::vector<std::vector<std::size_t>> first_equal_;
     /// With zip, for each index the first one whose values differ in constant biases at most.
-    std::vector<std::size_t> zipped_structures_;
+    std::vector<std::size_t> zipped_groups_;
     std::uint64_t size_ = 0;
     std::vector<std::uint64_t> sample_; ///< ascending numbers of the whole space; empty: all
 };

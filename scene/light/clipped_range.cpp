@@ -113,13 +113,13 @@ std::vector<std::uint8_t> vertices_outside(const TriangleScene& scene, const Map
 
 ClippedRange clipped_range(const LightFrustum& frustum, const TriangleScene& scene)
 {
-    const Row zeta{frustum.forward, -glm::dot(frustum.forward, frustum.origin)};
+    const Row light_distance{frustum.forward, -glm::dot(frustum.forward, frustum.origin)};
     ClippedRange range;
     const auto include = [&](const Vec3d& point) {
-        const double zeta_m = frustum.zeta_m(point);
-        range.nearest_m = std::min(range.nearest_m, zeta_m);
-        range.farthest_m = std::max(range.farthest_m, zeta_m);
-        range.largest_terms_m = std::max(range.largest_terms_m, zeta.terms_at(point));
+        const double light_distance_m = frustum.light_distance_m(point);
+        range.nearest_m = std::min(range.nearest_m, light_distance_m);
+        range.farthest_m = std::max(range.farthest_m, light_distance_m);
+        range.largest_terms_m = std::max(range.largest_terms_m, light_distance.terms_at(point));
     };
     const MapSides sides{frustum.light_clip_from_world};
     const auto outside = vertices_outside(scene, sides, include);

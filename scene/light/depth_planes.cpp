@@ -123,21 +123,21 @@ public:
 
     /// Distance at a position of the view, relative to that of the sample: a factor for a
     /// perspective, else metres.
-    [[nodiscard]] double relative_zeta(const Vec2d& at) const
+    [[nodiscard]] double relative_light_distance(const Vec2d& at) const
     {
         return is_perspective_ ? (1 - slope_ * half_ * sample_.y) / (1 - slope_ * half_ * at.y)
                                : slope_ * half_ * (at.y - sample_.y);
     }
-    [[nodiscard]] double zeta_m(const Vec2d& at, double sample_zeta_m) const
+    [[nodiscard]] double light_distance_m(const Vec2d& at, double sample_light_distance_m) const
     {
-        return is_perspective_ ? sample_zeta_m * relative_zeta(at)
-                               : sample_zeta_m + relative_zeta(at);
+        return is_perspective_ ? sample_light_distance_m * relative_light_distance(at)
+                               : sample_light_distance_m + relative_light_distance(at);
     }
-    [[nodiscard]] Vec3d point(const Vec2d& at, double sample_zeta_m) const
+    [[nodiscard]] Vec3d point(const Vec2d& at, double sample_light_distance_m) const
     {
-        const double zeta = zeta_m(at, sample_zeta_m);
-        const double side_m = half_ * (is_perspective_ ? zeta : 1);
-        return {at.x * side_m, at.y * side_m, -zeta};
+        const double light_distance = light_distance_m(at, sample_light_distance_m);
+        const double side_m = half_ * (is_perspective_ ? light_distance : 1);
+        return {at.x * side_m, at.y * side_m, -light_distance};
     }
 
 private:
@@ -173,8 +173,8 @@ SampleRange sample_range(const DepthPlanes& planes, const DepthPlaneSettings& se
     for (std::size_t sample = 0; sample < count; sample += across) { // rows differ, columns do not
         const TiltedPlane plane{f, settings.tilt_rad, sample_position(planes, sample)};
         for (const Vec2d& corner : corner_positions(planes, sample)) {
-            least = std::min(least, plane.relative_zeta(corner));
-            most = std::max(most, plane.relative_zeta(corner));
+            least = std::min(least, plane.relative_light_distance(corner));
+            most = std::max(most, plane.relative_light_distance(corner));
         }
     }
     // Vertices round to float32, and GL computes their depth from terms as large as these.
@@ -228,7 +228,7 @@ DepthPlanes::Texel DepthPlanes::texel(std::size_t sample) const
             resolution_texels - 1 - (static_cast<int>(sample / across) * tile_texels + inner)};
 }
 
-double DepthPlanes::zeta_m(std::size_t sample) const
+double DepthPlanes::light_distance_m(std::size_t sample) const
 {
     const auto corners = triangles.corners(static_cast<std::uint32_t>(sample));
     const Vec3d a = Vec3d{corners[0]} - frustum.origin;
@@ -253,12 +253,12 @@ DepthPlanes make_depth_planes(const DepthPlaneSettings& settings)
     planes.triangles.vertices.reserve(3 * count);
     planes.triangles.triangles.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const double zeta_m =
+        const double light_distance_m =
             range.first_m + sample_share(i, count) * (range.last_m - range.first_m);
         const TiltedPlane plane{planes.frustum, settings.tilt_rad, sample_position(planes, i)};
         std::array<Vec3d, 3> corners;
         std::ranges::transform(corner_positions(planes, i), corners.begin(), [&](const Vec2d& at) {
-            return planes.frustum.origin + plane.point(at, zeta_m);
+            return planes.frustum.origin + plane.point(at, light_distance_m);
         });
         add_triangle(planes.triangles, corners);
     }

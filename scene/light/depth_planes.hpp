@@ -37,7 +37,7 @@ struct DepthPlanes {
     [[nodiscard]] Texel texel(std::size_t sample) const;
     /// Distance ζ of triangle i's plane at the centre of sample i's texel [m], from the float32
     /// vertices and the camera as composed in double.
-    [[nodiscard]] double zeta_m(std::size_t sample) const;
+    [[nodiscard]] double light_distance_m(std::size_t sample) const;
 };
 
 /// Builds the planes. They keep a few float32 steps away from near and far, and tilted ones as far

@@ -32,7 +32,7 @@ struct TexelHit {
     /// Matrix depth; without a hit the farthest, 1 (reversed: 0).
     double depth = 1;
     /// Light distance [m], to a relative 2^-44, or NaN where only bounded; infinite without a hit.
-    double zeta_m = std::numeric_limits<double>::infinity();
+    double light_distance_m = std::numeric_limits<double>::infinity();
     double depth_error = 0; ///< the exact depth is no farther than this from `depth`
 };
 
@@ -44,7 +44,7 @@ struct KnownHits {
 };
 
 /// The depth that one tap of a lookup would find in a map of infinite precision: that of a triangle
-/// along a texel-centre ray, or a constant where nothing is seen or a policy decides.
+/// along a texel-centre ray, or a constant where nothing is seen or the border mode decides.
 struct ExactTap {
     Texel texel;
     std::uint32_t triangle = no_triangle; ///< as `first_hits` found it
@@ -69,7 +69,7 @@ struct LinearQuery {
 };
 
 /// A receiver, and the triangle seen at a texel.
-struct SheetQuery {
+struct SelfShadowingQuery {
     std::size_t pixel = 0;
     Texel texel;
     std::uint32_t triangle = 0;
@@ -79,9 +79,9 @@ struct SheetQuery {
 /// light.
 struct BlockerHit {
     std::uint32_t triangle = no_triangle;
-    double gap_m = 0;           ///< from P to the blocker, along the segment
-    double zeta_m = 0;          ///< light distance of the blocker [m]
-    double receiver_zeta_m = 0; ///< light distance of P [m]
+    double gap_m = 0;                     ///< from P to the blocker, along the segment
+    double light_distance_m = 0;          ///< light distance of the blocker [m]
+    double receiver_light_distance_m = 0; ///< light distance of P [m]
 };
 
 /// Exact answers about the light's rays, for one view, map resolution and culling (DESIGN §4).
@@ -108,7 +108,7 @@ public:
 
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
-    /// @param clamps  limits r to [0, 1] first, as the policy `clamp` does.
+    /// @param clamps  limits r to [0, 1] first, as the border mode `clamp` does.
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const NearestQuery> queries,
                                                              bool clamps) const = 0;
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const LinearQuery> queries,
@@ -120,9 +120,9 @@ public:
     are_crossed(std::span<const std::size_t> pixels) const = 0;
 
     /// 1 where the surface leads from P, along the straight line to the texel's centre in light
-    /// view, into the triangle seen there (DESIGN §4, own sheet).
+    /// view, into the triangle seen there (docs/truth.md).
     [[nodiscard]] virtual std::vector<std::uint8_t>
-    are_own_sheets(std::span<const SheetQuery> queries) const = 0;
+    are_self_shadowing(std::span<const SelfShadowingQuery> queries) const = 0;
 
     /// The blockers of blocked pixels.
     [[nodiscard]] virtual std::vector<BlockerHit>

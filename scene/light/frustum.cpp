@@ -245,27 +245,27 @@ void compose_matrix(LightFrustum& f)
 {
     const bool perspective = f.projection == Projection::perspective;
     const auto affine = [&](const Vec3d& axis) { return Vec4d{axis, -glm::dot(axis, f.origin)}; };
-    const Vec4d zeta = affine(f.forward);
-    const Vec4d w = perspective ? zeta : Vec4d{0, 0, 0, 1};
+    const Vec4d light_distance = affine(f.forward);
+    const Vec4d w = perspective ? light_distance : Vec4d{0, 0, 0, 1};
     const auto side = [&](const Vec3d& axis, double low, double high) {
         return (2.0 * affine(axis) - (high + low) * w) / (high - low);
     };
     const Vec2d depth = clip_depth_row(f.depth_range());
-    const Vec4d z = depth.x * zeta + Vec4d{0, 0, 0, depth.y};
+    const Vec4d z = depth.x * light_distance + Vec4d{0, 0, 0, depth.y};
     f.light_clip_from_world_exact = glm::transpose(
         Mat4d{side(f.right, f.left, f.right_side), side(f.up, f.bottom, f.top), z, w});
     f.light_clip_from_world = Mat4f{f.light_clip_from_world_exact};
 }
 
-double LightFrustum::zeta_m(const Vec3d& point) const
+double LightFrustum::light_distance_m(const Vec3d& point) const
 {
     return glm::dot(forward, point - origin);
 }
 
-double LightFrustum::texel_width_m(double zeta_m, int resolution_texels) const
+double LightFrustum::texel_width_m(double light_distance_m, int resolution_texels) const
 {
     const double side = std::max(right_side - left, top - bottom) / resolution_texels;
-    return projection == Projection::perspective ? side * zeta_m : side;
+    return projection == Projection::perspective ? side * light_distance_m : side;
 }
 
 LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSettings& light_settings,

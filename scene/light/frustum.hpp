@@ -44,9 +44,9 @@ struct LightFrustum {
     Mat4f light_clip_from_world{1};       ///< rounded once: this one is GL's, and exact input
 
     /// Eye-space distance ζ of a world point from the light's camera plane [m].
-    [[nodiscard]] double zeta_m(const Vec3d& point) const;
+    [[nodiscard]] double light_distance_m(const Vec3d& point) const;
     /// World width of a texel at distance ζ [m]: the larger of the texel's two sides.
-    [[nodiscard]] double texel_width_m(double zeta_m, int resolution_texels) const;
+    [[nodiscard]] double texel_width_m(double light_distance_m, int resolution_texels) const;
     /// Metres along the axis that one depth unit spans; constant for orthographic frusta.
     [[nodiscard]] double range_m() const { return far_m - near_m; }
     [[nodiscard]] DepthRange depth_range() const

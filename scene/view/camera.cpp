@@ -115,12 +115,12 @@ Mat4d camera_clip_from_world(const Camera& camera, ImageSize image, const Box& b
     };
     const Vec4d x = plane(camera.right, 1.0 / half_width);
     const Vec4d y = plane(camera.up, 1.0 / camera.half_height);
-    const Vec4d zeta = plane(camera.forward, 1.0);
+    const Vec4d light_distance = plane(camera.forward, 1.0);
     if (camera.projection == Projection::perspective) {
-        return matrix_of_rows(x, y, Vec4d{0, 0, 0, near_m}, zeta);
+        return matrix_of_rows(x, y, Vec4d{0, 0, 0, near_m}, light_distance);
     }
     const double far_m = orthographic_far_m(camera, box, near_m);
-    const Vec4d depth = (Vec4d{0, 0, 0, far_m} - zeta) / (far_m - near_m);
+    const Vec4d depth = (Vec4d{0, 0, 0, far_m} - light_distance) / (far_m - near_m);
     return matrix_of_rows(x, y, depth, Vec4d{0, 0, 0, 1});
 }
 

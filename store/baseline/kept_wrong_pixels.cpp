@@ -85,7 +85,7 @@ analysis::WrongPixels read_wrong_pixels(const std::filesystem::path& run, const 
         wrong.object = file.integers("object");
     }
     if (file.has("light_distance_m")) {
-        wrong.zeta_m = file.floats("light_distance_m");
+        wrong.light_distance_m = file.floats("light_distance_m");
     }
     return wrong;
 }

@@ -81,8 +81,8 @@ void add_diagnosis(std::vector<ExrChannel>& channels, const analysis::Diagnosis&
                    const scene::Image<scene::PixelClass>& classes)
 {
     using enum ChannelType;
-    add_images(channels,
-               {{"light_distance_m", &diagnosis.zeta_m}, {"map_error_m", &diagnosis.map_error_m}});
+    add_images(channels, {{"light_distance_m", &diagnosis.light_distance_m},
+                          {"map_error_m", &diagnosis.map_error_m}});
     if (diagnosis.biases) {
         const scene::Image<float>& critical = diagnosis.biases->critical_bias;
         channels.push_back({"critical_bias", float32, [&](std::size_t i) {

@@ -10,8 +10,8 @@ namespace gnomon::store {
 /// Writes every layer of a comparison into one EXR file, channels by name.
 ///
 /// float32: `truth` (1 lit, 0 blocked, −1 not scored), `verdict`, `P.X P.Y P.Z` [m],
-/// `receiver_depth`, `map_depth` (NaN where the policy decided); uint32: `class` (the values of
-/// scene::PixelClass), `prim` and `witness` (0xFFFFFFFF for none). The header holds the exact
+/// `receiver_depth`, `map_depth` (NaN where the border mode decided); uint32: `class` (the values
+/// of scene::PixelClass), `prim` and `witness` (0xFFFFFFFF for none). The header holds the exact
 /// inputs as `gnomon:eye` … in hexadecimal, and the job as JSON in `gnomon:job`.
 /// @param points  P of each pixel [m], NaN where there is no receiver.
 /// @throws std::invalid_argument    if `points` is not of the image's size.

@@ -28,8 +28,9 @@ void write_depth_map(const std::filesystem::path& path, const analysis::Comparis
     const analysis::DepthMapping mapping{comparison.view.frustum.depth_range()};
     const float farthest = mapping.range().reversed ? 0.0F : 1.0F;
     const auto distance_m = [&](std::size_t i) {
-        return depths[i] == farthest ? std::numeric_limits<float>::quiet_NaN()
-                                     : static_cast<float>(mapping.zeta_m(double{depths[i]}));
+        return depths[i] == farthest
+                   ? std::numeric_limits<float>::quiet_NaN()
+                   : static_cast<float>(mapping.light_distance_m(double{depths[i]}));
     };
     const std::array<ExrChannel, 2> channels{{
         {"depth", ChannelType::float32,

@@ -13,7 +13,7 @@
 
 namespace gnomon::tests {
 
-/// A scene in both renderers' hands, compared under any number of settings.
+/// A scene that both renderers have loaded, compared under any number of settings.
 class Compared {
 public:
     explicit Compared(const scene::Job& job) : Compared{scene::load_scene(job.scene)} {}

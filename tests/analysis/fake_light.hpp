@@ -68,9 +68,9 @@ public:
     }
 
     [[nodiscard]] std::vector<std::uint8_t>
-    are_own_sheets(std::span<const scene::SheetQuery> queries) const override
+    are_self_shadowing(std::span<const scene::SelfShadowingQuery> queries) const override
     {
-        return answer<std::uint8_t>(queries, [&](const scene::SheetQuery& q) {
+        return answer<std::uint8_t>(queries, [&](const scene::SelfShadowingQuery& q) {
             return own.contains({q.pixel, q.triangle});
         });
     }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/answers/finished_curve.hpp"
-#include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/runner.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 #include "scene/job/source.hpp"
 #include "sweep_world.hpp"
 
@@ -127,11 +127,11 @@ public:
 
     PlanCounts run()
     {
-        const SweepCatalogue catalogue{space, static_cast<bool>(hooks.keep_pixels), "1.0"};
-        const auto& requests = catalogue.requests();
+        const SweepCurves sweep_curves{space, static_cast<bool>(hooks.keep_pixels), "1.0"};
+        const auto& requests = sweep_curves.requests();
         const SweepPlan plan = make_plan(requests, slots);
         planned = plan.counts(requests);
-        hooks.task = [&](std::size_t curve) { return catalogue.task(curve, {"hash", ""}); };
+        hooks.task = [&](std::size_t curve) { return sweep_curves.task(curve, {"hash", ""}); };
         return run_sweep(plan, hooks);
     }
 

@@ -236,7 +236,7 @@ class Pixel:
         return 1 - Fraction(len(self.shadowing_taps()), len(taps))
 
     def mean_of_taps(self, compare):
-        """A verdict without bias: the policy goes first, then a blocked pixel's own sheet, then the depths."""
+        """A verdict without bias: the policy goes first, then a blocked pixel's self-shadowing surface, then the depths."""
         lit = 0
         taps = self.lookup.footprint()
         for tap in taps:

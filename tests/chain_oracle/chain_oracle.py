@@ -237,7 +237,7 @@ def details(pixel, cause):
     return (f"truth {pixel.truth}, triangle {pixel.triangle}, r {pixel.lookup.depth}, bias {pixel.bias},"
             f" texel ({pixel.lookup.x}, {pixel.lookup.y}), V0 {pixel.verdict}, V1 {pixel.stored_verdict()},"
             f" V2 {pixel.exact_verdict()}, V2n {pixel.single_verdict()}, V3 {pixel.fine_verdict()}, cause {cause};"
-            f" taps (texel, lit in V0, own sheet) {taps}")
+            f" taps (texel, lit in V0, self-shadowing surface) {taps}")
 
 
 def check_pixel(oracle, x, y, tally):

@@ -70,7 +70,12 @@ TEST(LongTestModels, AreComparedWhereverAssimpFindsATriangle)
     for (const path& model : test_models()) {
         // Its one face has no area: the three vertices test number formats only.
         const bool has_no_area = model.filename() == "number_formats.obj";
-        const bool is_loaded = assimp_finds_a_triangle(model) && !has_no_area;
+        // Assimp drops the triangles that name vertices which are not there; Gnomon refuses the
+        // file.
+        const bool loses_triangles =
+            model.filename() == "IndexOutOfRange.gltf" ||
+            model.string().ends_with("glTF2/IncorrectVertexArrays/Cube.gltf");
+        const bool is_loaded = assimp_finds_a_triangle(model) && !has_no_area && !loses_triangles;
         EXPECT_EQ(compare(model, model.string()), is_loaded ? 0 : 2) << model;
     }
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Every reference to a document leads somewhere: document_links.sh CHECKOUT.
 #
-# Checked are docs/NAME.md and docs/NAME.md#anchor wherever sources name them, and the relative
-# links of the Markdown files. An anchor is a heading as hosting sites spell it in links.
+# Checked are docs/NAME.md and docs/NAME.md#anchor wherever sources name them, the relative links of the
+# Markdown files, and the sources that these name as `room/file`. An anchor is a heading as hosting sites spell it in links.
 set -euo pipefail
 cd "$1"
 
@@ -44,5 +44,14 @@ while IFS=: read -r where target; do
     [[ $target == http*://* ]] || { pushd "$(dirname "$where")" >/dev/null &&
         check "$where" "$target" && popd >/dev/null; }
 done < <(grep -oHE '\]\([^) ]+\)' "${pages[@]}")
+
+# Sources that a page names, with their ending or without, are there.
+rooms='scene|raster_gl|reference_rt|analysis|store|reports|cli|tests'
+while IFS=: read -r where source; do
+    if [ ! -e "$source" ] && ! compgen -G "$source.*" >/dev/null; then
+        printf '%s: %s does not exist\n' "$where" "$source" >&2
+        broken=1
+    fi
+done < <(grep -oHE "\`($rooms)/[A-Za-z0-9_/.]+\`" "${pages[@]}" | tr -d '`')
 
 exit "$broken"

@@ -30,3 +30,5 @@ expect "README.md: docs/formulas.md has no heading #lost" "[a](docs/formulas.md#
 expect "scene/job/job.hpp: docs/lost.md does not exist" "[a](#read-me)" "docs/lost.md"
 expect "scene/job/job.hpp: docs/formulas.md has no heading #lost" "[a](#read-me)" \
     "docs/formulas.md#lost"
+expect "README.md: scene/lost does not exist" '`scene/lost`' ""
+expect "" '`scene/job/job` `scene/job/job.hpp` `scene/job/`' ""

@@ -84,7 +84,7 @@ TEST(DepthMeasurement, OfD16IsTheSawtooth)
     std::size_t same = 0;
     for (const DepthErrorRow& row : error.rows) {
         same += row.code == row.formula_code ? 1 : 0;
-        ASSERT_LE(std::abs(row.error_m), row.model_m) << row.zeta_m;
+        ASSERT_LE(std::abs(row.error_m), row.model_m) << row.light_distance_m;
     }
     // Float32 evaluation moves d by some 2^-23, 1/128 code, on either side of each tie.
     EXPECT_GT(same, count * 95U / 100);
@@ -105,12 +105,12 @@ TEST(DepthMeasurement, OfD16IsZeroAtTheDistancesOfItsCodes)
         const DepthErrorRow& before = error.rows[i - 1];
         const DepthErrorRow& after = error.rows[i];
         const bool crosses = before.code == after.code && before.error_m >= 0 && after.error_m < 0;
-        if (!crosses || before.zeta_m < 20) { // nearer, a tooth has fewer than 8 samples
+        if (!crosses || before.light_distance_m < 20) { // nearer, a tooth has fewer than 8 samples
             continue;
         }
         const double zero_m = analysis::exact_distance_m(mapping, coding, before.code);
-        ASSERT_GE(zero_m, before.zeta_m - spacing_m);
-        ASSERT_LE(zero_m, after.zeta_m + spacing_m);
+        ASSERT_GE(zero_m, before.light_distance_m - spacing_m);
+        ASSERT_LE(zero_m, after.light_distance_m + spacing_m);
         ++zeros;
     }
     // Codes between 20 and 50 m: 65535·(d(50) − d(20)) = 8548.
@@ -232,12 +232,12 @@ TEST(DepthMeasurement, TransformsErrorStaysBelowTheTheorysBound)
             const DepthMapping mapping{settings.range};
             for (const DepthErrorRow& row : measured(settings, "d32f").rows) {
                 // The camera looks along an axis: S has the camera's and the vertex's coordinate.
-                const double row_sum_m = offset_m + std::abs(offset_m - row.zeta_m);
+                const double row_sum_m = offset_m + std::abs(offset_m - row.light_distance_m);
                 ASSERT_LE(std::abs(row.transform_error_m),
-                          analysis::transform_error_m(mapping,
-                                                      analysis::TransformOrder::premultiplied,
-                                                      row.zeta_m, std::max(row_sum_m, row.zeta_m)))
-                    << "offset " << offset_m << " zeta " << row.zeta_m;
+                          analysis::transform_error_m(
+                              mapping, analysis::TransformOrder::premultiplied,
+                              row.light_distance_m, std::max(row_sum_m, row.light_distance_m)))
+                    << "offset " << offset_m << " zeta " << row.light_distance_m;
             }
         }
     }
@@ -275,11 +275,12 @@ TEST(DepthMeasurement, OfReversedFloatStaysBelowFarTimesTwoToMinus26AndTheTransf
     for (const DepthErrorRow& row : error.rows) {
         // Storing: f·2^-26 = 7.45e-7 m. Transform and division, stated by the theory for a camera
         // at the origin.
-        const double bound_m = 50 * 0x1p-26 +
-                               analysis::gl_error_bound_m(DepthMapping{settings.range},
-                                                          DepthCoding::float32(), row.zeta_m) -
-                               row.envelope_m;
-        ASSERT_LE(std::abs(row.error_m), bound_m) << row.zeta_m;
+        const double bound_m =
+            50 * 0x1p-26 +
+            analysis::gl_error_bound_m(DepthMapping{settings.range}, DepthCoding::float32(),
+                                       row.light_distance_m) -
+            row.envelope_m;
+        ASSERT_LE(std::abs(row.error_m), bound_m) << row.light_distance_m;
     }
     settings.range.clip_range = ClipRange::minus_one_to_one;
     settings.range.reversed = false;

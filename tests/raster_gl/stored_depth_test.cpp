@@ -169,9 +169,9 @@ void set_map_of_whole_triangles(GlCase& c, const char* format)
     double nearest_m = c.view.frustum.near_m;
     double farthest_m = c.view.frustum.far_m;
     for (const scene::Vec3f& vertex : c.file.scene.vertices) {
-        const double zeta_m = c.view.frustum.zeta_m(scene::Vec3d{vertex});
-        nearest_m = std::min(nearest_m, zeta_m);
-        farthest_m = std::max(farthest_m, zeta_m);
+        const double light_distance_m = c.view.frustum.light_distance_m(scene::Vec3d{vertex});
+        nearest_m = std::min(nearest_m, light_distance_m);
+        farthest_m = std::max(farthest_m, light_distance_m);
     }
     const double padding_m = 1e-4 * (farthest_m - nearest_m); // float32 errs by less
     keys[2].value = std::to_string(nearest_m - padding_m);

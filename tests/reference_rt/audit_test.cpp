@@ -36,7 +36,7 @@ Audited audit_at(const Vec3d& shift)
         vertex += scene::Vec3f{shift};
     }
     const View view = make_view(Vec3d{2, 2.5, 4} + shift, Vec3d{0, 0.5, 0} + shift, audited_image,
-                                sun({-0.4, -1, -0.3}));
+                                directional({-0.4, -1, -0.3}));
     const auto receivers = brute_force_receivers(scene, view);
     const ReferenceScene reference{scene, {0, true, true}};
     Audited audited;
@@ -79,7 +79,7 @@ TEST(AuditFloatMethods, NeedsPlainRays)
     SceneBuilder builder;
     add_ground(builder, 3, 1);
     const TriangleScene scene = builder.take();
-    const View view = make_view({2, 2.5, 4}, {0, 0, 0}, audited_image, sun({0, -1, 0}));
+    const View view = make_view({2, 2.5, 4}, {0, 0, 0}, audited_image, directional({0, -1, 0}));
     const Image<std::uint32_t> receivers{audited_image, 0};
     const ReferenceScene reference{scene};
     const auto truth = compute_truth(reference, view, brute_force_receivers(scene, view), {});

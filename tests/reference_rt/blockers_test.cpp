@@ -60,9 +60,9 @@ TEST(NearestBlockers, AreThoseOfBruteForceInRationals)
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         std::mt19937 random{seed};
         const TriangleScene scene = layered_scene(random);
-        const View view =
-            make_view({0.5, 3, 2}, {0, -1, 0}, blocked_image,
-                      seed == 41 ? sun({0.3, -1, 0.2}) : spot({0, 2, 0.5}, {0, -1, 0}, 160));
+        const View view = make_view({0.5, 3, 2}, {0, -1, 0}, blocked_image,
+                                    seed == 41 ? directional({0.3, -1, 0.2})
+                                               : spot({0, 2, 0.5}, {0, -1, 0}, 160));
         const auto receivers = brute_force_receivers(scene, view);
         const ReferenceScene reference{scene};
         const auto truth = compute_truth(reference, view, receivers, {});
@@ -102,7 +102,7 @@ TEST(NearestBlockers, PreferTheLowestOfSeveralAtTheSamePoint)
     for (std::size_t i = 1; i < 4; ++i) {
         scene.objects[i].receives = false;
     }
-    const View view = make_view({0, 3, 1}, {0, 0, 0}, {9, 9}, sun({0, -1, 0}));
+    const View view = make_view({0, 3, 1}, {0, 0, 0}, {9, 9}, directional({0, -1, 0}));
     const auto receivers = brute_force_receivers(scene, view);
     const std::vector<std::size_t> centre{40};
     EXPECT_EQ(nearest_blockers(ReferenceScene{scene}, view, receivers, centre),
@@ -118,7 +118,7 @@ TEST(NearestBlockers, CountTheLowerTriangleOfASeam)
     TriangleScene scene = builder.take();
     scene.objects.back().receives = false;
     // An odd width puts the centre column's pixels on x = 0, straight below the ridge.
-    const View view = make_view({0, 2, 2}, {0, 0, 0}, {65, 49}, sun({0, -1, 0}));
+    const View view = make_view({0, 2, 2}, {0, 0, 0}, {65, 49}, directional({0, -1, 0}));
     const auto receivers = brute_force_receivers(scene, view);
     const std::vector<std::size_t> ridge{24 * 65 + 32};
     EXPECT_EQ(nearest_blockers(ReferenceScene{scene}, view, receivers, ridge),
@@ -129,7 +129,7 @@ TEST(NearestBlockers, RejectPixelsWithoutReceiver)
 {
     std::mt19937 random{1};
     const TriangleScene scene = layered_scene(random);
-    const View view = make_view({0, 3, 2}, {0, 0, 0}, blocked_image, sun({0, -1, 0}));
+    const View view = make_view({0, 3, 2}, {0, 0, 0}, blocked_image, directional({0, -1, 0}));
     const Image<std::uint32_t> nothing{blocked_image, no_triangle};
     const std::vector<std::size_t> first{0};
     const std::vector<std::size_t> outside{blocked_image.pixel_count()};

@@ -163,26 +163,32 @@ TEST_P(BoxShadow, EqualsTheAnalyticPolygon)
 INSTANTIATE_TEST_SUITE_P(
     Views, BoxShadow,
     testing::Values(
-        Lighting{"high sun", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({0.4, -1, 0.3}))},
-        Lighting{"low sun", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({1, -0.35, 0.2}))},
-        Lighting{"along an axis", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({0.7, -1, 0}))},
-        Lighting{"sideways", make_view({-1, 3, 3}, {0, 0, 0}, box_image, sun({-1, -0.5, 1}))},
+        Lighting{"high sun",
+                 make_view({2, 2.5, 3}, {0, 0, 0}, box_image, directional({0.4, -1, 0.3}))},
+        Lighting{"low sun",
+                 make_view({2, 2.5, 3}, {0, 0, 0}, box_image, directional({1, -0.35, 0.2}))},
+        Lighting{"along an axis",
+                 make_view({2, 2.5, 3}, {0, 0, 0}, box_image, directional({0.7, -1, 0}))},
+        Lighting{"sideways",
+                 make_view({-1, 3, 3}, {0, 0, 0}, box_image, directional({-1, -0.5, 1}))},
         // The box's foot from near: a pixel is about 3 mm.
-        Lighting{"foot", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image, sun({1, -1, 0.1}))},
-        Lighting{"corner",
-                 make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image, sun({0.2, -0.4, 1}))},
+        Lighting{"foot",
+                 make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image, directional({1, -1, 0.1}))},
+        Lighting{"corner", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image,
+                                     directional({0.2, -0.4, 1}))},
         Lighting{"spot", make_view({2, 2.5, 3}, {0, 0, 0}, box_image,
                                    spot({-1.5, 3, 0.5}, {0, 0, 0}, 170))},
         Lighting{"spot at the foot", make_view({0.9, 0.3, 0.9}, {0.5, 0, 0.25}, box_image,
                                                spot({-1.5, 3, 0}, {0, 0, 0}, 170))},
-        Lighting{"orthographic", make_view({2, 2.5, 3}, {0, 0, 0}, box_image, sun({0.4, -1, 0.3}),
-                                           scene::Projection::orthographic)}));
+        Lighting{"orthographic",
+                 make_view({2, 2.5, 3}, {0, 0, 0}, box_image, directional({0.4, -1, 0.3}),
+                           scene::Projection::orthographic)}));
 
 TEST(BoxShadowOnTiles, IsNotBrokenByCoplanarNeighbours)
 {
     constexpr int cells = 64;
     const TriangleScene scene = box_on_ground(cells);
-    const View view = make_view({2, 2.5, 3}, {0, 0, 0}, small, sun({1, -0.1, 0.2}));
+    const View view = make_view({2, 2.5, 3}, {0, 0, 0}, small, directional({1, -0.1, 0.2}));
     const auto receivers = brute_force_receivers(scene, view);
     const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
     const Comparison result = compare(truth, receivers, view, 2 * cells * cells, tolerance_px);
@@ -196,7 +202,7 @@ TEST(BoxShadowFarAway, KeepsItsPolygonWithinTheRaysRounding)
     constexpr int cells = 64;
     const Vec3d shift{1000, -1000, 500};
     const TriangleScene scene = box_on_ground(cells, shift);
-    const View near = make_view({2, 2.5, 3}, {0, 0, 0}, small, sun({1, -0.5, 0.2}));
+    const View near = make_view({2, 2.5, 3}, {0, 0, 0}, small, directional({1, -0.5, 0.2}));
     View far = near;
     far.camera.eye += shift;
     const auto receivers = brute_force_receivers(scene, far);

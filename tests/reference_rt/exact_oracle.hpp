@@ -89,11 +89,11 @@ enum class ExactContact : std::uint8_t { none, cross, boundary };
 inline ExactContact exact_contact(const RationalVec& point, const scene::Light& light,
                                   const std::array<scene::Vec3f, 3>& triangle)
 {
-    const bool is_sun = light.type == scene::LightType::directional;
+    const bool is_directional = light.type == scene::LightType::directional;
     const RationalVec step =
-        is_sun ? RationalVec{-light.direction} : RationalVec{light.position} - point;
+        is_directional ? RationalVec{-light.direction} : RationalVec{light.position} - point;
     const auto hit = hit_of(point, step, triangle);
-    if (!hit || hit->t <= 0 || (!is_sun && hit->t >= 1) || hit->is_outside()) {
+    if (!hit || hit->t <= 0 || (!is_directional && hit->t >= 1) || hit->is_outside()) {
         return ExactContact::none;
     }
     return hit->is_inside() ? ExactContact::cross : ExactContact::boundary;

@@ -32,10 +32,11 @@ TriangleScene mixed_scene(std::mt19937& random)
     return builder.take();
 }
 
-View view_of(bool has_sun)
+View view_of(bool has_directional)
 {
     return make_view({1, 2.5, 4}, {0, -0.5, 0}, moved_image,
-                     has_sun ? sun({-0.5, -1, -0.25}) : spot({-1, 3, 1}, {0, 0, 0}, 150));
+                     has_directional ? directional({-0.5, -1, -0.25})
+                                     : spot({-1, 3, 1}, {0, 0, 0}, 150));
 }
 
 struct Subject {

@@ -13,7 +13,7 @@ using scene::ExactTap;
 using scene::HitDetail;
 using scene::LinearQuery;
 using scene::NearestQuery;
-using scene::SheetQuery;
+using scene::SelfShadowingQuery;
 using scene::Texel;
 using scene::TexelHit;
 
@@ -135,7 +135,7 @@ inline scene::FrustumSettings fixed_frustum(double half_extent_m, double near_m,
 /// Upright and oblique, both types and depth directions; some planes cut through the scene.
 inline std::vector<LightCase> light_cases()
 {
-    scene::LightSettings noon = sun({0, -1, 0});
+    scene::LightSettings noon = directional({0, -1, 0});
     noon.position = Vec3d{0, 4, 0};
     scene::FrustumSettings fitted;
     fitted.roll_deg = 20;
@@ -145,8 +145,8 @@ inline std::vector<LightCase> light_cases()
         {"noon, aligned", noon, fixed_frustum(2, 1, 8)},
         {"noon, near plane through the scene", noon, fixed_frustum(2, 3, 4.5)},
         {"noon, reversed", noon, fixed_frustum(2, 3, 4.5, true)},
-        {"oblique", sun({-0.4, -1, -0.3}), fitted},
-        {"oblique, reversed", sun({-0.4, -1, -0.3}), fitted_reversed},
+        {"oblique", directional({-0.4, -1, -0.3}), fitted},
+        {"oblique, reversed", directional({-0.4, -1, -0.3}), fitted_reversed},
         {"spot above", spot({0, 4, 0}, {0, 0, 0}, 90), fixed_frustum(2, 1, 8)},
         {"spot above, reversed", spot({0, 4, 0}, {0, 0, 0}, 90), fixed_frustum(2, 3, 4.5, true)},
         {"oblique spot", spot({1, 3, 2}, {0, 0, 0}, 80), fitted}};

@@ -156,12 +156,12 @@ inline Passing first_hit_of(const scene::TriangleScene& scene, const scene::View
 inline bool is_crossed(const scene::TriangleScene& scene, const scene::View& view,
                        const RationalVec& point, scene::Cull cull)
 {
-    const bool is_sun = view.light.type == scene::LightType::directional;
-    const RationalVec step =
-        is_sun ? RationalVec{-view.light.direction} : RationalVec{view.light.position} - point;
+    const bool is_directional = view.light.type == scene::LightType::directional;
+    const RationalVec step = is_directional ? RationalVec{-view.light.direction}
+                                            : RationalVec{view.light.position} - point;
     for (const Passing& passing :
          passings(scene, point, step, [&](int side) { return culling_leaves(cull, side); })) {
-        if (passing.t > 0 && (is_sun || passing.t < 1) &&
+        if (passing.t > 0 && (is_directional || passing.t < 1) &&
             is_between_near_and_far(view.frustum, point + passing.t * step)) {
             return true;
         }

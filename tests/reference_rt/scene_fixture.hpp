@@ -129,7 +129,7 @@ inline View make_view(const Vec3d& eye, const Vec3d& target, ImageSize image,
     return View{scene::make_camera(camera), image, scene::make_light(light), {}, {}};
 }
 
-inline scene::LightSettings sun(const Vec3d& direction)
+inline scene::LightSettings directional(const Vec3d& direction)
 {
     scene::LightSettings light;
     light.direction = direction;

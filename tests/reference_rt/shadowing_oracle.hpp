@@ -44,7 +44,7 @@ inline bool cross_or_touch(const Rational2& a, const Rational2& b, const Rationa
 /// The segment P→light, cut where it has left the scene.
 struct Segment {
     RationalVec from, step;
-    bool is_sun;
+    bool is_directional;
 };
 
 /// True when the open segment lies in the triangle's plane and meets it there.
@@ -62,7 +62,8 @@ inline bool runs_in(const Segment& segment, const Triangle& t)
     };
     // Less than any distance between different crossings of these scenes' edges: the ends are open.
     const Rational nearly_nothing{0x1p-300};
-    const Rational reach = (segment.is_sun ? Rational{1 << 20} : Rational{1}) - nearly_nothing;
+    const Rational reach =
+        (segment.is_directional ? Rational{1 << 20} : Rational{1}) - nearly_nothing;
     const Rational2 p = flat(segment.from + nearly_nothing * segment.step);
     const Rational2 q = flat(segment.from + reach * segment.step);
     const std::array<Rational2, 3> c{flat(a), flat(exact(t[1])), flat(exact(t[2]))};
@@ -113,11 +114,11 @@ inline bool is_exact_seam(const Triangle& a, const Triangle& b, const scene::Lig
 inline PixelClass exact_shadowing(const TriangleScene& scene, const View& view,
                                   const RationalVec& point, std::uint32_t receiver)
 {
-    const bool is_sun = view.light.type == scene::LightType::directional;
+    const bool is_directional = view.light.type == scene::LightType::directional;
     const Segment segment{point,
-                          is_sun ? RationalVec{-view.light.direction}
-                                 : RationalVec{view.light.position} - point,
-                          is_sun};
+                          is_directional ? RationalVec{-view.light.direction}
+                                         : RationalVec{view.light.position} - point,
+                          is_directional};
     std::vector<Triangle> touched;
     bool touches_otherwise = false; // at a vertex, or inside its plane
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {

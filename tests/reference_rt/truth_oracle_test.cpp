@@ -30,12 +30,12 @@ TriangleScene triangle_soup(std::mt19937& random, int triangle_count)
     return builder.take();
 }
 
-View view_of_soup(std::mt19937& random, bool has_sun, scene::Projection projection)
+View view_of_soup(std::mt19937& random, bool has_directional, scene::Projection projection)
 {
     std::uniform_real_distribution<double> place{-1, 1};
     const Vec3d side{place(random), place(random), place(random)};
     const scene::LightSettings light =
-        has_sun ? sun(side) : spot(Vec3d{0, 3, 0} + side, {0, 0, 0}, 170);
+        has_directional ? directional(side) : spot(Vec3d{0, 3, 0} + side, {0, 0, 0}, 170);
     return make_view(Vec3d{0, 0, 3} + 0.5 * side, {0, 0, 0}, oracle_image, light, projection);
 }
 
@@ -92,7 +92,7 @@ Judged check_against_oracle(const TriangleScene& scene, const View& view,
 
 struct Soup {
     unsigned seed;
-    bool has_sun;
+    bool has_directional;
     scene::Projection projection;
 
     friend void PrintTo(const Soup& soup, std::ostream* out) { *out << "seed " << soup.seed; }
@@ -104,7 +104,7 @@ TEST_P(TriangleSoup, IsJudgedAsByRationals)
 {
     std::mt19937 random{GetParam().seed};
     const TriangleScene scene = triangle_soup(random, 24);
-    const View view = view_of_soup(random, GetParam().has_sun, GetParam().projection);
+    const View view = view_of_soup(random, GetParam().has_directional, GetParam().projection);
     const auto receivers = brute_force_receivers(scene, view);
     const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
     const Judged judged = check_against_oracle(scene, view, receivers, truth);
@@ -118,7 +118,7 @@ TEST_P(TriangleSoup, KeepsItsClassesWhenTrianglesArePermuted)
 {
     std::mt19937 random{GetParam().seed};
     const TriangleScene scene = triangle_soup(random, 200);
-    const View view = view_of_soup(random, GetParam().has_sun, GetParam().projection);
+    const View view = view_of_soup(random, GetParam().has_directional, GetParam().projection);
     const auto receivers = brute_force_receivers(scene, view);
     const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
 

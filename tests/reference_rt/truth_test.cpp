@@ -29,7 +29,7 @@ View boxes_view(const scene::LightSettings& light)
 TEST(ComputeTruth, SeesOnlyBackgroundWhereThereIsNothing)
 {
     const TriangleScene scene = boxes_scene();
-    const View view = make_view({0, 2, 3}, {0, 4, 8}, truth_image, sun({0, -1, 0}));
+    const View view = make_view({0, 2, 3}, {0, 4, 8}, truth_image, directional({0, -1, 0}));
     const auto truth = truth_of(scene, view);
     EXPECT_EQ(count(truth.pixel_class, PixelClass::background),
               static_cast<int>(truth_image.pixel_count()));
@@ -39,7 +39,7 @@ TEST(ComputeTruth, SeesOnlyBackgroundWhereThereIsNothing)
 TEST(ComputeTruth, CallsAWallInTheLightsPlaneAttached)
 {
     const TriangleScene scene = boxes_scene();
-    const View view = boxes_view(sun({0, -1, 0}));
+    const View view = boxes_view(directional({0, -1, 0}));
     const auto receivers = brute_force_receivers(scene, view);
     const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
     int walls = 0;
@@ -65,7 +65,7 @@ TEST(ComputeTruth, CallsTheSideAwayFromTheLightAttached)
     add_ground(builder, 4, 1);
     const TriangleScene scene = builder.take();
     const auto truth =
-        truth_of(scene, make_view({0, 3, 1}, {0, 0, 0}, truth_image, sun({0.1, 1, 0})));
+        truth_of(scene, make_view({0, 3, 1}, {0, 0, 0}, truth_image, directional({0.1, 1, 0})));
     EXPECT_EQ(count(truth.pixel_class, PixelClass::attached),
               static_cast<int>(truth_image.pixel_count()));
 }
@@ -99,7 +99,7 @@ TEST(ComputeTruth, LightsADiscUnderASpot)
 TEST(ComputeTruth, HonoursRoles)
 {
     TriangleScene scene = boxes_scene();
-    const View view = boxes_view(sun({-0.3, -1, -0.4}));
+    const View view = boxes_view(directional({-0.3, -1, -0.4}));
     const auto all = truth_of(scene, view);
     ASSERT_GT(count(all.pixel_class, PixelClass::blocked), 100);
 
@@ -138,7 +138,8 @@ TEST(ComputeTruth, BlocksAtAContactCloserThanFloatRaysResolve)
     TriangleScene scene = builder.take();
     scene.objects[1].receives = false;
     for (const Vec3d& direction : {Vec3d{0.3, -1, 0.2}, Vec3d{-1, -0.9, 0.4}}) {
-        const View view = make_view({1000.5, 2.5, 0.75}, {1000, 0, 0}, truth_image, sun(direction));
+        const View view =
+            make_view({1000.5, 2.5, 0.75}, {1000, 0, 0}, truth_image, directional(direction));
         const auto receivers = brute_force_receivers(scene, view);
         const auto truth = compute_truth(ReferenceScene{scene}, view, receivers, {});
         const int background = count(truth.pixel_class, PixelClass::background);
@@ -155,7 +156,8 @@ TEST(ComputeTruth, BlocksEverythingInsideAClosedSphere)
     add_sphere(builder, {0, 0, 0}, 2, 16);
     const TriangleScene scene = builder.take();
     for (const Vec3d& direction : {Vec3d{0, -1, 0}, Vec3d{1, 0, 0}, Vec3d{0.3, -1, 0.2}}) {
-        const View view = make_view({0, 0, 0.25}, {0.5, 0.5, -1}, truth_image, sun(direction));
+        const View view =
+            make_view({0, 0, 0.25}, {0.5, 0.5, -1}, truth_image, directional(direction));
         const auto truth = truth_of(scene, view);
         EXPECT_EQ(count(truth.pixel_class, PixelClass::lit), 0);
         EXPECT_EQ(count(truth.pixel_class, PixelClass::indeterminate), 0);
@@ -174,7 +176,7 @@ scene::TruthLayers truth_under_ridge(double apex_x)
     TriangleScene scene = builder.take();
     scene.objects.back().receives = false;
     // An odd width puts the centre column's pixels on x = 0, straight below the ridge.
-    const View view = make_view({0, 2, 2}, {0, 0, 0}, {65, 49}, sun({0, -1, 0}));
+    const View view = make_view({0, 2, 2}, {0, 0, 0}, {65, 49}, directional({0, -1, 0}));
     return truth_of(scene, view);
 }
 
@@ -216,7 +218,7 @@ TEST(ComputeTruth, IsTheSameForAnyNumberOfThreads)
 TEST(ComputeTruth, ByPlainRaysAgreesAwayFromContacts)
 {
     const TriangleScene scene = boxes_scene();
-    const View view = boxes_view(sun({-0.3, -1, -0.4}));
+    const View view = boxes_view(directional({-0.3, -1, -0.4}));
     const auto judged = truth_of(scene, view);
     const auto plain = truth_of(scene, view, {TruthMethod::plain, 0});
     int different = 0;
@@ -232,7 +234,7 @@ TEST(ComputeTruth, ByPlainRaysAgreesAwayFromContacts)
 TEST(ComputeTruth, RejectsForeignReceivers)
 {
     const TriangleScene scene = boxes_scene();
-    const View view = boxes_view(sun({0, -1, 0}));
+    const View view = boxes_view(directional({0, -1, 0}));
     const ReferenceScene reference{scene};
     const Image<std::uint32_t> narrow{ImageSize{95, 72}, no_triangle};
     EXPECT_THROW((void)compute_truth(reference, view, narrow, {}), std::invalid_argument);
@@ -247,7 +249,7 @@ TEST(ReceiverPoints, LieOnTheTriangleUnderThePixel)
     SceneBuilder builder;
     add_ground(builder, 4, 1, 0.5);
     const TriangleScene scene = builder.take();
-    const View view = make_view({0, 2.5, 0.5}, {0, 0.5, -1}, {9, 7}, sun({0, -1, 0}));
+    const View view = make_view({0, 2.5, 0.5}, {0, 0.5, -1}, {9, 7}, directional({0, -1, 0}));
     auto receivers = brute_force_receivers(scene, view);
     receivers(0, 0) = no_triangle;
     const auto points = receiver_points(scene, view, receivers);
@@ -264,7 +266,7 @@ TEST(EmbreeVersion, NamesTheLibrary)
 
 TEST(ReferenceScene, OutlivesTheSceneItWasMadeFrom)
 {
-    const View view = boxes_view(sun({-0.3, -1, -0.4}));
+    const View view = boxes_view(directional({-0.3, -1, -0.4}));
     auto scene = std::make_unique<TriangleScene>(boxes_scene());
     const auto receivers = brute_force_receivers(*scene, view);
     ReferenceScene first{*scene};

@@ -26,7 +26,7 @@ TriangleScene square_and_sheet(double gap_m)
 
 View front_view()
 {
-    return make_view({0, 0, 4}, {0, 0, 0}, small_image, sun({0.1, 0.2, -1}));
+    return make_view({0, 0, 4}, {0, 0, 0}, small_image, directional({0.1, 0.2, -1}));
 }
 
 struct Reclassified {
@@ -110,7 +110,7 @@ TEST(Unmatched, IsASnapWhereTheNearPlaneCutsATriangle)
     builder.add("slope", std::vector<Vec3d>{{-9, -9, -9}, {9, -9, 9}, {9, 9, 9}, {-9, 9, -9}},
                 std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
     const TriangleScene scene = builder.take();
-    View view = make_view({4, 0, 4}, {4, 0, 0}, small_image, sun({0.1, 0.2, -1}),
+    View view = make_view({4, 0, 4}, {4, 0, 0}, small_image, directional({0.1, 0.2, -1}),
                           scene::Projection::orthographic);
     view.camera.half_height = 1;
     const double near_m = scene::receiver_near_m(scene.bounds());

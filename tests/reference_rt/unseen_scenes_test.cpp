@@ -203,7 +203,7 @@ TEST(AwkwardCamera, MakesNoPixelWrong)
         for (const auto projection :
              {scene::Projection::perspective, scene::Projection::orthographic}) {
             SCOPED_TRACE(testing::Message() << "eye at " << eye.x << ' ' << eye.y << ' ' << eye.z);
-            View view = make_view(eye, target, {33, 25}, sun({-1, -1, -0.5}), projection);
+            View view = make_view(eye, target, {33, 25}, directional({-1, -1, -0.5}), projection);
             scored += check_every_pixel(scene, view).scored;
         }
     }
@@ -227,10 +227,10 @@ TEST(TinyScene, HasNoWrongPixel)
     }
 }
 
-const scene::LightSettings slanted = sun({-0.4, -1, -0.3});
-const scene::LightSettings upright = sun({0, -1, 0});
-const scene::LightSettings diagonal = sun({-1, -1, 0});
-const scene::LightSettings lamp = spot({-1, 3, 1}, {0, 0, 0}, 150);
+const scene::LightSettings slanted = directional({-0.4, -1, -0.3});
+const scene::LightSettings upright = directional({0, -1, 0});
+const scene::LightSettings diagonal = directional({-1, -1, 0});
+const scene::LightSettings positional = spot({-1, 3, 1}, {0, 0, 0}, 150);
 
 INSTANTIATE_TEST_SUITE_P(Kinds, UnseenScene,
                          testing::Values(Unseen{"boxes, slanted", touching_boxes, slanted},
@@ -238,13 +238,13 @@ INSTANTIATE_TEST_SUITE_P(Kinds, UnseenScene,
                                          Unseen{"boxes, diagonal", touching_boxes, diagonal},
                                          Unseen{"boxes, orthographic", touching_boxes, diagonal,
                                                 scene::Projection::orthographic},
-                                         Unseen{"boxes, lamp", touching_boxes, lamp},
+                                         Unseen{"boxes, lamp", touching_boxes, positional},
                                          Unseen{"sheets, slanted", coplanar_sheets, slanted},
-                                         Unseen{"sheets, lamp", coplanar_sheets, lamp},
+                                         Unseen{"sheets, lamp", coplanar_sheets, positional},
                                          Unseen{"strip, upright", folded_strip, upright},
-                                         Unseen{"strip, lamp", folded_strip, lamp},
+                                         Unseen{"strip, lamp", folded_strip, positional},
                                          Unseen{"soup, slanted", soup, slanted},
-                                         Unseen{"soup, lamp, orthographic", soup, lamp,
+                                         Unseen{"soup, lamp, orthographic", soup, positional,
                                                 scene::Projection::orthographic}));
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SceneOnTheSamplingLattice,

@@ -1,7 +1,7 @@
 #include "reports/gate/gate_github.hpp"
 #include "reports/gate/gate_junit.hpp"
 #include "reports/gate/gate_table.hpp"
-#include "reports/gate/place_picture.hpp"
+#include "reports/gate/new_pixels_picture.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -152,13 +152,13 @@ TEST(GateTable, SaysOfWhichPixelsAndWhere)
                                 "(9, 8)")));
 }
 
-PlacePicture picture_of_marks(scene::ImageSize size)
+NewPixelsPicture picture_of_marks(scene::ImageSize size)
 {
-    PlacePicture picture;
+    NewPixelsPicture picture;
     picture.title = "title";
     picture.lines = {"line"};
     picture.ground = store::RgbImage{size, {200, 200, 200}};
-    picture.marks = scene::Image<PlaceMark>{size};
+    picture.marks = scene::Image<PixelChange>{size};
     return picture;
 }
 
@@ -167,28 +167,28 @@ std::size_t drawn_pixels(const store::RgbImage& image, store::Rgb colour)
     return static_cast<std::size_t>(std::count(image.begin(), image.end(), colour));
 }
 
-TEST(PlacePicture, LosesNoNewPixelWhereItIsScaledDown)
+TEST(NewPixelsPicture, LosesNoNewPixelWhereItIsScaledDown)
 {
     constexpr store::Rgb blue{0x00, 0x72, 0xB2};
-    PlacePicture picture = picture_of_marks({3000, 1200});
-    picture.marks(2999, 1199) = PlaceMark::new_false_lit;
-    picture.marks(2998, 1199) = PlaceMark::wrong_before;
+    NewPixelsPicture picture = picture_of_marks({3000, 1200});
+    picture.marks(2999, 1199) = PixelChange::new_false_lit;
+    picture.marks(2998, 1199) = PixelChange::wrong_before;
     const std::size_t legend =
-        drawn_pixels(draw_place_picture(picture_of_marks({3000, 1200})), blue);
+        drawn_pixels(draw_new_pixels_picture(picture_of_marks({3000, 1200})), blue);
     // Where there are few, a dot of 7×7 in the whole image, and 8×8 in the magnified part.
-    EXPECT_EQ(drawn_pixels(draw_place_picture(picture), blue), legend + 49 + 64);
+    EXPECT_EQ(drawn_pixels(draw_new_pixels_picture(picture), blue), legend + 49 + 64);
     // Where there are many, one panel pixel; here the others are magnified.
     for (int x = 0; x < 250; ++x) {
-        picture.marks(x, 0) = PlaceMark::new_false_shadow;
+        picture.marks(x, 0) = PixelChange::new_false_shadow;
     }
-    EXPECT_EQ(drawn_pixels(draw_place_picture(picture), blue), legend + 1);
+    EXPECT_EQ(drawn_pixels(draw_new_pixels_picture(picture), blue), legend + 1);
 }
 
-TEST(PlacePicture, DrawsTheSmallestImage)
+TEST(NewPixelsPicture, DrawsTheSmallestImage)
 {
-    PlacePicture picture = picture_of_marks({1, 1});
-    picture.marks(0, 0) = PlaceMark::new_false_shadow;
-    EXPECT_GT(drawn_pixels(draw_place_picture(picture), {0xD5, 0x5E, 0x00}), 400U * 400U);
+    NewPixelsPicture picture = picture_of_marks({1, 1});
+    picture.marks(0, 0) = PixelChange::new_false_shadow;
+    EXPECT_GT(drawn_pixels(draw_new_pixels_picture(picture), {0xD5, 0x5E, 0x00}), 400U * 400U);
 }
 
 } // namespace

@@ -220,7 +220,7 @@ analysis::Comparison with_critical_biases()
     const scene::Image<float> zeros{classes.size()};
     analysis::BiasCurve curve{criticals, classes};
     comparison.diagnosis = analysis::Diagnosis{
-        .zeta_m = zeros,
+        .light_distance_m = zeros,
         .map_error_m = zeros,
         .causes = {scene::Image<analysis::Cause>{classes.size()},
                    scene::Image<analysis::Label>{classes.size()},

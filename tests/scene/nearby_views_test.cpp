@@ -54,14 +54,16 @@ TEST(NearbyCamera, StaysInItsCapAndDistances)
 
 TEST(NearbyLight, TurnsByAtMostThirtyDegrees)
 {
-    LightSettings sun;
-    sun.direction = Vec3d{0, -2, 0};
+    LightSettings directional;
+    directional.direction = Vec3d{0, -2, 0};
     LightSettings spot;
     spot.type = LightType::spot;
     spot.position = Vec3d{1, 5, 2};
     spot.target = Vec3d{0, 1, 0};
     for (std::uint32_t k = 1; k <= 200; ++k) {
-        EXPECT_LE(degrees_between(*nearby_light(sun, k).direction, *sun.direction), 30 + 1e-6) << k;
+        EXPECT_LE(degrees_between(*nearby_light(directional, k).direction, *directional.direction),
+                  30 + 1e-6)
+            << k;
         const LightSettings turned = nearby_light(spot, k);
         EXPECT_EQ(turned.target, spot.target);
         EXPECT_LE(degrees_between(*turned.target - *turned.position, *spot.target - *spot.position),

@@ -226,7 +226,7 @@ TEST(WriteDepthMap, HoldsDepthsAndTheDistancesThatTheyStandFor)
             ASSERT_EQ(map.value("depth", i), depths[i]);
             if (i != farthest) {
                 ASSERT_EQ(map.value("light_distance_m", i),
-                          static_cast<float>(mapping.zeta_m(double{depths[i]})));
+                          static_cast<float>(mapping.light_distance_m(double{depths[i]})));
             }
         }
         EXPECT_TRUE(std::isnan(map.value("light_distance_m", farthest)));

@@ -197,11 +197,11 @@ private:
                             centre(glm::dot(offset, frustum.up)) * frustum.up;
         constexpr double back_m = 100;
         const Hit seen = first_hit(scene_, {texel - back_m * frustum.forward, frustum.forward});
-        const auto depth = [&](double zeta_m) {
-            return static_cast<float>((zeta_m - frustum.near_m) / frustum.range_m());
+        const auto depth = [&](double light_distance_m) {
+            return static_cast<float>((light_distance_m - frustum.near_m) / frustum.range_m());
         };
         scene::LookupSample result;
-        result.receiver_depth = depth(frustum.zeta_m(point));
+        result.receiver_depth = depth(frustum.light_distance_m(point));
         result.map_depth =
             seen.triangle == scene::no_triangle ? 1.0F : depth(seen.distance - back_m);
         result.verdict =

@@ -34,14 +34,14 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::vector<analysis::ErrorPart> example_parts{
-    {"a \"wall\"\n", analysis::zeta_band_of(0.2F), 9, 0, {}},
+    {"a \"wall\"\n", analysis::light_distance_band_of(0.2F), 9, 0, {}},
     {"floor",
-     analysis::zeta_band_of(-5),
+     analysis::light_distance_band_of(-5),
      3,
      2,
      {{false, analysis::Cause::bias, analysis::Label::overshadow, 1, 0.75}}},
     {"floor",
-     analysis::zeta_band_of(4),
+     analysis::light_distance_band_of(4),
      90,
      10,
      {{false, analysis::Cause::resolution, analysis::Label::acne, 7, 7},

@@ -36,10 +36,10 @@ scene::LightFrustum spot(bool reversed = false)
     return frustum;
 }
 
-double depth_at(const scene::LightFrustum& frustum, double zeta_m)
+double depth_at(const scene::LightFrustum& frustum, double light_distance_m)
 {
     const double depth =
-        (1 / frustum.near_m - 1 / zeta_m) / (1 / frustum.near_m - 1 / frustum.far_m);
+        (1 / frustum.near_m - 1 / light_distance_m) / (1 / frustum.near_m - 1 / frustum.far_m);
     return frustum.reversed ? 1 - depth : depth;
 }
 
@@ -69,10 +69,10 @@ TEST(BiasOfLength, IsTheInverse)
 {
     EXPECT_EQ(bias_of_length(directional(), 2.0, 5.0), 0.25);
     for (const double bias : {1e-6, 1e-3, 0.1}) {
-        for (const double zeta_m : {5.0, 20.0, 49.0}) {
-            const double length_m = bias_length_m(spot(), bias, zeta_m);
+        for (const double light_distance_m : {5.0, 20.0, 49.0}) {
+            const double length_m = bias_length_m(spot(), bias, light_distance_m);
             // Relative: ζ − length loses at most a few bits here.
-            EXPECT_NEAR(bias_of_length(spot(), length_m, zeta_m) / bias, 1, 1e-12);
+            EXPECT_NEAR(bias_of_length(spot(), length_m, light_distance_m) / bias, 1, 1e-12);
         }
     }
     EXPECT_EQ(bias_of_length(spot(), 5, 5), std::numeric_limits<double>::infinity());
@@ -118,9 +118,10 @@ TEST(BiasMap, HoldsWhatLitPixelsNeedAndBlockedPixelsAllow)
     classes[1] = PixelClass::blocked;
     classes[2] = PixelClass::attached;
     const scene::LookupLayers lookup{scene::Image<scene::LookupSample>{size, {0.5F, 0, 0, 0}}};
-    const scene::Image<float> zeta_m{size, 6.0F};
+    const scene::Image<float> light_distance_m{size, 6.0F};
     const DepthFormat d32f{DepthFormat::Kind::d32f, 32};
-    const BiasMap map = map_biases({criticals, classes, lookup, zeta_m, directional(), 4, d32f});
+    const BiasMap map =
+        map_biases({criticals, classes, lookup, light_distance_m, directional(), 4, d32f});
     EXPECT_EQ(map.depth[0], 0.25F);
     EXPECT_EQ(map.metres[0], 2.0F);
     EXPECT_EQ(map.texels[0], 4.0F); // texels of half a metre
@@ -140,8 +141,8 @@ TEST(BiasMap, KeepsInfinities)
     scene::Image<PixelClass> classes{size, PixelClass::lit};
     classes[2] = classes[3] = PixelClass::blocked;
     const scene::LookupLayers lookup{scene::Image<scene::LookupSample>{size, {0.5F, 0, 0, 0}}};
-    const scene::Image<float> zeta_m{size, 6.0F};
-    const BiasMap map = map_biases({criticals, classes, lookup, zeta_m, spot(), 4, {}});
+    const scene::Image<float> light_distance_m{size, 6.0F};
+    const BiasMap map = map_biases({criticals, classes, lookup, light_distance_m, spot(), 4, {}});
     for (const auto* image : {&map.depth, &map.metres, &map.texels, &map.steps}) {
         EXPECT_EQ((*image)[0], inf);
         EXPECT_EQ((*image)[1], -inf);
@@ -155,8 +156,8 @@ TEST(BiasMap, RejectsImagesOfDifferentSize)
     const scene::Image<float> criticals{{2, 1}};
     const scene::Image<PixelClass> classes{{1, 1}};
     const scene::LookupLayers lookup{scene::Image<scene::LookupSample>{{1, 1}}};
-    const scene::Image<float> zeta_m{{1, 1}};
-    EXPECT_THROW((void)map_biases({criticals, classes, lookup, zeta_m, spot(), 4, {}}),
+    const scene::Image<float> light_distance_m{{1, 1}};
+    EXPECT_THROW((void)map_biases({criticals, classes, lookup, light_distance_m, spot(), 4, {}}),
                  std::invalid_argument);
 }
 

@@ -52,9 +52,10 @@ struct OnePixel {
         lookup.samples[0].map_depth = unbiased.samples[0].map_depth;
         return *this;
     }
-    OnePixel& sees(int x, int y, double depth, double zeta_m = 1, std::uint32_t triangle = 7)
+    OnePixel& sees(int x, int y, double depth, double light_distance_m = 1,
+                   std::uint32_t triangle = 7)
     {
-        light.hits[{x, y}] = {triangle, depth, zeta_m};
+        light.hits[{x, y}] = {triangle, depth, light_distance_m};
         return *this;
     }
 
@@ -267,7 +268,7 @@ TEST(Causes, ReversedDepthsAreReadTheOtherWay)
     EXPECT_EQ(pixel.found().exact_critical_bias, -0.125F);
 }
 
-TEST(Causes, AcneNeedsHalfOfTheShadowingTapsOnTheOwnSheet)
+TEST(Causes, AcneNeedsHalfOfTheShadowingTapsOnTheSelfShadowingSurface)
 {
     OnePixel pixel{PixelClass::lit};
     pixel.settings.filter = Filter::pcf3;
@@ -366,12 +367,12 @@ TEST(Causes, OwnShadowsThatTheBiasCuredLeaveTheFilter)
     OnePixel pixel{PixelClass::lit};
     pixel.settings.filter = Filter::pcf3;
     pixel.verdicts(0, 0).sees_everywhere(0.25F, 9);
-    pixel.sees(4, 4, 0.25, 1, 7).stores(4, 4, 0.4375F); // the centre: its own sheet
+    pixel.sees(4, 4, 0.25, 1, 7).stores(4, 4, 0.4375F); // the centre: its self-shadowing surface
     pixel.light.own.insert({0, 7});
     // Exact depths would shadow it up to ¼, GL's own up to 1/16: above that the bias has cured it.
     expect(pixel.classified({0.03125F, 0, 0}), Cause::resolution, Label::edge);
     expect(pixel.classified({0.0625F, 0, 0}), Cause::filter, Label::edge);
-    // Another texel of its own sheet is still shadowed.
+    // Another texel of its self-shadowing surface is still shadowed.
     pixel.light.own.insert({0, 8});
     pixel.sees(3, 3, 0.25, 1, 8);
     expect(pixel.classified({0.0625F, 0, 0}), Cause::resolution, Label::edge);
@@ -476,7 +477,7 @@ TEST(Causes, TheCentreTexelRepairsAFilter)
     EXPECT_NE(pixel.classified().cause[0], Cause::filter);
 }
 
-TEST(Causes, LinearIsNotRepairedWhereItsCentreSeesItsOwnSheet)
+TEST(Causes, LinearIsNotRepairedWhereItsCentreSeesItsSelfShadowingSurface)
 {
     OnePixel pixel{PixelClass::blocked};
     pixel.settings.filter = Filter::linear;
@@ -489,7 +490,7 @@ TEST(Causes, LinearIsNotRepairedWhereItsCentreSeesItsOwnSheet)
     expect(pixel.classified(), Cause::coverage, Label::leak);
 }
 
-TEST(Causes, OwnSheetsAroundTheFootprintHideNoLeak)
+TEST(Causes, SelfShadowingAroundTheFootprintHidesNoLeak)
 {
     OnePixel pixel{PixelClass::blocked};
     pixel.verdicts(1, 1).sees(4, 4, 0.5, 10).sees(5, 4, 0.2, 5, 9);

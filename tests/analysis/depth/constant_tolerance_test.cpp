@@ -70,10 +70,12 @@ TEST(ConstantTolerance, IsTheFirstDistanceThatTheEnvelopeExceeds)
                 constexpr double rounding =
                     1 + 1e-12; // a few roundings of doubles of both formulas
                 for (int i = 0; i < 500 && end_m > mapping.near_m(); ++i) {
-                    const double zeta_m = mapping.near_m() + (end_m - mapping.near_m()) * i / 500;
-                    ASSERT_LE(error_envelope_m(mapping, coding, zeta_m), tolerance_m * rounding)
-                        << tolerance_m << " m at " << zeta_m << " m, float " << coding.is_float()
-                        << ", reversed " << mapping.range().reversed;
+                    const double light_distance_m =
+                        mapping.near_m() + (end_m - mapping.near_m()) * i / 500;
+                    ASSERT_LE(error_envelope_m(mapping, coding, light_distance_m),
+                              tolerance_m * rounding)
+                        << tolerance_m << " m at " << light_distance_m << " m, float "
+                        << coding.is_float() << ", reversed " << mapping.range().reversed;
                 }
                 if (from_m) {
                     ++found;
@@ -94,14 +96,14 @@ TEST(ToleranceRows, ShowSingleCodesAtBothEndsAndWhereTheToleranceBeginsToBeTooSm
     const auto tolerance = constant_tolerance(mapping, coding, 1e-8);
     const auto rows = tolerance_rows(mapping, coding, 64, tolerance);
     EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-        return a.zeta_m <= b.zeta_m;
+        return a.light_distance_m <= b.light_distance_m;
     })) << "each distance once";
-    EXPECT_EQ(rows.front().zeta_m, 4);
-    EXPECT_EQ(rows.back().zeta_m, 50);
+    EXPECT_EQ(rows.front().light_distance_m, 4);
+    EXPECT_EQ(rows.back().light_distance_m, 50);
     for (const double centre_m : {4.0, *tolerance.exceeded_from_m, 50.0}) {
         const double width_m = 8.01 * code_step_m(mapping, coding, centre_m);
         const auto near_it = std::count_if(rows.begin(), rows.end(), [&](const auto& row) {
-            return std::abs(row.zeta_m - centre_m) <= width_m;
+            return std::abs(row.light_distance_m - centre_m) <= width_m;
         });
         EXPECT_GE(near_it, 129) << centre_m;
     }

@@ -40,8 +40,8 @@ TEST(CodeDensity, OfAnOrthographicProjectionIsConstant)
 {
     const DepthMapping mapping{seed_range(Projection::orthographic)};
     const DepthCoding coding = DepthCoding::unorm(16);
-    for (const double zeta_m : {4.0, 27.0, 50.0}) {
-        EXPECT_DOUBLE_EQ(codes_per_metre(mapping, coding, zeta_m), 65535 / 46.0);
+    for (const double light_distance_m : {4.0, 27.0, 50.0}) {
+        EXPECT_DOUBLE_EQ(codes_per_metre(mapping, coding, light_distance_m), 65535 / 46.0);
     }
     EXPECT_DOUBLE_EQ(code_share_within(mapping, coding, 27), 0.5);
     EXPECT_FALSE(distance_of_step_m(mapping, coding, 1));
@@ -85,7 +85,7 @@ TEST(LargestCodeStep, OfFloatsIsNowhereExceededAndAttained)
     // Reversed 2u·f/4, within the binade of d: ζ = 29.1 m at d = 2^-4.
     const DepthMapping reversed{seed_range(Projection::perspective, true, ClipRange::zero_to_one)};
     EXPECT_NEAR(largest_code_step_m(reversed, coding), 2 * 7.2509e-7, 1e-10);
-    EXPECT_NEAR(coarsest_depth(reversed, coding).zeta_m, 1 / (0.02 + 0.23 / 16), 1e-12);
+    EXPECT_NEAR(coarsest_depth(reversed, coding).light_distance_m, 1 / (0.02 + 0.23 / 16), 1e-12);
 }
 
 TEST(FloatLimit, IsWhereHalfOfTheDepthsEnd)

@@ -65,7 +65,7 @@ TEST(LargestDepthError, IsAttainedHalfACodeBeforeFar)
         // A rounding to this side of the tie.
         const double depth = far_code + towards_near * coding.half_step(1) * (1 - 1e-9);
         const double error_m =
-            std::abs(stored_depth(mapping, coding, mapping.zeta_m(depth)).error_m);
+            std::abs(stored_depth(mapping, coding, mapping.light_distance_m(depth)).error_m);
         EXPECT_NEAR(error_m, largest_error_m(mapping, coding), 1e-8 * error_m);
     }
 }
@@ -100,12 +100,14 @@ TEST(Sawtooth, NeverLeavesTheEnvelope)
             // reversed depths, which carry their digits, far less.
             const double rounding = 4 * 0x1p-53;
             for (int i = 0; i <= samples; ++i) {
-                const double zeta_m = 4 + 46.0 * i / samples;
-                const double error_m = std::abs(stored_depth(mapping, coding, zeta_m).error_m);
-                const double slack_m = rounding * mapping.slope_m(zeta_m);
-                ASSERT_LE(error_m, error_envelope_m(mapping, coding, zeta_m) + slack_m)
-                    << bits << " bits, zeta " << zeta_m;
-                ASSERT_LE(error_m, largest_m + slack_m) << bits << " bits, zeta " << zeta_m;
+                const double light_distance_m = 4 + 46.0 * i / samples;
+                const double error_m =
+                    std::abs(stored_depth(mapping, coding, light_distance_m).error_m);
+                const double slack_m = rounding * mapping.slope_m(light_distance_m);
+                ASSERT_LE(error_m, error_envelope_m(mapping, coding, light_distance_m) + slack_m)
+                    << bits << " bits, zeta " << light_distance_m;
+                ASSERT_LE(error_m, largest_m + slack_m)
+                    << bits << " bits, zeta " << light_distance_m;
             }
         }
     }
@@ -120,9 +122,10 @@ TEST(Sawtooth, OfTheLessonSweptDenselyReachesTheTablesLargestError)
         const DepthCoding coding = DepthCoding::unorm(8 + 4 * row);
         double largest_m = 0;
         for (int i = 0; i <= samples; ++i) {
-            const double zeta_m = 4 + 46.0 * i / samples;
-            const double error_m = std::abs(stored_depth(mapping, coding, zeta_m).error_m);
-            ASSERT_LE(error_m, error_envelope_m(mapping, coding, zeta_m) * (1 + 1e-9));
+            const double light_distance_m = 4 + 46.0 * i / samples;
+            const double error_m =
+                std::abs(stored_depth(mapping, coding, light_distance_m).error_m);
+            ASSERT_LE(error_m, error_envelope_m(mapping, coding, light_distance_m) * (1 + 1e-9));
             largest_m = std::max(largest_m, error_m);
         }
         // From 12 bits on the sweep undersamples the last teeth: which samples it hits decides the
@@ -137,8 +140,8 @@ TEST(Sawtooth, IsZeroAtTheDistancesOfItsCodes)
     for (const DepthMapping& mapping : all_mappings()) {
         const DepthCoding coding = DepthCoding::unorm(16);
         for (const std::uint32_t code : {0U, 1U, 1000U, 40000U, 65534U, 65535U}) {
-            const double zeta_m = exact_distance_m(mapping, coding, code);
-            const StoredDepth stored = stored_depth(mapping, coding, zeta_m);
+            const double light_distance_m = exact_distance_m(mapping, coding, code);
+            const StoredDepth stored = stored_depth(mapping, coding, light_distance_m);
             EXPECT_EQ(stored.code, code);
             // The distance and the way back: up to 16 roundings of at most 50 m.
             EXPECT_NEAR(stored.error_m, 0, 16 * 0x1p-53 * 50);
@@ -151,8 +154,8 @@ TEST(Sawtooth, OfAnOrthographicProjectionIsTheSameEverywhere)
     const DepthMapping mapping{seed_range(Projection::orthographic)};
     const DepthCoding coding = DepthCoding::unorm(16);
     const double half_step_m = 0.5 * 46 / 65535;
-    for (const double zeta_m : {4.0, 20.0, 50.0}) {
-        EXPECT_DOUBLE_EQ(error_envelope_m(mapping, coding, zeta_m), half_step_m);
+    for (const double light_distance_m : {4.0, 20.0, 50.0}) {
+        EXPECT_DOUBLE_EQ(error_envelope_m(mapping, coding, light_distance_m), half_step_m);
     }
     EXPECT_DOUBLE_EQ(largest_error_m(mapping, coding), half_step_m);
 }
@@ -163,13 +166,13 @@ TEST(FloatDepth, StaysBelowTheSmoothEnvelope)
         for (const bool reversed : {false, true}) {
             const DepthMapping mapping{seed_range(projection, reversed, ClipRange::zero_to_one)};
             for (int i = 0; i <= 10000; ++i) {
-                const double zeta_m = 4 + 46.0 * i / 10000;
+                const double light_distance_m = 4 + 46.0 * i / 10000;
                 // The smooth bound is first order: AΔζ is at most 50·0.23·2^-24.
                 // The last float32 is 2^-149, where the smooth bound is 0.
-                ASSERT_LE(error_envelope_m(mapping, DepthCoding::float32(), zeta_m),
-                          smooth_float_envelope_m(mapping, zeta_m) * (1 + 1e-6) +
-                              0x1p-149 * mapping.slope_m(zeta_m))
-                    << zeta_m;
+                ASSERT_LE(error_envelope_m(mapping, DepthCoding::float32(), light_distance_m),
+                          smooth_float_envelope_m(mapping, light_distance_m) * (1 + 1e-6) +
+                              0x1p-149 * mapping.slope_m(light_distance_m))
+                    << light_distance_m;
             }
         }
     }
@@ -182,9 +185,10 @@ TEST(FloatDepth, ReversedErrsByAtMostFarTimesTwoToMinus26)
     EXPECT_NEAR(smooth_float_envelope_m(mapping, 25), 7.4506e-7, 5e-12);
     double largest_m = 0;
     for (int i = 0; i <= 1'000'000; ++i) {
-        const double zeta_m = 4 + 46e-6 * i;
+        const double light_distance_m = 4 + 46e-6 * i;
         largest_m = std::max(
-            largest_m, std::abs(stored_depth(mapping, DepthCoding::float32(), zeta_m).error_m));
+            largest_m,
+            std::abs(stored_depth(mapping, DepthCoding::float32(), light_distance_m).error_m));
     }
     EXPECT_LT(largest_m, 50 * 0x1p-26);
     // What a sweep of the formula measured, 7.25e-7; which distances it hits decides the digits.
@@ -197,9 +201,10 @@ TEST(FloatDepth, ReversedThroughMinusOneToOneKeepsAnAbsoluteError)
     const DepthMapping mapping{seed_range(Projection::perspective, true)};
     double largest_m = 0;
     for (int i = 0; i <= 1'000'000; ++i) {
-        const double zeta_m = 4 + 46e-6 * i;
+        const double light_distance_m = 4 + 46e-6 * i;
         largest_m = std::max(
-            largest_m, std::abs(stored_depth(mapping, DepthCoding::float32(), zeta_m).error_m));
+            largest_m,
+            std::abs(stored_depth(mapping, DepthCoding::float32(), light_distance_m).error_m));
     }
     // 2^-26·Aζ² at f: 8.57e-6; measured by a sweep 8.56e-6.
     EXPECT_NEAR(error_envelope_m(mapping, DepthCoding::float32(), 50), 8.57e-6, 0.005e-6);

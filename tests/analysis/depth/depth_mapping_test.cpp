@@ -24,8 +24,8 @@ TEST(DepthMapping, RunsFromNearToFar)
         const double near_depth = mapping.range().reversed ? 1 : 0;
         EXPECT_EQ(mapping.depth(4), near_depth);
         EXPECT_EQ(mapping.depth(50), 1 - near_depth);
-        EXPECT_EQ(mapping.zeta_m(near_depth), 4);
-        EXPECT_EQ(mapping.zeta_m(1 - near_depth), 50);
+        EXPECT_EQ(mapping.light_distance_m(near_depth), 4);
+        EXPECT_EQ(mapping.light_distance_m(1 - near_depth), 50);
     }
 }
 
@@ -57,7 +57,8 @@ std::vector<std::uint32_t> codes_of(const DepthCoding& coding)
 
 /// The distance of a code with the 64 significant bits of long double; 1 − t of an integer code is
 /// exact.
-long double wide_zeta_m(const DepthMapping& mapping, const DepthCoding& coding, std::uint32_t code)
+long double wide_light_distance_m(const DepthMapping& mapping, const DepthCoding& coding,
+                                  std::uint32_t code)
 {
     const long double largest = coding.largest_code();
     const long double depth =
@@ -77,8 +78,9 @@ TEST(DepthMapping, HasNearAndFarExactlyAtTheEndsOfEveryCoding)
 {
     for (const DepthMapping& mapping : extreme_mappings()) {
         for (const DepthCoding& coding : codings) {
-            const double at_0_m = mapping.zeta_m(coding.split_depth(0));
-            const double at_1_m = mapping.zeta_m(coding.split_depth(coding.largest_code()));
+            const double at_0_m = mapping.light_distance_m(coding.split_depth(0));
+            const double at_1_m =
+                mapping.light_distance_m(coding.split_depth(coding.largest_code()));
             EXPECT_EQ(at_0_m, mapping.range().reversed ? mapping.far_m() : mapping.near_m());
             EXPECT_EQ(at_1_m, mapping.range().reversed ? mapping.near_m() : mapping.far_m());
         }
@@ -90,10 +92,10 @@ TEST(DepthMapping, KeepsEveryDigitOfACodesDistance)
     for (const DepthMapping& mapping : extreme_mappings()) {
         for (const DepthCoding& coding : codings) {
             for (const std::uint32_t code : codes_of(coding)) {
-                const long double exact_m = wide_zeta_m(mapping, coding, code);
-                const double zeta_m = mapping.zeta_m(coding.split_depth(code));
+                const long double exact_m = wide_light_distance_m(mapping, coding, code);
+                const double light_distance_m = mapping.light_distance_m(coding.split_depth(code));
                 // Positive terms: t, 1 − t, n/f, product, sum and quotient round once each.
-                EXPECT_NEAR(static_cast<double>(zeta_m - exact_m), 0,
+                EXPECT_NEAR(static_cast<double>(light_distance_m - exact_m), 0,
                             6 * 0x1p-53 * static_cast<double>(exact_m))
                     << mapping.near_m() << " to " << mapping.far_m() << ", " << coding.bits()
                     << " bits, code " << code;
@@ -108,17 +110,19 @@ TEST(DepthMapping, ErrorOfAStoredDepthIsTheDifferenceOfItsDistances)
         for (const DepthCoding& coding : codings) {
             for (const std::uint32_t code : codes_of(coding)) {
                 for (const double share : {0.0, 1e-9, 0.1, 0.5, 0.999, 1.0}) {
-                    const double zeta_m = std::lerp(mapping.near_m(), mapping.far_m(), share);
-                    const auto difference_m =
-                        static_cast<double>(wide_zeta_m(mapping, coding, code) - zeta_m);
-                    const double larger_m = std::max(zeta_m, zeta_m + difference_m);
+                    const double light_distance_m =
+                        std::lerp(mapping.near_m(), mapping.far_m(), share);
+                    const auto difference_m = static_cast<double>(
+                        wide_light_distance_m(mapping, coding, code) - light_distance_m);
+                    const double larger_m =
+                        std::max(light_distance_m, light_distance_m + difference_m);
                     // Δ is off by four roundings of one half of the depth at ζ and one at ζ', the
                     // smaller at ζ: times Aζζ' each is below 2 max(ζ, ζ'). The products add 4, the
                     // distance 6, relative to a result below max(ζ, ζ').
-                    EXPECT_NEAR(mapping.stored_error_m(zeta_m, coding.split_depth(code)),
+                    EXPECT_NEAR(mapping.stored_error_m(light_distance_m, coding.split_depth(code)),
                                 difference_m, 20 * 0x1p-53 * larger_m)
                         << mapping.near_m() << " to " << mapping.far_m() << ", " << coding.bits()
-                        << " bits, code " << code << ", zeta " << zeta_m;
+                        << " bits, code " << code << ", zeta " << light_distance_m;
                 }
             }
         }
@@ -131,9 +135,10 @@ TEST(DepthMapping, OfTheLessonIsItsFormula)
     const DepthMapping mapping{seed_range()};
     const double c1 = 2 * 4.0 * 50 / (4.0 - 50);
     const double c2 = 54.0 / 46;
-    for (const double zeta_m : {4.0, 5.0, 10.0, 25.0, 49.0}) {
+    for (const double light_distance_m : {4.0, 5.0, 10.0, 25.0, 49.0}) {
         // Three roundings of numbers below 2 each, halved.
-        EXPECT_NEAR(mapping.depth(zeta_m), 0.5 * (c2 + c1 / zeta_m) + 0.5, 4e-16);
+        EXPECT_NEAR(mapping.depth(light_distance_m), 0.5 * (c2 + c1 / light_distance_m) + 0.5,
+                    4e-16);
     }
 }
 
@@ -141,11 +146,12 @@ TEST(DepthMapping, MatchesTheClipRow)
 {
     for (const DepthMapping& mapping : all_mappings()) {
         const scene::Vec2d row = scene::clip_depth_row(mapping.range());
-        for (const double zeta_m : {4.0, 7.5, 20.0, 50.0}) {
-            const double z_ndc = (row.x * zeta_m + row.y) / (mapping.is_perspective() ? zeta_m : 1);
+        for (const double light_distance_m : {4.0, 7.5, 20.0, 50.0}) {
+            const double z_ndc = (row.x * light_distance_m + row.y) /
+                                 (mapping.is_perspective() ? light_distance_m : 1);
             const bool halves = mapping.range().clip_range == ClipRange::minus_one_to_one;
             // Coefficients up to 2.4 round thrice.
-            EXPECT_NEAR(halves ? 0.5 * z_ndc + 0.5 : z_ndc, mapping.depth(zeta_m), 2e-15);
+            EXPECT_NEAR(halves ? 0.5 * z_ndc + 0.5 : z_ndc, mapping.depth(light_distance_m), 2e-15);
         }
     }
 }
@@ -154,11 +160,14 @@ TEST(DepthMapping, ErrorOfADepthIsExact)
 {
     for (const DepthMapping& mapping : all_mappings()) {
         for (const double error : {1e-3, -1e-3, 1e-6, -1e-6}) {
-            const double zeta_m = 20;
-            const double moved_m = mapping.zeta_m(mapping.depth(zeta_m) + error) - zeta_m;
+            const double light_distance_m = 20;
+            const double moved_m =
+                mapping.light_distance_m(mapping.depth(light_distance_m) + error) -
+                light_distance_m;
             // The difference of two distances near 20 m, each off by some 1e-16 relative.
-            EXPECT_NEAR(mapping.zeta_error_m(zeta_m, error), moved_m, 4e-14);
-            EXPECT_GE(mapping.largest_zeta_error_m(zeta_m, error), std::abs(moved_m) - 4e-14);
+            EXPECT_NEAR(mapping.light_distance_error_m(light_distance_m, error), moved_m, 4e-14);
+            EXPECT_GE(mapping.largest_light_distance_error_m(light_distance_m, error),
+                      std::abs(moved_m) - 4e-14);
         }
     }
 }
@@ -167,7 +176,7 @@ TEST(DepthMapping, HasNoDistanceForDepthsBehindInfinity)
 {
     const DepthMapping mapping{seed_range()};
     // 1/ζ = 1/n − Ad is 0 at d = 1/(nA).
-    EXPECT_TRUE(std::isinf(mapping.zeta_error_m(50, 0.1)));
+    EXPECT_TRUE(std::isinf(mapping.light_distance_error_m(50, 0.1)));
 }
 
 TEST(DepthMapping, RejectsRangesWithoutExtent)

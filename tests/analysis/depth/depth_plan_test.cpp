@@ -36,11 +36,12 @@ TEST(DepthPlan, NearPlanesMeetTheTargetAndNearerOnesMayNot)
                 for (int i = 0; i <= 1000; ++i) {
                     const DepthMapping mapping{
                         answer.format.range(projection, *answer.near_m, 200)};
-                    const double zeta_m = *answer.near_m + (200 - *answer.near_m) * i / 1000;
+                    const double light_distance_m =
+                        *answer.near_m + (200 - *answer.near_m) * i / 1000;
                     // Between the grid's points the evaluation's bound may be a little higher.
-                    ASSERT_LE(gl_error_bound_m(mapping, answer.format.coding, zeta_m),
+                    ASSERT_LE(gl_error_bound_m(mapping, answer.format.coding, light_distance_m),
                               max_error_m * 1.001)
-                        << answer.format.name << " at " << zeta_m;
+                        << answer.format.name << " at " << light_distance_m;
                 }
             }
         }

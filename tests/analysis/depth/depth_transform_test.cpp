@@ -66,8 +66,9 @@ double measured_error_m(const DepthMapping& mapping, const Camera& camera, Trans
     const float z_ndc = clip.z / clip.w;
     const float depth =
         mapping.range().clip_range == ClipRange::minus_one_to_one ? 0.5F * z_ndc + 0.5F : z_ndc;
-    const double zeta_m = -(camera.view * Vec4d{v}).z;
-    return mapping.zeta_error_m(zeta_m, double{depth} - mapping.depth(zeta_m));
+    const double light_distance_m = -(camera.view * Vec4d{v}).z;
+    return mapping.light_distance_error_m(light_distance_m,
+                                          double{depth} - mapping.depth(light_distance_m));
 }
 
 /// S, the sum of absolute products of the view's z row.
@@ -98,15 +99,15 @@ Measured measure(const DepthMapping& mapping, double offset_m, TransformOrder or
         const double along_m =
             mapping.near_m() + share * share * (mapping.far_m() - mapping.near_m());
         const Vec3f vertex{eye + along_m * forward};
-        const double zeta_m = -(camera.view * Vec4d{Vec4f{vertex, 1}}).z;
-        if (!(zeta_m > mapping.near_m() && zeta_m < mapping.far_m())) {
+        const double light_distance_m = -(camera.view * Vec4d{Vec4f{vertex, 1}}).z;
+        if (!(light_distance_m > mapping.near_m() && light_distance_m < mapping.far_m())) {
             continue;
         }
         const double error_m = std::abs(measured_error_m(mapping, camera, order, vertex));
         result.largest_m = std::max(result.largest_m, error_m);
-        result.largest_share =
-            std::max(result.largest_share, error_m / transform_error_m(mapping, order, zeta_m,
-                                                                       row_sum_m(camera, vertex)));
+        result.largest_share = std::max(
+            result.largest_share, error_m / transform_error_m(mapping, order, light_distance_m,
+                                                              row_sum_m(camera, vertex)));
     }
     return result;
 }

@@ -68,7 +68,7 @@ struct Pixel {
     PixelClass pixel_class = lit;
     float verdict = 0;
     float critical = 0;
-    float zeta_m = 1;
+    float light_distance_m = 1;
     float tan_theta = 0;
     float map_error_m = none;
 };
@@ -77,7 +77,7 @@ struct Images {
     scene::Image<PixelClass> classes;
     scene::LookupLayers lookup;
     scene::Image<float> criticals;
-    scene::Image<float> zeta_m;
+    scene::Image<float> light_distance_m;
     scene::Image<float> map_error_m;
 
     explicit Images(const std::vector<Pixel>& pixels)
@@ -85,13 +85,13 @@ struct Images {
         const scene::ImageSize size{static_cast<int>(pixels.size()), 1};
         classes = scene::Image<PixelClass>{size};
         lookup.samples = scene::Image<scene::LookupSample>{size};
-        criticals = zeta_m = map_error_m = scene::Image<float>{size};
+        criticals = light_distance_m = map_error_m = scene::Image<float>{size};
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const Pixel& p = pixels[i];
             classes[i] = p.pixel_class;
             lookup.samples[i] = {0.5F, 0.5F, p.tan_theta, p.verdict};
             criticals[i] = p.critical;
-            zeta_m[i] = p.zeta_m;
+            light_distance_m[i] = p.light_distance_m;
             map_error_m[i] = p.map_error_m;
         }
     }
@@ -101,7 +101,7 @@ struct Images {
     }
     [[nodiscard]] std::vector<ErrorBin> by_distance(int bins = 32) const
     {
-        return errors_by_bin(bin_by_distance(classes, zeta_m, bins), inputs());
+        return errors_by_bin(bin_by_distance(classes, light_distance_m, bins), inputs());
     }
     [[nodiscard]] std::vector<ErrorBin> by_angle(int bins = 18) const
     {
@@ -148,15 +148,15 @@ TEST(ErrorsByDistance, HoldEveryScoredPixelInTheBinOfItsValue)
         for (Pixel& pixel : pixels) {
             pixel.pixel_class = random() % 2 == 0 ? lit : blocked;
             pixel.verdict = static_cast<float>(random() % 2);
-            pixel.zeta_m = distance(random);
+            pixel.light_distance_m = distance(random);
         }
         const auto bins = Images{pixels}.by_distance(7);
         std::uint64_t total = 0;
         for (const ErrorBin& bin : bins) {
             const auto expected = std::count_if(pixels.begin(), pixels.end(), [&](const Pixel& p) {
                 const bool is_last = bin.upper == bins.back().upper;
-                const double zeta_m{p.zeta_m};
-                return zeta_m >= bin.lower && (zeta_m < bin.upper || is_last);
+                const double light_distance_m{p.light_distance_m};
+                return light_distance_m >= bin.lower && (light_distance_m < bin.upper || is_last);
             });
             ASSERT_EQ(bin.counts.lit + bin.counts.blocked, static_cast<std::uint64_t>(expected));
             total += bin.counts.lit + bin.counts.blocked;
@@ -169,8 +169,8 @@ TEST(ErrorsByBin, CountAnyBiasByTheCriticalBiases)
 {
     const Images images{{{lit, 0, 0.5F}, {lit, 0, 0.25F}, {blocked, 0, 0.375F}}};
     const std::array<float, 3> biases{0.0F, 0.375F, 0.5F};
-    const auto profiles =
-        errors_by_bin(bin_by_distance(images.classes, images.zeta_m), images.inputs(), biases);
+    const auto profiles = errors_by_bin(bin_by_distance(images.classes, images.light_distance_m),
+                                        images.inputs(), biases);
     ASSERT_EQ(profiles.size(), 3U);
     EXPECT_EQ(profiles[0][0].counts, (PartCounts{2, 1, 2, 0, 2, 0}));
     EXPECT_EQ(profiles[1][0].counts, (PartCounts{2, 1, 1, 1, 1, 1}));
@@ -181,7 +181,7 @@ TEST(ErrorsByBin, CountAnyBiasByTheCriticalBiases)
 TEST(ErrorsByBin, AddUpFractions)
 {
     const Images images{{{lit, 8.0F / 9}, {lit, 1}, {blocked, 2.0F / 9}, {blocked, 1}}};
-    const Binning binning = bin_by_distance(images.classes, images.zeta_m);
+    const Binning binning = bin_by_distance(images.classes, images.light_distance_m);
     BreakdownInputs inputs = images.inputs();
     inputs.taps = 9;
     EXPECT_EQ(errors_by_bin(binning, inputs)[0].counts,
@@ -254,7 +254,7 @@ TEST(Breakdown, RejectsWhatItCannotBin)
     EXPECT_THROW((void)errors_by_object(images.classes, images.lookup, {}, {}, 1),
                  std::invalid_argument);
     const scene::Image<float> empty;
-    const Binning binning = bin_by_distance(images.classes, images.zeta_m);
+    const Binning binning = bin_by_distance(images.classes, images.light_distance_m);
     const BreakdownInputs uneven{images.classes, images.lookup, empty, empty};
     EXPECT_THROW((void)errors_by_bin(binning, uneven), std::invalid_argument);
     EXPECT_THROW((void)bin_by_distance(images.classes, empty), std::invalid_argument);

@@ -42,7 +42,7 @@ LightSettings spot_light()
     return light;
 }
 
-LightSettings sun_light()
+LightSettings directional_light()
 {
     LightSettings light;
     light.direction = scene::Vec3d{0, -1, 0};
@@ -66,9 +66,9 @@ TEST(SceneIdentity, HasWhatTheJobLeavesToTheFile)
               "\ncamera.vertical_fov_deg=45\nlight.type=\"spot\"\nlight.position=[4, 6, 4]"
               "\nlight.target=[0, 0, 0]\nlight.cone_deg=60");
     scene::Job lit;
-    lit.light = sun_light();
+    lit.light = directional_light();
     EXPECT_EQ(identity_name(file_of({}, spot_light()), lit),
-              identity_name(file_of({}, sun_light()), lit));
+              identity_name(file_of({}, directional_light()), lit));
     EXPECT_EQ(identity_name(file_of({}, spot_light()), lit), identity_name({CameraSettings{}, {}}));
     scene::Job seen;
     seen.camera.emplace();
@@ -78,7 +78,7 @@ TEST(SceneIdentity, HasWhatTheJobLeavesToTheFile)
 TEST(SceneIdentity, IsAnotherWhereAnythingTakenDiffers)
 {
     std::vector<SceneDefaults> files{
-        {}, {CameraSettings{}, {}}, {{}, spot_light()}, {{}, sun_light()}};
+        {}, {CameraSettings{}, {}}, {{}, spot_light()}, {{}, directional_light()}};
     const std::vector<std::function<void(CameraSettings&)>> camera_changes{
         [](auto& camera) { camera.eye.x = 1e-9; }, [](auto& camera) { camera.target.y = 0.25; },
         [](auto& camera) { camera.up.z = 1; },
@@ -88,7 +88,7 @@ TEST(SceneIdentity, IsAnotherWhereAnythingTakenDiffers)
         change(*files.emplace_back(file_of({}, spot_light())).camera);
     }
     const std::vector<std::function<void(LightSettings&)>> light_changes{
-        [](auto&) {}, [](auto& light) { light = sun_light(); },
+        [](auto&) {}, [](auto& light) { light = directional_light(); },
         [](auto& light) { (*light.position).x = 5; }, [](auto& light) { (*light.target).y = 1; },
         [](auto& light) { light.cone_deg = 61; }};
     for (const auto& change : light_changes) {
@@ -111,7 +111,7 @@ TEST(SceneIdentity, IsEqualOnlyWhereTheJobSeesAndLightsAlike)
             file.camera->vertical_fov_deg = 40 + few();
         }
         if (random() % 2 == 0) {
-            file.light = random() % 2 == 0 ? sun_light() : spot_light();
+            file.light = random() % 2 == 0 ? directional_light() : spot_light();
             file.light->cone_deg = 60 + few(); // which the sun does not have
         }
         return file;

@@ -2,8 +2,8 @@
 
 #include "analysis/sweep/plan.hpp"
 
-#include "analysis/sweep/catalogue.hpp"
 #include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 #include "random_requests.hpp"
 #include "scene/job/source.hpp"
 
@@ -124,7 +124,7 @@ TEST(StageKeys, NameEveryKeyExactlyOnce)
     }
 }
 
-/// The plan of a job's text; `keeps` as of `SweepCatalogue`.
+/// The plan of a job's text; `keeps` as of `SweepCurves`.
 struct Planned {
     std::vector<CurveRequest> requests;
     SweepPlan plan;
@@ -133,9 +133,9 @@ struct Planned {
 
 Planned plan_of(const scene::SweepSpace& space)
 {
-    const SweepCatalogue catalogue{space, false, "1"};
+    const SweepCurves sweep_curves{space, false, "1"};
     Planned planned;
-    planned.requests = catalogue.requests();
+    planned.requests = sweep_curves.requests();
     planned.plan = make_plan(planned.requests, camera_slots(planned.requests));
     planned.counts = planned.plan.counts(planned.requests);
     return planned;

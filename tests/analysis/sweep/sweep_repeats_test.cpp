@@ -1,6 +1,6 @@
 // Whether configurations of a sweep may be the same.
 
-#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 
 #include "scene/job/source.hpp"
 
@@ -19,9 +19,9 @@ scene::SweepSpace wall_space(const std::vector<std::string>& axes)
 
 bool may_repeat(const scene::SweepSpace& space)
 {
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    return catalogue.may_repeat(
-        std::vector<SceneIdentity>(catalogue.requests().size(), {"0123456789abcdef", ""}));
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    return sweep_curves.may_repeat(
+        std::vector<SceneIdentity>(sweep_curves.requests().size(), {"0123456789abcdef", ""}));
 }
 
 TEST(SweepRepeats, MayOccurWhereScenesOrCasesMayBeEqual)

@@ -107,8 +107,8 @@ TEST(SweepRunner, DescribesTheCurveAtTheJobsOwnBias)
     for (std::uint64_t i = 0; i < 2; ++i) {
         const Comparison own = sweep.compared(i);
         const BiasAnswers& answers = *own.diagnosis->biases;
-        const SweepCatalogue catalogue{sweep.space, false, "1.0"};
-        const CurveResult& curve = sweep.curves.at(catalogue.task(i, {"hash", ""}).id);
+        const SweepCurves sweep_curves{sweep.space, false, "1.0"};
+        const CurveResult& curve = sweep.curves.at(sweep_curves.task(i, {"hash", ""}).id);
         ASSERT_EQ(curve.by_distance.size(), 2U);
         EXPECT_EQ(curve.by_distance[0].at, DistanceProfile::At::job_bias);
         EXPECT_EQ(curve.by_distance[0].bias, 0.125F);

@@ -87,6 +87,24 @@ TEST(Sweep, GivesWhatCompareGivesForBiasesOfOneCurve)
     expect_rows_compare(job, run, axes, 4);
 }
 
+TEST(Sweep, GivesWhatCompareGivesWhereTheLookupIsMovedAndBiasesAreBelowZero)
+{
+    const TemporaryFolder folder;
+    const path job =
+        folder.write("job.toml", two_lights + "[sweep]\n"
+                                              "\"bias.slope\" = [0.002, -0.002]\n"
+                                              "\"bias.constant\" = [0.05, 0, -0.01]\n");
+    const path run = folder.path() / "run";
+    swept(sweep(job, run,
+                {"--no-keep-pixels", "--set", "shadow_map.resolution=16", "--set",
+                 "lookup.filter=pcf3", "--set", "lookup.outside=shadowed", "--set",
+                 "bias.normal_texels=1.5"}));
+    expect_rows_compare(job, run,
+                        {"shadow_map.resolution", "lookup.filter", "lookup.outside",
+                         "bias.normal_texels", "bias.slope", "bias.constant"},
+                        12);
+}
+
 TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
 {
     const TemporaryFolder folder;

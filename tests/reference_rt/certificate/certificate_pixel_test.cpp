@@ -28,7 +28,7 @@ using Corners = std::array<Vec3d, 3>;
 using Indices = std::array<std::uint32_t, 3>;
 constexpr std::uint32_t ground = 0;
 
-Light sun_from(const Vec3d& direction)
+Light directional_from(const Vec3d& direction)
 {
     Light light;
     light.direction = -direction;
@@ -42,7 +42,8 @@ Light spot_at(const Vec3d& position, const Vec3d& axis, double cosine)
 /// The ground, triangle 0, is below z = 0's plane through nothing else: (0, 0, 0) is inside it.
 class OnePixel {
 public:
-    explicit OnePixel(const std::vector<Corners>& others, const Light& light = sun_from({1, 0, 1}),
+    explicit OnePixel(const std::vector<Corners>& others,
+                      const Light& light = directional_from({1, 0, 1}),
                       Projection projection = Projection::perspective)
     {
         scene::SceneBuilder builder;
@@ -94,14 +95,14 @@ const Corners standing{Vec3d{1, 0, 0.5}, Vec3d{1, 0, 2}, Vec3d{2, 0, 1}};
 TEST(BruteForce, FindsTheGroundLit)
 {
     EXPECT_EQ(OnePixel{{}}.pixel_class(), PixelClass::lit);
-    EXPECT_EQ(OnePixel({}, sun_from({1, 0, 1}), Projection::orthographic).pixel_class(),
+    EXPECT_EQ(OnePixel({}, directional_from({1, 0, 1}), Projection::orthographic).pixel_class(),
               PixelClass::lit);
 }
 
 TEST(BruteForce, FindsACrossing)
 {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
-        const OnePixel pixel{{crossing}, sun_from({1, 0, 1}), projection};
+        const OnePixel pixel{{crossing}, directional_from({1, 0, 1}), projection};
         const Finding finding = pixel.decide();
         EXPECT_EQ(finding.pixel_class, PixelClass::blocked);
         EXPECT_EQ(finding.triangle, 1U);
@@ -172,9 +173,11 @@ TEST(BruteForce, LetsACrossingPrevailOverDegenerateContacts)
 
 TEST(BruteForce, FindsAttachedBehindAndExactlyInThePlane)
 {
-    EXPECT_EQ(OnePixel({crossing}, sun_from({1, 0, -1})).pixel_class(), PixelClass::attached);
-    EXPECT_EQ(OnePixel({crossing}, sun_from({1, 0, 0})).pixel_class(), PixelClass::attached);
-    EXPECT_EQ(OnePixel({}, sun_from({1, 0, 0x1p-100})).pixel_class(), PixelClass::lit);
+    EXPECT_EQ(OnePixel({crossing}, directional_from({1, 0, -1})).pixel_class(),
+              PixelClass::attached);
+    EXPECT_EQ(OnePixel({crossing}, directional_from({1, 0, 0})).pixel_class(),
+              PixelClass::attached);
+    EXPECT_EQ(OnePixel({}, directional_from({1, 0, 0x1p-100})).pixel_class(), PixelClass::lit);
     const Vec3d axis{-1, 0, 0};
     EXPECT_EQ(OnePixel({}, spot_at({3, 0, 0}, axis, 0.5)).pixel_class(), PixelClass::attached);
 }

@@ -31,7 +31,7 @@ struct CertifiedScene {
     View view;
     TruthClaims claims;
 
-    explicit CertifiedScene(const scene::LightSettings& light = test::sun({-0.4, -1, -0.3}))
+    explicit CertifiedScene(const scene::LightSettings& light = test::directional({-0.4, -1, -0.3}))
     {
         SceneBuilder builder;
         test::add_ground(builder, 3, 2);
@@ -78,7 +78,8 @@ struct CertifiedScene {
 
 TEST(Certify, CertifiesTheReferencesTruthOfEveryPixel)
 {
-    for (const auto& light : {test::sun({-0.4, -1, -0.3}), test::spot({2, 4, 1}, {0, 0, 0}, 40)}) {
+    for (const auto& light :
+         {test::directional({-0.4, -1, -0.3}), test::spot({2, 4, 1}, {0, 0, 0}, 40)}) {
         const CertifiedScene example{light};
         const Certificate certificate = example.certify();
         for (const Refutation& refutation : certificate.refutations) {

@@ -33,7 +33,7 @@ TriangleScene box_and_sphere()
 
 View view_of_box_and_sphere()
 {
-    return make_view({0.5, 4, 6}, {0, 0.4, 0}, {48, 36}, sun({-0.4, -1, -0.3}));
+    return make_view({0.5, 4, 6}, {0, 0.4, 0}, {48, 36}, directional({-0.4, -1, -0.3}));
 }
 
 /// What the certifier says of a truth that was found with these faults.
@@ -92,8 +92,11 @@ struct Strips {
         camera.up = {0, 0, -1};
         camera.projection = scene::Projection::orthographic;
         camera.orthographic_height_m = 0.06;
-        view =
-            View{scene::make_camera(camera), {48, 8}, scene::make_light(sun({-1, -1, 0})), {}, {}};
+        view = View{scene::make_camera(camera),
+                    {48, 8},
+                    scene::make_light(directional({-1, -1, 0})),
+                    {},
+                    {}};
         SceneBuilder builder;
         add_rectangle(builder, "ground", -0.5, 3.7, 0);
         for (int x = 0; x < view.image.width_px; ++x) {

@@ -103,10 +103,10 @@ private:
     }
     Vec3d lattice_point() { return Vec3d{integer(-3, 3), integer(-3, 3), integer(-3, 3)}; }
 
-    Light light(bool has_sun, const Vec3d& direction, const Vec3d& position)
+    Light light(bool has_directional, const Vec3d& direction, const Vec3d& position)
     {
         Light light;
-        light.type = has_sun ? LightType::directional : LightType::spot;
+        light.type = has_directional ? LightType::directional : LightType::spot;
         light.direction = direction == Vec3d{0} ? Vec3d{0, -1, 0} : direction;
         light.position = position;
         light.cos_half_cone = 0.25 * (3 + real());
@@ -144,9 +144,9 @@ private:
     void move_towards_segment(Question& question, bool whole_triangle)
     {
         SignCounts counts;
-        const Facet facet{0, question.t};
+        const ExactTriangle face{0, question.t};
         const CameraRay ray{question.ray};
-        const Receiver receiver{facet, ray, counts};
+        const Receiver receiver{face, ray, counts};
         if (receiver.delta_sign == 0) {
             return;
         }
@@ -168,9 +168,9 @@ private:
 int check(const Question& question, SignCounts& counts)
 {
     const auto& [ray, t, s, light] = question;
-    const Facet facet{0, t};
+    const ExactTriangle face{0, t};
     const CameraRay camera_ray{ray};
-    const Receiver receiver{facet, camera_ray, counts};
+    const Receiver receiver{face, camera_ray, counts};
     const Rational3 a{t[0]};
     const Rational3 normal = cross(Rational3{t[1]} - a, Rational3{t[2]} - a);
     const mpq_class delta = dot(normal, Rational3{ray.direction});
@@ -181,9 +181,9 @@ int check(const Question& question, SignCounts& counts)
     const mpq_class r = dot(normal, a - Rational3{ray.origin}) / delta;
     const Rational3 p{ray.origin.x + r * ray.direction.x, ray.origin.y + r * ray.direction.y,
                       ray.origin.z + r * ray.direction.z};
-    const bool is_sun = light.type == LightType::directional;
+    const bool is_directional = light.type == LightType::directional;
     const auto towards = [&](const Rational3& x) {
-        return is_sun ? Rational3{-light.direction} : Rational3{light.position} - x;
+        return is_directional ? Rational3{-light.direction} : Rational3{light.position} - x;
     };
     const std::array<Rational3, 3> c{Rational3{s[0]}, Rational3{s[1]}, Rational3{s[2]}};
     const ShadowSigns signs = shadow_signs(receiver, s, light, counts);
@@ -196,14 +196,15 @@ int check(const Question& question, SignCounts& counts)
     EXPECT_EQ(apex_side(light, s[0], s[1], s[2], counts),
               side(c[0], c[1] - c[0], towards(c[0]), c[2]));
     const mpq_class seen = -dot(normal, Rational3{ray.direction});
-    const Sign lamp = sgn(dot(normal, towards(a)));
-    EXPECT_EQ(is_attached(receiver, light_side(t, light, counts)), lamp == 0 || lamp != sgn(seen));
+    const Sign positional = sgn(dot(normal, towards(a)));
+    EXPECT_EQ(is_attached(receiver, light_side(t, light, counts)),
+              positional == 0 || positional != sgn(seen));
     EXPECT_EQ(is_beyond(receiver, 0.5, counts), r > mpq_class{0.5});
     EXPECT_EQ(is_coplanar(receiver, s, counts), dot(normal, c[0] - a) == 0 &&
                                                     dot(normal, c[1] - a) == 0 &&
                                                     dot(normal, c[2] - a) == 0);
-    const Facet other_facet{1, s};
-    const Receiver other{other_facet, camera_ray, counts};
+    const ExactTriangle other_face{1, s};
+    const Receiver other{other_face, camera_ray, counts};
     const mpq_class other_delta = dot(m, Rational3{ray.direction});
     if (other_delta != 0) {
         const mpq_class other_r = dot(m, c[0] - Rational3{ray.origin}) / other_delta;
@@ -211,7 +212,7 @@ int check(const Question& question, SignCounts& counts)
                                                              : cmp(r, other_r) > 0 ? 1
                                                                                    : 0);
     }
-    if (!is_sun) {
+    if (!is_directional) {
         const Rational3 q = p - Rational3{light.position};
         const Rational3 axis{light.direction};
         const mpq_class along = dot(q, axis);
@@ -246,7 +247,7 @@ TEST(Predicates, UseIntegersWhereDirectionsAreTiny)
     // Products of 2^-200 would underflow in the permanent; the signs must still be exact.
     const Corners t{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}};
     const CameraRay ray{Ray{Vec3d{0.25, 0.25, 1}, Vec3d{0x1p-200, 0, -1}}};
-    EXPECT_FALSE(ray.is_tame);
+    EXPECT_FALSE(ray.is_well_scaled);
     SignCounts counts;
     EXPECT_TRUE(meets(ray, t, counts));
     EXPECT_EQ(counts.filtered, 0U);
@@ -255,7 +256,7 @@ TEST(Predicates, UseIntegersWhereDirectionsAreTiny)
 
 TEST(CompareNearnessToLight, OrdersBlockersExactly)
 {
-    const Facet ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
+    const ExactTriangle ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
     SignCounts counts;
     const CameraRay ray{Ray{Vec3d{0.5, 4, 0}, Vec3d{0, -1, 0}}};
     const Receiver receiver{ground, ray, counts};
@@ -263,13 +264,13 @@ TEST(CompareNearnessToLight, OrdersBlockersExactly)
         return Corners{Vec3d{-1, height - tilt, -1}, Vec3d{2, height + 2 * tilt, -1},
                        Vec3d{0.5, height + 0.5 * tilt, 2}};
     };
-    Light sun;
-    sun.direction = {0, -1, 0};
-    Light lamp;
-    lamp.type = LightType::spot;
-    lamp.position = {0.5, 3, 0};
-    lamp.direction = {0, -1, 0};
-    for (const Light& light : {sun, lamp}) {
+    Light directional;
+    directional.direction = {0, -1, 0};
+    Light positional;
+    positional.type = LightType::spot;
+    positional.position = {0.5, 3, 0};
+    positional.direction = {0, -1, 0};
+    for (const Light& light : {directional, positional}) {
         const auto compare = [&](const Corners& a, const Corners& b) {
             return compare_nearness_to_light(receiver, a, b, light, counts);
         };

@@ -16,13 +16,13 @@ using scene::LightType;
 using scene::Ray;
 using scene::Vec3d;
 
-const Facet ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
+const ExactTriangle ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
 
-Receiver make_receiver(const Facet& facet, const Ray& ray)
+Receiver make_receiver(const ExactTriangle& face, const Ray& ray)
 {
     static std::deque<CameraRay> rays; // which receivers point to
     SignCounts counts;
-    return Receiver{facet, rays.emplace_back(ray), counts};
+    return Receiver{face, rays.emplace_back(ray), counts};
 }
 
 /// P = (x, 0, z), seen from 4 above it; the coordinates are short binary fractions, so every
@@ -32,14 +32,14 @@ Receiver receiver_at(double x, double z)
     return make_receiver(ground, Ray{Vec3d{x, 4, z}, Vec3d{0, -1, 0}});
 }
 
-Light sun(const Vec3d& direction)
+Light directional(const Vec3d& direction)
 {
     Light light;
     light.direction = direction;
     return light;
 }
 
-Light lamp(const Vec3d& position, const Vec3d& axis, double cosine)
+Light positional(const Vec3d& position, const Vec3d& axis, double cosine)
 {
     Light light;
     light.type = LightType::spot;
@@ -67,13 +67,13 @@ TEST(ShadowSigns, FindACrossingAboveThePointForBothLightsAndBothWindings)
 {
     const Corners roof{Vec3d{-1, 1, -1}, Vec3d{1, 1, -1}, Vec3d{0, 1, 1}};
     const Corners turned{roof[0], roof[2], roof[1]};
-    for (const Light& light : {sun({0, -1, 0}), lamp({0, 2, 0}, {0, -1, 0}, 0.5)}) {
+    for (const Light& light : {directional({0, -1, 0}), positional({0, 2, 0}, {0, -1, 0}, 0.5)}) {
         EXPECT_EQ(contact(receiver_at(0.125, 0), roof, light), Contact::cross);
         EXPECT_EQ(contact(receiver_at(0.125, 0), turned, light), Contact::cross);
         EXPECT_EQ(contact(receiver_at(3, 0), roof, light), Contact::none);
     }
     // Beyond the lamp nothing blocks.
-    EXPECT_EQ(contact(receiver_at(0.125, 0), roof, lamp({0, 0.5, 0}, {0, -1, 0}, 0.5)),
+    EXPECT_EQ(contact(receiver_at(0.125, 0), roof, positional({0, 0.5, 0}, {0, -1, 0}, 0.5)),
               Contact::none);
 }
 
@@ -82,7 +82,7 @@ TEST(ShadowSigns, SeeContactsNearerThanAnyRayEpsilon)
     // A roof 2^-40 above the ground: far below the rounding of any float ray.
     const double h = 0x1p-40;
     const Corners roof{Vec3d{-1, h, -1}, Vec3d{1, h, -1}, Vec3d{0, h, 1}};
-    EXPECT_EQ(contact(receiver_at(0.125, 0), roof, sun({0, -1, 0})), Contact::cross);
+    EXPECT_EQ(contact(receiver_at(0.125, 0), roof, directional({0, -1, 0})), Contact::cross);
 }
 
 TEST(ShadowSigns, NeverCallACoplanarTriangleABlocker)
@@ -91,17 +91,17 @@ TEST(ShadowSigns, NeverCallACoplanarTriangleABlocker)
     const Receiver skewed =
         make_receiver(ground, Ray{Vec3d{0.1, 3.7, 0.3}, Vec3d{0.013, -0.97, -0.11}});
     SignCounts counts;
-    EXPECT_EQ(shadow_signs(skewed, overlap, sun({0.3, -1, 0.2}), counts).point, 0);
-    EXPECT_EQ(contact(skewed, overlap, sun({0.3, -1, 0.2})), Contact::none);
+    EXPECT_EQ(shadow_signs(skewed, overlap, directional({0.3, -1, 0.2}), counts).point, 0);
+    EXPECT_EQ(contact(skewed, overlap, directional({0.3, -1, 0.2})), Contact::none);
 }
 
 TEST(ShadowSigns, TellExactEdgeVertexAndPlaneContacts)
 {
     const Corners roof{Vec3d{-1, 1, -1}, Vec3d{1, 1, -1}, Vec3d{0, 1, 1}};
-    EXPECT_EQ(contact(receiver_at(0.5, -1), roof, sun({0, -1, 0})), Contact::edge);
-    EXPECT_EQ(contact(receiver_at(1, -1), roof, sun({0, -1, 0})), Contact::vertex);
+    EXPECT_EQ(contact(receiver_at(0.5, -1), roof, directional({0, -1, 0})), Contact::edge);
+    EXPECT_EQ(contact(receiver_at(1, -1), roof, directional({0, -1, 0})), Contact::vertex);
     const Corners wall{Vec3d{0.5, 0, -1}, Vec3d{0.5, 1, -1}, Vec3d{0.5, 0, 1}};
-    EXPECT_EQ(contact(receiver_at(0.5, 0), wall, sun({0, -1, 0})), Contact::plane);
+    EXPECT_EQ(contact(receiver_at(0.5, 0), wall, directional({0, -1, 0})), Contact::plane);
 }
 
 TEST(ShadowSigns, OfASharedEdgeAreOpposite)
@@ -111,7 +111,8 @@ TEST(ShadowSigns, OfASharedEdgeAreOpposite)
     const Vec3d b{0.9F, 1, 0.2F};
     const Corners left{a, b, Vec3d{0, 1.5, 0}};
     const Corners right{b, a, Vec3d{1, 0.5, 1}};
-    for (const Light& light : {sun({0.3F, -1, 0.1F}), lamp({0.2F, 3, 0.9F}, {0, -1, 0}, 0.5)}) {
+    for (const Light& light :
+         {directional({0.3F, -1, 0.1F}), positional({0.2F, 3, 0.9F}, {0, -1, 0}, 0.5)}) {
         for (int i = 0; i < 100; ++i) {
             const Ray ray{Vec3d{0.3, 5, 0.2}, Vec3d{0.01 * i + 0.003, -1.7, 0.013 * i}};
             const Receiver receiver = make_receiver(ground, ray);
@@ -128,7 +129,7 @@ TEST(ApexSide, TellsASeamFromAFold)
     const Vec3d u{0, 1, -1};
     const Vec3d v{0, 1, 1};
     SignCounts counts;
-    for (const Light& light : {sun({0, -1, 0}), lamp({0, 5, 0}, {0, -1, 0}, 0.5)}) {
+    for (const Light& light : {directional({0, -1, 0}), positional({0, 5, 0}, {0, -1, 0}, 0.5)}) {
         const Sign left = apex_side(light, u, v, {-1, 1, 0}, counts);
         EXPECT_TRUE(is_seam(left, apex_side(light, u, v, {1, 0.5, 0}, counts)));
         EXPECT_FALSE(is_seam(left, apex_side(light, u, v, {-1, 0.5, 0}, counts)));
@@ -139,13 +140,14 @@ TEST(ApexSide, TellsASeamFromAFold)
 TEST(RunsThrough, NeedsTheOpenSegmentToMeetTheTriangle)
 {
     const Corners wall{Vec3d{0.5, 1, -1}, Vec3d{0.5, 2, 0}, Vec3d{0.5, 1, 1}};
-    EXPECT_TRUE(runs_through(receiver_at(0.5, 0), wall, sun({0, -1, 0})));
-    EXPECT_TRUE(runs_through(receiver_at(0.5, 1), wall, sun({0, -1, 0}))); // at a corner
-    EXPECT_FALSE(runs_through(receiver_at(0.5, 2), wall, sun({0, -1, 0})));
-    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), wall, lamp({0.5, 0.5, 0}, {0, -1, 0}, 0.5)));
-    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), wall, sun({0, 1, 0})));
+    EXPECT_TRUE(runs_through(receiver_at(0.5, 0), wall, directional({0, -1, 0})));
+    EXPECT_TRUE(runs_through(receiver_at(0.5, 1), wall, directional({0, -1, 0}))); // at a corner
+    EXPECT_FALSE(runs_through(receiver_at(0.5, 2), wall, directional({0, -1, 0})));
+    EXPECT_FALSE(
+        runs_through(receiver_at(0.5, 0), wall, positional({0.5, 0.5, 0}, {0, -1, 0}, 0.5)));
+    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), wall, directional({0, 1, 0})));
     const Corners foot{Vec3d{0.5, 0, 0}, Vec3d{0.5, -1, 1}, Vec3d{0.5, -1, -1}};
-    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), foot, sun({0, -1, 0}))); // at P only
+    EXPECT_FALSE(runs_through(receiver_at(0.5, 0), foot, directional({0, -1, 0}))); // at P only
 }
 
 TEST(IsAttached, HoldsBehindAndInThePlane)
@@ -155,24 +157,24 @@ TEST(IsAttached, HoldsBehindAndInThePlane)
     const auto attached_by = [&](const Light& light) {
         return is_attached(receiver, light_side(receiver.corners(), light, counts));
     };
-    EXPECT_FALSE(attached_by(sun({0, -1, 0})));
-    EXPECT_TRUE(attached_by(sun({0, 1, 0})));
-    EXPECT_TRUE(attached_by(sun({1, 0, 0.5})));
-    EXPECT_FALSE(attached_by(lamp({0, 1, 0}, {0, -1, 0}, 0.5)));
-    EXPECT_TRUE(attached_by(lamp({3, 0, 0}, {-1, 0, 0}, 0.5)));
+    EXPECT_FALSE(attached_by(directional({0, -1, 0})));
+    EXPECT_TRUE(attached_by(directional({0, 1, 0})));
+    EXPECT_TRUE(attached_by(directional({1, 0, 0.5})));
+    EXPECT_FALSE(attached_by(positional({0, 1, 0}, {0, -1, 0}, 0.5)));
+    EXPECT_TRUE(attached_by(positional({3, 0, 0}, {-1, 0, 0}, 0.5)));
 }
 
 TEST(IsOutOfLight, FollowsTheConeAndItsSide)
 {
     SignCounts counts;
-    const Light light = lamp({0, 2, 0}, {0, -1, 0}, 0.5);
+    const Light light = positional({0, 2, 0}, {0, -1, 0}, 0.5);
     EXPECT_FALSE(is_out_of_light(receiver_at(0, 0), light, counts));
     // cos = 1/2 from height 2: the border's radius is 2·sqrt 3 = 3.4641016…
     EXPECT_FALSE(is_out_of_light(receiver_at(3.464101, 0), light, counts));
     EXPECT_TRUE(is_out_of_light(receiver_at(3.464102, 0), light, counts));
-    EXPECT_TRUE(
-        is_out_of_light(receiver_at(0, 0), lamp({0, 2, 0}, {0, 1, 0}, 0.5), counts)); // behind
-    EXPECT_FALSE(is_out_of_light(receiver_at(100, 0), sun({0, -1, 0}), counts));
+    EXPECT_TRUE(is_out_of_light(receiver_at(0, 0), positional({0, 2, 0}, {0, 1, 0}, 0.5),
+                                counts)); // behind
+    EXPECT_FALSE(is_out_of_light(receiver_at(100, 0), directional({0, -1, 0}), counts));
 }
 
 TEST(Meets, IsClosedAtEdgesAndCorners)
@@ -203,10 +205,10 @@ TEST(ExactOffset, IsBitForBitWhatIntegersGive)
             corners[1][level] = corners[0][level];
             corners[2][level] = corners[0][level];
         }
-        const Facet facet{0, corners};
+        const ExactTriangle face{0, corners};
         const CameraRay ray{{point(), point()}};
         SignCounts counts;
-        const Receiver receiver{facet, ray, counts};
+        const Receiver receiver{face, ray, counts};
         if (receiver.delta_sign == 0) {
             continue;
         }

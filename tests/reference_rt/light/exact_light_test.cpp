@@ -45,7 +45,7 @@ TEST(FirstHits, AreThoseOfBruteForceInRationals)
                     EXPECT_EQ(bounded[i].depth, found[i].depth);
                     EXPECT_EQ(bounded[i].depth_error, 0);
                     EXPECT_EQ(found[i].depth, lit.view.frustum.reversed ? 0 : 1);
-                    EXPECT_EQ(found[i].zeta_m, std::numeric_limits<double>::infinity());
+                    EXPECT_EQ(found[i].light_distance_m, std::numeric_limits<double>::infinity());
                     continue;
                 }
                 ++hits;
@@ -57,9 +57,10 @@ TEST(FirstHits, AreThoseOfBruteForceInRationals)
                 EXPECT_LE(abs(depth - Rational{bounded[i].depth}),
                           Rational{bounded[i].depth_error});
                 EXPECT_LE(bounded[i].depth_error, 0x1p-40);
-                const Rational zeta = dot(RationalVec{lit.view.frustum.forward},
-                                          point - RationalVec{lit.view.frustum.origin});
-                EXPECT_LE(abs(zeta - Rational{found[i].zeta_m}), 0x1p-44 * abs(zeta));
+                const Rational light_distance = dot(RationalVec{lit.view.frustum.forward},
+                                                    point - RationalVec{lit.view.frustum.origin});
+                EXPECT_LE(abs(light_distance - Rational{found[i].light_distance_m}),
+                          0x1p-44 * abs(light_distance));
             }
         }
     });
@@ -213,7 +214,7 @@ TEST(FindBlockers, MeasuresTheGapThatRationalsGive)
         const auto pixels = lit.scored_pixels();
         const auto blockers = lit.exact_light()->find_blockers(pixels);
         const auto nearest = nearest_blockers(lit.reference, lit.view, lit.receivers, pixels);
-        const bool is_sun = lit.view.light.type == scene::LightType::directional;
+        const bool is_directional = lit.view.light.type == scene::LightType::directional;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             ASSERT_EQ(blockers[i].triangle, nearest[i]);
             if (nearest[i] == no_triangle) {
@@ -221,8 +222,8 @@ TEST(FindBlockers, MeasuresTheGapThatRationalsGive)
             }
             ++blocked;
             const RationalVec point = lit.point(pixels[i]);
-            const RationalVec step = is_sun ? RationalVec{-lit.view.light.direction}
-                                            : RationalVec{lit.view.light.position} - point;
+            const RationalVec step = is_directional ? RationalVec{-lit.view.light.direction}
+                                                    : RationalVec{lit.view.light.position} - point;
             const RationalVec way =
                 hit_of(point, step, lit.triangles.corners(nearest[i]))->t * step;
             // The gap is good to 2^-42 for the way and a few roundings: below 1e-12. Squares have
@@ -231,12 +232,14 @@ TEST(FindBlockers, MeasuresTheGapThatRationalsGive)
             EXPECT_LE(abs(gap * gap - dot(way, way)), 2e-12 * dot(way, way))
                 << "pixel " << pixels[i];
             // ζ is a sum of terms below 16 m with a few roundings, and the way's error: 16·2^-42.
-            const auto zeta = [&](const RationalVec& x) {
+            const auto light_distance = [&](const RationalVec& x) {
                 const auto& frustum = lit.view.frustum;
                 return dot(RationalVec{frustum.forward}, x - RationalVec{frustum.origin});
             };
-            EXPECT_LE(abs(Rational{blockers[i].receiver_zeta_m} - zeta(point)), 4e-12);
-            EXPECT_LE(abs(Rational{blockers[i].zeta_m} - zeta(point + way)), 4e-12);
+            EXPECT_LE(abs(Rational{blockers[i].receiver_light_distance_m} - light_distance(point)),
+                      4e-12);
+            EXPECT_LE(abs(Rational{blockers[i].light_distance_m} - light_distance(point + way)),
+                      4e-12);
         }
     });
     EXPECT_GT(blocked, 300);
@@ -254,11 +257,11 @@ TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
     const auto hits = one->first_hits(texels, HitDetail::placed);
     const auto same_hits = three->first_hits(texels, HitDetail::placed);
     std::vector<NearestQuery> biases;
-    std::vector<SheetQuery> sheets;
+    std::vector<SelfShadowingQuery> sheets;
     for (std::size_t i = 0; i < texels.size(); ++i) {
         ASSERT_EQ(hits[i].triangle, same_hits[i].triangle);
         ASSERT_EQ(hits[i].depth, same_hits[i].depth);
-        ASSERT_EQ(hits[i].zeta_m, same_hits[i].zeta_m);
+        ASSERT_EQ(hits[i].light_distance_m, same_hits[i].light_distance_m);
         const std::size_t pixel = pixels[i % pixels.size()];
         biases.push_back({pixel, {texels[i], hits[i].triangle, 1}});
         sheets.push_back(
@@ -266,7 +269,7 @@ TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
     }
     EXPECT_EQ(one->critical_biases(std::span{biases}, true),
               three->critical_biases(std::span{biases}, true));
-    EXPECT_EQ(one->are_own_sheets(sheets), three->are_own_sheets(sheets));
+    EXPECT_EQ(one->are_self_shadowing(sheets), three->are_self_shadowing(sheets));
     EXPECT_EQ(one->are_crossed(pixels), three->are_crossed(pixels));
 }
 

@@ -28,7 +28,7 @@ void expect_same(const std::vector<TexelHit>& found, const std::vector<TexelHit>
         ASSERT_EQ(found[i].triangle, expected[i].triangle) << "texel " << i;
         ASSERT_EQ(found[i].depth, expected[i].depth) << "texel " << i;
         ASSERT_EQ(found[i].depth_error, expected[i].depth_error) << "texel " << i;
-        ASSERT_EQ(found[i].zeta_m, expected[i].zeta_m) << "texel " << i;
+        ASSERT_EQ(found[i].light_distance_m, expected[i].light_distance_m) << "texel " << i;
     }
 }
 

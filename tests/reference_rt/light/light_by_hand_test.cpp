@@ -33,7 +33,7 @@ struct Noon : LitScene {
     }
     static scene::LightSettings light()
     {
-        scene::LightSettings noon = sun({0, -1, 0});
+        scene::LightSettings noon = directional({0, -1, 0});
         noon.position = Vec3d{0, 4, 0};
         return noon;
     }
@@ -107,7 +107,7 @@ TEST(FirstHits, AreAtTheMatrixDepth)
     EXPECT_EQ(Noon(table_at(1), true).hit().depth, 0.5);
     EXPECT_EQ(Noon{table_at(2)}.hit().depth, 0.25);
     EXPECT_EQ(Noon(table_at(2), true).hit().depth, 0.75);
-    EXPECT_EQ(Noon{table_at(2)}.hit().zeta_m, 2);
+    EXPECT_EQ(Noon{table_at(2)}.hit().light_distance_m, 2);
 }
 
 TEST(FirstHits, BeginInTheNearPlane)
@@ -287,8 +287,8 @@ TEST(FindBlockers, MeasureTheGapAndBothDistances)
         EXPECT_EQ(blocker.triangle, table);
         // 8 ulp: P has the roundings of the camera's ray.
         EXPECT_NEAR(blocker.gap_m, 2.5, 0x1p-49);
-        EXPECT_NEAR(blocker.zeta_m, 1.5, 0x1p-49);
-        EXPECT_NEAR(blocker.receiver_zeta_m, 4, 0x1p-49);
+        EXPECT_NEAR(blocker.light_distance_m, 1.5, 0x1p-49);
+        EXPECT_NEAR(blocker.receiver_light_distance_m, 4, 0x1p-49);
     }
 }
 

@@ -39,7 +39,7 @@ RoundedTruth truth_at(const TriangleScene& scene, const scene::LightSettings& li
 
 TEST(RoundedTruth, DecidesPointsAwayFromEveryEdge)
 {
-    const auto truth = truth_at(plate_over_ground(), sun({0, -1, 0}),
+    const auto truth = truth_at(plate_over_ground(), directional({0, -1, 0}),
                                 receivers_at({{0.25F, 0, 0.5F}, {-1, 0, 0.5F}, {nowhere, 0, 0}}));
     EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::blocked);
     EXPECT_EQ(truth.truth.witness[0], 2U);
@@ -56,7 +56,7 @@ TEST(RoundedTruth, IsIndeterminateWhereTheBoxReachesOverAShadowsBorder)
     const float inside = std::nextafter(edge, 1.0F);
     const float outside = std::nextafter(edge, -1.0F);
     const auto truth =
-        truth_at(plate_over_ground(), sun({0, -1, 0}),
+        truth_at(plate_over_ground(), directional({0, -1, 0}),
                  receivers_at({{edge, 0, 0.5F}, {inside, 0, 0.5F}, {outside, 0, 0.5F}}));
     EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::indeterminate);
     EXPECT_EQ(truth.truth.reason[0], ClassReason::rounding);
@@ -68,7 +68,7 @@ TEST(RoundedTruth, IsIndeterminateWhereTheBoxReachesOverAShadowsBorder)
 TEST(RoundedTruth, KnowsThatASeamBlocksOnBothSides)
 {
     // Under the plate's diagonal, neither triangle alone blocks the whole box.
-    const auto truth = truth_at(plate_over_ground(), sun({0, -1, 0}),
+    const auto truth = truth_at(plate_over_ground(), directional({0, -1, 0}),
                                 receivers_at({{0.3F, 0, 0.3F}, {0.7F, 0, 0.7F}}));
     for (const std::size_t pixel : {0U, 1U}) {
         EXPECT_EQ(truth.truth.pixel_class[pixel], PixelClass::blocked);
@@ -79,7 +79,7 @@ TEST(RoundedTruth, KnowsThatASeamBlocksOnBothSides)
 TEST(RoundedTruth, GrowsTheBoxUntilItMeetsThePlane)
 {
     // 2^-10 above the ground: the box of y is half of 2^-33 high on each side.
-    const auto truth = truth_at(plate_over_ground(), sun({0, -1, 0}),
+    const auto truth = truth_at(plate_over_ground(), directional({0, -1, 0}),
                                 receivers_at({{0.25F, 0x1p-10F, 0.5F}, {0.25F, 0, 0.5F}}));
     EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::blocked);
     EXPECT_EQ(truth.growth_m[0], static_cast<float>(0x1p-10 - 0x1p-34));
@@ -92,7 +92,7 @@ TEST(RoundedTruth, GrownBoxesMakeMorePixelsIndeterminate)
     // A thousandth from the border: told apart if P is right, and not if it is 2^-9 off.
     const auto near_border = static_cast<float>(-1.0 / 3 - 0.001);
     const auto truth =
-        truth_at(plate_over_ground(), sun({0, -1, 0}),
+        truth_at(plate_over_ground(), directional({0, -1, 0}),
                  receivers_at({{near_border, 0, 0.5F}, {near_border, 0x1p-9F, 0.5F}}));
     EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::lit);
     EXPECT_EQ(truth.truth.pixel_class[1], PixelClass::indeterminate);
@@ -104,18 +104,21 @@ TEST(RoundedTruth, KnowsAttachedShadowOnlyFromTheSideThatIsSeen)
     add_ground(builder, 4, 1);
     const TriangleScene scene = builder.take();
     RoundedReceivers receivers = receivers_at({{0.5F, 0, 0.25F}});
-    EXPECT_EQ(truth_at(scene, sun({0, 1, 0}), receivers).truth.pixel_class[0], PixelClass::lit);
+    EXPECT_EQ(truth_at(scene, directional({0, 1, 0}), receivers).truth.pixel_class[0],
+              PixelClass::lit);
     receivers.eye = Vec3d{0, 5, 0};
-    EXPECT_EQ(truth_at(scene, sun({0, 1, 0}), receivers).truth.pixel_class[0],
+    EXPECT_EQ(truth_at(scene, directional({0, 1, 0}), receivers).truth.pixel_class[0],
               PixelClass::attached);
     receivers.eye = Vec3d{0, -5, 0};
-    EXPECT_EQ(truth_at(scene, sun({0, 1, 0}), receivers).truth.pixel_class[0], PixelClass::lit);
+    EXPECT_EQ(truth_at(scene, directional({0, 1, 0}), receivers).truth.pixel_class[0],
+              PixelClass::lit);
     receivers.eye.reset();
     receivers.normal = scene::Image<Vec3f>{{1, 1}, Vec3f{0.1F, 0.9F, 0}};
-    EXPECT_EQ(truth_at(scene, sun({0, 1, 0}), receivers).truth.pixel_class[0],
+    EXPECT_EQ(truth_at(scene, directional({0, 1, 0}), receivers).truth.pixel_class[0],
               PixelClass::attached);
     receivers.normal[0] = Vec3f{0};
-    EXPECT_EQ(truth_at(scene, sun({0, 1, 0}), receivers).truth.pixel_class[0], PixelClass::lit);
+    EXPECT_EQ(truth_at(scene, directional({0, 1, 0}), receivers).truth.pixel_class[0],
+              PixelClass::lit);
 }
 
 TEST(RoundedTruth, TakesThePixelsObjectWhereItIsKnown)
@@ -123,13 +126,13 @@ TEST(RoundedTruth, TakesThePixelsObjectWhereItIsKnown)
     // Half way between both, a little nearer to the ground.
     const TriangleScene scene = plate_over_ground();
     RoundedReceivers receivers = receivers_at({{0.25F, 0.49F, 0.5F}});
-    EXPECT_LT(truth_at(scene, sun({0, -1, 0}), receivers).triangle[0], 2U);
+    EXPECT_LT(truth_at(scene, directional({0, -1, 0}), receivers).triangle[0], 2U);
     receivers.object = scene::Image<std::uint32_t>{{1, 1}, 1U};
-    const auto truth = truth_at(scene, sun({0, -1, 0}), receivers);
+    const auto truth = truth_at(scene, directional({0, -1, 0}), receivers);
     EXPECT_GE(truth.triangle[0], 2U);
     EXPECT_FLOAT_EQ(truth.distance_m[0], 0.51F);
     receivers.object[0] = scene::no_object;
-    EXPECT_LT(truth_at(scene, sun({0, -1, 0}), receivers).triangle[0], 2U);
+    EXPECT_LT(truth_at(scene, directional({0, -1, 0}), receivers).triangle[0], 2U);
 }
 
 TEST(RoundedTruth, DecidesASpotsCone)
@@ -158,7 +161,7 @@ TEST(RoundedTruth, GivesAPointLightNoCone)
 TEST(RoundedTruth, RefusesImagesThatDoNotFit)
 {
     const ReferenceScene reference{plate_over_ground()};
-    const scene::Light light = scene::make_light(sun({0, -1, 0}));
+    const scene::Light light = scene::make_light(directional({0, -1, 0}));
     RoundedReceivers receivers = receivers_at({{0, 0, 0}});
     receivers.normal = scene::Image<Vec3f>{{2, 1}};
     EXPECT_THROW(static_cast<void>(compute_rounded_truth(reference, light, receivers)),
@@ -175,10 +178,10 @@ TEST(RoundedTruth, LeavesPointsOpenThatAreTooFarFromTheirSurface)
     receivers.object = scene::Image<std::uint32_t>{{3, 1}, scene::no_object};
     receivers.object[2] = 1; // the plate, and it lies on the ground
     receivers.most_distance_m = 0.125;
-    auto truth = truth_at(plate_over_ground(), sun({0, -1, 0}), receivers);
+    auto truth = truth_at(plate_over_ground(), directional({0, -1, 0}), receivers);
     EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::blocked); // not beyond it
     receivers.most_distance_m = 0.0625;
-    truth = truth_at(plate_over_ground(), sun({0, -1, 0}), receivers);
+    truth = truth_at(plate_over_ground(), directional({0, -1, 0}), receivers);
     EXPECT_EQ(truth.truth.pixel_class[0], PixelClass::indeterminate);
     EXPECT_EQ(truth.truth.reason[0], ClassReason::rounding);
     EXPECT_EQ(truth.distance_m[0], 0.125F);
@@ -341,13 +344,13 @@ TEST_P(RoundedSceneTest, HoldsForRandomPointsOfTheBox)
 
 INSTANTIATE_TEST_SUITE_P(
     All, RoundedSceneTest,
-    testing::Values(RoundedScene{"sun", sun({-0.4, -1, -0.3})},
-                    RoundedScene{"grazing_sun", sun({-1, -0.05, -0.3})},
-                    RoundedScene{"spot", spot({2, 3, 1}, {0, 0, 0}, 100)},
-                    RoundedScene{"far_away", sun({-0.4, -1, -0.3}), {300, -200, 100}},
-                    RoundedScene{
-                        "spot_far_away", spot({2, 3, 1}, {0, 0, 0}, 100), {300, -200, 100}},
-                    RoundedScene{"farthest_away", sun({-0.4, -1, -0.3}), {30000, -20000, 10000}}),
+    testing::Values(
+        RoundedScene{"sun", directional({-0.4, -1, -0.3})},
+        RoundedScene{"grazing_sun", directional({-1, -0.05, -0.3})},
+        RoundedScene{"spot", spot({2, 3, 1}, {0, 0, 0}, 100)},
+        RoundedScene{"far_away", directional({-0.4, -1, -0.3}), {300, -200, 100}},
+        RoundedScene{"spot_far_away", spot({2, 3, 1}, {0, 0, 0}, 100), {300, -200, 100}},
+        RoundedScene{"farthest_away", directional({-0.4, -1, -0.3}), {30000, -20000, 10000}}),
     [](const auto& shown) { return std::string{shown.param.name}; });
 
 } // namespace

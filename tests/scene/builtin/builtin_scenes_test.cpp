@@ -153,9 +153,9 @@ TEST(BuiltinScenes, HoldTheSettingsOfTheirLessons)
     EXPECT_TRUE(yard.shadow_map.depth_format.is_float());
     EXPECT_EQ(yard.lookup.filter, Filter::pcf3);
 
-    const Job sun = job_of(find_builtin_scene("playground"));
-    EXPECT_EQ(sun.shadow_map.frustum.fit, Fit::scene);
-    EXPECT_FALSE(sun.shadow_map.frustum.near_m || sun.shadow_map.frustum.far_m);
+    const Job directional = job_of(find_builtin_scene("playground"));
+    EXPECT_EQ(directional.shadow_map.frustum.fit, Fit::scene);
+    EXPECT_FALSE(directional.shadow_map.frustum.near_m || directional.shadow_map.frustum.far_m);
 
     const Job distances = job_of(find_builtin_scene("two-distances"));
     EXPECT_EQ(distances.shadow_map.frustum.near_m, 4);
@@ -191,9 +191,9 @@ TEST(TwoDistances, LiesBetweenNearAndFarOfItsLight)
             continue;
         }
         for (const Vec3f& corner : scene.corners(i)) {
-            const double zeta_m = view.frustum.zeta_m(Vec3d{corner});
-            nearest_m = std::min(nearest_m, zeta_m);
-            farthest_m = std::max(farthest_m, zeta_m);
+            const double light_distance_m = view.frustum.light_distance_m(Vec3d{corner});
+            nearest_m = std::min(nearest_m, light_distance_m);
+            farthest_m = std::max(farthest_m, light_distance_m);
         }
     }
     EXPECT_GT(nearest_m, 4.0);

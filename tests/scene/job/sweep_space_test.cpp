@@ -172,29 +172,29 @@ TEST(SweepSpace, ReplacesTheFilesAxisInItsPlace)
     EXPECT_EQ(space.size(), 3U);
 }
 
-TEST(SweepSpace, SharesAStructureIffOnlyConstantBiasesDiffer)
+TEST(SweepSpace, SharesACurveGroupIffOnlyConstantBiasesDiffer)
 {
     const SweepSpace space = space_of(wall + "[sweep]\n\"bias.slope\" = [0, 1]\n"
                                              "\"bias.constant\" = [0, 0.5]\n"
                                              "\"shadow_map.resolution\" = [64, 128]\n"
                                              "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n");
-    std::set<std::uint64_t> structures;
+    std::set<std::uint64_t> groups;
     for (std::uint64_t i = 0; i < space.size(); ++i) {
-        structures.insert(space.structure(space.at(i)));
+        groups.insert(space.curve_group(space.at(i)));
     }
-    EXPECT_EQ(structures.size(), 8U);
-    EXPECT_EQ(space.structure(space.at(0)), space.structure(space.at(2)));
-    EXPECT_NE(space.structure(space.at(0)), space.structure(space.at(1)));
+    EXPECT_EQ(groups.size(), 8U);
+    EXPECT_EQ(space.curve_group(space.at(0)), space.curve_group(space.at(2)));
+    EXPECT_NE(space.curve_group(space.at(0)), space.curve_group(space.at(1)));
 }
 
-TEST(SweepSpace, SharesAStructureAmongZippedValuesThatComeAgain)
+TEST(SweepSpace, SharesACurveGroupAmongZippedValuesThatComeAgain)
 {
     const SweepSpace space = space_of(
         wall + "[sweep]\nmode = \"zip\"\n\"shadow_map.resolution\" = [64, 128, 64, 64]\n"
                "\"bias.slope\" = [1, 1, 1, 2]\n\"bias.constant\" = [0, 0.25, 0.5, 0.75]\n");
-    EXPECT_EQ(space.structure(space.at(0)), space.structure(space.at(2)));
-    EXPECT_NE(space.structure(space.at(0)), space.structure(space.at(1)));
-    EXPECT_NE(space.structure(space.at(0)), space.structure(space.at(3)));
+    EXPECT_EQ(space.curve_group(space.at(0)), space.curve_group(space.at(2)));
+    EXPECT_NE(space.curve_group(space.at(0)), space.curve_group(space.at(1)));
+    EXPECT_NE(space.curve_group(space.at(0)), space.curve_group(space.at(3)));
 }
 
 TEST(SweepSpace, TellsManyLongZippedAxesApart)
@@ -214,11 +214,11 @@ TEST(SweepSpace, TellsManyLongZippedAxesApart)
     }
     const SweepSpace space = space_of(text);
     ASSERT_EQ(space.axes().size(), 9U);
-    std::set<std::uint64_t> structures;
+    std::set<std::uint64_t> groups;
     for (std::uint64_t i = 0; i < space.size(); ++i) {
-        structures.insert(space.structure(space.at(i)));
+        groups.insert(space.curve_group(space.at(i)));
     }
-    EXPECT_EQ(structures.size(), 256U);
+    EXPECT_EQ(groups.size(), 256U);
 }
 
 TEST(SweepSpace, KnowsTheBiasThatAJobHasWithoutItsAxes)
@@ -357,7 +357,7 @@ TEST(SweepSpace, EnumeratesAsNestedLoopsDo)
         const SweepSpace space = space_of(expected.text);
         const auto points = expected.points();
         ASSERT_EQ(space.size(), points.size());
-        std::map<std::vector<std::string>, std::uint64_t> structures;
+        std::map<std::vector<std::string>, std::uint64_t> groups;
         std::set<std::uint64_t> numbers;
         for (std::uint64_t i = 0; i < space.size(); ++i) {
             const SweepPoint point = space.at(i);
@@ -367,11 +367,11 @@ TEST(SweepSpace, EnumeratesAsNestedLoopsDo)
             }
             ASSERT_EQ(row, points[i]) << "ordinal " << i;
             const auto entry =
-                structures.emplace(expected.without_bias(row), space.structure(point)).first;
-            EXPECT_EQ(entry->second, space.structure(point)) << "ordinal " << i;
-            numbers.insert(space.structure(point));
+                groups.emplace(expected.without_bias(row), space.curve_group(point)).first;
+            EXPECT_EQ(entry->second, space.curve_group(point)) << "ordinal " << i;
+            numbers.insert(space.curve_group(point));
         }
-        EXPECT_EQ(numbers.size(), structures.size());
+        EXPECT_EQ(numbers.size(), groups.size());
     }
 }
 
@@ -385,7 +385,7 @@ TEST(SweepSpace, MakesTheJobOfAnotherBiasFromThatOfOne)
         std::map<std::uint64_t, Job> jobs;
         for (std::uint64_t i = 0; i < space.size(); ++i) {
             const SweepPoint point = space.at(i);
-            Job& job = jobs.try_emplace(space.structure(point), space.job(point)).first->second;
+            Job& job = jobs.try_emplace(space.curve_group(point), space.job(point)).first->second;
             space.set_constant_bias(job, point);
             EXPECT_EQ(resolved_keys(job), resolved_keys(space.job(point))) << "ordinal " << i;
         }

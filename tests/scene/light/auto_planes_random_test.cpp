@@ -119,14 +119,14 @@ LightFrustum around_the_whole_scene(const World& world, LightFrustum frustum)
     double nearest_m = std::numeric_limits<double>::infinity();
     double farthest_m = -nearest_m;
     for (const Vec3f& vertex : world.scene.vertices) {
-        nearest_m = std::min(nearest_m, frustum.zeta_m(Vec3d{vertex}));
-        farthest_m = std::max(farthest_m, frustum.zeta_m(Vec3d{vertex}));
+        nearest_m = std::min(nearest_m, frustum.light_distance_m(Vec3d{vertex}));
+        farthest_m = std::max(farthest_m, frustum.light_distance_m(Vec3d{vertex}));
     }
     if (world.frustum.fit == Fit::camera) {
         double seen_m = -std::numeric_limits<double>::infinity();
         visit_visible_corners(
             world.scene, make_camera(world.camera), world.image,
-            [&](const Vec3d& p) { seen_m = std::max(seen_m, frustum.zeta_m(p)); });
+            [&](const Vec3d& p) { seen_m = std::max(seen_m, frustum.light_distance_m(p)); });
         farthest_m = std::isfinite(seen_m) ? seen_m : farthest_m;
     }
     const bool is_spot = frustum.projection == Projection::perspective;
@@ -238,14 +238,14 @@ std::vector<Vec3d> sampled_weights(Dice& dice, const ClipTriangle& triangle)
 
 /// What a step of d16 is worth at ζ [m]: with q = 1/(2^16 − 1), q (far − near); for a spot
 /// A q ζ²/(1 + A q ζ) with A = 1/near − 1/far, which is the same at either end, reversed or not.
-double d16_step_m(const LightFrustum& frustum, double zeta_m)
+double d16_step_m(const LightFrustum& frustum, double light_distance_m)
 {
     constexpr double q = 1.0 / 65535;
     if (frustum.projection == Projection::orthographic) {
         return q * frustum.range_m();
     }
     const double a = 1 / frustum.near_m - 1 / frustum.far_m;
-    return a * q * zeta_m * zeta_m / (1 + a * q * zeta_m);
+    return a * q * light_distance_m * light_distance_m / (1 + a * q * light_distance_m);
 }
 
 double median(std::vector<double> values)
@@ -270,16 +270,16 @@ void sample_triangle(Dice& dice, const LightFrustum& before, const LightFrustum&
     for (const Vec3d& weights : sampled_weights(dice, of_after)) {
         // The former matrix, whose far may be 1000 near, errs by more than the new one; what it
         // held by that error alone was not between its planes.
-        const double zeta_m = after.zeta_m(at(points, weights));
-        if (zeta_m < before.near_m || zeta_m > before.far_m) {
+        const double light_distance_m = after.light_distance_m(at(points, weights));
+        if (light_distance_m < before.near_m || light_distance_m > before.far_m) {
             continue;
         }
         const Held was = held(before, of_before, weights);
         const Held is = held(after, of_after, weights);
         samples.lost_count += (was.exactly && !is.exactly) || (was.by_gl && !is.by_gl) ? 1U : 0U;
         if (was.exactly && is.exactly) {
-            samples.step_before_m.push_back(d16_step_m(before, zeta_m));
-            samples.step_after_m.push_back(d16_step_m(after, zeta_m));
+            samples.step_before_m.push_back(d16_step_m(before, light_distance_m));
+            samples.step_after_m.push_back(d16_step_m(after, light_distance_m));
         }
     }
 }
@@ -321,9 +321,9 @@ World needle_on_a_side(Dice& dice)
     world.scene = floor.take();
     const LightFrustum frustum = map_of(world);
     std::vector<Vec3d> corners;
-    for (const double zeta_m : {-5.0, -6.0, -7.0}) {
-        corners.push_back(frustum.origin + zeta_m * frustum.forward + 2.0 * frustum.right +
-                          dice.in_cube(0.004));
+    for (const double light_distance_m : {-5.0, -6.0, -7.0}) {
+        corners.push_back(frustum.origin + light_distance_m * frustum.forward +
+                          2.0 * frustum.right + dice.in_cube(0.004));
     }
     SceneBuilder both;
     both.add("needle", corners, triangle);

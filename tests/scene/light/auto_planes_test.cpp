@@ -46,7 +46,7 @@ LightSettings spot()
     return light;
 }
 
-LightSettings sun()
+LightSettings directional()
 {
     LightSettings light;
     light.direction = Vec3d{0, -1, 0};
@@ -80,7 +80,8 @@ TEST(AutoPlanes, LeaveOutWhatIsBesideTheMap)
     add_square(builder, "cellar", {80, -30, 0}, 1); // ζ = 40
     const TriangleScene scene = builder.take();
     expect_planes_around(map_of(scene, spot()), 6, 10);
-    expect_planes_around(map_of(scene, sun(), {.fit = Fit::fixed, .half_extent_m = 2}), 6, 10);
+    expect_planes_around(map_of(scene, directional(), {.fit = Fit::fixed, .half_extent_m = 2}), 6,
+                         10);
 }
 
 TEST(AutoPlanes, CountATriangleAsFarAsTheSideThatItCrosses)
@@ -90,8 +91,8 @@ TEST(AutoPlanes, CountATriangleAsFarAsTheSideThatItCrosses)
     const TriangleScene scene = builder.take();
     expect_planes_around(map_of(scene, spot()), 200.0 / 29, 10, side_tolerance_m);
     // The square's side x = 2 at t = 1/10.
-    expect_planes_around(map_of(scene, sun(), {.fit = Fit::fixed, .half_extent_m = 2}), 9.1, 10,
-                         side_tolerance_m);
+    expect_planes_around(map_of(scene, directional(), {.fit = Fit::fixed, .half_extent_m = 2}), 9.1,
+                         10, side_tolerance_m);
 }
 
 TEST(AutoPlanes, CountATriangleThatReachesBehindTheSpot)
@@ -123,7 +124,7 @@ TEST(AutoPlanes, OfACameraFitReachFromAnyCasterWithinTheSidesToTheFarthestSeen)
     add_square(builder, "crane", {15, 9, 0}, 0.1); // over what it does not
     const CameraSettings down{.eye = {0, 6, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}};
     const TriangleScene scene = builder.take();
-    const LightFrustum frustum = map_of(scene, sun(), {.fit = Fit::camera}, down);
+    const LightFrustum frustum = map_of(scene, directional(), {.fit = Fit::camera}, down);
     EXPECT_LT(frustum.right_side, 5);
     EXPECT_NEAR(frustum.near_m, 3 - 7e-4, 1e-12);
     EXPECT_GE(frustum.far_m, 10);
@@ -133,7 +134,7 @@ TEST(AutoPlanes, OfACameraFitReachFromAnyCasterWithinTheSidesToTheFarthestSeen)
 TEST(AutoPlanes, EncloseTheWholeSceneWhereTheMapHoldsNothingOfIt)
 {
     const TriangleScene scene = floor_and_table().take();
-    LightSettings away = sun();
+    LightSettings away = directional();
     away.position = Vec3d{100, 10, 0};
     expect_planes_around(map_of(scene, away, {.fit = Fit::fixed, .half_extent_m = 2}), 6, 10);
     LightSettings beside = spot();
@@ -159,7 +160,7 @@ TEST(AutoPlanes, HoldEveryVertexByTheFloat32MatrixFarFromTheOrigin)
         add_square(builder, "floor", far_away, 1);
         add_square(builder, "table", far_away + Vec3d{0, 1, 0}, 0.5);
         const TriangleScene scene = builder.take();
-        LightSettings light = is_spot ? spot() : sun();
+        LightSettings light = is_spot ? spot() : directional();
         light.direction = is_spot ? std::nullopt : std::optional{Vec3d{1, -2, 1}};
         light.position = far_away + Vec3d{-5, 10, -5};
         light.target = is_spot ? std::optional{far_away} : std::nullopt;

@@ -33,9 +33,9 @@ TEST(DepthPlanes, ThatFaceTheCameraLieAtTheirVerticesDistance)
         for (const double offset_m : {0.0, 500.0}) {
             const DepthPlanes planes = make_depth_planes(settings_of(projection, 100, 0, offset_m));
             for (std::uint32_t i = 0; i < 100; ++i) {
-                const double zeta_m = offset_m - double{planes.triangles.corners(i)[0].z};
+                const double light_distance_m = offset_m - double{planes.triangles.corners(i)[0].z};
                 // A quotient of doubles whose numerator is a multiple of its denominator.
-                EXPECT_NEAR(planes.zeta_m(i), zeta_m, 1e-13 * zeta_m);
+                EXPECT_NEAR(planes.light_distance_m(i), light_distance_m, 1e-13 * light_distance_m);
             }
         }
     }
@@ -46,11 +46,12 @@ TEST(DepthPlanes, SpreadFromNearToFar)
     for (const Projection projection : both_projections) {
         const DepthPlanes planes = make_depth_planes(settings_of(projection, 1000));
         // Margins of 2^-22 of 54 m, and a float32 step at 50 m.
-        EXPECT_NEAR(planes.zeta_m(0), 4, 2e-5);
-        EXPECT_NEAR(planes.zeta_m(999), 50, 2e-5);
+        EXPECT_NEAR(planes.light_distance_m(0), 4, 2e-5);
+        EXPECT_NEAR(planes.light_distance_m(999), 50, 2e-5);
         for (std::size_t i = 0; i < 999; ++i) {
-            EXPECT_GE(planes.zeta_m(i), 4 + 0.046 * static_cast<double>(i) - 2e-5) << i;
-            EXPECT_LE(planes.zeta_m(i), 4 + 0.046 * static_cast<double>(i + 1) + 2e-5) << i;
+            EXPECT_GE(planes.light_distance_m(i), 4 + 0.046 * static_cast<double>(i) - 2e-5) << i;
+            EXPECT_LE(planes.light_distance_m(i), 4 + 0.046 * static_cast<double>(i + 1) + 2e-5)
+                << i;
         }
     }
 }
@@ -77,8 +78,9 @@ TEST(DepthPlanes, StayBetweenNearAndFar)
             const DepthPlanes planes =
                 make_depth_planes(settings_of(projection, 500, tilt_deg, 10));
             for (const Vec3f& vertex : planes.triangles.vertices) {
-                const double zeta_m = planes.frustum.zeta_m(Vec3d{vertex});
-                EXPECT_TRUE(zeta_m > 4 && zeta_m < 50) << zeta_m << " tilt " << tilt_deg;
+                const double light_distance_m = planes.frustum.light_distance_m(Vec3d{vertex});
+                EXPECT_TRUE(light_distance_m > 4 && light_distance_m < 50)
+                    << light_distance_m << " tilt " << tilt_deg;
             }
         }
     }

@@ -22,7 +22,7 @@ TriangleScene soup()
     return builder.take();
 }
 
-LightSettings sun(const Vec3d& direction)
+LightSettings directional(const Vec3d& direction)
 {
     LightSettings light;
     light.direction = direction;
@@ -54,7 +54,7 @@ Vec3d ndc_of(const LightFrustum& frustum, const Vec3d& p)
 
 TEST(SceneFit, OfASunIsTheSmallestLightViewBox)
 {
-    const LightFrustum f = fitted({}, sun({0.3, -1, -0.2}));
+    const LightFrustum f = fitted({}, directional({0.3, -1, -0.2}));
     Vec3d lower{INFINITY};
     Vec3d upper{-INFINITY};
     for (const Vec3f& v : soup().vertices) {
@@ -77,8 +77,8 @@ TEST(SceneFit, OfASpotHasTheConesFov)
     EXPECT_NEAR(f.top, 1, 1e-15); // tan 45°
     EXPECT_GE(f.near_m, 1e-3 * f.far_m);
     for (const Vec3f& v : soup().vertices) {
-        EXPECT_LT(f.zeta_m(Vec3d{v}), f.far_m);
-        EXPECT_GT(f.zeta_m(Vec3d{v}), f.near_m);
+        EXPECT_LT(f.light_distance_m(Vec3d{v}), f.far_m);
+        EXPECT_GT(f.light_distance_m(Vec3d{v}), f.near_m);
     }
 }
 
@@ -98,7 +98,7 @@ TEST(SceneFit, GivesAFlatSceneABox)
     SceneBuilder builder;
     const std::vector<Vec3d> vertices{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
     builder.add("flat", vertices, std::vector<Corner>{{0, 2, 1}});
-    const LightSettings light = sun({0, -1, 0});
+    const LightSettings light = directional({0, -1, 0});
     const LightFrustum f = fit_light_frustum({}, light, make_light(light), builder.take(),
                                              make_camera({}), {640, 360});
     EXPECT_LT(f.near_m, f.far_m);
@@ -107,7 +107,7 @@ TEST(SceneFit, GivesAFlatSceneABox)
 TEST(Frustum, MapsNearAndFarToTheClipRange)
 {
     for (const bool reversed : {false, true}) {
-        for (const LightSettings& light : {sun({0, -1, 0.1}), spot_above()}) {
+        for (const LightSettings& light : {directional({0, -1, 0.1}), spot_above()}) {
             const LightFrustum f =
                 fitted({.near_m = 0.5, .far_m = 8.0, .reversed = reversed}, light);
             const double at_near = ndc_of(f, f.origin + f.near_m * f.forward).z;
@@ -121,15 +121,15 @@ TEST(Frustum, MapsNearAndFarToTheClipRange)
 
 TEST(Frustum, IsRightHandedAndSeesUpAsUp)
 {
-    const LightFrustum f = fitted({}, sun({1, -1, 0}));
+    const LightFrustum f = fitted({}, directional({1, -1, 0}));
     EXPECT_NEAR(glm::dot(glm::cross(f.right, f.up), -f.forward), 1, 1e-15);
     EXPECT_GT(f.up.y, 0);
 }
 
 TEST(Frustum, RollTurnsTheAxesAboutTheLight)
 {
-    const LightFrustum plain = fitted({}, sun({1, -1, 0.5}));
-    const LightFrustum rolled = fitted({.roll_deg = 90}, sun({1, -1, 0.5}));
+    const LightFrustum plain = fitted({}, directional({1, -1, 0.5}));
+    const LightFrustum rolled = fitted({.roll_deg = 90}, directional({1, -1, 0.5}));
     EXPECT_NEAR(glm::dot(rolled.right, plain.up), 1, 1e-15);
     EXPECT_NEAR(glm::dot(rolled.up, plain.right), -1, 1e-15);
     EXPECT_EQ(rolled.forward, plain.forward);
@@ -137,13 +137,13 @@ TEST(Frustum, RollTurnsTheAxesAboutTheLight)
 
 TEST(FixedFit, StandsAtItsPositionWithItsExtent)
 {
-    LightSettings light = sun({0, -1, 0});
+    LightSettings light = directional({0, -1, 0});
     light.position = Vec3d{1, 10, 2};
     const LightFrustum f =
         fitted({.fit = Fit::fixed, .half_extent_m = 20, .near_m = 0.01, .far_m = 100.0}, light);
     EXPECT_EQ(f.origin, (Vec3d{1, 10, 2}));
     EXPECT_EQ(f.right_side, 20);
-    EXPECT_EQ(f.zeta_m({1, 0, 2}), 10);
+    EXPECT_EQ(f.light_distance_m({1, 0, 2}), 10);
     EXPECT_NEAR(ndc_of(f, {1, 0, 2}).x, 0, 1e-15);
     EXPECT_NEAR(std::abs(ndc_of(f, {21, 0, 2}).x), 1, 1e-15);
 }
@@ -158,7 +158,7 @@ TEST(CameraFit, HoldsWhatTheCameraSeesAndNoMore)
 {
     const CameraSettings close{
         .eye = {0.2, 0.9, 0.9}, .target = {0, 0.3, 0}, .vertical_fov_deg = 20};
-    for (const LightSettings& light : {sun({0.3, -1, -0.2}), spot_above()}) {
+    for (const LightSettings& light : {directional({0.3, -1, -0.2}), spot_above()}) {
         const LightFrustum whole = fitted({}, light, close);
         const LightFrustum narrow = fitted({.fit = Fit::camera}, light, close);
         EXPECT_LT(narrow.right_side - narrow.left, 0.6 * (whole.right_side - whole.left));
@@ -173,14 +173,14 @@ TEST(CameraFit, HoldsWhatTheCameraSeesAndNoMore)
 TEST(CameraFit, FallsBackToTheSceneWhereTheCameraSeesNothing)
 {
     const CameraSettings away{.eye = {0, 6, 9}, .target = {0, 12, 18}};
-    const LightFrustum whole = fitted({}, sun({0.3, -1, -0.2}), away);
-    const LightFrustum narrow = fitted({.fit = Fit::camera}, sun({0.3, -1, -0.2}), away);
+    const LightFrustum whole = fitted({}, directional({0.3, -1, -0.2}), away);
+    const LightFrustum narrow = fitted({.fit = Fit::camera}, directional({0.3, -1, -0.2}), away);
     EXPECT_EQ(narrow.light_clip_from_world, whole.light_clip_from_world);
 }
 
 TEST(TexelWidth, IsTheLargerSideAndGrowsWithASpotsDistance)
 {
-    const LightFrustum sunlit = fitted({}, sun({0, -1, 0}));
+    const LightFrustum sunlit = fitted({}, directional({0, -1, 0}));
     EXPECT_DOUBLE_EQ(sunlit.texel_width_m(123, 600), 6.0 / 600); // z spans 6 m, x 4 m
     const LightFrustum spot = fitted({}, spot_above());
     EXPECT_DOUBLE_EQ(spot.texel_width_m(3, 100), 2 * 3 * std::tan(M_PI / 4) / 100);
@@ -188,11 +188,11 @@ TEST(TexelWidth, IsTheLargerSideAndGrowsWithASpotsDistance)
 
 TEST(Frustum, RefusesImpossibleDepthRanges)
 {
-    EXPECT_THROW((void)fitted({.near_m = 5.0, .far_m = 5.0}, sun({0, -1, 0})), InputError);
-    EXPECT_THROW((void)fitted({.near_m = 1e6}, sun({0, -1, 0})), InputError);
+    EXPECT_THROW((void)fitted({.near_m = 5.0, .far_m = 5.0}, directional({0, -1, 0})), InputError);
+    EXPECT_THROW((void)fitted({.near_m = 1e6}, directional({0, -1, 0})), InputError);
     EXPECT_THROW((void)fitted({.near_m = 0.0}, spot_above()), InputError);
     EXPECT_THROW((void)fitted({.near_m = -1.0}, spot_above()), InputError);
-    EXPECT_NO_THROW((void)fitted({.near_m = -1.0}, sun({0, -1, 0})));
+    EXPECT_NO_THROW((void)fitted({.near_m = -1.0}, directional({0, -1, 0})));
 }
 
 } // namespace

@@ -15,7 +15,7 @@
 
 namespace gnomon::analysis {
 
-/// A scene in both renderers' hands, and what results say of it.
+/// A scene that both renderers have loaded, and what results say of it.
 struct ReadScene {
     OpenScene open;
     SceneSummary summary;
@@ -60,10 +60,10 @@ private:
 };
 
 /// The answers of one lookup, made by the background when they are first needed.
-class LookupWork {
+class LookupStage {
 public:
-    LookupWork(const ReadScene& scene, std::shared_ptr<JudgedReceivers> receivers, std::size_t slot,
-               ExactLightCaches& caches, ObservedLookup lookup)
+    LookupStage(const ReadScene& scene, std::shared_ptr<JudgedReceivers> receivers,
+                std::size_t slot, ExactLightCaches& caches, ObservedLookup lookup)
         : scene_{scene},
           receivers_{std::move(receivers)},
           slot_{slot},

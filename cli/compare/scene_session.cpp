@@ -1,11 +1,11 @@
-#include "cli/compare/scene_hands.hpp"
+#include "cli/compare/scene_session.hpp"
 
 #include "cli/system/stopwatch.hpp"
 
 namespace gnomon::cli {
 
-SceneHands::SceneHands(const raster_gl::Context& context, const scene::TriangleScene& triangles,
-                       const SessionOptions& options)
+SceneSession::SceneSession(const raster_gl::Context& context, const scene::TriangleScene& triangles,
+                           const SessionOptions& options)
     : gl_{context, triangles}
 {
     const bool is_exact = options.method == reference_rt::TruthMethod::exact;

@@ -1,4 +1,4 @@
-#include "analysis/causes/own_sheets.hpp"
+#include "analysis/causes/self_shadowing.hpp"
 
 #include <utility>
 
@@ -38,7 +38,7 @@ std::vector<TapSet> own_taps(const scene::ExactLight& light, const TracedLookups
         std::size_t lookup;
         std::size_t tap;
     };
-    std::vector<scene::SheetQuery> queries;
+    std::vector<scene::SelfShadowingQuery> queries;
     std::vector<Place> places;
     for (std::size_t i = 0; i < lookups.size(); ++i) {
         const auto taps = lookups.taps_of(i);
@@ -50,7 +50,7 @@ std::vector<TapSet> own_taps(const scene::ExactLight& light, const TracedLookups
             }
         }
     }
-    const auto is_own = light.are_own_sheets(queries);
+    const auto is_own = light.are_self_shadowing(queries);
     std::vector<TapSet> own(lookups.size());
     for (std::size_t q = 0; q < queries.size(); ++q) {
         own[places[q].lookup][places[q].tap] = is_own[q] != 0;

@@ -20,12 +20,12 @@ struct SessionOptions {
 };
 
 /// A scene that both renderers have loaded.
-class SceneHands {
+class SceneSession {
 public:
     /// The context and the triangles must outlive this.
     /// @throws scene::EnvironmentError  if GL or Embree fails.
-    SceneHands(const raster_gl::Context& context, const scene::TriangleScene& triangles,
-               const SessionOptions& options);
+    SceneSession(const raster_gl::Context& context, const scene::TriangleScene& triangles,
+                 const SessionOptions& options);
 
     [[nodiscard]] const reference_rt::ReferenceScene& reference() const { return *reference_; }
     /// Valid as long as this.

@@ -9,7 +9,7 @@
 
 namespace gnomon::reference_rt {
 
-/// Finds whether the surface leads from a receiver to what a texel sees (DESIGN §4, own sheet).
+/// Finds whether the surface leads from a receiver to what a texel sees (docs/truth.md).
 ///
 /// In light view, where everything is projected along the texel rays, p is P and c the texel's
 /// centre. A walk that begins in T crosses an edge (a, b) of a triangle
@@ -19,10 +19,11 @@ namespace gnomon::reference_rt {
 ///     of its ends: around a vertex any way counts.
 ///
 /// All of it is decided by the sides of a, b from the line pc, and of p, c and the apex from ab.
-class OwnSheet {
+class SelfShadowingSurface {
 public:
     /// All arguments must outlive it.
-    OwnSheet(const scene::TriangleScene& triangles, const CornerFans& fans, const TexelRays& rays)
+    SelfShadowingSurface(const scene::TriangleScene& triangles, const CornerFans& fans,
+                         const TexelRays& rays)
         : triangles_{triangles},
           fans_{fans},
           rays_{rays}

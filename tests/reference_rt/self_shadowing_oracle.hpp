@@ -7,8 +7,9 @@
 #include <optional>
 #include <vector>
 
-/// Own sheets by plane geometry in rationals: every triangle is projected along the texel rays, the
-/// segment from P to the texel's centre clipped against all of them, and what it passes connected.
+/// Self-shadowing surfaces by plane geometry in rationals: every triangle is projected along the
+/// texel rays, the segment from P to the texel's centre clipped against all of them, and what it
+/// passes connected.
 namespace gnomon::reference_rt::test {
 
 struct RationalPoint2 {
@@ -29,28 +30,28 @@ inline Rational area_of(const RationalPoint2& a, const RationalPoint2& b, const 
 /// The projection along a ray's direction, or from its origin.
 class LightView {
 public:
-    LightView(const scene::Ray& ray, bool has_lamp)
+    LightView(const scene::Ray& ray, bool has_positional)
         : origin_{ray.origin},
           forward_{ray.direction},
           right_{cross(forward_, RationalVec{Rational{1}, Rational{2}, Rational{5}})},
           up_{cross(right_, forward_)},
-          has_lamp_{has_lamp}
+          has_positional_{has_positional}
     {
     }
     [[nodiscard]] RationalPoint2 project(const RationalVec& point) const
     {
         const RationalVec offset = point - origin_;
-        const Rational divisor = has_lamp_ ? dot(forward_, offset) : Rational{1};
+        const Rational divisor = has_positional_ ? dot(forward_, offset) : Rational{1};
         return {dot(right_, offset) / divisor, dot(up_, offset) / divisor};
     }
     [[nodiscard]] bool is_in_front(const RationalVec& point) const
     {
-        return !has_lamp_ || dot(forward_, point - origin_) > 0;
+        return !has_positional_ || dot(forward_, point - origin_) > 0;
     }
 
 private:
     RationalVec origin_, forward_, right_, up_;
-    bool has_lamp_;
+    bool has_positional_;
 };
 
 /// The part [first, last] of the segment p→c within a closed triangle.

@@ -1,4 +1,4 @@
-#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
@@ -68,7 +68,7 @@ std::string job_bias_text(const scene::BiasSettings& own, scene::Filter filter)
     return own.constant_m ? fmt::format("{} m", *own.constant_m) : fmt::format("{}", own.constant);
 }
 
-/// Writes the job's constant bias over that of other parameters of the same structure.
+/// Writes the job's constant bias over that of other parameters of the same curve group.
 void replace_constant_bias(Parameters& parameters, const scene::Job& job)
 {
     for (auto& [key, value] : parameters) {
@@ -82,28 +82,27 @@ void replace_constant_bias(Parameters& parameters, const scene::Job& job)
 
 } // namespace
 
-SweepCatalogue::SweepCatalogue(const scene::SweepSpace& space, bool keeps_every_bias,
-                               std::string version)
+SweepCurves::SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, std::string version)
     : space_{space},
       keeps_every_bias_{keeps_every_bias},
       version_{std::move(version)}
 {
-    std::map<std::uint64_t, std::vector<std::uint64_t>> structures;
+    std::map<std::uint64_t, std::vector<std::uint64_t>> groups;
     std::vector<std::uint64_t> order; // of their first configurations
     for (std::uint64_t ordinal = 0; ordinal < space.size(); ++ordinal) {
-        const std::uint64_t structure = space.structure(space.at(ordinal));
-        auto& members = structures[structure];
+        const std::uint64_t curve_group = space.curve_group(space.at(ordinal));
+        auto& members = groups[curve_group];
         if (members.empty()) {
-            order.push_back(structure);
+            order.push_back(curve_group);
         }
         members.push_back(ordinal);
     }
-    for (const std::uint64_t structure : order) {
-        add_structure(std::move(structures[structure]));
+    for (const std::uint64_t curve_group : order) {
+        add_curve_group(std::move(groups[curve_group]));
     }
 }
 
-void SweepCatalogue::add_structure(std::vector<std::uint64_t> ordinals)
+void SweepCurves::add_curve_group(std::vector<std::uint64_t> ordinals)
 {
     scene::Job job;
     try {
@@ -122,19 +121,19 @@ void SweepCatalogue::add_structure(std::vector<std::uint64_t> ordinals)
     }
 }
 
-void SweepCatalogue::add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals)
+void SweepCurves::add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
     requests_.push_back({keeps_every_bias_ ? stage_keys_with_bias(job) : stage_keys(job),
                          std::move(ordinals), job.image.pixel_count(), side * side});
 }
 
-scene::Job SweepCatalogue::job(std::size_t request) const
+scene::Job SweepCurves::job(std::size_t request) const
 {
     return space_.job(space_.at(requests_[request].ordinals.front()));
 }
 
-SweepTask SweepCatalogue::task(std::size_t request, const SceneIdentity& scene) const
+SweepTask SweepCurves::task(std::size_t request, const SceneIdentity& scene) const
 {
     const auto& ordinals = requests_[request].ordinals;
     scene::Job job = this->job(request);
@@ -151,13 +150,13 @@ SweepTask SweepCatalogue::task(std::size_t request, const SceneIdentity& scene) 
     return task;
 }
 
-std::string SweepCatalogue::curve_key(std::size_t request, const SceneIdentity& scene) const
+std::string SweepCurves::curve_key(std::size_t request, const SceneIdentity& scene) const
 {
     const StageKeys& keys = requests_[request].keys;
     return scene.name() + keys.curve.substr(keys.scene.size());
 }
 
-bool SweepCatalogue::may_repeat(std::span<const SceneIdentity> scenes) const
+bool SweepCurves::may_repeat(std::span<const SceneIdentity> scenes) const
 {
     std::set<std::string> curves;
     for (std::size_t i = 0; i < requests_.size(); ++i) {
@@ -168,7 +167,7 @@ bool SweepCatalogue::may_repeat(std::span<const SceneIdentity> scenes) const
     return false;
 }
 
-bool SweepCatalogue::has_equal_biases(const CurveRequest& request) const
+bool SweepCurves::has_equal_biases(const CurveRequest& request) const
 {
     std::set<std::pair<double, std::optional<double>>> biases;
     scene::Job job = space_.job(space_.at(request.ordinals.front()));
@@ -178,8 +177,8 @@ bool SweepCatalogue::has_equal_biases(const CurveRequest& request) const
     });
 }
 
-void SweepCatalogue::describe(std::size_t request, const SceneIdentity& scene, const Visit& visit,
-                              std::uint32_t shard) const
+void SweepCurves::describe(std::size_t request, const SceneIdentity& scene, const Visit& visit,
+                           std::uint32_t shard) const
 {
     const auto& ordinals = requests_[request].ordinals;
     scene::Job job = this->job(request);
@@ -201,7 +200,7 @@ void SweepCatalogue::describe(std::size_t request, const SceneIdentity& scene, c
     }
 }
 
-void SweepCatalogue::describe(const Refusal& refusal, const Visit& visit) const
+void SweepCurves::describe(const Refusal& refusal, const Visit& visit) const
 {
     for (const std::uint64_t ordinal : refusal.ordinals) {
         const scene::SweepPoint point = space_.at(ordinal);

@@ -1,4 +1,4 @@
-#include "reference_rt/traversal/stand_in.hpp"
+#include "reference_rt/traversal/proxy_rays.hpp"
 
 #include "scene/infinity.hpp"
 
@@ -42,12 +42,11 @@ void find_unit_points(const LaneRays& rays, const LaneHits& hits, const UnitFram
 
 namespace {
 
-/// As `stand_in_for`, for rays that begin near the scene.
+/// As `proxy_rays_for`, for rays that begin near the scene.
 /// @return  the lanes whose rays do not.
 GNOMON_WIDEST_VECTORS
-LaneBits stand_in_near_scene(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
-                             const UnitFrame& frame_in, FloatRays& stand_ins,
-                             LanePositions& origins)
+LaneBits proxy_near_scene(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
+                          const UnitFrame& frame_in, FloatRays& proxy_rays, LanePositions& origins)
 {
     const UnitFrame frame = frame_in;
     Lanes<int> is_far;
@@ -56,12 +55,12 @@ LaneBits stand_in_near_scene(const LaneRays& rays, const LaneHits& hits, LaneBit
             frame.from_world({rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]});
         is_far[i] = static_cast<int>(largest(origin) > farthest_origin);
         origins.set(i, {origin, near_origin_error});
-        stand_ins.origin_x[i] = static_cast<float>(origin.x);
-        stand_ins.origin_y[i] = static_cast<float>(origin.y);
-        stand_ins.origin_z[i] = static_cast<float>(origin.z);
-        stand_ins.direction_x[i] = static_cast<float>(rays.direction.x[i]);
-        stand_ins.direction_y[i] = static_cast<float>(rays.direction.y[i]);
-        stand_ins.direction_z[i] = static_cast<float>(rays.direction.z[i]);
+        proxy_rays.origin_x[i] = static_cast<float>(origin.x);
+        proxy_rays.origin_y[i] = static_cast<float>(origin.y);
+        proxy_rays.origin_z[i] = static_cast<float>(origin.z);
+        proxy_rays.direction_x[i] = static_cast<float>(rays.direction.x[i]);
+        proxy_rays.direction_y[i] = static_cast<float>(rays.direction.y[i]);
+        proxy_rays.direction_z[i] = static_cast<float>(rays.direction.z[i]);
     }
     Lanes<float> end;
     Lanes<int> has_end;
@@ -71,7 +70,7 @@ LaneBits stand_in_near_scene(const LaneRays& rays, const LaneHits& hits, LaneBit
                      static_cast<int>(seen >> i & 1U);
     }
     for (std::size_t i = 0; i < packet_size; ++i) {
-        stand_ins.t_far[i] = has_end[i] != 0 ? end[i] : infinity;
+        proxy_rays.t_far[i] = has_end[i] != 0 ? end[i] : infinity;
     }
     return bits_of(is_far);
 }
@@ -88,22 +87,21 @@ void narrow(const Lanes3& origins, FloatRays& rays)
 
 } // namespace
 
-void stand_in_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen, const UnitFrame& frame,
-                  FloatRays& stand_ins, LanePositions& origins)
+void proxy_rays_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
+                    const UnitFrame& frame, FloatRays& proxy_rays, LanePositions& origins)
 {
-    LaneBits far = stand_in_near_scene(rays, hits, seen, frame, stand_ins, origins);
+    LaneBits far = proxy_near_scene(rays, hits, seen, frame, proxy_rays, origins);
     for (; far != 0; far &= far - 1) {
         const std::size_t lane = first_lane(far);
-        const CameraStandIn stand_in{rays.ray(lane), frame};
+        const CameraProxyRays proxy{rays.ray(lane), frame};
         const bool is_seen = (seen >> lane & 1U) != 0;
-        const float t_far =
-            is_seen ? stand_in.t_beyond(hits.t[lane], hits.t_error[lane]) : infinity;
-        origins.set(lane, stand_in.origin());
-        stand_ins.set(lane, stand_in.ray(t_far));
+        const float t_far = is_seen ? proxy.t_beyond(hits.t[lane], hits.t_error[lane]) : infinity;
+        origins.set(lane, proxy.origin());
+        proxy_rays.set(lane, proxy.ray(t_far));
     }
 }
 
-void CameraStandIn::begin_near_scene(const Ray& ray)
+void CameraProxyRays::begin_near_scene(const Ray& ray)
 {
     // Two and a half before the point nearest to the frame's origin, whose box reaches √3 far.
     const double length2 = glm::dot(direction_, direction_);
@@ -120,35 +118,35 @@ void CameraStandIn::begin_near_scene(const Ray& ray)
     origin_.error = 0x1p-49 * largest(origin_.position);
 }
 
-ShadowStandIn::ShadowStandIn(const Light& light, const UnitFrame& frame)
-    : is_sun_{light.type == LightType::directional}
+ShadowProxyRays::ShadowProxyRays(const Light& light, const UnitFrame& frame)
+    : is_directional_{light.type == LightType::directional}
 {
-    if (is_sun_) {
-        to_sun_ = Vec3f{normalised(-light.direction)};
+    if (is_directional_) {
+        to_directional_ = Vec3f{normalised(-light.direction)};
     } else {
-        lamp_ = frame.from_world(light.position);
+        positional_ = frame.from_world(light.position);
     }
 }
 
-void ShadowStandIn::from(const LanePositions& points, LaneBits lanes, FloatRays& rays) const
+void ShadowProxyRays::from(const LanePositions& points, LaneBits lanes, FloatRays& rays) const
 {
-    if (!is_sun_) {
+    if (!is_directional_) {
         for (; lanes != 0; lanes &= lanes - 1) {
             const std::size_t lane = first_lane(lanes);
-            rays.set(lane, ray_to_lamp(points.at(lane)));
+            rays.set(lane, ray_to_positional(points.at(lane)));
         }
         return;
     }
     narrow(points.position, rays);
-    rays.direction_x.fill(to_sun_.x);
-    rays.direction_y.fill(to_sun_.y);
-    rays.direction_z.fill(to_sun_.z);
+    rays.direction_x.fill(to_directional_.x);
+    rays.direction_y.fill(to_directional_.y);
+    rays.direction_z.fill(to_directional_.z);
     rays.t_far.fill(infinity);
 }
 
-FloatRay ShadowStandIn::ray_to_lamp(const Vec3d& point) const
+FloatRay ShadowProxyRays::ray_to_positional(const Vec3d& point) const
 {
-    const Vec3d to_light = lamp_ - point;
+    const Vec3d to_light = positional_ - point;
     const double length = largest(to_light);
     if (length < 0x1p-60) { // the segment is all at P: any direction will do
         return {Vec3f{point}, Vec3f{1, 0, 0}, 0, static_cast<float>(box_padding), casters};

@@ -12,7 +12,7 @@
 namespace gnomon::reports {
 
 /// What became of a pixel since the baseline.
-enum class PlaceMark : std::uint8_t {
+enum class PixelChange : std::uint8_t {
     none = 0,
     mended = 1,           ///< wrong in the baseline, right now
     wrong_before = 2,     ///< wrong in both
@@ -21,11 +21,11 @@ enum class PlaceMark : std::uint8_t {
 };
 
 /// Where pixels became wrong; images of one size.
-struct PlacePicture {
+struct NewPixelsPicture {
     std::string title;
     std::vector<std::string> lines; ///< beneath it
     store::RgbImage ground;         ///< the scene, shaded, without any marks
-    scene::Image<PlaceMark> marks;
+    scene::Image<PixelChange> marks;
 };
 
 /// The whole image, and beside it the place with the most new wrong pixels, magnified; a legend
@@ -33,8 +33,8 @@ struct PlacePicture {
 /// where a large image is scaled down.
 /// @throws scene::EnvironmentError  naming the package, if the font is missing.
 [[nodiscard]] store::RgbImage
-draw_place_picture(const PlacePicture& picture,
-                   const std::filesystem::path& font_folder = default_font_folder);
+draw_new_pixels_picture(const NewPixelsPicture& picture,
+                        const std::filesystem::path& font_folder = default_font_folder);
 
 /// The scene of a configuration's kept pixels, in light greys; shadows are the true ones.
 /// @throws scene::InputError  as `LayerFile` does.

@@ -1,5 +1,5 @@
 #include "light_fixture.hpp"
-#include "sheet_oracle.hpp"
+#include "self_shadowing_oracle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ struct NoonFromAbove : LitScene {
     }
     static scene::LightSettings light()
     {
-        scene::LightSettings noon = sun({0, -1, 0});
+        scene::LightSettings noon = directional({0, -1, 0});
         noon.position = Vec3d{0, 4, 0};
         return noon;
     }
@@ -48,12 +48,12 @@ struct NoonFromAbove : LitScene {
         const auto row = static_cast<std::size_t>(15 + std::lround(8 * from.z));
         const std::size_t pixel = row * 32 + column;
         receivers[pixel] = receiver;
-        const std::vector<SheetQuery> queries{{pixel, texel_over(texel_centre), seen}};
-        return exact_light()->are_own_sheets(queries)[0] == 1;
+        const std::vector<SelfShadowingQuery> queries{{pixel, texel_over(texel_centre), seen}};
+        return exact_light()->are_self_shadowing(queries)[0] == 1;
     }
 };
 
-TEST(OwnSheet, LeadsAcrossThePlaneOfTwoTriangles)
+TEST(SelfShadowingSurface, LeadsAcrossThePlaneOfTwoTriangles)
 {
     SceneBuilder builder;
     add_ground(builder, 3, 1);
@@ -63,7 +63,7 @@ TEST(OwnSheet, LeadsAcrossThePlaneOfTwoTriangles)
     EXPECT_TRUE(noon.leads({1, -0.5}, 1, {-1.25, 1.25}, 0));
 }
 
-TEST(OwnSheet, LeadsAcrossManyTriangles)
+TEST(SelfShadowingSurface, LeadsAcrossManyTriangles)
 {
     SceneBuilder builder;
     add_ground(builder, 3, 25);
@@ -71,17 +71,17 @@ TEST(OwnSheet, LeadsAcrossManyTriangles)
     noon.receivers = brute_force_receivers(noon.triangles, noon.view);
     const auto texels = noon.all_texels();
     const auto hits = noon.exact_light()->first_hits(texels, HitDetail::placed);
-    std::vector<SheetQuery> queries;
+    std::vector<SelfShadowingQuery> queries;
     for (std::size_t pixel = 0; pixel < noon.receivers.pixel_count(); pixel += 7) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
             queries.push_back({pixel, texels[i], hits[i].triangle});
         }
     }
-    const auto answers = noon.exact_light()->are_own_sheets(queries);
+    const auto answers = noon.exact_light()->are_self_shadowing(queries);
     EXPECT_EQ(std::ranges::count(answers, 0), 0);
 }
 
-TEST(OwnSheet, DoesNotLeadBeyondTheTexel)
+TEST(SelfShadowingSurface, DoesNotLeadBeyondTheTexel)
 {
     SceneBuilder builder;
     builder.add("strip",
@@ -93,7 +93,7 @@ TEST(OwnSheet, DoesNotLeadBeyondTheTexel)
     EXPECT_TRUE(noon.leads({-1.75, 0.125}, 0, {0.75, 0.25}, 2));
 }
 
-TEST(OwnSheet, EndsAtAFold)
+TEST(SelfShadowingSurface, EndsAtAFold)
 {
     // The upper leaf lies over the lower one; both hang on the edge x = 1.
     SceneBuilder builder;
@@ -104,7 +104,7 @@ TEST(OwnSheet, EndsAtAFold)
     EXPECT_FALSE(noon.leads({0.5, 0}, 0, {1.75, -0.25}, 1)); // towards the edge and beyond
 }
 
-TEST(OwnSheet, DoesNotLeadToAnother)
+TEST(SelfShadowingSurface, DoesNotLeadToAnother)
 {
     SceneBuilder builder;
     add_ground(builder, 3, 1);
@@ -115,7 +115,7 @@ TEST(OwnSheet, DoesNotLeadToAnother)
                 noon.leads({-0.5, 0.25}, 2, {-0.25, -0.75}, 2));
 }
 
-TEST(OwnSheet, EndsAtABoundaryEvenIfItGoesOnBehind)
+TEST(SelfShadowingSurface, EndsAtABoundaryEvenIfItGoesOnBehind)
 {
     // An L of two squares: the straight way between its ends leaves it.
     SceneBuilder builder;
@@ -128,7 +128,7 @@ TEST(OwnSheet, EndsAtABoundaryEvenIfItGoesOnBehind)
     EXPECT_TRUE(noon.leads({-1.75, 0.875}, 1, {0.25, 1.75}, 3)) << "this way stays inside";
 }
 
-TEST(OwnSheet, DoesNotJoinAtATJunction)
+TEST(SelfShadowingSurface, DoesNotJoinAtATJunction)
 {
     // One triangle's long edge on x = 0 meets two short ones.
     SceneBuilder builder;
@@ -140,7 +140,7 @@ TEST(OwnSheet, DoesNotJoinAtATJunction)
     EXPECT_TRUE(noon.leads({0.5, -0.25}, 1, {0.25, 0.25}, 2));
 }
 
-TEST(OwnSheet, LeadsThroughACorner)
+TEST(SelfShadowingSurface, LeadsThroughACorner)
 {
     // Four triangles around the origin; the way from (−0.25, −0.25) to (0.25, 0.25) runs through
     // it.
@@ -151,7 +151,7 @@ TEST(OwnSheet, LeadsThroughACorner)
     EXPECT_TRUE(noon.leads({-0.25, -0.25}, 3, {0.25, 0.25}, 1));
 }
 
-TEST(OwnSheet, LeadsFromACorner)
+TEST(SelfShadowingSurface, LeadsFromACorner)
 {
     SceneBuilder builder;
     builder.add("fan", std::vector<Vec3d>{{0, 0, 0}, {-2, 0, 0}, {0, 0, 2}, {2, 0, 0}, {0, 0, -2}},
@@ -160,7 +160,7 @@ TEST(OwnSheet, LeadsFromACorner)
     EXPECT_TRUE(noon.leads({0, 0}, 3, {0.25, 0.25}, 1));
 }
 
-TEST(OwnSheet, LeadsAcrossAnEdgeThatTheWayRunsAlong)
+TEST(SelfShadowingSurface, LeadsAcrossAnEdgeThatTheWayRunsAlong)
 {
     SceneBuilder builder;
     add_ground(builder, 2, 1); // the diagonal x = z
@@ -169,7 +169,7 @@ TEST(OwnSheet, LeadsAcrossAnEdgeThatTheWayRunsAlong)
     EXPECT_TRUE(noon.leads({0.25, 0.25}, 1, {0.25, 0.25}, 0)) << "P is on the texel's ray";
 }
 
-TEST(OwnSheet, LeadsAroundACornerOnlyWhereThereIsSurface)
+TEST(SelfShadowingSurface, LeadsAroundACornerOnlyWhereThereIsSurface)
 {
     const std::vector<Vec3d> corners{{0, 0, 0}, {-2, 0, 0}, {0, 0, 2}, {2, 0, 0}, {0, 0, -2}};
     SceneBuilder one_way;
@@ -180,7 +180,7 @@ TEST(OwnSheet, LeadsAroundACornerOnlyWhereThereIsSurface)
     EXPECT_FALSE(NoonFromAbove{no_way}.leads({-0.25, -0.25}, 1, {0.25, 0.25}, 0));
 }
 
-TEST(OwnSheet, LeadsThroughANonManifoldEdgeToEveryContinuation)
+TEST(SelfShadowingSurface, LeadsThroughANonManifoldEdgeToEveryContinuation)
 {
     SceneBuilder builder;
     builder.add("book", std::vector<Vec3d>{{0, 0, -2}, {0, 0, 2}, {-2, 0, 0}, {2, 0, 0}, {2, 1, 0}},
@@ -192,7 +192,7 @@ TEST(OwnSheet, LeadsThroughANonManifoldEdgeToEveryContinuation)
         << "two pages on one side are a fold";
 }
 
-TEST(OwnSheet, DoesNotTurnBackAtANonManifoldEdgeUnderTheTexel)
+TEST(SelfShadowingSurface, DoesNotTurnBackAtANonManifoldEdgeUnderTheTexel)
 {
     // Two pages to the left of the spine x = 0.25, one to the right; the texel's centre is on it.
     SceneBuilder builder;
@@ -204,7 +204,7 @@ TEST(OwnSheet, DoesNotTurnBackAtANonManifoldEdgeUnderTheTexel)
     EXPECT_FALSE(noon.leads({-0.5, 0.125}, 1, {0.25, 0.25}, 0));
 }
 
-TEST(OwnSheet, JoinsPositionsWhateverTheirIndicesAndObjects)
+TEST(SelfShadowingSurface, JoinsPositionsWhateverTheirIndicesAndObjects)
 {
     SceneBuilder builder;
     builder.add("left", std::vector<Vec3d>{{0, 0, -2}, {0, 0, 2}, {-2, 0, 0}}, Indices{{0, 2, 1}});
@@ -246,7 +246,7 @@ TriangleScene crumpled_sheet(unsigned seed, bool is_lattice)
     return builder.take();
 }
 
-TEST(OwnSheet, IsThatOfPlaneGeometryInRationals)
+TEST(SelfShadowingSurface, IsThatOfPlaneGeometryInRationals)
 {
     int own = 0;
     int other = 0;
@@ -259,7 +259,7 @@ TEST(OwnSheet, IsThatOfPlaneGeometryInRationals)
             const auto hits = exact->first_hits(texels, HitDetail::placed);
             const auto pixels = lit.scored_pixels();
             std::mt19937 random{seed};
-            std::vector<SheetQuery> queries;
+            std::vector<SelfShadowingQuery> queries;
             while (queries.size() < 150) {
                 const std::size_t i = random() % texels.size();
                 if (hits[i].triangle != no_triangle) {
@@ -267,7 +267,7 @@ TEST(OwnSheet, IsThatOfPlaneGeometryInRationals)
                         {pixels[random() % pixels.size()], texels[i], hits[i].triangle});
                 }
             }
-            const auto answers = exact->are_own_sheets(queries);
+            const auto answers = exact->are_self_shadowing(queries);
             for (std::size_t i = 0; i < queries.size(); ++i) {
                 const auto& [pixel, texel, seen] = queries[i];
                 const LightView view{lit.texel_ray(texel),
@@ -284,16 +284,17 @@ TEST(OwnSheet, IsThatOfPlaneGeometryInRationals)
     EXPECT_GT(other, 100);
 }
 
-TEST(OwnSheet, RejectsWhatIsNotInTheScene)
+TEST(SelfShadowingSurface, RejectsWhatIsNotInTheScene)
 {
     SceneBuilder builder;
     add_ground(builder, 3, 1);
     NoonFromAbove noon{builder};
     noon.receivers[0] = 0;
     const auto light = noon.exact_light();
-    for (const SheetQuery& query : {SheetQuery{0, {0, 8}, 0}, SheetQuery{0, {-1, 0}, 0},
-                                    SheetQuery{0, {0, 0}, 2}, SheetQuery{32 * 32, {0, 0}, 0}}) {
-        EXPECT_THROW((void)light->are_own_sheets({&query, 1}), std::invalid_argument);
+    for (const SelfShadowingQuery& query :
+         {SelfShadowingQuery{0, {0, 8}, 0}, SelfShadowingQuery{0, {-1, 0}, 0},
+          SelfShadowingQuery{0, {0, 0}, 2}, SelfShadowingQuery{32 * 32, {0, 0}, 0}}) {
+        EXPECT_THROW((void)light->are_self_shadowing({&query, 1}), std::invalid_argument);
     }
 }
 

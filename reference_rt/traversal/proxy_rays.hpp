@@ -65,9 +65,9 @@ inline constexpr double near_origin_error = 2 * unit_roundoff * farthest_origin;
 
 /// A camera's or a texel's ray in the unit frame that begins near the scene. Its direction is the
 /// exact one's, which is about 1 long or longer.
-class CameraStandIn {
+class CameraProxyRays {
 public:
-    CameraStandIn(const CameraRay& camera_ray, const UnitFrame& frame)
+    CameraProxyRays(const CameraRay& camera_ray, const UnitFrame& frame)
         : frame_{frame},
           direction_{camera_ray.ray.direction},
           origin_{frame.from_world(camera_ray.ray.origin), 0}
@@ -108,23 +108,23 @@ private:
 /// The stand-ins of a packet's camera rays: those of the lanes in `seen` end beyond their hits, the
 /// others nowhere.
 /// @param origins  where they begin.
-void stand_in_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen, const UnitFrame& frame,
-                  FloatRays& stand_ins, LanePositions& origins);
+void proxy_rays_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
+                    const UnitFrame& frame, FloatRays& proxy_rays, LanePositions& origins);
 
 /// The stand-in of the open segment from `point` to the light.
-class ShadowStandIn {
+class ShadowProxyRays {
 public:
-    ShadowStandIn(const scene::Light& light, const UnitFrame& frame);
+    ShadowProxyRays(const scene::Light& light, const UnitFrame& frame);
 
     /// The stand-ins of the given lanes; the others are left as they are.
     void from(const LanePositions& points, LaneBits lanes, FloatRays& rays) const;
 
 private:
-    [[nodiscard]] FloatRay ray_to_lamp(const scene::Vec3d& point) const;
+    [[nodiscard]] FloatRay ray_to_positional(const scene::Vec3d& point) const;
 
-    bool is_sun_;
-    scene::Vec3f to_sun_{};
-    scene::Vec3d lamp_{};
+    bool is_directional_;
+    scene::Vec3f to_directional_{};
+    scene::Vec3d positional_{};
 };
 
 } // namespace gnomon::reference_rt

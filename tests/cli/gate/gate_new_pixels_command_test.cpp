@@ -21,7 +21,7 @@ namespace {
 using store::ExampleRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using PlacesJson = nlohmann::json;
+using NewPixelsJson = nlohmann::json;
 
 /// A horizontal sheet over ground, as an OBJ file, moved sideways.
 std::string sheet_over_ground(double moved_m)
@@ -61,15 +61,15 @@ TEST(GateCommand, FindsAnOccluderMovedByHalfATexel)
     ASSERT_EQ(compare_file(folder, "after").exit_code, 0);
     const Ending ending = folder.gate("after", {"--json"});
     EXPECT_EQ(ending.exit_code, 1) << ending.err;
-    const PlacesJson found = PlacesJson::parse(ending.out);
-    const PlacesJson& worst = found.at("findings").at(0);
+    const NewPixelsJson found = NewPixelsJson::parse(ending.out);
+    const NewPixelsJson& worst = found.at("findings").at(0);
     EXPECT_EQ(worst.at("dominant_cause"), "resolution");
     EXPECT_GE(worst.at("now").get<int>() - worst.at("baseline").get<int>(), 100) << worst;
     EXPECT_EQ(worst.at("changed_parameters").at(0).at("key"), "scene_hash");
     EXPECT_TRUE(std::filesystem::exists(worst.at("picture").get<std::string>())) << worst;
     const auto of_ground =
         std::find_if(found.at("findings").begin(), found.at("findings").end(),
-                     [](const PlacesJson& one) { return one.at("where").contains("object"); });
+                     [](const NewPixelsJson& one) { return one.at("where").contains("object"); });
     ASSERT_NE(of_ground, found.at("findings").end());
     EXPECT_EQ(of_ground->at("where").at("object"), "ground");
 }
@@ -81,8 +81,8 @@ void plant_moved_pixels(const GateFolder& folder)
     expect_done(folder.save("before"));
     ASSERT_EQ(folder.masks().size(), 1U);
     // The mask upside down: other pixels, same totals.
-    PlacesJson baseline = PlacesJson::parse(text_of(folder.at("baseline.json")));
-    PlacesJson& name = baseline.at("configurations").at(0).at("wrong_pixels");
+    NewPixelsJson baseline = NewPixelsJson::parse(text_of(folder.at("baseline.json")));
+    NewPixelsJson& name = baseline.at("configurations").at(0).at("wrong_pixels");
     const std::filesystem::path file = folder.at("baseline.json");
     const auto mask = store::read_mask(file, name.get<std::string>(), {320, 180});
     analysis::PixelMask flipped{mask.size()};
@@ -117,7 +117,7 @@ TEST(NewPixels, CannotBeToldWithoutPixels)
     std::filesystem::remove_all(folder.at("run/pixels"));
     const Ending ending = folder.gate("run", {"--json"});
     EXPECT_EQ(ending.exit_code, 5) << ending.err;
-    const PlacesJson finding = PlacesJson::parse(ending.out).at("findings").at(0);
+    const NewPixelsJson finding = NewPixelsJson::parse(ending.out).at("findings").at(0);
     EXPECT_EQ(finding.at("reason"), "not_available");
     EXPECT_EQ(finding.at("obstacle"), "the run kept no pixels of it");
     // A baseline without masks promises nothing of places; a rule that must hold does.

@@ -16,10 +16,10 @@ namespace gnomon::analysis {
 namespace {
 
 const std::vector<ErrorPart> two_objects{
-    {"floor", zeta_band_of(4), 90, 10, {{false, Cause::resolution, Label::acne, 7, 6.5}}},
-    {"floor", zeta_band_of(8), 50, 0, {}},
+    {"floor", light_distance_band_of(4), 90, 10, {{false, Cause::resolution, Label::acne, 7, 6.5}}},
+    {"floor", light_distance_band_of(8), 50, 0, {}},
     {"wall",
-     zeta_band_of(4),
+     light_distance_band_of(4),
      20,
      30,
      {{false, Cause::bias, Label::overshadow, 2, 2},
@@ -34,29 +34,29 @@ PixelFilter of_object(const std::string& name)
 
 TEST(ZetaBands, AreTheOctavesOfTheDistance)
 {
-    const ZetaBand band = zeta_band_of(4);
+    const ZetaBand band = light_distance_band_of(4);
     EXPECT_EQ(band.lower_m(), 4);
     EXPECT_EQ(band.upper_m(), 8);
-    EXPECT_EQ(zeta_band_of(std::nextafter(8.0F, 0.0F)), band);
-    EXPECT_EQ(zeta_band_of(8).place, band.place + 1);
-    EXPECT_EQ(zeta_band_of(-4).lower_m(), -4) << "the lower end belongs to a band";
-    EXPECT_EQ(zeta_band_of(-4).upper_m(), -2);
-    EXPECT_EQ(zeta_band_of(std::nextafter(-4.0F, -5.0F)).lower_m(), -8);
+    EXPECT_EQ(light_distance_band_of(std::nextafter(8.0F, 0.0F)), band);
+    EXPECT_EQ(light_distance_band_of(8).place, band.place + 1);
+    EXPECT_EQ(light_distance_band_of(-4).lower_m(), -4) << "the lower end belongs to a band";
+    EXPECT_EQ(light_distance_band_of(-4).upper_m(), -2);
+    EXPECT_EQ(light_distance_band_of(std::nextafter(-4.0F, -5.0F)).lower_m(), -8);
 }
 
 TEST(ZetaBands, HoldAllDistances)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    EXPECT_EQ(zeta_band_of(-infinity).place, ZetaBand::lowest);
-    EXPECT_EQ(zeta_band_of(infinity).place, ZetaBand::highest);
-    EXPECT_EQ(zeta_band_of(0).place, 0);
-    EXPECT_EQ(zeta_band_of(-0.0F).place, 0);
-    EXPECT_EQ(zeta_band_of(-std::numeric_limits<float>::denorm_min()).place, -1);
+    EXPECT_EQ(light_distance_band_of(-infinity).place, ZetaBand::lowest);
+    EXPECT_EQ(light_distance_band_of(infinity).place, ZetaBand::highest);
+    EXPECT_EQ(light_distance_band_of(0).place, 0);
+    EXPECT_EQ(light_distance_band_of(-0.0F).place, 0);
+    EXPECT_EQ(light_distance_band_of(-std::numeric_limits<float>::denorm_min()).place, -1);
     for (int place = ZetaBand::lowest; place <= ZetaBand::highest; ++place) {
         const auto lower_m = static_cast<float>(ZetaBand{place}.lower_m());
         const auto upper_m = static_cast<float>(ZetaBand{place}.upper_m());
-        EXPECT_EQ(zeta_band_of(lower_m).place, place);
-        EXPECT_EQ(zeta_band_of(std::nextafter(upper_m, -infinity)).place, place);
+        EXPECT_EQ(light_distance_band_of(lower_m).place, place);
+        EXPECT_EQ(light_distance_band_of(std::nextafter(upper_m, -infinity)).place, place);
         EXPECT_EQ(upper_m, ZetaBand{place + 1}.lower_m());
     }
 }
@@ -74,10 +74,10 @@ TEST(PixelFilters, CountTheirPixels)
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", filter), 0);
     EXPECT_EQ(metric_of_pixels(two_objects, "causes.bias", filter), 0);
     PixelFilter bands;
-    bands.bands = ZetaBands{zeta_band_of(4), zeta_band_of(4)};
+    bands.bands = ZetaBands{light_distance_band_of(4), light_distance_band_of(4)};
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", bands), 14);
-    bands.bands->first = zeta_band_of(8);
-    bands.bands->last = zeta_band_of(512);
+    bands.bands->first = light_distance_band_of(8);
+    bands.bands->last = light_distance_band_of(512);
     EXPECT_EQ(metric_of_pixels(two_objects, "error_rate", bands), 0);
 }
 
@@ -111,7 +111,7 @@ TEST(PixelFilters, OfNoPixelsHaveNoValue)
 {
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", of_object("walls")), std::nullopt);
     PixelFilter far = of_object("floor");
-    far.bands = ZetaBands{zeta_band_of(8), zeta_band_of(8)};
+    far.bands = ZetaBands{light_distance_band_of(8), light_distance_band_of(8)};
     EXPECT_EQ(metric_of_pixels(two_objects, "false_lit_rate", far), std::nullopt) << "0 / 0";
 }
 
@@ -126,8 +126,11 @@ TEST(EachObject, IsJudgedByItself)
     GateEntry now = before;
     now.parts[0].errors[0].pixels = 4; // three fewer
     now.parts[2].errors[1].pixels = 7; // two more
-    now.parts.push_back(
-        {"zebra", zeta_band_of(4), 9, 9, {{true, Cause::bias, Label::peter_panning, 9, 9}}});
+    now.parts.push_back({"zebra",
+                         light_distance_band_of(4),
+                         9,
+                         9,
+                         {{true, Cause::bias, Label::peter_panning, 9, 9}}});
     const GateOutcome outcome = judge_run(gate_entries({before}), gate_entries({now}), rules);
     ASSERT_EQ(outcome.findings.size(), 1U) << "a new object has nothing to be compared with";
     EXPECT_EQ(outcome.findings[0].filter, of_object("wall"));
@@ -168,7 +171,7 @@ WrongPixels wrong_pixels(scene::ImageSize size)
     wrong.label = scene::Image<Label>{size};
     wrong.object = scene::Image<std::uint32_t>{size};
     wrong.objects = {"floor"};
-    wrong.zeta_m = scene::Image<float>{size, 5};
+    wrong.light_distance_m = scene::Image<float>{size, 5};
     return wrong;
 }
 
@@ -203,15 +206,15 @@ TEST(NewPixels, CanBeOfOneObjectCauseOrBand)
     filter.cause = Cause::coverage;
     EXPECT_EQ(find_new_pixels(before, now, filter).count, 0U);
     filter.cause = Cause::bias;
-    filter.bands = ZetaBands{zeta_band_of(4), zeta_band_of(4)};
+    filter.bands = ZetaBands{light_distance_band_of(4), light_distance_band_of(4)};
     EXPECT_EQ(find_new_pixels(before, now, filter).count, 2U);
     EXPECT_TRUE(now.knows(filter));
-    now.zeta_m = {};
+    now.light_distance_m = {};
     EXPECT_FALSE(now.knows(filter));
 }
 
 /// Judges one configuration whose pixels may be kept by a rule on new pixels, of which there are 3.
-GateOutcome judged_places(bool has_mask, bool has_pixels, const GateRule& rule)
+GateOutcome judged_new_pixels(bool has_mask, bool has_pixels, const GateRule& rule)
 {
     GateEntry before = gate_entry("1", {});
     GateEntry now = before;
@@ -228,15 +231,15 @@ TEST(NewPixelRules, JudgeWhatBothHave)
 {
     GateRule rule = gate_rule("new_pixels");
     rule.allow_pixels = 2;
-    const GateOutcome outcome = judged_places(true, true, rule);
+    const GateOutcome outcome = judged_new_pixels(true, true, rule);
     ASSERT_EQ(outcome.findings.size(), 1U);
     EXPECT_EQ(outcome.findings[0].now, 3);
     EXPECT_EQ(outcome.findings[0].before, 0);
     rule.allow_pixels = 3;
-    EXPECT_TRUE(judged_places(true, true, rule).findings.empty());
+    EXPECT_TRUE(judged_new_pixels(true, true, rule).findings.empty());
     rule.allow_pixels.reset();
     rule.max = 2;
-    EXPECT_EQ(judged_places(true, true, rule).findings[0].reason, GateReason::above_max);
+    EXPECT_EQ(judged_new_pixels(true, true, rule).findings[0].reason, GateReason::above_max);
 }
 
 TEST(NewPixelRules, CannotJudgeWhatOneSideLacks)
@@ -246,14 +249,14 @@ TEST(NewPixelRules, CannotJudgeWhatOneSideLacks)
     const std::vector<GateRule> rules{rule};
     for (const auto& [has_mask, has_pixels] :
          {std::pair{true, false}, {false, true}, {false, false}}) {
-        const GateOutcome outcome = judged_places(has_mask, has_pixels, rule);
+        const GateOutcome outcome = judged_new_pixels(has_mask, has_pixels, rule);
         ASSERT_EQ(outcome.findings.size(), 1U);
         EXPECT_EQ(outcome.findings[0].reason, GateReason::not_available);
         EXPECT_EQ(gate_verdict(outcome, rules, true), GateVerdict::incomplete);
     }
     rule.is_optional = true;
-    EXPECT_TRUE(judged_places(false, true, rule).findings.empty());
-    EXPECT_EQ(judged_places(true, false, rule).findings.size(), 1U);
+    EXPECT_TRUE(judged_new_pixels(false, true, rule).findings.empty());
+    EXPECT_EQ(judged_new_pixels(true, false, rule).findings.size(), 1U);
 }
 
 TEST(BaselineUpdates, TakeWhatTheyName)

@@ -1,4 +1,4 @@
-#include "reports/gate/place_picture.hpp"
+#include "reports/gate/new_pixels_picture.hpp"
 
 #include "reports/pictures/picture.hpp"
 #include "reports/words/text.hpp"
@@ -20,33 +20,33 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr store::Rgb place_paper{0xFC, 0xFC, 0xFA};
-constexpr store::Rgb place_ink{0x22, 0x22, 0x22};
-constexpr store::Rgb place_faint_ink{0x66, 0x66, 0x66};
-constexpr store::Rgb place_rule{0xC8, 0xC8, 0xC4};
+constexpr store::Rgb change_paper{0xFC, 0xFC, 0xFA};
+constexpr store::Rgb change_ink{0x22, 0x22, 0x22};
+constexpr store::Rgb change_faint_ink{0x66, 0x66, 0x66};
+constexpr store::Rgb change_rule{0xC8, 0xC8, 0xC4};
 constexpr int magnification = 8;
 /// With more new pixels than this, one panel pixel each shows where they are.
 constexpr std::size_t most_dots = 200;
 
 struct MarkStyle {
-    PlaceMark mark;
+    PixelChange mark;
     std::string_view name;
     store::Rgb colour;
 };
 
 /// The new ones first: a panel pixel shows the first kind that it covers.
 constexpr std::array<MarkStyle, 4> mark_styles{
-    {{PlaceMark::new_false_shadow, "new false shadow", {0xD5, 0x5E, 0x00}},
-     {PlaceMark::new_false_lit, "new false lit", {0x00, 0x72, 0xB2}},
-     {PlaceMark::wrong_before, "wrong before, too", {0x55, 0x55, 0x55}},
-     {PlaceMark::mended, "right again", {0x00, 0x9E, 0x73}}}};
+    {{PixelChange::new_false_shadow, "new false shadow", {0xD5, 0x5E, 0x00}},
+     {PixelChange::new_false_lit, "new false lit", {0x00, 0x72, 0xB2}},
+     {PixelChange::wrong_before, "wrong before, too", {0x55, 0x55, 0x55}},
+     {PixelChange::mended, "right again", {0x00, 0x9E, 0x73}}}};
 
-bool became_wrong(PlaceMark mark)
+bool became_wrong(PixelChange mark)
 {
-    return mark == PlaceMark::new_false_shadow || mark == PlaceMark::new_false_lit;
+    return mark == PixelChange::new_false_shadow || mark == PixelChange::new_false_lit;
 }
 
-std::size_t count_of(const scene::Image<PlaceMark>& marks, PlaceMark mark)
+std::size_t count_of(const scene::Image<PixelChange>& marks, PixelChange mark)
 {
     return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), mark));
 }
@@ -75,7 +75,7 @@ Part covered_part(const Part& all, scene::ImageSize panel, int x, int y)
     return {left, top, right, bottom};
 }
 
-store::Rgb shown_colour(const PlacePicture& picture, const Part& part)
+store::Rgb shown_colour(const NewPixelsPicture& picture, const Part& part)
 {
     const MarkStyle* shown = nullptr;
     std::array<std::uint32_t, 3> sum{};
@@ -99,7 +99,7 @@ store::Rgb shown_colour(const PlacePicture& picture, const Part& part)
     return shown != nullptr ? shown->colour : store::Rgb{mean(0), mean(1), mean(2)};
 }
 
-store::RgbImage drawn_part(const PlacePicture& picture, const Part& part, scene::ImageSize size)
+store::RgbImage drawn_part(const NewPixelsPicture& picture, const Part& part, scene::ImageSize size)
 {
     store::RgbImage image{size};
     for (int y = 0; y < size.height_px; ++y) {
@@ -114,7 +114,7 @@ store::RgbImage drawn_part(const PlacePicture& picture, const Part& part, scene:
 /// each corner.
 class NewPixelSums {
 public:
-    NewPixelSums(const scene::Image<PlaceMark>& marks, scene::ImageSize size)
+    NewPixelSums(const scene::Image<PixelChange>& marks, scene::ImageSize size)
         : size_{size},
           last_left_{marks.size().width_px - size.width_px},
           last_top_{marks.size().height_px - size.height_px},
@@ -169,9 +169,9 @@ private:
 };
 
 /// Writes the picture's parts on a canvas.
-class PlaceDrawing {
+class NewPixelsDrawing {
 public:
-    PlaceDrawing(const PlacePicture& picture, const std::filesystem::path& font_folder)
+    NewPixelsDrawing(const NewPixelsPicture& picture, const std::filesystem::path& font_folder)
         : picture_{picture},
           panel_{lay_out_picture(picture.marks.size()).panel},
           font_{std::max(14, panel_.width_px / 40)},
@@ -180,7 +180,7 @@ public:
           panel_top_{margin_ + line_ * (3 + static_cast<int>(picture.lines.size()))},
           canvas_{{3 * margin_ + 2 * panel_.width_px,
                    panel_top_ + panel_.height_px + 4 * line_ + margin_ / 2},
-                  place_paper,
+                  change_paper,
                   font_folder}
     {
     }
@@ -210,8 +210,8 @@ private:
     void write_heading()
     {
         const int width_px = canvas_.image().size().width_px - 2 * margin_;
-        const TextStyle title{font_ * 3 / 2, true, place_ink};
-        const TextStyle plain{font_, false, place_faint_ink};
+        const TextStyle title{font_ * 3 / 2, true, change_ink};
+        const TextStyle plain{font_, false, change_faint_ink};
         int baseline = margin_ + line_;
         canvas_.write(margin_, baseline, canvas_.fitted(picture_.title, title, width_px), title);
         for (const std::string& text : picture_.lines) {
@@ -222,18 +222,18 @@ private:
 
     void draw_panel(int left, const Part& part, const std::string& caption)
     {
-        const TextStyle style{font_, true, place_ink};
+        const TextStyle style{font_, true, change_ink};
         canvas_.write(left, panel_top_ - line_ / 3, canvas_.fitted(caption, style, panel_.width_px),
                       style);
         canvas_.fill(left - 1, panel_top_ - 1, {panel_.width_px + 2, panel_.height_px + 2},
-                     place_rule);
+                     change_rule);
         canvas_.paste(drawn_part(picture_, part, panel_), left, panel_top_);
     }
 
     [[nodiscard]] std::size_t new_pixels() const
     {
-        return count_of(picture_.marks, PlaceMark::new_false_shadow) +
-               count_of(picture_.marks, PlaceMark::new_false_lit);
+        return count_of(picture_.marks, PixelChange::new_false_shadow) +
+               count_of(picture_.marks, PixelChange::new_false_lit);
     }
 
     /// Shows each new wrong pixel in the whole image as a dot: where there are few, one pixel of
@@ -254,7 +254,7 @@ private:
                 const int clipped_top = std::clamp(top, 0, panel_.height_px - side);
                 canvas_.fill(
                     margin_ + clipped_left, panel_top_ + clipped_top, {side, side},
-                    mark_styles[picture_.marks(x, y) == PlaceMark::new_false_lit ? 1 : 0].colour);
+                    mark_styles[picture_.marks(x, y) == PixelChange::new_false_lit ? 1 : 0].colour);
             }
         }
     }
@@ -271,16 +271,16 @@ private:
         const int top = at_y(part.top) - thick;
         const int width = at_x(part.right) + thick - left;
         const int height = at_y(part.bottom) + thick - top;
-        canvas_.fill(left, top, {width, thick}, place_ink);
-        canvas_.fill(left, top + height - thick, {width, thick}, place_ink);
-        canvas_.fill(left, top, {thick, height}, place_ink);
-        canvas_.fill(left + width - thick, top, {thick, height}, place_ink);
+        canvas_.fill(left, top, {width, thick}, change_ink);
+        canvas_.fill(left, top + height - thick, {width, thick}, change_ink);
+        canvas_.fill(left, top, {thick, height}, change_ink);
+        canvas_.fill(left + width - thick, top, {thick, height}, change_ink);
     }
 
     void write_legend()
     {
-        const TextStyle plain{font_, false, place_ink};
-        const TextStyle bold{font_, true, place_ink};
+        const TextStyle plain{font_, false, change_ink};
+        const TextStyle bold{font_, true, change_ink};
         const int side = font_ * 4 / 5;
         for (std::size_t i = 0; i < mark_styles.size(); ++i) {
             const MarkStyle& style = mark_styles[i];
@@ -296,7 +296,7 @@ private:
         }
     }
 
-    const PlacePicture& picture_;
+    const NewPixelsPicture& picture_;
     scene::ImageSize panel_;
     int font_;
     int margin_;
@@ -311,8 +311,8 @@ store::Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_cla
     if (!std::isfinite(normal.x) || pixel_class == scene::PixelClass::background) {
         return {0xF4, 0xF4, 0xF2};
     }
-    const scene::Vec3f lamp = glm::normalize(scene::Vec3f{0.35F, 0.8F, 0.5F});
-    const float facing = 0.5F + 0.5F * glm::dot(normal, lamp);
+    const scene::Vec3f positional = glm::normalize(scene::Vec3f{0.35F, 0.8F, 0.5F});
+    const float facing = 0.5F + 0.5F * glm::dot(normal, positional);
     const float light = pixel_class == scene::PixelClass::lit ? 1.0F : 0.86F;
     const float grey = (0.70F + 0.24F * facing) * light;
     const auto value = static_cast<std::uint8_t>(std::lround(255 * std::clamp(grey, 0.0F, 1.0F)));
@@ -321,10 +321,10 @@ store::Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_cla
 
 } // namespace
 
-store::RgbImage draw_place_picture(const PlacePicture& picture,
-                                   const std::filesystem::path& font_folder)
+store::RgbImage draw_new_pixels_picture(const NewPixelsPicture& picture,
+                                        const std::filesystem::path& font_folder)
 {
-    return PlaceDrawing{picture, font_folder}.draw();
+    return NewPixelsDrawing{picture, font_folder}.draw();
 }
 
 store::RgbImage shaded_ground(const std::filesystem::path& run, const std::string& id)

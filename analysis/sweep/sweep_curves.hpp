@@ -23,14 +23,14 @@ struct Refusal {
 };
 
 /// All configurations of a sweep, sorted into bias curves: the jobs behind the numbers.
-class SweepCatalogue {
+class SweepCurves {
 public:
     /// @param space             must outlive the catalogue.
     /// @param keeps_every_bias  each configuration is a request of its own, to keep its pixels.
     /// @param version           of the program: part of every id.
-    SweepCatalogue(const scene::SweepSpace& space, bool keeps_every_bias, std::string version);
-    SweepCatalogue(const scene::SweepSpace&& space, bool keeps_every_bias,
-                   std::string version) = delete;
+    SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, std::string version);
+    SweepCurves(const scene::SweepSpace&& space, bool keeps_every_bias,
+                std::string version) = delete;
 
     /// One for each bias curve, in the order of their first configurations.
     [[nodiscard]] const std::vector<CurveRequest>& requests() const { return requests_; }
@@ -59,7 +59,7 @@ public:
     void describe(const Refusal& refusal, const Visit& visit) const;
 
 private:
-    void add_structure(std::vector<std::uint64_t> ordinals);
+    void add_curve_group(std::vector<std::uint64_t> ordinals);
     void add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals);
     [[nodiscard]] bool has_equal_biases(const CurveRequest& request) const;
 

@@ -1,6 +1,6 @@
 // Who a sweep's configurations are, and what is asked of each curve.
 
-#include "analysis/sweep/catalogue.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 
 #include "scene/job/source.hpp"
 
@@ -38,14 +38,14 @@ std::vector<Configuration> describe_all(const scene::SweepSpace& space,
                                         const std::string& version = "1.0",
                                         bool keeps_every_bias = false)
 {
-    const SweepCatalogue catalogue{space, keeps_every_bias, version};
+    const SweepCurves sweep_curves{space, keeps_every_bias, version};
     std::vector<Configuration> all;
     const auto visit = [&](const Configuration& configuration) { all.push_back(configuration); };
-    for (std::size_t i = 0; i < catalogue.requests().size(); ++i) {
-        catalogue.describe(i, {std::string{scene_hash}, ""}, visit);
+    for (std::size_t i = 0; i < sweep_curves.requests().size(); ++i) {
+        sweep_curves.describe(i, {std::string{scene_hash}, ""}, visit);
     }
-    for (const Refusal& refusal : catalogue.refusals()) {
-        catalogue.describe(refusal, visit);
+    for (const Refusal& refusal : sweep_curves.refusals()) {
+        sweep_curves.describe(refusal, visit);
     }
     std::sort(all.begin(), all.end(),
               [](const Configuration& a, const Configuration& b) { return a.ordinal < b.ordinal; });
@@ -60,7 +60,7 @@ Configuration only_one(const std::vector<scene::Override>& overrides,
     return all.at(0);
 }
 
-TEST(SweepCatalogue, DescribesEveryConfigurationOnce)
+TEST(SweepCurves, DescribesEveryConfigurationOnce)
 {
     const auto all = describe_all(space_of({"bias.constant=0,0.5", "bias.slope=0,1,2"}));
     ASSERT_THAT(all, SizeIs(6));
@@ -79,7 +79,7 @@ TEST(SweepCatalogue, DescribesEveryConfigurationOnce)
     EXPECT_EQ(all[0].curve, all[3].curve);
 }
 
-TEST(SweepCatalogue, WritesEveryKeyOut)
+TEST(SweepCurves, WritesEveryKeyOut)
 {
     const scene::SweepSpace space =
         space_of({"bias.constant=0,0.5", "lookup.filter=pcf3,hardware"});
@@ -90,7 +90,7 @@ TEST(SweepCatalogue, WritesEveryKeyOut)
     }
 }
 
-TEST(SweepCatalogue, NamesEqualJobsEqually)
+TEST(SweepCurves, NamesEqualJobsEqually)
 {
     EXPECT_EQ(only_one({}).id, only_one({}).id);
     EXPECT_EQ(only_one({}).id, only_one({{"bias.slope", "0"}}).id);
@@ -103,7 +103,7 @@ TEST(SweepCatalogue, NamesEqualJobsEqually)
     EXPECT_EQ(rows[1].curve, turned[2].curve);
 }
 
-TEST(SweepCatalogue, NamesAConfigurationAlikeWhereverTheSweepEnds)
+TEST(SweepCurves, NamesAConfigurationAlikeWhereverTheSweepEnds)
 {
     const auto few = describe_all(space_of({"bias.constant=0.5"}));
     const auto many = describe_all(space_of({"bias.constant={from=0, to=1, count=5}"}));
@@ -115,7 +115,7 @@ TEST(SweepCatalogue, NamesAConfigurationAlikeWhereverTheSweepEnds)
     EXPECT_EQ(few[0].curve, kept[0].curve);
 }
 
-TEST(SweepCatalogue, NamesJobsThatDifferInAnyKeyDifferently)
+TEST(SweepCurves, NamesJobsThatDifferInAnyKeyDifferently)
 {
     const std::vector<scene::Override> changes{{"scene.ground", "true"},
                                                {"scene.no_cast", "[\"a\"]"},
@@ -145,7 +145,7 @@ TEST(SweepCatalogue, NamesJobsThatDifferInAnyKeyDifferently)
     }
 }
 
-TEST(SweepCatalogue, NamesScenesByContentAndNotByPlace)
+TEST(SweepCurves, NamesScenesByContentAndNotByPlace)
 {
     const auto of_file = [](const char* file, const char* scene_hash) {
         return describe_all(space_of({"bias.slope=0.5"}, {{"scene.file", file}}), scene_hash)[0];
@@ -156,14 +156,14 @@ TEST(SweepCatalogue, NamesScenesByContentAndNotByPlace)
     EXPECT_NE(of_file("a.obj", hash).curve, of_file("a.obj", "0123456789abcdee").curve);
 }
 
-TEST(SweepCatalogue, NamesScenesByWhatIsTakenFromTheirFilesToo)
+TEST(SweepCurves, NamesScenesByWhatIsTakenFromTheirFilesToo)
 {
     const scene::SweepSpace space = space_of({}, {{"scene.file", "a.gltf"}});
-    const SweepCatalogue catalogue{space, false, "1.0"};
+    const SweepCurves sweep_curves{space, false, "1.0"};
     const auto described = [&](const SceneIdentity& identity) {
         Configuration only;
-        catalogue.describe(0, identity, [&](const Configuration& one) { only = one; });
-        EXPECT_EQ(catalogue.task(0, identity).id, only.curve);
+        sweep_curves.describe(0, identity, [&](const Configuration& one) { only = one; });
+        EXPECT_EQ(sweep_curves.task(0, identity).id, only.curve);
         EXPECT_EQ(only.scene_hash, hash) << "of the triangles alone";
         return only;
     };
@@ -178,14 +178,14 @@ TEST(SweepCatalogue, NamesScenesByWhatIsTakenFromTheirFilesToo)
     EXPECT_EQ(one.parameters, none.parameters) << "the job still says nothing of it";
 }
 
-TEST(SweepCatalogue, SharesNoStageBetweenFiles)
+TEST(SweepCurves, SharesNoStageBetweenFiles)
 {
     const scene::SweepSpace space =
         space_of({"scene.file=a.gltf,b.gltf", "shadow_map.fit=scene,camera"});
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    ASSERT_THAT(catalogue.requests(), SizeIs(4));
-    const StageKeys& a = catalogue.requests()[0].keys;
-    const StageKeys& b = catalogue.requests()[2].keys;
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    ASSERT_THAT(sweep_curves.requests(), SizeIs(4));
+    const StageKeys& a = sweep_curves.requests()[0].keys;
+    const StageKeys& b = sweep_curves.requests()[2].keys;
     for (const auto member :
          {&StageKeys::scene, &StageKeys::light, &StageKeys::truth, &StageKeys::frustum,
           &StageKeys::receivers, &StageKeys::texels, &StageKeys::map, &StageKeys::exact,
@@ -194,14 +194,14 @@ TEST(SweepCatalogue, SharesNoStageBetweenFiles)
     }
 }
 
-TEST(SweepCatalogue, NamesResultsOfAnotherVersionDifferently)
+TEST(SweepCurves, NamesResultsOfAnotherVersionDifferently)
 {
     const scene::SweepSpace space = space_of({});
     EXPECT_NE(describe_all(space, hash, "1.0")[0].id, describe_all(space, hash, "1.1")[0].id);
     EXPECT_NE(describe_all(space, hash, "1.0")[0].curve, describe_all(space, hash, "1.1")[0].curve);
 }
 
-TEST(SweepCatalogue, LeavesTheConstantBiasOutOfTheCurvesName)
+TEST(SweepCurves, LeavesTheConstantBiasOutOfTheCurvesName)
 {
     EXPECT_EQ(only_one({}).curve, only_one({{"bias.constant", "0.5"}}).curve);
     EXPECT_EQ(only_one({}).curve, only_one({{"bias.constant_m", "0.5"}}).curve);
@@ -209,7 +209,7 @@ TEST(SweepCatalogue, LeavesTheConstantBiasOutOfTheCurvesName)
     EXPECT_NE(only_one({}).curve, only_one({{"lookup.filter", "linear"}}).curve);
 }
 
-TEST(SweepCatalogue, GivesEachBiasOfHardwareACurveOfItsOwn)
+TEST(SweepCurves, GivesEachBiasOfHardwareACurveOfItsOwn)
 {
     const scene::SweepSpace space =
         space_of({"lookup.filter=hardware,linear", "bias.constant=0,0.25,0.5"});
@@ -217,41 +217,41 @@ TEST(SweepCatalogue, GivesEachBiasOfHardwareACurveOfItsOwn)
     EXPECT_NE(all[0].curve, all[1].curve);
     EXPECT_NE(all[1].curve, all[2].curve);
     EXPECT_EQ(all[3].curve, all[4].curve);
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    ASSERT_THAT(catalogue.requests(), SizeIs(4));
-    EXPECT_THAT(catalogue.requests()[1].ordinals, ElementsAre(1));
-    EXPECT_THAT(catalogue.requests()[3].ordinals, ElementsAre(3, 4, 5));
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    ASSERT_THAT(sweep_curves.requests(), SizeIs(4));
+    EXPECT_THAT(sweep_curves.requests()[1].ordinals, ElementsAre(1));
+    EXPECT_THAT(sweep_curves.requests()[3].ordinals, ElementsAre(3, 4, 5));
 }
 
-TEST(SweepCatalogue, AsksForEveryBiasByItselfToKeepPixels)
+TEST(SweepCurves, AsksForEveryBiasByItselfToKeepPixels)
 {
     const scene::SweepSpace space = space_of({"bias.slope=0,1", "bias.constant=0,0.25,0.5"});
-    EXPECT_THAT((SweepCatalogue{space, false, "1.0"}.requests()), SizeIs(2));
-    const SweepCatalogue catalogue{space, true, "1.0"};
-    ASSERT_THAT(catalogue.requests(), SizeIs(6));
+    EXPECT_THAT((SweepCurves{space, false, "1.0"}.requests()), SizeIs(2));
+    const SweepCurves sweep_curves{space, true, "1.0"};
+    ASSERT_THAT(sweep_curves.requests(), SizeIs(6));
     std::set<std::string> lookups;
     for (std::size_t i = 0; i < 6; ++i) {
-        EXPECT_THAT(catalogue.requests()[i].ordinals, ElementsAre(i));
-        lookups.insert(catalogue.requests()[i].keys.lookup);
+        EXPECT_THAT(sweep_curves.requests()[i].ordinals, ElementsAre(i));
+        lookups.insert(sweep_curves.requests()[i].keys.lookup);
     }
     EXPECT_EQ(lookups.size(), 6U);
 }
 
-TEST(SweepCatalogue, SaysHowLargeImageAndMapAre)
+TEST(SweepCurves, SaysHowLargeImageAndMapAre)
 {
     const scene::SweepSpace space = space_of(
         {}, {{"image.width", "30"}, {"image.height", "20"}, {"shadow_map.resolution", "16"}});
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    EXPECT_EQ(catalogue.requests()[0].pixels, 600U);
-    EXPECT_EQ(catalogue.requests()[0].texels, 256U);
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    EXPECT_EQ(sweep_curves.requests()[0].pixels, 600U);
+    EXPECT_EQ(sweep_curves.requests()[0].texels, 256U);
 }
 
-TEST(SweepCatalogue, AsksOfACurveTheJobsOwnBiasAndThoseOfItsRows)
+TEST(SweepCurves, AsksOfACurveTheJobsOwnBiasAndThoseOfItsRows)
 {
     const scene::SweepSpace space =
         space_of({"bias.slope=1,2", "bias.constant=0,0.25,0.5"}, {{"shadow_map.cull", "front"}});
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    const SweepTask task = catalogue.task(1, {hash, ""});
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    const SweepTask task = sweep_curves.task(1, {hash, ""});
     EXPECT_EQ(task.id, describe_all(space)[4].curve);
     EXPECT_EQ(task.job.bias.slope, 2);
     EXPECT_EQ(task.job.bias.constant, 0);
@@ -264,20 +264,20 @@ TEST(SweepCatalogue, AsksOfACurveTheJobsOwnBiasAndThoseOfItsRows)
     }
 }
 
-TEST(SweepCatalogue, KnowsTheFilesBiasBesideTheAxes)
+TEST(SweepCurves, KnowsTheFilesBiasBesideTheAxes)
 {
     scene::JobSource source = scene::builtin_job_source("wall", {});
     source.cases.push_back({"plain", {}});
     source.cases.push_back({"biased", scene::layer_from_overrides({{"bias.constant", "0.125"}})});
     source.cases.push_back({"metres", scene::layer_from_overrides({{"bias.constant_m", "0.25"}})});
     const scene::SweepSpace space{source, {"bias.slope=1"}};
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    ASSERT_THAT(catalogue.requests(), SizeIs(3));
-    EXPECT_EQ(catalogue.task(0, {hash, ""}).job.bias.constant, 0);
-    EXPECT_EQ(catalogue.task(1, {hash, ""}).job.bias.constant, 0.125);
-    EXPECT_EQ(catalogue.task(1, {hash, ""}).rows.at(0).bias.constant, 0.125);
-    EXPECT_EQ(catalogue.task(2, {hash, ""}).job.bias.constant_m, 0.25);
-    EXPECT_EQ(catalogue.task(2, {hash, ""}).rows.at(0).bias.constant_m, 0.25);
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    ASSERT_THAT(sweep_curves.requests(), SizeIs(3));
+    EXPECT_EQ(sweep_curves.task(0, {hash, ""}).job.bias.constant, 0);
+    EXPECT_EQ(sweep_curves.task(1, {hash, ""}).job.bias.constant, 0.125);
+    EXPECT_EQ(sweep_curves.task(1, {hash, ""}).rows.at(0).bias.constant, 0.125);
+    EXPECT_EQ(sweep_curves.task(2, {hash, ""}).job.bias.constant_m, 0.25);
+    EXPECT_EQ(sweep_curves.task(2, {hash, ""}).rows.at(0).bias.constant_m, 0.25);
     const auto all = describe_all(space);
     EXPECT_EQ(all[2].case_name, "metres");
     EXPECT_EQ(all[0].job_bias, "0.05 m") << "the built-in's own";
@@ -285,7 +285,7 @@ TEST(SweepCatalogue, KnowsTheFilesBiasBesideTheAxes)
     EXPECT_EQ(all[2].job_bias, "0.25 m");
 }
 
-TEST(SweepCatalogue, KnowsNoJobsBiasForHardware)
+TEST(SweepCurves, KnowsNoJobsBiasForHardware)
 {
     for (const Configuration& configuration :
          describe_all(space_of({"bias.constant=0,0.5"}, {{"lookup.filter", "hardware"}}))) {
@@ -293,11 +293,11 @@ TEST(SweepCatalogue, KnowsNoJobsBiasForHardware)
     }
 }
 
-TEST(SweepCatalogue, PutsMetresInPlaceOfDepthUnits)
+TEST(SweepCurves, PutsMetresInPlaceOfDepthUnits)
 {
     const scene::SweepSpace space =
         space_of({"bias.constant_m=0.25,0.5"}, {{"shadow_map.cull", "front"}});
-    const SweepTask task = SweepCatalogue{space, false, "1.0"}.task(0, {hash, ""});
+    const SweepTask task = SweepCurves{space, false, "1.0"}.task(0, {hash, ""});
     EXPECT_EQ(task.job.bias.constant_m, 0.05) << "the built-in's own";
     ASSERT_THAT(task.rows, SizeIs(2));
     EXPECT_EQ(task.rows[0].bias.constant_m, 0.25);
@@ -307,14 +307,14 @@ TEST(SweepCatalogue, PutsMetresInPlaceOfDepthUnits)
     EXPECT_EQ(all[0].curve, all[1].curve);
 }
 
-TEST(SweepCatalogue, RefusesConfigurationsWhoseKeysDoNotGoTogether)
+TEST(SweepCurves, RefusesConfigurationsWhoseKeysDoNotGoTogether)
 {
     const scene::SweepSpace space =
         space_of({"shadow_map.near=1,5", "shadow_map.far=4,9", "bias.constant=0,0.5"});
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    EXPECT_THAT(catalogue.requests(), SizeIs(3));
-    ASSERT_THAT(catalogue.refusals(), SizeIs(1));
-    const Refusal& refusal = catalogue.refusals()[0];
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    EXPECT_THAT(sweep_curves.requests(), SizeIs(3));
+    ASSERT_THAT(sweep_curves.refusals(), SizeIs(1));
+    const Refusal& refusal = sweep_curves.refusals()[0];
     EXPECT_THAT(refusal.ordinals, ElementsAre(4, 5));
     EXPECT_THAT(refusal.message, HasSubstr("must be less than shadow_map.far"));
     const auto all = describe_all(space);
@@ -332,7 +332,7 @@ TEST(SweepCatalogue, RefusesConfigurationsWhoseKeysDoNotGoTogether)
     EXPECT_EQ(all[4].curve, all[5].curve);
 }
 
-TEST(SweepCatalogue, NamesRefusedConfigurationsByEveryKeyOfTheirJob)
+TEST(SweepCurves, NamesRefusedConfigurationsByEveryKeyOfTheirJob)
 {
     const auto refused = [](const std::vector<scene::Override>& more) {
         std::vector<scene::Override> keys{{"shadow_map.near", "5"}, {"shadow_map.far", "4"}};
@@ -349,7 +349,7 @@ TEST(SweepCatalogue, NamesRefusedConfigurationsByEveryKeyOfTheirJob)
     EXPECT_EQ(refused({}).curve, biased.curve);
 }
 
-TEST(SweepCatalogue, NamesScenesThatCannotBeReadByTheirPlace)
+TEST(SweepCurves, NamesScenesThatCannotBeReadByTheirPlace)
 {
     const auto of_file = [](const char* file) {
         return describe_all(space_of({"bias.slope=0.5"}, {{"scene.file", file}}), "")[0];
@@ -360,24 +360,24 @@ TEST(SweepCatalogue, NamesScenesThatCannotBeReadByTheirPlace)
     EXPECT_EQ(of_file("a.obj").scene_hash, "");
 }
 
-TEST(SweepCatalogue, MayRefuseEverything)
+TEST(SweepCurves, MayRefuseEverything)
 {
     const scene::SweepSpace space = space_of({"shadow_map.near=5,6"}, {{"shadow_map.far", "4"}});
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    EXPECT_THAT(catalogue.requests(), IsEmpty());
-    EXPECT_THAT(catalogue.refusals(), SizeIs(2));
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    EXPECT_THAT(sweep_curves.requests(), IsEmpty());
+    EXPECT_THAT(sweep_curves.refusals(), SizeIs(2));
 }
 
-TEST(SweepCatalogue, ListsItsCurvesInTheOrderOfTheirFirstConfigurations)
+TEST(SweepCurves, ListsItsCurvesInTheOrderOfTheirFirstConfigurations)
 {
     const scene::SweepSpace space =
         space_of({"bias.constant=0,0.5", "shadow_map.resolution=16,32,64"});
-    const SweepCatalogue catalogue{space, false, "1.0"};
-    ASSERT_THAT(catalogue.requests(), SizeIs(3));
-    EXPECT_THAT(catalogue.requests()[0].ordinals, ElementsAre(0, 3));
-    EXPECT_THAT(catalogue.requests()[1].ordinals, ElementsAre(1, 4));
-    EXPECT_THAT(catalogue.requests()[2].ordinals, ElementsAre(2, 5));
-    EXPECT_EQ(catalogue.job(2).shadow_map.resolution_texels, 64);
+    const SweepCurves sweep_curves{space, false, "1.0"};
+    ASSERT_THAT(sweep_curves.requests(), SizeIs(3));
+    EXPECT_THAT(sweep_curves.requests()[0].ordinals, ElementsAre(0, 3));
+    EXPECT_THAT(sweep_curves.requests()[1].ordinals, ElementsAre(1, 4));
+    EXPECT_THAT(sweep_curves.requests()[2].ordinals, ElementsAre(2, 5));
+    EXPECT_EQ(sweep_curves.job(2).shadow_map.resolution_texels, 64);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "reference_rt/light/own_sheet.hpp"
+#include "reference_rt/light/self_shadowing.hpp"
 
 #include "reference_rt/exact/terms.hpp"
 
@@ -190,8 +190,8 @@ private:
     [[nodiscard]] Sign line_side(const Vec3d& corner)
     {
         const scene::Ray& texel = texel_ray_.ray;
-        const bool is_tame = receiver_.is_tame() && texel_ray_.is_tame;
-        return receiver_.delta_sign * sign_of(counts_, is_tame, [&]<typename Field>(Field) {
+        const bool is_well_scaled = receiver_.is_well_scaled() && texel_ray_.is_well_scaled;
+        return receiver_.delta_sign * sign_of(counts_, is_well_scaled, [&]<typename Field>(Field) {
                    const auto offset = difference<Field>(corner, texel.origin);
                    if constexpr (std::is_same_v<Field, FilterField>) {
                        return dot(line_normal_, offset);
@@ -212,7 +212,8 @@ private:
 
 } // namespace
 
-bool OwnSheet::leads(const Receiver& receiver, scene::Texel texel, std::uint32_t triangle) const
+bool SelfShadowingSurface::leads(const Receiver& receiver, scene::Texel texel,
+                                 std::uint32_t triangle) const
 {
     if (receiver.triangle() == triangle) {
         return true;

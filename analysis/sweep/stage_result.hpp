@@ -9,9 +9,9 @@
 
 namespace gnomon::analysis {
 
-/// What a stage made, or why it could not.
+/// What a stage computed, or why it could not.
 template <typename Value>
-struct Made {
+struct StageResult {
     std::shared_ptr<Value> value;
     std::string error; ///< empty: `value` is there
     Retry retry = Retry::may_help;
@@ -25,19 +25,21 @@ struct StageFailed : std::runtime_error {
     Retry retry;
 };
 
+/// @return the stage's value, not null.
+/// @throws StageFailed  if it has none.
 template <typename Value>
-std::shared_ptr<Value> need(const Made<Value>& made)
+std::shared_ptr<Value> require_result(const StageResult<Value>& result)
 {
-    if (!made.value) {
-        throw StageFailed{made.error.empty() ? "an earlier stage did not run" : made.error,
-                          made.retry};
+    if (!result.value) {
+        throw StageFailed{result.error.empty() ? "an earlier stage did not run" : result.error,
+                          result.retry};
     }
-    return made.value;
+    return result.value;
 }
 
 /// Runs a stage; what concerns the configuration alone becomes its result.
 template <typename Value, typename Stage>
-Made<Value> make(const Stage& stage)
+StageResult<Value> run_stage(const Stage& stage)
 {
     try {
         return {stage(), {}, {}};
