@@ -18,7 +18,7 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr const char* measured = "WHERE status = 'done' AND error_rate IS NOT NULL";
+constexpr const char* where_measured = "WHERE status = 'done' AND error_rate IS NOT NULL";
 constexpr std::size_t most_rows_shown = 10;
 
 /// A cell for people: whole numbers and texts as they are, other numbers to four digits.
@@ -100,7 +100,7 @@ std::string tie_query(const store::RunDescription& description, std::string_view
     }
     return fmt::format(
         "SELECT min(ordinal), count(*){} FROM results {} GROUP BY {} ORDER BY {} LIMIT {}", ranges,
-        measured, same, order, most);
+        where_measured, same, order, most);
 }
 
 std::string range_text(const std::string& low, const std::string& high)
