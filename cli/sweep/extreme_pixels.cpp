@@ -4,7 +4,6 @@
 #include "analysis/sweep/sweep_curves.hpp"
 #include "cli/compare/comparison_session.hpp"
 #include "cli/compare/kept_pixels.hpp"
-#include "cli/system/memory.hpp"
 #include "cli/system/process.hpp"
 #include "reports/page/run_overview.hpp"
 #include "scene/error.hpp"
@@ -98,7 +97,6 @@ std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder
         }
         if (!std::filesystem::exists(store::pixels_path(folder, kept.id))) {
             const scene::Job job = space.job(space.at(kept.ordinal));
-            give_back_freed_memory(); // of the sweep, and of the session before
             const ComparisonSession session{job, options};
             keep_pixels(folder, kept.id,
                         analysis::compare(job, session.file(), session.renderers()));

@@ -76,20 +76,13 @@ void keep_freed_memory([[maybe_unused]] bool is_kept)
     mallopt(M_MMAP_MAX, is_kept ? 0 : most_mappings); // a mapping goes back when it is freed
     mallopt(M_MMAP_THRESHOLD, largest_unmapped);
     mallopt(M_TRIM_THRESHOLD, is_kept ? std::numeric_limits<int>::max() : trim_threshold);
-#endif
     if (!is_kept) {
-        give_back_freed_memory();
+        malloc_trim(0);
     }
+#endif
 }
 
 } // namespace
-
-void give_back_freed_memory()
-{
-#if defined(__GLIBC__)
-    malloc_trim(0);
-#endif
-}
 
 FreedMemoryKeeper::~FreedMemoryKeeper()
 {

@@ -35,10 +35,6 @@ private:
     bool keeps_ = false;
 };
 
-/// Gives memory that was freed back to the system. A thread's arena keeps it otherwise, beside what
-/// other threads allocate next. Does nothing where the C library is not glibc.
-void give_back_freed_memory();
-
 /// @throws scene::InputError  if the job needs more than is available; before any of it is taken.
 void require_memory(const scene::Job& job);
 
