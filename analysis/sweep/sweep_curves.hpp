@@ -25,7 +25,7 @@ struct Refusal {
 /// All configurations of a sweep, sorted into bias curves: the jobs behind the numbers.
 class SweepCurves {
 public:
-    /// @param space             must outlive the catalogue.
+    /// @param space             must outlive this.
     /// @param keeps_every_bias  each configuration is a request of its own, to keep its pixels.
     /// @param version           of the program: part of every id.
     SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, std::string version);

@@ -368,14 +368,14 @@ private:
     SweepScenes scenes_;
     RunStore store_;
     std::optional<tbb::global_control> threads_;
-    std::vector<analysis::SceneIdentity> identities_;    ///< of scenes, by request of the catalogue
+    std::vector<analysis::SceneIdentity> identities_;    ///< of scenes, by request of the curves
     std::vector<bool> is_refused_;                       ///< likewise
     std::vector<store::RunNote> notes_;                  ///< on the scenes, in order
     std::uint64_t largest_need_bytes_ = 0;               ///< of a request's image and map
     std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
     std::vector<std::uint64_t> repeated_;      ///< ordinals whose results are those of earlier ones
     std::vector<CurveRequest> requests_;       ///< what is still to be computed
-    std::vector<std::size_t> request_numbers_; ///< theirs in the catalogue
+    std::vector<std::size_t> request_numbers_; ///< theirs among the curves
     SweepOutcome outcome_;
     bool has_earlier_results_ = false;
     store::PlanOutcome planned_;

@@ -9,8 +9,8 @@
 
 #include <limits>
 
-/// Float rays in the unit frame that stand in for exact ones: a triangle that the exact ray or
-/// segment touches has its padded box hit by the stand-in (see `box_padding`).
+/// Float rays in the unit frame that take the place of exact ones: a triangle that the exact ray or
+/// segment touches has its padded box hit by the proxy ray (see `box_padding`).
 namespace gnomon::reference_rt {
 
 /// True when the error is what `box_padding` allows for, with a margin; a NaN is not.
@@ -46,10 +46,10 @@ namespace gnomon::reference_rt {
 void find_unit_points(const LaneRays& rays, const LaneHits& hits, const UnitFrame& frame,
                       LanePositions& points);
 
-/// How far a stand-in goes beyond a hit: twice the padding, as its direction is 1 long and its
+/// How far a proxy ray goes beyond a hit: twice the padding, as its direction is 1 long and its
 /// point may lag behind.
 inline constexpr double hit_margin = 2 * box_padding;
-/// The end of a stand-in with a hit at t, in unit lengths.
+/// The end of a proxy ray with a hit at t, in unit lengths.
 [[nodiscard]] inline float end_beyond(double t)
 {
     return static_cast<float>((1 + 0x1p-20) * t + hit_margin);
@@ -60,7 +60,7 @@ inline constexpr double hit_margin = 2 * box_padding;
     return t_error <= 0.25 * hit_margin;
 }
 
-/// What the origin of a stand-in that begins at its ray's origin may be off.
+/// What the origin of a proxy ray that begins at its ray's origin may be off.
 inline constexpr double near_origin_error = 2 * unit_roundoff * farthest_origin;
 
 /// A camera's or a texel's ray in the unit frame that begins near the scene. Its direction is the
@@ -105,18 +105,18 @@ private:
     double t_begin_ = 0;
 };
 
-/// The stand-ins of a packet's camera rays: those of the lanes in `seen` end beyond their hits, the
-/// others nowhere.
+/// The proxy rays of a packet's camera rays: those of the lanes in `seen` end beyond their hits,
+/// the others nowhere.
 /// @param origins  where they begin.
 void proxy_rays_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
                     const UnitFrame& frame, FloatRays& proxy_rays, LanePositions& origins);
 
-/// The stand-in of the open segment from `point` to the light.
+/// The proxy ray of the open segment from `point` to the light.
 class ShadowProxyRays {
 public:
     ShadowProxyRays(const scene::Light& light, const UnitFrame& frame);
 
-    /// The stand-ins of the given lanes; the others are left as they are.
+    /// The proxy rays of the given lanes; the others are left as they are.
     void from(const LanePositions& points, LaneBits lanes, FloatRays& rays) const;
 
 private:

@@ -60,7 +60,7 @@ inline constexpr double farthest_origin = 8;
 /// from the origin, at most 9.1, so 55u. The box is rounded to float32: 1u. The sum is 75u.
 /// Axis-parallel rays need nothing else: their origin is strictly inside the padded slab.
 inline constexpr double box_padding = 96 * float_roundoff;
-/// What the stand-in origin may be off before it is rounded, in the unit frame.
+/// What the origin of a proxy ray may be off before it is rounded, in the unit frame.
 inline constexpr double max_origin_error = float_roundoff;
 
 } // namespace gnomon::reference_rt
