@@ -139,4 +139,18 @@ struct QuadGltf {
     }
 };
 
+inline std::string refusal_of(const std::string& name, const std::string& contents)
+{
+    const TemporaryFolder folder;
+    return refusal(folder.write(name, contents));
+}
+
+/// The quad, with a mesh of these primitives in place of its own.
+inline std::string with_primitives(QuadGltf gltf, const std::string& primitives)
+{
+    const std::string own = R"([{"attributes":{"POSITION":1},"indices":0}])";
+    std::string text = gltf.text();
+    return text.replace(text.find(own), own.size(), primitives);
+}
+
 } // namespace gnomon::scene::testing
