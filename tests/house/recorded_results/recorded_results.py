@@ -7,8 +7,10 @@
 
 Runs PROGRAM, a `gnomon`, over the jobs of recorded_jobs.py and hashes what it gives part by part: each member of
 the JSON, each channel of the EXR and its header, each column of the CSV files. Left out is what may differ from
-run to run or from version to version: times, witnesses, ids, the environment. The hashes belong to one environment of driver and libraries and stand in a table named for
-it, here; `record` writes it anew, for a change of results that is meant and said why.
+run to run, from CPU to CPU or from version to version: times, ids, the environment, and what follows the order in which
+Embree visits triangles: witnesses, and how many signs had to be decided. The hashes belong to one environment of driver
+and libraries and stand in a table named for it, here; `record` writes it anew, for a change of results that is meant and
+said why.
 
 check    compares. Says which parts of which jobs differ; parts that are new, not recorded, are only counted.
          --shared: the jobs of the meshes in $GNOMON_SHARED_SCENES, without it those of built-in scenes.
@@ -32,7 +34,7 @@ from recorded_jobs import recorded_jobs
 
 HERE = Path(__file__).resolve().parent
 VERSIONED = {"environment", "seconds", "gnomon:gl_renderer", "gnomon:gl_version", "gnomon:embree", "gnomon:version",
-             "id", "curve", "witness"}
+             "id", "curve", "witness", "truth_signs"}
 
 
 def fail(text, status=2):
