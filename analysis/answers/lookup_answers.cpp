@@ -277,8 +277,10 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
 {
     Diagnosis diagnosis;
     explain(own, diagnosis);
-    require_lit_causes(0, 0); // as curves() asks, while what the rays saw is still known
-    exact_->forget_texels();  // what follows takes the most memory
+    if (rule_.promises().has_curve()) {
+        require_lit_causes(0, 0); // as curves() asks, while what the rays saw is still known
+    }
+    exact_->forget_texels(); // what follows takes the most memory
     if (rule_.promises().has_curve()) {
         const SlopeInputs inputs = curves();
         SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);

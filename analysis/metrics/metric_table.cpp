@@ -284,8 +284,8 @@ void add_recommended(CurveMetrics& metrics)
     for (const auto& [name, meaning, length] :
          {Length{"bias",
                  "the recommended constant bias: the middle of the lowest broad valley of the "
-                 "amount of "
-                 "error without softening; in metres along the light's axis and in texels at the "
+                 "amount of error without softening; in metres along the light's axis and in "
+                 "texels at the "
                  "median receiver",
                  &Recommendation::bias},
           Length{"low", "where that valley begins", &Recommendation::low},

@@ -86,7 +86,8 @@ PlyProperty read_property(std::istream& words)
     }
     std::string count_type;
     words >> count_type >> type;
-    return {.bytes = value_bytes(type), .count_bytes = value_bytes(count_type)};
+    const std::size_t count_bytes = value_bytes(count_type);
+    return {.bytes = count_bytes == 0 ? 0 : value_bytes(type), .count_bytes = count_bytes};
 }
 
 /// Reads up to the line `end_header`, and leaves the file behind it. Without that line the format
