@@ -260,5 +260,28 @@ TEST(Truth, DoesNotDependOnTheShadowMap)
     }
 }
 
+TEST(ComparisonResults, SayOfTheRecommendedBiasWhatItLeavesWhereTheLookupIsMoved)
+{
+    const std::vector<std::string> moved{"--builtin", "two-distances",
+                                         "--set",     "image.width=160",
+                                         "--set",     "image.height=90",
+                                         "--set",     "lookup.filter=pcf3",
+                                         "--set",     "shadow_map.resolution=64",
+                                         "--set",     "bias.normal_texels=0.7"};
+    for (const std::string own : {"0", "0.0005", "-0.01"}) {
+        std::vector<std::string> arguments = moved;
+        arguments.insert(arguments.end(), {"--set", "bias.constant=" + own});
+        const Json said = compare(arguments).at("bias_curve").at("recommended");
+        arguments.back() = "bias.constant=" + said.at("bias").dump();
+        const Json left = compare(arguments);
+        EXPECT_GT(left.at("softening").get<double>(), 0);
+        for (const char* const name : {"softening", "shadow_amount", "light_amount"}) {
+            // Sums of the same ninths in another order.
+            EXPECT_NEAR(said.at(name).get<double>(), left.at(name).get<double>(), 1e-9)
+                << name << ", recommended by a job with the bias " << own;
+        }
+    }
+}
+
 } // namespace
 } // namespace gnomon::testing
