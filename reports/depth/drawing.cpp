@@ -23,7 +23,7 @@ std::string css_colour(store::Rgb colour)
     return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
 }
 
-std::string escaped(std::string_view text)
+std::string svg_escaped(std::string_view text)
 {
     std::string result;
     for (const char c : text) {
@@ -71,7 +71,7 @@ void append_svg(std::string& svg, const Label& label)
                    "text-anchor=\"{}\">{}</text>\n",
                    label.at.x, label.at.y, label.style.size_px,
                    label.style.bold ? " font-weight=\"bold\"" : "", css_colour(label.style.colour),
-                   anchors.at(static_cast<std::size_t>(label.anchor)), escaped(label.text));
+                   anchors.at(static_cast<std::size_t>(label.anchor)), svg_escaped(label.text));
 }
 
 /// Mixes a colour into a pixel.
