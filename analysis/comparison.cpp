@@ -75,7 +75,8 @@ SceneSummary summarise_scene(const scene::SceneSettings& settings,
     return summary;
 }
 
-void measure_comparison(Comparison& comparison, const Renderers& renderers, float profile_bias)
+void measure_comparison(Comparison& comparison, const Renderers& renderers, float profile_bias,
+                        bool is_last_of_map)
 {
     const scene::View& view = comparison.view;
     require_size("receivers", comparison.receivers.triangle, view.image);
@@ -85,10 +86,11 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers, floa
     const int taps = scene::promises(comparison.job.lookup.filter).equal_taps();
     comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
     if (renderers.make_exact_light) {
-        comparison.diagnosis = diagnose(comparison.job, view,
-                                        {*comparison.triangles, comparison.receivers,
-                                         comparison.truth, comparison.lookup, profile_bias, taps},
-                                        renderers);
+        comparison.diagnosis =
+            diagnose(comparison.job, view,
+                     {*comparison.triangles, comparison.receivers, comparison.truth,
+                      comparison.lookup, profile_bias, taps, is_last_of_map},
+                     renderers);
         if (const auto& biases = comparison.diagnosis->biases) {
             comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
                                             biases->critical_bias, view.bias.constant);
@@ -167,7 +169,8 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     result.truth =
         timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
 
-    timed(seconds.analysis, [&] { measure_comparison(result, renderers, view.bias.constant); });
+    timed(seconds.analysis,
+          [&] { measure_comparison(result, renderers, view.bias.constant, true); });
     if (result.diagnosis && !result.diagnosis->biases) {
         result.reruns = timed(seconds.analysis,
                               [&] { return rerun_biases(job, view, result.truth, renderers); });

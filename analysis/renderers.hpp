@@ -40,6 +40,9 @@ struct Renderers {
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
     /// The depths of the map drawn last, as shaders see them, top left first.
     std::function<scene::Image<float>()> read_map_depths;
+    /// Gives the memory of the map drawn last back: it is drawn again before it is asked again.
+    /// Empty: there is nothing to give back.
+    std::function<void()> forget_shadow_map;
     /// Those of some rows of the same map drawn as d32f; the map drawn last is lost.
     std::function<scene::Image<float>(const scene::Job&, const scene::View&, scene::TexelRows)>
         read_float_depths;

@@ -129,6 +129,16 @@ ShadowMapPass::ShadowMapPass(const Context& context, UnormCodes codes)
     context.check("compiling the shadow map programs");
 }
 
+void ShadowMapPass::forget()
+{
+    const bool was_large = is_large(map_.resolution_texels);
+    map_ = {};
+    target_ = make_framebuffer();
+    if (was_large) {
+        let_go_of_deleted_textures();
+    }
+}
+
 void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
 {
     const int size = settings.resolution_texels;
@@ -141,11 +151,7 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
     if (map_.resolution_texels == size && map_.format == settings.depth_format) {
         return;
     }
-    map_ = {}; // the old textures go before the new ones come
-    target_ = make_framebuffer();
-    if (is_large(size)) {
-        let_go_of_deleted_textures();
-    }
+    forget(); // the old textures go before the new ones come
     map_.depth = make_texture(internal_format(settings.depth_format), size, size);
     require_format(map_.depth, settings.depth_format);
     glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, map_.depth.name(), 0);

@@ -41,6 +41,8 @@ public:
     /// The same map in these rows alone; what the others hold is left open.
     const ShadowMap& render(const GpuScene& scene, const scene::LightFrustum& frustum,
                             const scene::ShadowMapSettings& settings, scene::TexelRows rows);
+    /// Gives the map's memory back; what `render` returned is empty until the next map.
+    void forget();
 
 private:
     void allocate(const scene::ShadowMapSettings& settings);

@@ -5,6 +5,7 @@
 #include "analysis/answers/lookup_answers.hpp"
 
 #include <memory>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -13,9 +14,14 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
 {
     auto receivers = std::make_shared<JudgedReceivers>(
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_parts = true});
+    ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
+    if (layers.is_last_of_map && renderers.forget_shadow_map &&
+        scene::promises(job.lookup.filter).has_curve()) {
+        renderers.forget_shadow_map();
+    }
     LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
                                                             job, view, renderers),
-                          observe_lookup(job, view, layers.lookup, renderers)};
+                          std::move(lookup)};
     return std::move(answers).diagnose(layers.lookup, layers.profile_bias, layers.verdict_taps);
 }
 

@@ -41,6 +41,9 @@ struct ComparedLayers {
     /// What the verdicts are multiples of, as `AmountSum` has it; 0: another renderer's, any
     /// fractions.
     int verdict_taps = 0;
+    /// Whether nothing is asked of the map after its diagnosis. Where its lookup has a bias curve
+    /// (else it is asked bias by bias) its memory is then given back at once.
+    bool is_last_of_map = false;
 };
 
 /// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and

@@ -62,6 +62,12 @@ scene::Image<float> GlRenderer::read_map_depths() const
     return raster_gl::read_shader_depths(context_, *shadow_map_);
 }
 
+void GlRenderer::forget_shadow_map()
+{
+    shadow_map_ = nullptr;
+    shadow_map_pass_.forget();
+}
+
 scene::Image<float> GlRenderer::read_float_depths(const scene::Job& job, const scene::View& view,
                                                   scene::TexelRows rows)
 {
@@ -90,6 +96,7 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
         return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
     };
     renderers.read_map_depths = [&gl] { return gl.read_map_depths(); };
+    renderers.forget_shadow_map = [&gl] { gl.forget_shadow_map(); };
     renderers.read_float_depths = [&gl](const scene::Job& job, const scene::View& view,
                                         scene::TexelRows rows) {
         return gl.read_float_depths(job, view, rows);

@@ -30,6 +30,8 @@ public:
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
+    /// Gives the last shadow map's memory back: it is to be drawn again before it is asked.
+    void forget_shadow_map();
     /// Draws these rows of the job's map as d32f, which takes its place, and reads their depths.
     [[nodiscard]] scene::Image<float>
     read_float_depths(const scene::Job& job, const scene::View& view, scene::TexelRows rows);

@@ -116,20 +116,20 @@ private:
             }
             sample.tan_theta = static_cast<float>(draw(fmt::format("tan {}", pixel), 4)) * 0.5F;
             sample.map_depth = depth_at(texel, 0, 0);
-            const bool is_policy = job_.lookup.outside != scene::Outside::clamp && is_far;
-            if (is_policy) {
+            const bool is_border = job_.lookup.outside != scene::Outside::clamp && is_far;
+            if (is_border) {
                 sample.map_depth = std::numeric_limits<float>::quiet_NaN();
             }
-            sample.verdict = is_policy ? policy() : verdict(sample, texel);
+            sample.verdict = is_border ? border() : verdict(sample, texel);
             return sample;
         }
 
     private:
-        [[nodiscard]] float policy() const
+        [[nodiscard]] float border() const
         {
             return job_.lookup.outside == scene::Outside::lit ? 1.0F : 0.0F;
         }
-        /// NaN where the policy decides.
+        /// NaN where the border decides.
         [[nodiscard]] float depth_at(scene::Vec2f texel, int dx, int dy) const
         {
             const int last = job_.shadow_map.resolution_texels - 1;
@@ -145,7 +145,7 @@ private:
         [[nodiscard]] float tap(float r, float d, float bias) const
         {
             if (std::isnan(d)) {
-                return policy();
+                return border();
             }
             return (view_.frustum.reversed ? r + bias >= d : r - bias <= d) ? 1.0F : 0.0F;
         }
@@ -202,6 +202,11 @@ private:
         renderers_.look_up = [this](const scene::Job& job, const scene::View& view) {
             begin("lookup", &job, view);
             return look_up(job, view);
+        };
+        renderers_.forget_shadow_map = [this] {
+            calls.emplace_back("forget map");
+            map_key_ = "no map";
+            map_depths_ = {};
         };
         renderers_.read_map_depths = [this] { return map_depths_; };
         renderers_.read_float_depths = [this](const scene::Job&, const scene::View&,

@@ -136,6 +136,21 @@ TEST(ShadowMap, IsTheSameBytesEachTime)
     EXPECT_TRUE(std::equal(first.begin(), first.end(), second.begin()));
 }
 
+TEST(ShadowMap, IsTheSameBytesAfterItWasForgotten)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* resolution : {"256", "8192"}) { // a large one is let go of by a draw
+        GlCase c{"columns", {{"shadow_map.resolution", resolution}}};
+        c.draw_shadow_map();
+        const auto first = read_shader_depths(*tests::shared_context(), *c.map);
+        c.shadow_map_pass.forget();
+        EXPECT_EQ(c.map->depth.name(), 0U);
+        c.draw_shadow_map();
+        const auto again = read_shader_depths(*tests::shared_context(), *c.map);
+        EXPECT_TRUE(std::equal(first.begin(), first.end(), again.begin())) << resolution;
+    }
+}
+
 TEST(ShadowMap, LeavesOutObjectsThatDoNotCast)
 {
     GNOMON_REQUIRE_GL();

@@ -139,6 +139,19 @@ TEST(Compare, HoldsItsLookupToTheCurve)
     }
 }
 
+TEST(Compare, ForgetsAMapThatItAsksNothingMore)
+{
+    FakeSweep sweep{{"lookup.filter=nearest,pcf3,hardware", "bias.normal_texels=0,1"}, small_map};
+    for (std::uint64_t ordinal = 0; ordinal < sweep.space.size(); ++ordinal) {
+        sweep.world.calls.clear();
+        const scene::Job job = sweep.space.job(sweep.space.at(ordinal));
+        (void)compare(job, sweep.world.file(), sweep.world.renderers());
+        const bool is_asked_again = job.lookup.filter == scene::Filter::hardware;
+        EXPECT_EQ(std::ranges::count(sweep.world.calls, "forget map"), is_asked_again ? 0 : 1)
+            << "ordinal " << ordinal;
+    }
+}
+
 TEST(SweepVerification, HasNothingToSayOfHardware)
 {
     FakeSweep sweep{{"lookup.filter=hardware", "bias.constant=0,0.125"}, small_map};
