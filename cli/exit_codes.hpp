@@ -1,6 +1,6 @@
 #pragma once
 
-/// The program's exit status (DESIGN §7).
+/// The program's exit status (docs/commands.md).
 namespace gnomon::cli::exit_codes {
 
 inline constexpr int done = 0;

@@ -1,7 +1,7 @@
 #include "cli/output_files.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

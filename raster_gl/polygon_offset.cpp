@@ -35,13 +35,13 @@ double stored_depth(std::uint32_t code, scene::DepthFormat format)
 }
 
 /// Flat planes at depths from 0 to 1.
-scene::DepthPlanes flat_planes()
+scene::MeasuredPlanes flat_planes()
 {
-    scene::DepthPlaneSettings settings;
+    scene::MeasuredPlaneSettings settings;
     settings.range = {scene::Projection::orthographic, 1, 3, false, {}};
     settings.count = 8;
     settings.smallest_map_texels = 64;
-    return scene::make_depth_planes(settings);
+    return scene::make_measured_planes(settings);
 }
 
 std::vector<double> stored_depths(RasterPlanes& planes, scene::DepthFormat format)
@@ -57,7 +57,7 @@ std::vector<double> stored_depths(RasterPlanes& planes, scene::DepthFormat forma
 
 std::vector<OffsetUnit> measure_offset_units(const Context& context, scene::DepthFormat format)
 {
-    const scene::DepthPlanes planes = flat_planes();
+    const scene::MeasuredPlanes planes = flat_planes();
     RasterPlanes raster{context, planes};
     const std::vector<double> still = stored_depths(raster, format);
     const std::size_t middle = still.size() / 2;

@@ -42,7 +42,7 @@ TileSpan tiles_touched(const scene::RasterPlane& plane, double tile_px, double t
 
 } // namespace
 
-RasterPlanes::RasterPlanes(const Context& context, const scene::DepthPlanes& planes)
+RasterPlanes::RasterPlanes(const Context& context, const scene::MeasuredPlanes& planes)
     : context_{context},
       planes_{planes},
       gpu_{context, planes.triangles},

@@ -3,9 +3,9 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/shadow_map.hpp"
+#include "scene/depth/measured_planes.hpp"
 #include "scene/depth/raster_plane.hpp"
 #include "scene/depth/sample.hpp"
-#include "scene/light/depth_planes.hpp"
 
 #include <vector>
 
@@ -16,7 +16,7 @@ class RasterPlanes {
 public:
     /// @param context, planes  must outlive it.
     /// @throws scene::EnvironmentError  if GL fails.
-    RasterPlanes(const Context& context, const scene::DepthPlanes& planes);
+    RasterPlanes(const Context& context, const scene::MeasuredPlanes& planes);
 
     /// Draws them in one map and reads one texel of each plane; planes that float32 moved off their
     /// texel, or over that of another, are missing.
@@ -37,7 +37,7 @@ private:
     const ShadowMap& draw(scene::DepthFormat format);
 
     const Context& context_;
-    const scene::DepthPlanes& planes_;
+    const scene::MeasuredPlanes& planes_;
     GpuScene gpu_;
     ShadowMapPass pass_;
     std::vector<scene::RasterPlane> raster_; ///< by triangle

@@ -63,7 +63,7 @@ private:
     std::unique_ptr<Implementation> implementation_;
 };
 
-/// Decides the class of every pixel (DESIGN §3) for GL's triangle in each.
+/// Decides the class of every pixel (docs/truth.md) for GL's triangle in each.
 ///
 /// Independent of every shadow-map setting. Deterministic for any number of threads. Source:
 /// docs/truth.md.

@@ -1,7 +1,7 @@
 #include "store/output_name.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

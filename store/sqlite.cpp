@@ -1,7 +1,7 @@
 #include "store/sqlite.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 #include <sqlite3.h>

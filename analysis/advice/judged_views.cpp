@@ -3,7 +3,7 @@
 #include "analysis/metrics/quantiles.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "scene/error.hpp"
-#include "scene/view/nearby.hpp"
+#include "scene/view/nearby_cameras.hpp"
 #include "scene/view/settings.hpp"
 
 #include <fmt/format.h>

@@ -13,7 +13,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
                    const Renderers& renderers)
 {
     auto receivers = std::make_shared<JudgedReceivers>(
-        layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_parts = true});
+        layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
     ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
     if (layers.is_last_of_map && renderers.forget_shadow_map &&
         scene::promises(job.lookup.filter).has_curve()) {

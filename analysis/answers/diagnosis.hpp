@@ -3,7 +3,7 @@
 #include "analysis/bias/bias_answers.hpp"
 #include "analysis/bias/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
-#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/gaps.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
@@ -26,7 +26,7 @@ struct Diagnosis {
     std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below
     std::vector<ErrorBin> by_angle;
     std::vector<ObjectErrors> by_object;
-    std::vector<ErrorPart> parts; ///< by object and light distance; empty: too many
+    std::vector<ErrorCell> cells; ///< by object and light distance; empty: too many
     CurveResult curve;            ///< what a sweep keeps of it; without its id
 };
 

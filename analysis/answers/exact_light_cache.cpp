@@ -48,12 +48,12 @@ std::optional<double> ExactLightCache::representative_light_distance_m()
                                        : std::nullopt;
 }
 
-const PartMap& ExactLightCache::parts()
+const CellMap& ExactLightCache::cells()
 {
-    if (parts_ == nullptr) {
-        parts_ = receivers_->parts(view_.frustum, geometry_, triangles_);
+    if (cells_ == nullptr) {
+        cells_ = receivers_->cells(view_.frustum, geometry_, triangles_);
     }
-    return *parts_;
+    return *cells_;
 }
 
 CauseInputs ExactLightCache::with_known_hits(CauseInputs inputs)

@@ -46,7 +46,7 @@ public:
     /// The scored receivers by light distance.
     [[nodiscard]] const Binning& distances() const { return *distances_; }
     /// The scored receivers by object and light distance.
-    [[nodiscard]] const PartMap& parts();
+    [[nodiscard]] const CellMap& cells();
     [[nodiscard]] BlockerGaps& gaps() { return receivers_->gaps(); }
     /// The gaps of these blocked pixels, in the order of the pixels.
     [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels);
@@ -80,7 +80,7 @@ private:
     std::optional<Quantiles>
         light_distance_quantiles_m_; ///< empty until asked for, or without receivers
     std::shared_ptr<const Binning> distances_;
-    std::shared_ptr<const PartMap> parts_; ///< nullptr until asked for
+    std::shared_ptr<const CellMap> cells_; ///< nullptr until asked for
     std::optional<CentreHits> centre_hits_;
     /// Only with a single tap what is found does not depend on the stored depths.
     bool remembers_causes_;

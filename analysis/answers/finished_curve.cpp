@@ -13,7 +13,7 @@ ConfigurationResult result_of(const Comparison& comparison)
         result.causes = comparison.diagnosis->causes.counts;
         result.amounts = comparison.diagnosis->causes.amounts;
         result.peter_panning = comparison.diagnosis->peter_panning;
-        result.parts = comparison.diagnosis->parts;
+        result.cells = comparison.diagnosis->cells;
     }
     return result;
 }

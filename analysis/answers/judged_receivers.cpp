@@ -18,7 +18,7 @@ void JudgedReceivers::count_from(const scene::LightFrustum& frustum)
     if (distances_from_ != frustum.origin || distances_along_ != frustum.forward) {
         light_distance_m_ = nullptr;
         distances_ = nullptr;
-        parts_ = nullptr;
+        cells_ = nullptr;
         distances_from_ = frustum.origin;
         distances_along_ = frustum.forward;
     }
@@ -47,20 +47,20 @@ std::shared_ptr<const Binning> JudgedReceivers::distances(const scene::LightFrus
     return distances_;
 }
 
-std::shared_ptr<const PartMap> JudgedReceivers::parts(const scene::LightFrustum& frustum,
+std::shared_ptr<const CellMap> JudgedReceivers::cells(const scene::LightFrustum& frustum,
                                                       const ReceiverGeometry& geometry,
                                                       const scene::TriangleScene& triangles)
 {
     count_from(frustum);
-    if (parts_ == nullptr) {
+    if (cells_ == nullptr) {
         const auto& classes = truth_.pixel_class;
-        parts_ = std::make_shared<const PartMap>(
-            use_.counts_parts
-                ? find_parts(classes, receivers_.triangle, *light_distance_m(frustum, geometry),
-                             triangles)
-                : PartMap{scene::Image<std::uint16_t>{classes.size(), PartMap::none}, {}});
+        cells_ = std::make_shared<const CellMap>(
+            use_.counts_cells
+                ? find_error_cells(classes, receivers_.triangle,
+                                   *light_distance_m(frustum, geometry), triangles)
+                : CellMap{scene::Image<std::uint16_t>{classes.size(), CellMap::none}, {}});
     }
-    return parts_;
+    return cells_;
 }
 
 } // namespace gnomon::analysis

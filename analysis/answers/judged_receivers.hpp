@@ -3,7 +3,7 @@
 #include "analysis/answers/first_hit_memory.hpp"
 #include "analysis/metrics/blocker_gaps.hpp"
 #include "analysis/metrics/breakdown.hpp"
-#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "scene/layers.hpp"
@@ -18,7 +18,7 @@ namespace gnomon::analysis {
 /// What a camera's receivers before a light will be asked.
 struct ReceiverUse {
     bool by_many_maps = true; ///< what is found for one map is remembered for the next
-    bool counts_parts = true; ///< they are told apart by object and light distance
+    bool counts_cells = true; ///< they are told apart by object and light distance
 };
 
 /// A camera before a light: what GL sees there and what is true, and what follows from both
@@ -46,8 +46,8 @@ public:
     /// The scored receivers by light distance.
     [[nodiscard]] std::shared_ptr<const Binning> distances(const scene::LightFrustum& frustum,
                                                            const ReceiverGeometry& geometry);
-    /// The same with their objects; no parts if they are not to be counted.
-    [[nodiscard]] std::shared_ptr<const PartMap> parts(const scene::LightFrustum& frustum,
+    /// The same with their objects; no cells if they are not to be counted.
+    [[nodiscard]] std::shared_ptr<const CellMap> cells(const scene::LightFrustum& frustum,
                                                        const ReceiverGeometry& geometry,
                                                        const scene::TriangleScene& triangles);
 
@@ -65,7 +65,7 @@ private:
     FirstHitMemory first_hits_;
     std::shared_ptr<const scene::Image<float>> light_distance_m_;
     std::shared_ptr<const Binning> distances_;
-    std::shared_ptr<const PartMap> parts_;
+    std::shared_ptr<const CellMap> cells_;
     scene::Vec3d distances_from_{}; ///< ζ is 0 there
     scene::Vec3d distances_along_{};
 };

@@ -232,7 +232,7 @@ void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis
     const TapCriticals own_taps = taps(rule_.slope);
     const BiasRowInputs inputs{
         classes(), own, verdicts, causes_, rule_, has_texels() ? &own_taps : nullptr, true};
-    diagnosis.parts = count_parts(exact_->parts(), inputs, bias).front();
+    diagnosis.cells = count_error_cells(exact_->cells(), inputs, bias).front();
     diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
 }
 

@@ -62,7 +62,7 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
                                has_texels() ? &taps_of_slope : nullptr};
     const auto errors_by = amounts(curve, biases);
     const auto counts = count_rows(inputs, curve.curve, errors_by, biases);
-    const auto parts = count_parts(exact_->parts(), inputs, biases);
+    const auto cells = count_error_cells(exact_->cells(), inputs, biases);
     const auto gaps = find_gaps_at(panning_gaps(curve.critical_bias, biases.back()), biases);
     for (const CurveQuestion::Row& row : question.rows) {
         const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
@@ -72,7 +72,7 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
             {row.ordinal,
              {make_metrics(exact_->receivers().classes(),
                            {errors.false_shadow, errors.false_lit, errors_by[i]}),
-              counts[i].causes, counts[i].amounts, gaps[i], parts[i]}});
+              counts[i].causes, counts[i].amounts, gaps[i], cells[i]}});
     }
 }
 

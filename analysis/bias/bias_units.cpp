@@ -20,7 +20,7 @@ bool is_perspective(const scene::LightFrustum& frustum)
     return frustum.projection == scene::Projection::perspective;
 }
 
-/// A of DESIGN §6: 1/ζ = 1/near − A·depth [1/m].
+/// A of docs/depth_precision.md: 1/ζ = 1/near − A·depth [1/m].
 double inverse_distance_range(const scene::LightFrustum& frustum)
 {
     return 1.0 / frustum.near_m - 1.0 / frustum.far_m;

@@ -14,7 +14,7 @@ namespace gnomon::analysis {
 /// @param bias    Depth units; any sign; an infinite bias gives an infinite length.
 /// @param light_distance_m  Light distance of the receiver [m]; > 0 for a spot.
 /// @return  [m]; −∞ where a negative bias moves a spot's receiver beyond every distance.
-/// Source: DESIGN §6 with Δ = −b; docs/bias_curve.md#units.
+/// Source: docs/depth_precision.md with Δ = −b; docs/bias_curve.md#units.
 [[nodiscard]] double bias_length_m(const scene::LightFrustum& frustum, double bias,
                                    double light_distance_m);
 

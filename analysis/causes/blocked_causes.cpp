@@ -72,7 +72,7 @@ private:
         for (const std::size_t pixel : pixels) {
             taps.clear();
             footprint_.append_taps(inputs_.unbiased.texels[pixel], taps);
-            if (!rule_.is_policy(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
+            if (!rule_.border_decides(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
                 open.push_back(pixel);
                 continue;
             }

@@ -10,7 +10,7 @@
 namespace gnomon::analysis {
 
 /// Finds why scored blocked pixels are wrong or partial, with every bias: no repair of theirs is
-/// their own shadow (DESIGN §4).
+/// their own shadow (docs/causes.md).
 /// @param wanted  1 for the pixels in question, all of them blocked.
 /// @param causes  Of the image's size; set at those pixels.
 /// @param memory  Read and added to; nullptr for filters other than `nearest`.

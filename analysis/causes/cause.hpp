@@ -7,8 +7,8 @@
 
 namespace gnomon::analysis {
 
-/// Why a pixel is wrong, or partly so: the first repair that makes it right (DESIGN §4). The values
-/// are the EXR codes.
+/// Why a pixel is wrong, or partly so: the first repair that makes it right (docs/causes.md). The
+/// values are the EXR codes.
 enum class Cause : std::uint8_t {
     none = 0,       ///< it is right
     bias = 1,       ///< right without any bias
@@ -20,7 +20,7 @@ enum class Cause : std::uint8_t {
 inline constexpr std::array<std::string_view, 6> cause_names{"none",       "bias",     "precision",
                                                              "resolution", "coverage", "filter"};
 
-/// What people call it (DESIGN §4). The values are the EXR codes.
+/// What people call it (docs/causes.md). The values are the EXR codes.
 enum class Label : std::uint8_t {
     none = 0,          ///< it is right
     acne = 1,          ///< false shadow by the receiver's self-shadowing surface

@@ -52,8 +52,8 @@ private:
         return !scene::is_lit(inputs_.unbiased.samples[pixel].verdict);
     }
 
-    /// Takes over what is remembered. Without branches: which pixels are wrong is hardly to be
-    /// foreseen.
+    /// Takes over what is remembered. Without branches: which pixels are wrong has no pattern that
+    /// a processor could predict.
     void recall()
     {
         constexpr PixelCause right;
@@ -71,7 +71,7 @@ private:
         for (const std::size_t pixel : pixels) {
             taps.clear();
             footprint_.append_taps(inputs_.unbiased.texels[pixel], taps);
-            if (rule_.is_policy(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
+            if (rule_.border_decides(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
                 set(pixel, Cause::coverage);
                 causes_.pixels[pixel].exact_critical_bias = scene::infinity;
                 if (!causes_.filters.empty()) {

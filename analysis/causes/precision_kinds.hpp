@@ -12,7 +12,7 @@
 
 namespace gnomon::analysis {
 
-/// Wrong pixels of cause `precision`, by what of it is to blame (DESIGN §4).
+/// Wrong pixels of cause `precision`, by what of it is to blame (docs/causes.md).
 struct PrecisionKinds {
     std::uint64_t format = 0;    ///< right with the same map of 32-bit floats
     std::uint64_t transform = 0; ///< by float32 matrices and interpolated positions

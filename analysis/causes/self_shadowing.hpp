@@ -20,7 +20,8 @@ namespace gnomon::analysis {
                                                  const scene::LookupLayers& layers,
                                                  const TracedLookups& lookups);
 
-/// For each lookup the taps whose texels see the receiver's self-shadowing surface (DESIGN §4).
+/// For each lookup the taps whose texels see the receiver's self-shadowing surface
+/// (docs/causes.md).
 /// @param asked  the taps in question, by lookup.
 [[nodiscard]] std::vector<TapSet> own_taps(const scene::ExactLight& light,
                                            const TracedLookups& lookups,

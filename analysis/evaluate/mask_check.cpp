@@ -1,6 +1,6 @@
 #include "analysis/evaluate/mask_check.hpp"
 
-#include "analysis/evaluate/hypotheses.hpp"
+#include "analysis/evaluate/likely_mistakes.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

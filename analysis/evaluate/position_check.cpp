@@ -1,7 +1,7 @@
 #include "analysis/evaluate/position_check.hpp"
 
 #include "analysis/evaluate/half_positions.hpp"
-#include "analysis/evaluate/hypotheses.hpp"
+#include "analysis/evaluate/likely_mistakes.hpp"
 #include "analysis/evaluate/shared_position.hpp"
 
 #include <fmt/format.h>

@@ -10,7 +10,7 @@ namespace {
 bool is_as_before(const GateEntry& before, const GateEntry& now)
 {
     return before.parameters == now.parameters && before.metrics == now.metrics &&
-           before.parts == now.parts && (now.pixels.empty() || before.pixels == now.pixels);
+           before.cells == now.cells && (now.pixels.empty() || before.pixels == now.pixels);
 }
 
 /// The run's entries, with the baseline's masks where the run kept no pixels of what is as before.

@@ -70,7 +70,7 @@ std::optional<double> GateEntry::metric(const std::string& name, const PixelFilt
     if (filter.takes_all()) {
         return metric(name);
     }
-    return is_of_pixels(name) ? metric_of_pixels(parts, name, filter) : std::nullopt;
+    return is_of_pixels(name) ? metric_of_pixels(cells, name, filter) : std::nullopt;
 }
 
 std::optional<std::string_view> GateEntry::setting(const std::string& name) const

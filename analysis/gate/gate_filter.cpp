@@ -1,7 +1,7 @@
 #include "analysis/gate/gate_filter.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/metrics/part_table.hpp"
+#include "analysis/metrics/subset_table.hpp"
 
 #include <fmt/format.h>
 
@@ -61,24 +61,25 @@ bool is_of_both_sides(std::string_view metric)
 }
 
 /// A quantity's name as a metric: those of right pixels too are classes.
-std::string metric_name(const PartQuantity& quantity)
+std::string metric_name(const SubsetQuantity& quantity)
 {
     const bool is_class = quantity.name == "lit" || quantity.name == "blocked";
     return is_class ? fmt::format("pixels.{}", quantity.name) : std::string{quantity.name};
 }
 
-/// The pixels of the parts that the filter takes; empty if there is no such part.
-std::optional<PartCounts> sum_parts(const std::vector<ErrorPart>& parts, const PixelFilter& filter)
+/// The pixels of the cells that the filter takes; empty if there is no such cell.
+std::optional<SubsetCounts> sum_cells(const std::vector<ErrorCell>& cells,
+                                      const PixelFilter& filter)
 {
-    std::optional<PartCounts> sums;
-    for (const ErrorPart& part : parts) {
-        if (!filter.has(part)) {
+    std::optional<SubsetCounts> sums;
+    for (const ErrorCell& cell : cells) {
+        if (!filter.has(cell)) {
             continue;
         }
-        PartCounts& sum = sums ? *sums : sums.emplace();
-        sum.lit += part.lit;
-        sum.blocked += part.blocked;
-        for (const KindOfError& kind : part.errors) {
+        SubsetCounts& sum = sums ? *sums : sums.emplace();
+        sum.lit += cell.lit;
+        sum.blocked += cell.blocked;
+        for (const KindOfError& kind : cell.errors) {
             if (filter.has(kind)) {
                 (kind.is_false_lit ? sum.false_lit : sum.false_shadow) += kind.pixels;
                 (kind.is_false_lit ? sum.light_amount : sum.shadow_amount) += kind.amount;
@@ -110,9 +111,9 @@ std::optional<PixelFilter> narrowed(PixelFilter filter, std::string_view metric)
 
 } // namespace
 
-bool PixelFilter::has(const ErrorPart& part) const
+bool PixelFilter::has(const ErrorCell& cell) const
 {
-    return (!object || *object == part.object) && (!bands || bands->has(part.band));
+    return (!object || *object == cell.object) && (!bands || bands->has(cell.band));
 }
 
 bool PixelFilter::has(const KindOfError& kind) const
@@ -122,10 +123,10 @@ bool PixelFilter::has(const KindOfError& kind) const
 
 bool is_of_pixels(std::string_view metric)
 {
-    const auto is_quantity = [&](const PartQuantity& one) { return metric_name(one) == metric; };
-    const auto is_rate = [&](const PartRate& one) { return one.name == metric; };
-    return is_of_both_sides(metric) || std::ranges::any_of(part_quantities(), is_quantity) ||
-           std::ranges::any_of(part_rates(), is_rate);
+    const auto is_quantity = [&](const SubsetQuantity& one) { return metric_name(one) == metric; };
+    const auto is_rate = [&](const SubsetRate& one) { return one.name == metric; };
+    return is_of_both_sides(metric) || std::ranges::any_of(subset_quantities(), is_quantity) ||
+           std::ranges::any_of(subset_rates(), is_rate);
 }
 
 bool counts_side(std::string_view metric, bool is_false_lit)
@@ -154,23 +155,23 @@ bool can_count(std::string_view metric, const PixelFilter& filter)
            });
 }
 
-std::optional<double> metric_of_pixels(const std::vector<ErrorPart>& parts, std::string_view metric,
+std::optional<double> metric_of_pixels(const std::vector<ErrorCell>& cells, std::string_view metric,
                                        const PixelFilter& filter)
 {
     const auto meant = narrowed(filter, metric);
-    const auto found = sum_parts(parts, meant ? *meant : filter);
+    const auto found = sum_cells(cells, meant ? *meant : filter);
     if (!found) {
         return std::nullopt;
     }
     if (!meant) {
         return 0.0;
     }
-    for (const PartRate& rate : part_rates()) {
+    for (const SubsetRate& rate : subset_rates()) {
         if (rate.name == metric) {
             return rate_of(rate, *found);
         }
     }
-    for (const PartQuantity& quantity : part_quantities()) {
+    for (const SubsetQuantity& quantity : subset_quantities()) {
         if (metric_name(quantity) == metric) {
             return quantity.number(*found);
         }

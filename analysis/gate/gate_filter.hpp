@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/causes/cause.hpp"
-#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/error_cells.hpp"
 
 #include <optional>
 #include <string>
@@ -11,12 +11,12 @@
 namespace gnomon::analysis {
 
 /// Neighbouring bands of light distance, both ends included.
-struct ZetaBands {
-    ZetaBand first;
-    ZetaBand last;
+struct LightDistanceBands {
+    LightDistanceBand first;
+    LightDistanceBand last;
 
-    [[nodiscard]] bool has(ZetaBand band) const { return first <= band && band <= last; }
-    friend bool operator==(const ZetaBands&, const ZetaBands&) = default;
+    [[nodiscard]] bool has(LightDistanceBand band) const { return first <= band && band <= last; }
+    friend bool operator==(const LightDistanceBands&, const LightDistanceBands&) = default;
 };
 
 /// Which pixels a metric counts: those that all of its members name.
@@ -24,11 +24,11 @@ struct PixelFilter {
     std::optional<std::string> object; ///< by its name
     std::optional<Cause> cause;
     std::optional<Label> label;
-    std::optional<ZetaBands> bands;
+    std::optional<LightDistanceBands> bands;
 
     [[nodiscard]] bool takes_all() const { return !object && !cause && !label && !bands; }
-    /// Whether it is of a part, whatever is wrong there.
-    [[nodiscard]] bool has(const ErrorPart& part) const;
+    /// Whether it is of a cell, whatever is wrong there.
+    [[nodiscard]] bool has(const ErrorCell& cell) const;
     [[nodiscard]] bool has(const KindOfError& kind) const;
     friend bool operator==(const PixelFilter&, const PixelFilter&) = default;
 };
@@ -51,9 +51,9 @@ struct PixelFilter {
 
 /// That metric of the pixels that the filter takes.
 /// @param metric  `is_of_pixels`.
-/// @return  Empty if no part is such: there are no such pixels, or parts are not known; or if a
+/// @return  Empty if no cell is such: there are no such pixels, or cells are not known; or if a
 ///          rate's denominator is 0.
-[[nodiscard]] std::optional<double> metric_of_pixels(const std::vector<ErrorPart>& parts,
+[[nodiscard]] std::optional<double> metric_of_pixels(const std::vector<ErrorCell>& cells,
                                                      std::string_view metric,
                                                      const PixelFilter& filter);
 

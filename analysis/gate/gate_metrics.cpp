@@ -1,6 +1,6 @@
 #include "analysis/gate/gate_metrics.hpp"
 
-#include "analysis/metrics/part_table.hpp"
+#include "analysis/metrics/subset_table.hpp"
 
 #include <fmt/format.h>
 
@@ -18,10 +18,10 @@ const std::vector<GateMetric>& curve_columns()
 {
     static const std::vector<GateMetric> columns = [] {
         std::vector<GateMetric> all;
-        for (const PartQuantity& quantity : part_errors()) {
+        for (const SubsetQuantity& quantity : subset_errors()) {
             all.push_back({quantity.name, true, Worse::up, quantity.type == MetricType::count});
         }
-        for (const PartRate& rate : part_rates()) {
+        for (const SubsetRate& rate : subset_rates()) {
             all.push_back({rate.name, false, Worse::up});
         }
         return all;

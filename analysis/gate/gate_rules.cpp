@@ -52,15 +52,15 @@ void add_count_rules(std::vector<GateRule>& rules, std::string_view metric, doub
 }
 
 /// No object and no band may become worse, whatever the others do.
-void add_part_rules(std::vector<GateRule>& rules)
+void add_cell_rules(std::vector<GateRule>& rules)
 {
-    struct PartRule {
+    struct CellRule {
         std::string_view metric;
         double trade_off;
     };
     for (const auto& [metric, trade_off] :
-         {PartRule{wrong_pixels_metric, changed_job_trade_off},
-          PartRule{error_amount_metric, changed_job_amount_trade_off}}) {
+         {CellRule{wrong_pixels_metric, changed_job_trade_off},
+          CellRule{error_amount_metric, changed_job_amount_trade_off}}) {
         for (const bool each_object : {true, false}) {
             for (const JobState job : {JobState::unchanged, JobState::changed}) {
                 GateRule rule = optional_rule(metric, job);
@@ -148,17 +148,17 @@ std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* befor
     if (before == nullptr) {
         return filters;
     }
-    for (const ErrorPart& part : now.parts) {
+    for (const ErrorCell& cell : now.cells) {
         PixelFilter filter = rule.pixels;
         if (rule.each_object) {
-            filter.object = part.object;
+            filter.object = cell.object;
         }
         if (rule.each_band) {
-            filter.bands = ZetaBands{part.band, part.band};
+            filter.bands = LightDistanceBands{cell.band, cell.band};
         }
         const bool is_known =
-            std::any_of(before->parts.begin(), before->parts.end(),
-                        [&](const ErrorPart& known) { return filter.has(known); });
+            std::any_of(before->cells.begin(), before->cells.end(),
+                        [&](const ErrorCell& known) { return filter.has(known); });
         if (is_known && std::find(filters.begin(), filters.end(), filter) == filters.end()) {
             filters.push_back(filter);
         }
@@ -181,7 +181,7 @@ std::vector<GateRule> default_gate_rules()
     for (std::size_t i = 1; i < label_names.size(); ++i) {
         add_count_rules(rules, fmt::format("labels.{}", label_names[i]), any_trade_off);
     }
-    add_part_rules(rules);
+    add_cell_rules(rules);
     add_new_pixel_rules(rules);
     add_gap_rules(rules, "peter_panning_gap_m.p95");
     add_gap_rules(rules, "peter_panning_gap_m.max");

@@ -153,7 +153,7 @@ scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const Loo
             const auto criticals = block.solve(count);
             for (std::size_t i = 0; i < count; ++i) {
                 result[start + i] =
-                    std::isnan(samples[i].map_depth) ? rule.policy_critical_bias() : criticals[i];
+                    std::isnan(samples[i].map_depth) ? rule.border_critical_bias() : criticals[i];
             }
         }
     });

@@ -54,7 +54,7 @@ public:
 
     [[nodiscard]] std::vector<float> find(std::span<const std::size_t> taps) const
     {
-        std::vector<float> critical(lookups_.size(), rule_.policy_critical_bias());
+        std::vector<float> critical(lookups_.size(), rule_.border_critical_bias());
         std::vector<NearestQuery> queries;
         std::vector<std::size_t> asked;
         for (std::size_t i = 0; i < critical.size(); ++i) {
@@ -251,7 +251,7 @@ private:
     [[nodiscard]] Key key(const scene::TexelHit* hit) const
     {
         if (hit == nullptr) {
-            const double always{rule_.policy_critical_bias()};
+            const double always{rule_.border_critical_bias()};
             return {always, always};
         }
         const double depth = rule_.reversed ? hit->depth : -hit->depth;

@@ -58,8 +58,8 @@ enum class LitShare {
 };
 
 /// V2: for each receiver the smallest bias with which exact depths at the lookup's taps are lit to
-/// this share (DESIGN §4); −∞ or +∞ where taps that the border mode decides are enough. A lookup
-/// with one comparison is lit or not.
+/// this share (docs/causes.md); −∞ or +∞ where taps that the border mode decides are enough. A
+/// lookup with one comparison is lit or not.
 /// @param always_lit  Taps that count as lit whatever the bias, by lookup; may be empty. Not read
 ///                    where depths are interpolated.
 [[nodiscard]] std::vector<float> exact_critical_biases(const LookupRule& rule,

@@ -23,7 +23,7 @@ bool LookupRule::is_beyond_far(float r) const
     return reversed ? !(r >= 0) : !(r <= 1);
 }
 
-bool LookupRule::is_policy(float r, std::span<const Tap> taps) const
+bool LookupRule::border_decides(float r, std::span<const Tap> taps) const
 {
     return outside != Outside::clamp &&
            (is_beyond_far(r) || std::ranges::none_of(taps, &Tap::is_inside));

@@ -35,7 +35,7 @@ struct LookupRule {
     /// whatever the bias.
     [[nodiscard]] float outside_depth() const;
     /// The critical bias of what the border mode decides: −∞ lit, +∞ shadowed.
-    [[nodiscard]] float policy_critical_bias() const
+    [[nodiscard]] float border_critical_bias() const
     {
         return outside == scene::Outside::shadowed ? scene::infinity : -scene::infinity;
     }
@@ -43,7 +43,7 @@ struct LookupRule {
     /// as beyond, which a receiver in it hardly ever is.
     [[nodiscard]] bool is_beyond_far(float r) const;
     /// True when the border mode decides all taps of the lookup.
-    [[nodiscard]] bool is_policy(float r, std::span<const Tap> taps) const;
+    [[nodiscard]] bool border_decides(float r, std::span<const Tap> taps) const;
 };
 
 /// The rule of a job and the view that it was resolved to.

@@ -18,7 +18,7 @@ StoredTaps::StoredTaps(const scene::Image<float>& map_depths, const LookupRule& 
 std::span<float> StoredTaps::gather(const scene::LookupSample& sample, Vec2f texel,
                                     std::span<float> out) const
 {
-    if (rule_.outside != scene::Outside::clamp && policy_decides_all(sample, texel)) {
+    if (rule_.outside != scene::Outside::clamp && border_decides_all(sample, texel)) {
         return {};
     }
     // The map's rows are counted from the top, texels from the bottom.
@@ -39,7 +39,7 @@ std::span<float> StoredTaps::gather(const scene::LookupSample& sample, Vec2f tex
 
 /// A spot's receivers behind it are beyond far by r, and where r rounds to the far plane, by a
 /// centre tap that is missing inside the map.
-bool StoredTaps::policy_decides_all(const scene::LookupSample& sample, Vec2f texel) const
+bool StoredTaps::border_decides_all(const scene::LookupSample& sample, Vec2f texel) const
 {
     return rule_.is_beyond_far(sample.receiver_depth) ||
            (std::isnan(sample.map_depth) && footprint_.is_inside(texel));

@@ -26,7 +26,7 @@ public:
                                           std::span<float> out) const;
 
 private:
-    [[nodiscard]] bool policy_decides_all(const scene::LookupSample& sample,
+    [[nodiscard]] bool border_decides_all(const scene::LookupSample& sample,
                                           scene::Vec2f texel) const;
 
     const scene::Image<float>& map_;

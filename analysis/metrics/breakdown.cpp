@@ -22,9 +22,9 @@ namespace {
 using scene::PixelClass;
 
 /// Counts the pixels of a part by their verdicts.
-class PartTally {
+class CellTally {
 public:
-    explicit PartTally(int taps) : shadow_{taps}, light_{taps} {}
+    explicit CellTally(int taps) : shadow_{taps}, light_{taps} {}
 
     void add(PixelClass pixel_class, float verdict)
     {
@@ -39,16 +39,16 @@ public:
             light_.add(double{verdict});
         }
     }
-    [[nodiscard]] PartCounts counts() const
+    [[nodiscard]] SubsetCounts counts() const
     {
-        PartCounts counts = counts_;
+        SubsetCounts counts = counts_;
         counts.shadow_amount = shadow_.value();
         counts.light_amount = light_.value();
         return counts;
     }
 
 private:
-    PartCounts counts_;
+    SubsetCounts counts_;
     AmountSum shadow_;
     AmountSum light_;
 };
@@ -170,7 +170,7 @@ BinValues gather(const Binning& binning, std::size_t bin, const BreakdownInputs&
     return values;
 }
 
-PartCounts count_at(const BinValues& values, float bias)
+SubsetCounts count_at(const BinValues& values, float bias)
 {
     const auto is_lit = [&](float critical) { return critical <= bias; };
     const auto count = [&](const std::vector<float>& criticals) {
@@ -187,7 +187,7 @@ PartCounts count_at(const BinValues& values, float bias)
 }
 
 /// Replaces the amounts by those of so many lit taps.
-void set_amounts(PartCounts& counts, std::span<const std::uint32_t> pixels,
+void set_amounts(SubsetCounts& counts, std::span<const std::uint32_t> pixels,
                  const BreakdownInputs& inputs, const scene::Image<std::uint8_t>& lit_taps)
 {
     std::array<std::uint64_t, 2> lit{}; // by whether the truth is lit
@@ -284,7 +284,7 @@ std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInput
     tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t bin) {
         BinValues values = gather(binning, bin, inputs);
         bins[bin] = measure_spread(binning, bin, values);
-        PartTally tally{inputs.taps};
+        CellTally tally{inputs.taps};
         for (const std::uint32_t i : binning.pixels_of(bin)) {
             tally.add(inputs.classes[i], inputs.lookup.samples[i].verdict);
         }
@@ -301,7 +301,7 @@ std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& class
     if (lookup.samples.size() != classes.size() || triangles.size() != classes.size()) {
         throw std::invalid_argument("errors_by_object: the images differ in size");
     }
-    std::vector<PartTally> tallies(scene.objects.size(), PartTally{taps});
+    std::vector<CellTally> tallies(scene.objects.size(), CellTally{taps});
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
             tallies[scene.object_of(triangles[i])].add(classes[i], lookup.samples[i].verdict);

@@ -12,8 +12,8 @@
 
 namespace gnomon::analysis {
 
-/// Scored pixels of one part of the image, and how many of them are wrong.
-struct PartCounts {
+/// A subset of the scored pixels, and how many of them are wrong.
+struct SubsetCounts {
     std::uint64_t lit = 0;          ///< truth lit
     std::uint64_t blocked = 0;      ///< truth blocked
     std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
@@ -21,7 +21,7 @@ struct PartCounts {
     double shadow_amount = 0;       ///< Σ (1 − verdict) over the lit [px]
     double light_amount = 0;        ///< Σ verdict over the blocked [px]
 
-    friend bool operator==(const PartCounts&, const PartCounts&) = default;
+    friend bool operator==(const SubsetCounts&, const SubsetCounts&) = default;
 };
 
 /// What is broken down; all images of one size, which the caller keeps alive.
@@ -37,7 +37,7 @@ struct BreakdownInputs {
 struct ErrorBin {
     double lower = 0;
     double upper = 0;
-    PartCounts counts;
+    SubsetCounts counts;
     std::optional<Quantiles> needed_bias; ///< of the lit pixels' finite critical biases
     std::optional<Quantiles> map_error_m; ///< of the scored pixels that have one, signed [m]
     /// By distance: what storing depths alone may do to `map_error_m` [m].
@@ -92,7 +92,7 @@ errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<c
 
 struct ObjectErrors {
     std::string name;
-    PartCounts counts;
+    SubsetCounts counts;
 };
 
 /// By object that receives the light: one entry an object of the scene, in its order, also for

@@ -16,7 +16,7 @@ namespace gnomon::analysis {
 /// depend on what the map stores.
 class CentreHits {
 public:
-    /// @throws std::invalid_argument  as `find_causes` does.
+    /// @throws std::invalid_argument  as `find_lit_causes` does.
     explicit CentreHits(const CauseInputs& inputs);
     /// @param find  gives the first hits of texels, placed, as the inputs' light does.
     CentreHits(const CauseInputs& inputs, const FindFirstHits& find);
@@ -56,7 +56,7 @@ private:
 ///
 /// NaN where the pixel is not scored, where there is no texel, or where either sees nothing.
 /// @param hits  of the same inputs, whatever their stored depths.
-/// Source: DESIGN §6.
+/// Source: docs/depth_precision.md.
 [[nodiscard]] scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
                                                      const CentreHits& hits,
                                                      const scene::LightFrustum& frustum,

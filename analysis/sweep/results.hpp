@@ -6,7 +6,7 @@
 #include "analysis/bias/bias_verification.hpp"
 #include "analysis/causes/cause.hpp"
 #include "analysis/metrics/breakdown.hpp"
-#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/gaps.hpp"
 #include "analysis/metrics/metrics.hpp"
 
@@ -47,7 +47,7 @@ struct ConfigurationResult {
     CauseAmounts amounts;              ///< of the same
     Gaps peter_panning;
     /// By object and light distance, sorted so; empty: not known, or too many.
-    std::vector<ErrorPart> parts = {};
+    std::vector<ErrorCell> cells = {};
 };
 
 /// Whether a configuration that failed may pass when it is tried again, everything else as it was.
@@ -67,7 +67,7 @@ struct DistanceProfile {
 /// A point of a bias curve: all scored pixels at one bias.
 struct CurveSample {
     float bias = 0; ///< depth units
-    PartCounts counts;
+    SubsetCounts counts;
 
     friend bool operator==(const CurveSample&, const CurveSample&) = default;
 };

@@ -170,7 +170,7 @@ private:
             const auto receivers = require_result(receivers_[slot]);
             return std::make_shared<SweepSubject>(
                 *receivers, renderers().find_truth(stage_view(), *receivers),
-                ReceiverUse{.by_many_maps = true, .counts_parts = hooks_.counts_parts});
+                ReceiverUse{.by_many_maps = true, .counts_cells = hooks_.counts_cells});
         });
     }
 

@@ -50,7 +50,7 @@ struct SweepHooks {
     /// Each curve is held to GL's reruns (`verify_biases`): those of the job's bias, the best one
     /// and a few of the rows' are among them.
     bool verifies_biases = false;
-    bool counts_parts = true; ///< rows have their errors by object and light distance
+    bool counts_cells = true; ///< rows have their errors by object and light distance
 };
 
 /// Runs the steps of a plan. GL works on the calling thread; truth-dependent answers are found by

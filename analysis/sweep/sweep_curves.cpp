@@ -1,7 +1,7 @@
 #include "analysis/sweep/sweep_curves.hpp"
 
+#include "analysis/sweep/configuration_id.hpp"
 #include "scene/error.hpp"
-#include "scene/fnv1a.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys.hpp"
 
@@ -17,46 +17,12 @@ namespace gnomon::analysis {
 
 namespace {
 
-using Parameters = std::vector<std::pair<std::string, std::string>>;
-
-/// What stands for a scene in ids: its identity; where that is not known, its file as the job
-/// writes it.
-std::string scene_name(const SceneIdentity& scene, const Parameters& given)
-{
-    if (!scene.hash.empty()) {
-        return scene.name();
-    }
-    const auto file = std::find_if(given.begin(), given.end(), [](const auto& parameter) {
-        return parameter.first == "scene.file";
-    });
-    return file == given.end() ? std::string{} : "unread " + file->second;
-}
-
-/// The name of what these parameters give in this scene.
-/// @param scene_name  as above.
-std::string id_of(std::string_view version, std::string_view scene_name,
-                  const Parameters& parameters, bool with_constant_bias)
-{
-    scene::Fnv1a hash;
-    hash.add(fmt::format("schema {}", result_schema));
-    hash.add(version);
-    hash.add(scene_name);
-    for (const auto& [key, value] : parameters) {
-        // The file's place says nothing that the scene's name does not.
-        if (key != "scene.file" && (with_constant_bias || !scene::is_constant_bias(key))) {
-            hash.add(key);
-            hash.add(value);
-        }
-    }
-    return fmt::format("{:016x}", hash.value());
-}
-
 /// The name of the job's bias curve; `hardware` has none, and each of its biases is by itself.
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
-                     const Parameters& parameters)
+                     const JobParameters& parameters)
 {
     const bool has_curve = scene::promises(job.lookup.filter).has_curve();
-    return id_of(version, scene_name, parameters, !has_curve);
+    return configuration_id(version, scene_name, parameters, !has_curve);
 }
 
 /// The constant bias that a job has but for the sweep's axes.
@@ -69,7 +35,7 @@ std::string job_bias_text(const scene::BiasSettings& own, scene::Filter filter)
 }
 
 /// Writes the job's constant bias over that of other parameters of the same curve group.
-void replace_constant_bias(Parameters& parameters, const scene::Job& job)
+void replace_constant_bias(JobParameters& parameters, const scene::Job& job)
 {
     for (auto& [key, value] : parameters) {
         if (scene::is_constant_bias(key)) {
@@ -187,7 +153,7 @@ void SweepCurves::describe(std::size_t request, const SceneIdentity& scene, cons
     configuration.scene_hash = scene.hash;
     configuration.shard = shard;
     const scene::SweepPoint first = space_.at(ordinals.front());
-    const std::string name = scene_name(scene, space_.given_keys(first));
+    const std::string name = scene_in_ids(scene, space_.given_keys(first));
     configuration.curve = curve_of(version_, name, job, configuration.parameters);
     configuration.case_name = space_.case_name(first);
     configuration.job_bias = job_bias_text(space_.own_constant_bias(first), job.lookup.filter);
@@ -195,7 +161,7 @@ void SweepCurves::describe(std::size_t request, const SceneIdentity& scene, cons
         space_.set_constant_bias(job, space_.at(ordinal));
         replace_constant_bias(configuration.parameters, job);
         configuration.ordinal = ordinal;
-        configuration.id = id_of(version_, name, configuration.parameters, true);
+        configuration.id = configuration_id(version_, name, configuration.parameters, true);
         visit(configuration);
     }
 }
@@ -208,9 +174,9 @@ void SweepCurves::describe(const Refusal& refusal, const Visit& visit) const
         configuration.ordinal = ordinal;
         configuration.case_name = space_.case_name(point);
         configuration.parameters = space_.given_keys(point);
-        const std::string name = scene_name({}, configuration.parameters);
-        configuration.id = id_of(version_, name, configuration.parameters, true);
-        configuration.curve = id_of(version_, name, configuration.parameters, false);
+        const std::string name = scene_in_ids({}, configuration.parameters);
+        configuration.id = configuration_id(version_, name, configuration.parameters, true);
+        configuration.curve = configuration_id(version_, name, configuration.parameters, false);
         visit(configuration);
     }
 }

@@ -5,7 +5,7 @@
 #include "cli/compare/kept_pixels.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep_space.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/run/run_notes.hpp"
 
 #include <fmt/format.h>

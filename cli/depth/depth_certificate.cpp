@@ -4,7 +4,7 @@
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/polygon_offset.hpp"
 #include "raster_gl/raster_planes.hpp"
-#include "scene/light/depth_planes.hpp"
+#include "scene/depth/measured_planes.hpp"
 
 #include <array>
 #include <numbers>
@@ -26,19 +26,19 @@ std::array<scene::DepthRange, 4> certified_ranges()
              {perspective, 0.1, 1000, true, ClipRange::zero_to_one}}};
 }
 
-scene::DepthPlanes tilted_planes(const scene::DepthRange& range, int count, double tilt_deg)
+scene::MeasuredPlanes tilted_planes(const scene::DepthRange& range, int count, double tilt_deg)
 {
-    scene::DepthPlaneSettings settings;
+    scene::MeasuredPlaneSettings settings;
     settings.range = range;
     settings.count = count;
     settings.tilt_rad = tilt_deg * std::numbers::pi / 180;
     settings.smallest_map_texels = map_texels;
-    return scene::make_depth_planes(settings);
+    return scene::make_measured_planes(settings);
 }
 
 /// Planes, and what draws them: one after the other refers to the planes.
 struct Drawn {
-    scene::DepthPlanes planes;
+    scene::MeasuredPlanes planes;
     raster_gl::RasterPlanes raster;
 
     Drawn(const raster_gl::Context& context, const scene::DepthRange& range, int count,

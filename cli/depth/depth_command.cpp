@@ -91,7 +91,7 @@ void require_placement(const DepthOptions& options)
     }
 }
 
-scene::DepthPlaneSettings planes_of(const DepthOptions& options)
+scene::MeasuredPlaneSettings planes_of(const DepthOptions& options)
 {
     const double near_m = options.near_m.value_or(default_near_m);
     const double far_m = options.far_m.value_or(default_far_m);
@@ -99,7 +99,7 @@ scene::DepthPlaneSettings planes_of(const DepthOptions& options)
     require_placement(options);
     const bool zero_to_one =
         options.clip.empty() ? options.reversed : options.clip == "zero_to_one";
-    scene::DepthPlaneSettings planes;
+    scene::MeasuredPlaneSettings planes;
     planes.range = {projection_of(options), near_m, far_m, options.reversed,
                     zero_to_one ? scene::ClipRange::zero_to_one
                                 : scene::ClipRange::minus_one_to_one};
@@ -152,7 +152,7 @@ void print_study(const DepthOptions& options, DepthStudy study, const Driver& dr
 void study(const DepthOptions& options)
 {
     const DepthChoice choice = choose_format(options.format, options.bits);
-    const scene::DepthPlaneSettings planes = planes_of(options);
+    const scene::MeasuredPlaneSettings planes = planes_of(options);
     if (!choice.format || options.theory_only) {
         const std::string why = options.theory_only
                                     ? "--theory-only"
@@ -187,7 +187,7 @@ std::vector<DepthStudy> compared_formats(const DepthOptions& options,
                                          const raster_gl::Context* context)
 {
     const auto studied = [&](const std::vector<DepthChoice>& choices,
-                             const scene::DepthPlaneSettings& planes) {
+                             const scene::MeasuredPlaneSettings& planes) {
         if (context != nullptr) {
             return study_formats(*context, choices, planes);
         }
@@ -197,7 +197,7 @@ std::vector<DepthStudy> compared_formats(const DepthOptions& options,
         }
         return studies;
     };
-    scene::DepthPlaneSettings planes = planes_of(options);
+    scene::MeasuredPlaneSettings planes = planes_of(options);
     std::vector<DepthStudy> studies = studied(all_formats(), planes);
     if (!options.reversed) {
         planes.range.reversed = true;
@@ -269,9 +269,9 @@ void require_consistent(const DepthOptions& options)
         throw scene::InputError(
             "--json and --csv both write to standard output: name a file, --csv FILE");
     }
-    if (options.samples < 2 || options.samples > scene::most_depth_planes) {
+    if (options.samples < 2 || options.samples > scene::most_measured_planes) {
         throw scene::InputError(fmt::format("--samples {}: must be 2 to {}", options.samples,
-                                            scene::most_depth_planes));
+                                            scene::most_measured_planes));
     }
     require_outputs(
         std::array{OutputOption{"--plot", options.plot_path, store::OutputKind::plot},

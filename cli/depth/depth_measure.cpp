@@ -50,7 +50,7 @@ DepthChoice choose_format(const std::string& format, std::optional<int> bits)
     return {DepthCoding::unorm(width), {}, fmt::format("{}-bit unorm", width)};
 }
 
-DepthStudy study_theory(const DepthChoice& choice, const scene::DepthPlaneSettings& planes,
+DepthStudy study_theory(const DepthChoice& choice, const scene::MeasuredPlaneSettings& planes,
                         const std::string& not_measured_because)
 {
     const DepthMapping mapping{planes.range};
@@ -66,10 +66,10 @@ DepthStudy study_theory(const DepthChoice& choice, const scene::DepthPlaneSettin
 
 std::vector<DepthStudy> study_formats(const raster_gl::Context& context,
                                       const std::vector<DepthChoice>& choices,
-                                      const scene::DepthPlaneSettings& settings)
+                                      const scene::MeasuredPlaneSettings& settings)
 {
     const auto formats = raster_gl::query_depth_formats(context);
-    const scene::DepthPlanes planes = scene::make_depth_planes(settings);
+    const scene::MeasuredPlanes planes = scene::make_measured_planes(settings);
     raster_gl::RasterPlanes raster{context, planes};
     std::vector<DepthStudy> studies;
     for (const DepthChoice& choice : choices) {

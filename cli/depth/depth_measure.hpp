@@ -2,7 +2,7 @@
 
 #include "analysis/depth/depth_study.hpp"
 #include "raster_gl/context.hpp"
-#include "scene/light/depth_planes.hpp"
+#include "scene/depth/measured_planes.hpp"
 
 #include <optional>
 #include <string>
@@ -24,7 +24,7 @@ struct DepthChoice {
 
 /// The formulas alone.
 [[nodiscard]] analysis::DepthStudy study_theory(const DepthChoice& choice,
-                                                const scene::DepthPlaneSettings& planes,
+                                                const scene::MeasuredPlaneSettings& planes,
                                                 const std::string& not_measured_because);
 
 /// Theory and measurement of several formats on the same planes.
@@ -33,6 +33,6 @@ struct DepthChoice {
 /// @throws scene::InputError  if the planes cannot be made, or GL clips all of them.
 [[nodiscard]] std::vector<analysis::DepthStudy>
 study_formats(const raster_gl::Context& context, const std::vector<DepthChoice>& choices,
-              const scene::DepthPlaneSettings& settings);
+              const scene::MeasuredPlaneSettings& settings);
 
 } // namespace gnomon::cli

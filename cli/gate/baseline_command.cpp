@@ -7,7 +7,7 @@
 #include "reports/gate/baseline_table.hpp"
 #include "reports/gate/gate_rule_file.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/baseline/baseline_read.hpp"
 #include "store/baseline/baseline_write.hpp"
 #include "store/baseline/gate_run.hpp"

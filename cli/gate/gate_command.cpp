@@ -14,7 +14,7 @@
 #include "reports/gate/gate_rule_file.hpp"
 #include "reports/gate/gate_table.hpp"
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/baseline/baseline_read.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"

@@ -5,7 +5,7 @@
 #include "reports/gate/gate_pictures.hpp"
 #include "reports/gate/gate_table.hpp"
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "reports/gate/gate_names.hpp"
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/baseline/baseline_read.hpp"
 #include "store/baseline/baseline_write.hpp"
 

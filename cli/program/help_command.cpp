@@ -4,7 +4,7 @@
 #include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

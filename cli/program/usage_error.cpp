@@ -1,7 +1,7 @@
 #include "cli/program/usage_error.hpp"
 
 #include "scene/job/file.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "cli/report/figures.hpp"
 
 #include "cli/exit_codes.hpp"
-#include "cli/report/figure_list.hpp"
+#include "cli/report/embedded_figure_list.hpp"
 #include "cli/system/captured_process.hpp"
 
 #include <fmt/format.h>

@@ -7,7 +7,6 @@
 #include "cli/system/process.hpp"
 #include "reports/page/run_overview.hpp"
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
 #include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>

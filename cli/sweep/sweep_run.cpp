@@ -36,7 +36,7 @@ namespace {
 
 /// Errors by object and light distance are for baselines, and no baseline holds them of more rows:
 /// they are kilobytes each.
-constexpr std::uint64_t most_rows_with_parts = 2'000;
+constexpr std::uint64_t most_rows_with_cells = 2'000;
 
 /// Results that wait in memory until they are recorded: those of so many curves at most, or fewer
 /// if they would have more rows.
@@ -337,7 +337,7 @@ private:
         };
         hooks.should_stop = [] { return is_interrupted(); };
         hooks.verifies_biases = options_.verifies;
-        hooks.counts_parts = space_.size() <= most_rows_with_parts;
+        hooks.counts_cells = space_.size() <= most_rows_with_cells;
         if (options_.keeps_pixels) {
             hooks.keep_pixels = [this](std::uint64_t ordinal,
                                        const analysis::Comparison& comparison) {

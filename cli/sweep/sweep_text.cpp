@@ -1,7 +1,7 @@
 #include "cli/sweep/sweep_text.hpp"
 
 #include "reports/words/text.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

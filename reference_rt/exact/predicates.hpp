@@ -174,7 +174,7 @@ private:
     return light_side != -receiver.delta_sign;
 }
 
-/// True when P is outside a spot's cone (DESIGN §7); never for other lights.
+/// True when P is outside a spot's cone (docs/truth.md); never for other lights.
 [[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,
                                    SignCounts& counts);
 

@@ -1,6 +1,6 @@
 #include "reference_rt/light/exact_light.hpp"
 
-#include "reference_rt/exact/crossing.hpp"
+#include "reference_rt/exact/crossing_depth.hpp"
 #include "reference_rt/light/critical_bias.hpp"
 #include "reference_rt/light/known_hits.hpp"
 #include "reference_rt/light/light_depth.hpp"
@@ -189,7 +189,7 @@ public:
         std::vector<std::uint8_t> answers(queries.size(), 0);
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
             const auto& [pixel, texel, triangle] = queries[i];
-            seen_.check({&pixel, 1}, "are_own_sheets");
+            seen_.check({&pixel, 1}, "are_self_shadowing");
             check(texel);
             check(triangle);
             if (triangle == seen_.receivers[pixel]) {

@@ -10,7 +10,7 @@
 
 namespace gnomon::reference_rt {
 
-/// Exact answers about the light's rays. Source: DESIGN §4, docs/truth.md.
+/// Exact answers about the light's rays. Source: docs/causes.md, docs/truth.md.
 ///
 /// @param reference  serves exact truth; it, `view` and `receivers` must outlive the answers.
 /// @param receivers  GL's triangle per pixel, of size `view.image`.

@@ -1,6 +1,6 @@
 #include "reference_rt/light/texel_first_hits.hpp"
 
-#include "reference_rt/exact/crossing.hpp"
+#include "reference_rt/exact/crossing_depth.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
-#include "reference_rt/traversal/pencil.hpp"
+#include "reference_rt/traversal/float_line_filter.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
 

@@ -4,8 +4,8 @@
 #include "reference_rt/pixels/receiver_raster.hpp"
 #include "reference_rt/pixels/tiles.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
+#include "reference_rt/traversal/float_line_filter.hpp"
 #include "reference_rt/traversal/packet.hpp"
-#include "reference_rt/traversal/pencil.hpp"
 #include "scene/job/job.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "reference_rt/pixels/shadow_segments.hpp"
 
-#include "reference_rt/exact/crossing.hpp"
+#include "reference_rt/exact/crossing_depth.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "reference_rt/exact/crossing.hpp"
+#include "reference_rt/exact/crossing_depth.hpp"
 #include "reference_rt/pixels/pixel_packets.hpp"
 #include "reference_rt/pixels/shadow_segments.hpp"
 #include "reference_rt/rounded/rounded_truth.hpp"

@@ -12,7 +12,8 @@
 
 namespace gnomon::reference_rt {
 
-/// Decides the class of every pixel (DESIGN §3) whose point is known by its rounded position only.
+/// Decides the class of every pixel (docs/truth.md) whose point is known by its rounded position
+/// only.
 ///
 /// T is the receiving triangle nearest to P, of the pixel's object where that is known; P may have
 /// been every point of the plane of T in the box of all that round to P. The box is grown by the

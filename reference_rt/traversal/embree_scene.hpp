@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference_rt/faults.hpp"
+#include "reference_rt/injected_faults.hpp"
 #include "reference_rt/pixels/corner_fans.hpp"
 #include "reference_rt/traversal/embree.hpp"
 #include "reference_rt/traversal/lane_rays.hpp"

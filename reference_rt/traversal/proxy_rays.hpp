@@ -1,9 +1,9 @@
 #pragma once
 
 #include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/traversal/float_line_filter.hpp"
 #include "reference_rt/traversal/lane_rays.hpp"
 #include "reference_rt/traversal/packet.hpp"
-#include "reference_rt/traversal/pencil.hpp"
 #include "reference_rt/traversal/unit_frame.hpp"
 #include "scene/light/light.hpp"
 

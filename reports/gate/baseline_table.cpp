@@ -4,7 +4,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_names.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 
@@ -14,15 +14,15 @@ namespace gnomon::reports {
 
 namespace {
 
-/// The parts of the image whose errors are not what they were, where both are known; and whether
+/// The cells of the image whose errors are not what they were, where both are known; and whether
 /// wrong pixels are elsewhere.
-std::string differing_parts(const analysis::GateEntry& before, const analysis::GateEntry& now)
+std::string differing_cells(const analysis::GateEntry& before, const analysis::GateEntry& now)
 {
     std::string text;
-    for (const analysis::ErrorPart& part : now.parts) {
+    for (const analysis::ErrorCell& cell : now.cells) {
         analysis::PixelFilter filter;
-        filter.object = part.object;
-        filter.bands = analysis::ZetaBands{part.band, part.band};
+        filter.object = cell.object;
+        filter.bands = analysis::LightDistanceBands{cell.band, cell.band};
         for (const std::string_view metric :
              {analysis::wrong_pixels_metric, analysis::error_amount_metric}) {
             const std::string name{metric};
@@ -63,7 +63,7 @@ std::string differing_lines(const analysis::GateEntry& before, const analysis::G
                 pad_left(metric_text(name, is), 12), pad_left(change_text(name, was, is), 12));
         }
     }
-    return text + differing_parts(before, now);
+    return text + differing_cells(before, now);
 }
 
 std::string environment_difference(const analysis::Environment& before,

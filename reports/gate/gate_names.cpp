@@ -2,7 +2,7 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

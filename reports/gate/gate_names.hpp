@@ -2,7 +2,7 @@
 
 #include "analysis/gate/gate_entries.hpp"
 #include "analysis/gate/gate_judgement.hpp"
-#include "store/baseline/configuration_key.hpp"
+#include "store/baseline/configuration_text.hpp"
 #include "store/json_values.hpp"
 
 #include <optional>

@@ -4,6 +4,7 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 #include "store/run/run_columns.hpp"
 
@@ -263,7 +264,7 @@ private:
         return static_cast<Code>(found - names.begin());
     }
 
-    /// `light_distance_band = [4, 16]`, or "*".
+    /// `zeta_band = [4, 16]`, or "*".
     void read_bands(GateRule& rule, const TomlMember& setting) const
     {
         constexpr const char* wanted =
@@ -281,11 +282,11 @@ private:
         const auto lower =
             ends != nullptr && ends->size() == 2 ? distance((*ends)[0]) : std::nullopt;
         const auto upper = lower ? distance((*ends)[1]) : std::nullopt;
-        for (int place = analysis::ZetaBand::lowest; place <= analysis::ZetaBand::highest;
-             ++place) {
-            const analysis::ZetaBand band{place};
+        for (int place = analysis::LightDistanceBand::lowest;
+             place <= analysis::LightDistanceBand::highest; ++place) {
+            const analysis::LightDistanceBand band{place};
             if (lower && band.lower_m() == *lower) {
-                rule.pixels.bands = analysis::ZetaBands{band, band};
+                rule.pixels.bands = analysis::LightDistanceBands{band, band};
             }
             if (rule.pixels.bands && upper && band.upper_m() == *upper) {
                 rule.pixels.bands->last = band;

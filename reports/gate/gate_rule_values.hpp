@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

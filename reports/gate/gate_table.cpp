@@ -3,7 +3,7 @@
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/gate_sentences.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "reports/json/diagnosis_json.hpp"
 
-#include "analysis/metrics/part_table.hpp"
+#include "analysis/metrics/subset_table.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/json/metric_json.hpp"
 #include "reports/words/findings.hpp"
@@ -87,13 +87,13 @@ store::Json slope_answers(const analysis::BiasAnswers& answers)
     return json;
 }
 
-store::Json part(const analysis::PartCounts& counts)
+store::Json subset_json(const analysis::SubsetCounts& counts)
 {
     store::Json json = store::Json::object();
-    for (const analysis::PartQuantity& quantity : analysis::part_quantities()) {
+    for (const analysis::SubsetQuantity& quantity : analysis::subset_quantities()) {
         json[std::string{quantity.name}] = value_json(quantity.value(counts));
     }
-    for (const analysis::PartRate& rate : analysis::part_rates()) {
+    for (const analysis::SubsetRate& rate : analysis::subset_rates()) {
         json[std::string{rate.name}] = store::number_or_null(rate_of(rate, counts));
     }
     return json;
@@ -104,7 +104,7 @@ store::Json bins(const std::vector<analysis::ErrorBin>& bins)
     store::Json json = store::Json::array();
     for (const analysis::ErrorBin& bin : bins) {
         store::Json entry{{"lower", bin.lower}, {"upper", bin.upper}};
-        entry.update(part(bin.counts));
+        entry.update(subset_json(bin.counts));
         entry["needed_bias"] = quantiles(bin.needed_bias);
         entry["map_error_m"] = quantiles(bin.map_error_m);
         entry["envelope_m"] = store::number_or_null(bin.envelope_m);
@@ -118,7 +118,7 @@ store::Json by_object(const std::vector<analysis::ObjectErrors>& objects)
     store::Json json = store::Json::array();
     for (const analysis::ObjectErrors& object : objects) {
         store::Json entry{{"object", object.name}};
-        entry.update(part(object.counts));
+        entry.update(subset_json(object.counts));
         json.push_back(std::move(entry));
     }
     return json;

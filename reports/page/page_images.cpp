@@ -3,7 +3,7 @@
 #include "analysis/bias/bias_units.hpp"
 #include "reports/page/image_layers.hpp"
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>

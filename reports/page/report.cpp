@@ -8,7 +8,7 @@
 #include "reports/page/run_overview.hpp"
 #include "reports/page/summary.hpp"
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/output_file.hpp"
 #include "store/run/run_schema.hpp"

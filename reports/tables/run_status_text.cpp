@@ -1,7 +1,7 @@
 #include "reports/tables/run_status_text.hpp"
 
 #include "reports/words/text.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>

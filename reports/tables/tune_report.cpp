@@ -3,7 +3,7 @@
 #include "analysis/advice/fit_setting.hpp"
 #include "analysis/advice/map_cost.hpp"
 #include "reports/json/advice_json.hpp"
-#include "reports/tables/api_states.hpp"
+#include "reports/tables/graphics_api_states.hpp"
 #include "reports/words/findings.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"

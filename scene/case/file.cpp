@@ -4,6 +4,7 @@
 #include "scene/error.hpp"
 #include "scene/job/layers.hpp"
 #include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>

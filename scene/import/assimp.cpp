@@ -3,7 +3,7 @@
 #include "scene/import/field_of_view.hpp"
 #include "scene/import/folder.hpp"
 #include "scene/import/free_form_shapes.hpp"
-#include "scene/import/gltf.hpp"
+#include "scene/import/gltf_facts.hpp"
 #include "scene/import/mesh.hpp"
 #include "scene/import/names.hpp"
 #include "scene/import/ply.hpp"

@@ -1,6 +1,6 @@
 #include "scene/import/mesh.hpp"
 
-#include "scene/import/gltf.hpp"
+#include "scene/import/gltf_facts.hpp"
 #include "scene/import/polygon.hpp"
 
 #include <assimp/mesh.h>

@@ -1,6 +1,6 @@
 #include "scene/import/ply.hpp"
 
-#include "scene/import/gltf.hpp"
+#include "scene/import/gltf_facts.hpp"
 
 #include <assimp/scene.h>
 #include <fmt/format.h>

@@ -32,7 +32,7 @@ struct JobKey {
     Stages stages = 0;        ///< the first stages that must be redone when it changes
 };
 
-/// Every key of the job file but `[sweep]` and `[[case]]`, in the order of DESIGN §7.
+/// Every key of the job file but `[sweep]` and `[[case]]`, in the order of docs/job_file.md.
 [[nodiscard]] const std::vector<JobKey>& job_keys();
 
 /// A key with a value in TOML syntax; a bare word is a string.

@@ -69,7 +69,7 @@ struct BiasSettings {
     double normal_texels = 0; ///< normal offset, in texel widths at P
 };
 
-/// A job: what to look at, and how. Every member has the default that DESIGN §7 gives.
+/// A job: what to look at, and how. Every member has the default that docs/job_file.md gives.
 struct Job {
     SceneSettings scene;
     std::optional<CameraSettings> camera; ///< empty: from the scene file, else framed

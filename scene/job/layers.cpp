@@ -1,6 +1,7 @@
 #include "scene/job/layers.hpp"
 
 #include "scene/error.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

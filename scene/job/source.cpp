@@ -3,6 +3,7 @@
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep_axes.hpp"
+#include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include "scene/error.hpp"
 
@@ -212,15 +213,6 @@ std::string toml_number(double number)
     }
     // "-0" would read back as the integer zero, without its sign.
     return text == "-0" ? "-0.0" : text;
-}
-
-std::string one_line(std::string_view text)
-{
-    std::string line{text};
-    std::replace_if(
-        line.begin(), line.end(),
-        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\x7F'; }, '?');
-    return line;
 }
 
 } // namespace gnomon::scene

@@ -45,7 +45,4 @@ struct TomlMember {
 /// A TOML number with the fewest digits that read back as the same double.
 [[nodiscard]] std::string toml_number(double number);
 
-/// The text with control characters replaced by '?', so that a message stays one line.
-[[nodiscard]] std::string one_line(std::string_view text);
-
 } // namespace gnomon::scene

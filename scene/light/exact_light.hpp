@@ -84,7 +84,7 @@ struct BlockerHit {
     double receiver_light_distance_m = 0; ///< light distance of P [m]
 };
 
-/// Exact answers about the light's rays, for one view, map resolution and culling (DESIGN §4).
+/// Exact answers about the light's rays, for one view, map resolution and culling (docs/causes.md).
 ///
 /// Pixels are row-major indices; each must be scored. All answers are the same for any number of
 /// threads.

@@ -52,7 +52,7 @@ struct Ray {
 /// Frames the box: a three-quarter view from above in which the box's corners just fit.
 [[nodiscard]] CameraSettings frame_box(const Box& box, ImageSize image);
 
-/// The ray through the centre of pixel (x, y), (0, 0) at the top left (DESIGN §7).
+/// The ray through the centre of pixel (x, y), (0, 0) at the top left (docs/formulas.md).
 ///
 ///     sx = (2(x+½)/W − 1)·(W/H)·half_height,   sy = (1 − 2(y+½)/H)·half_height
 ///     perspective:  eye,                         forward + sx·right + sy·up

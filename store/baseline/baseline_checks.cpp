@@ -1,7 +1,7 @@
 #include "store/baseline/baseline_checks.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/metrics/part_table.hpp"
+#include "analysis/metrics/subset_table.hpp"
 
 #include <fmt/format.h>
 
@@ -129,22 +129,22 @@ std::string contradicted_amount(const GateEntry& entry)
 /// Rates are quotients of sums, written so that they read back exactly.
 std::string contradicted_rate(const GateEntry& entry)
 {
-    for (const analysis::PartRate& rate : analysis::part_rates()) {
-        const auto part = sum_of(entry, {rate.errors.begin(), rate.errors.end()});
+    for (const analysis::SubsetRate& rate : analysis::subset_rates()) {
+        const auto wrong = sum_of(entry, {rate.errors.begin(), rate.errors.end()});
         Names pixels;
         for (const std::string_view kind : rate.pixels) {
             pixels.push_back(fmt::format("pixels.{}", kind));
         }
         const auto whole = sum_of(entry, pixels);
-        if (!part || !whole) {
+        if (!wrong || !whole) {
             continue;
         }
-        if (*part > *whole) {
-            return fmt::format("{} are wrong of {}", *part, *whole);
+        if (*wrong > *whole) {
+            return fmt::format("{} are wrong of {}", *wrong, *whole);
         }
         std::string differs =
             unequal(rate.name, entry.metric(std::string{rate.name}), "its counts give",
-                    *whole > 0 ? std::optional{*part / *whole} : std::nullopt);
+                    *whole > 0 ? std::optional{*wrong / *whole} : std::nullopt);
         if (!differs.empty()) {
             return differs;
         }
@@ -153,9 +153,9 @@ std::string contradicted_rate(const GateEntry& entry)
 }
 
 /// Parts hold every scored pixel, and where causes are known every error.
-std::string contradicted_parts(const GateEntry& entry)
+std::string contradicted_cells(const GateEntry& entry)
 {
-    if (entry.parts.empty()) {
+    if (entry.cells.empty()) {
         return {};
     }
     double lit = 0;
@@ -163,10 +163,10 @@ std::string contradicted_parts(const GateEntry& entry)
     double false_shadow = 0;
     double false_lit = 0;
     double amount = 0;
-    for (const analysis::ErrorPart& part : entry.parts) {
-        lit += static_cast<double>(part.lit);
-        blocked += static_cast<double>(part.blocked);
-        for (const analysis::KindOfError& kind : part.errors) {
+    for (const analysis::ErrorCell& cell : entry.cells) {
+        lit += static_cast<double>(cell.lit);
+        blocked += static_cast<double>(cell.blocked);
+        for (const analysis::KindOfError& kind : cell.errors) {
             (kind.is_false_lit ? false_lit : false_shadow) += static_cast<double>(kind.pixels);
             amount += kind.amount;
         }
@@ -192,7 +192,7 @@ std::string contradicted_parts(const GateEntry& entry)
 std::string find_contradiction(const GateEntry& entry)
 {
     for (const auto check : {contradicted_total, contradicted_sum, contradicted_amount,
-                             contradicted_rate, contradicted_parts}) {
+                             contradicted_rate, contradicted_cells}) {
         std::string found = check(entry);
         if (!found.empty()) {
             return found;

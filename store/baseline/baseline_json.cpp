@@ -1,8 +1,8 @@
 #include "store/baseline/baseline_json.hpp"
 
-#include "store/baseline/configuration_key.hpp"
+#include "store/baseline/configuration_text.hpp"
 #include "store/json_values.hpp"
-#include "store/run/error_parts_json.hpp"
+#include "store/run/error_cells_json.hpp"
 
 #include <algorithm>
 #include <map>
@@ -47,8 +47,8 @@ Json entry_json(const analysis::GateEntry& entry, const Texts& common)
         metrics[name] = metric_json(name, value);
     }
     json["metrics"] = std::move(metrics);
-    if (!entry.parts.empty()) {
-        json["parts"] = parts_json(entry.parts);
+    if (!entry.cells.empty()) {
+        json["parts"] = cells_json(entry.cells);
     }
     if (!entry.pixels.empty()) {
         json["wrong_pixels"] = entry.pixels;

@@ -1,14 +1,14 @@
 #include "store/baseline/baseline_read.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 #include "store/baseline/baseline_checks.hpp"
 #include "store/baseline/baseline_json.hpp"
-#include "store/baseline/configuration_key.hpp"
+#include "store/baseline/configuration_text.hpp"
 #include "store/baseline/pixel_mask.hpp"
 #include "store/json_values.hpp"
-#include "store/run/error_parts_json.hpp"
+#include "store/run/error_cells_json.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ namespace {
 using BaselineTexts = std::map<std::string, std::string>;
 
 constexpr const char* baseline_advice = "save it anew with `gnomon baseline save`";
-/// Of a baseline: the counts of parts are 7 deep.
+/// Of a baseline: the counts of cells are 7 deep.
 constexpr int deepest_json = 8;
 /// Every integer up to here is a double.
 constexpr double largest_exact_count = 9007199254740992.0;
@@ -218,7 +218,7 @@ private:
     {
         if (json.contains("parts")) {
             try {
-                entry.parts = parts_from_json(json["parts"], place + ".parts");
+                entry.cells = cells_from_json(json["parts"], place + ".parts");
             } catch (const scene::InputError& error) {
                 throw scene::InputError(
                     fmt::format("{}: {}; {}", name_, error.what(), baseline_advice));

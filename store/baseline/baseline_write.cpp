@@ -1,7 +1,7 @@
 #include "store/baseline/baseline_write.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/baseline/baseline_json.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"
 #include "store/baseline/pixel_mask.hpp"

@@ -2,10 +2,10 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
-#include "store/baseline/configuration_key.hpp"
+#include "scene/one_line.hpp"
+#include "store/baseline/configuration_text.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"
-#include "store/run/error_parts_json.hpp"
+#include "store/run/error_cells_json.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_commands.hpp"
 #include "store/run/run_reader.hpp"
@@ -63,7 +63,7 @@ class EntryCompleter {
 public:
     EntryCompleter(const RunReader& run, const std::vector<analysis::CurvePointMetric>& points)
         : points_{&points},
-          find_parts_{run.database(), "SELECT errors_by_part FROM configurations WHERE id = ?"},
+          find_cells_{run.database(), "SELECT errors_by_part FROM configurations WHERE id = ?"},
           find_errors_{run.database(), "SELECT min(\"map_error_m.min\"), max(\"map_error_m.max\")"
                                        " FROM error_vs_z WHERE curve = ?"},
           find_point_{run.database(),
@@ -75,7 +75,7 @@ public:
 
     void complete(analysis::GateEntry& entry, const ResultRow& row)
     {
-        add_parts(entry, row.text("id"));
+        add_cells(entry, row.text("id"));
         const std::string curve = row.text("curve");
         auto& known = metrics_[curve];
         if (known.empty()) {
@@ -86,14 +86,14 @@ public:
     }
 
 private:
-    void add_parts(analysis::GateEntry& entry, const std::string& id)
+    void add_cells(analysis::GateEntry& entry, const std::string& id)
     {
-        find_parts_.bind(1, std::string_view{id});
-        if (find_parts_.step() && !find_parts_.is_null(0)) {
+        find_cells_.bind(1, std::string_view{id});
+        if (find_cells_.step() && !find_cells_.is_null(0)) {
             const std::string place = fmt::format("errors_by_part of {}", id);
-            entry.parts = parts_from_json(Json::parse(find_parts_.text(0), nullptr, false), place);
+            entry.cells = cells_from_json(Json::parse(find_cells_.text(0), nullptr, false), place);
         }
-        find_parts_.reset();
+        find_cells_.reset();
     }
 
     void add_errors(std::map<std::string, double>& metrics, const std::string& curve)
@@ -126,7 +126,7 @@ private:
     }
 
     const std::vector<analysis::CurvePointMetric>* points_;
-    sqlite::Statement find_parts_;
+    sqlite::Statement find_cells_;
     sqlite::Statement find_errors_;
     sqlite::Statement find_point_;
     std::map<std::string, std::map<std::string, double>> metrics_; ///< by curve

@@ -3,7 +3,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 #include "store/baseline/baseline_read.hpp"
 #include "store/images/image_encoding.hpp"

@@ -1,7 +1,7 @@
 #include "store/case/case_image_file.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

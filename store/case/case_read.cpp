@@ -1,7 +1,7 @@
 #include "store/case/case_read.hpp"
 
 #include "scene/job/file.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "scene/triangles.hpp"
 #include "store/case/case_image_file.hpp"
 

@@ -3,6 +3,7 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/case/mesh_glb.hpp"
 #include "store/exr/facing_normal.hpp"
 #include "store/exr/header.hpp"

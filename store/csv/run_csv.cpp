@@ -2,6 +2,7 @@
 
 #include "store/csv/csv_text.hpp"
 #include "store/output_file.hpp"
+#include "store/run/results_columns.hpp"
 #include "store/run/run_schema.hpp"
 
 #include <fmt/format.h>

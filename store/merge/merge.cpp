@@ -1,7 +1,7 @@
 #include "store/merge/merge.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/merge/merge_sql.hpp"
 #include "store/run/run_plan.hpp"

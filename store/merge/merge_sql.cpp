@@ -42,7 +42,7 @@ Names result_names()
 {
     Names names;
     append_names(names, result_columns());
-    append_names(names, part_columns());
+    append_names(names, cell_columns());
     return names;
 }
 
@@ -179,7 +179,7 @@ std::string new_configurations()
     Names names{"id", "status", "message", "may_pass"};
     append_names(names, configuration_key_columns());
     append_names(names, result_columns());
-    append_names(names, part_columns());
+    append_names(names, cell_columns());
     return fmt::format("INSERT INTO main.configurations (curve, environment, {})"
                        " SELECT (SELECT m.number FROM input.curves v JOIN main.curves m"
                        " ON m.id = v.id WHERE v.number = i.curve), {}, {}"
@@ -192,7 +192,7 @@ std::string better_configurations()
 {
     Names names{"status", "message", "may_pass"};
     append_names(names, result_columns());
-    append_names(names, part_columns());
+    append_names(names, cell_columns());
     return fmt::format("UPDATE main.configurations AS m SET environment = {}, {}"
                        " FROM input.configurations i WHERE i.id = m.id AND {}"
                        " AND ((m.status <> 'done' AND i.status = 'done')"

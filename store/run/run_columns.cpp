@@ -1,11 +1,11 @@
 #include "store/run/run_columns.hpp"
 
 #include "analysis/metrics/metric_table.hpp"
-#include "analysis/metrics/part_table.hpp"
+#include "analysis/metrics/subset_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/job/toml.hpp"
-#include "store/run/error_parts_json.hpp"
+#include "store/run/error_cells_json.hpp"
 
 #include <fmt/format.h>
 
@@ -192,11 +192,11 @@ const ResultColumns& result_columns()
     return columns;
 }
 
-const ResultColumns& part_columns()
+const ResultColumns& cell_columns()
 {
     static const ResultColumns columns{
         {"errors_by_part", text_type, [](const ConfigurationResult& result) {
-             return result.parts.empty() ? Value{} : Value{parts_json(result.parts).dump()};
+             return result.cells.empty() ? Value{} : Value{cells_json(result.cells).dump()};
          }}};
     return columns;
 }
@@ -212,7 +212,7 @@ const std::vector<RunColumn<CurveSample>>& point_columns()
     static const std::vector<RunColumn<CurveSample>> columns = [] {
         std::vector<RunColumn<CurveSample>> all{
             {"bias", real_type, [](const CurveSample& at) { return Value{double{at.bias}}; }}};
-        for (const analysis::PartQuantity& quantity : analysis::part_errors()) {
+        for (const analysis::SubsetQuantity& quantity : analysis::subset_errors()) {
             all.push_back({std::string{quantity.name}, type_of(quantity.type),
                            [value = quantity.value](const CurveSample& at) {
                                return cell(value(at.counts));
@@ -229,7 +229,7 @@ const std::vector<RunColumn<ErrorBin>>& bin_columns()
         std::vector<RunColumn<ErrorBin>> all{
             {"lower_m", real_type, [](const ErrorBin& bin) { return number(bin.lower); }},
             {"upper_m", real_type, [](const ErrorBin& bin) { return number(bin.upper); }}};
-        for (const analysis::PartQuantity& quantity : analysis::part_quantities()) {
+        for (const analysis::SubsetQuantity& quantity : analysis::subset_quantities()) {
             all.push_back({std::string{quantity.name}, type_of(quantity.type),
                            [value = quantity.value](const ErrorBin& bin) {
                                return cell(value(bin.counts));

@@ -40,7 +40,7 @@ struct JobColumn {
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& map_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& result_columns();
 /// Of the database alone: no CSV file has them.
-[[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& part_columns();
+[[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& cell_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& bias_curve_columns();
 /// Points of bias curves, and bins of light distance.
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveSample>>& point_columns();

@@ -1,7 +1,7 @@
 #include "store/run/run_plan.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/json_values.hpp"
 #include "store/run/planned_scenes.hpp"
 #include "store/run/run_columns.hpp"

@@ -1,7 +1,7 @@
 #include "store/run/run_reader.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_schema.hpp"

@@ -1,6 +1,6 @@
 #include "store/run/run_recorder.hpp"
 
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "scene/pixel_class.hpp"
 #include "store/run/run_columns.hpp"
 
@@ -47,7 +47,7 @@ std::string configuration_update()
     return fmt::format("UPDATE configurations SET status = 'done', message = NULL, may_pass = NULL,"
                        " environment = ?{}{} WHERE curve = ?"
                        " AND number = (SELECT configuration FROM plan WHERE ordinal = ?)",
-                       assignments(result_columns()), assignments(part_columns()));
+                       assignments(result_columns()), assignments(cell_columns()));
 }
 
 /// A row of a table: so many values of its own, and its columns.
@@ -195,7 +195,7 @@ void RunRecorder::write_row(const FinishedCurve::Row& row, std::int64_t curve,
 {
     update_configuration_.bind(1, environment);
     const int parts = bind_columns(update_configuration_, 2, result_columns(), row.result);
-    const int next = bind_columns(update_configuration_, parts, part_columns(), row.result);
+    const int next = bind_columns(update_configuration_, parts, cell_columns(), row.result);
     update_configuration_.bind(next, curve)
         .bind(next + 1, static_cast<std::int64_t>(row.ordinal))
         .run();

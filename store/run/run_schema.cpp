@@ -1,9 +1,10 @@
 #include "store/run/run_schema.hpp"
 
-#include "analysis/metrics/part_table.hpp"
+#include "analysis/metrics/subset_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep_space.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
+#include "store/run/results_columns.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
@@ -76,7 +77,7 @@ std::string configurations_table()
                        " environment INTEGER REFERENCES environments, status TEXT NOT NULL,"
                        " message TEXT, may_pass INTEGER{}{}{})",
                        definitions(configuration_key_columns()), definitions(result_columns()),
-                       definitions(part_columns()));
+                       definitions(cell_columns()));
 }
 
 std::string bins_table()
@@ -121,7 +122,7 @@ std::string sum_of(std::span<const std::string_view> names, std::string_view tab
 std::string rates(std::string_view errors, std::string_view pixels)
 {
     std::string columns;
-    for (const analysis::PartRate& rate : analysis::part_rates()) {
+    for (const analysis::SubsetRate& rate : analysis::subset_rates()) {
         columns += fmt::format(", CAST({} AS REAL) / nullif({}, 0) AS {}",
                                sum_of(rate.errors, errors), sum_of(rate.pixels, pixels), rate.name);
     }
@@ -129,39 +130,6 @@ std::string rates(std::string_view errors, std::string_view pixels)
 }
 
 } // namespace
-
-std::vector<ResultsColumn> results_columns()
-{
-    using Of = ResultsColumn::Of;
-    std::vector<ResultsColumn> all{{"schema", fmt::format("{}", run_schema), Of::curve},
-                                   {"ordinal", "p.ordinal", Of::configuration},
-                                   {"id", "c.id", Of::configuration},
-                                   {"curve", "k.id", Of::curve},
-                                   {"case", "p.\"case\"", Of::configuration},
-                                   {"status", "c.status", Of::configuration},
-                                   {"message", "c.message", Of::configuration},
-                                   {"scene_hash", "k.scene_hash", Of::curve}};
-    const auto add = [&](const auto& columns, std::string_view table, Of of) {
-        for (const auto& column : columns) {
-            all.push_back({column.name, fmt::format("{}.{}", table, sql_name(column.name)), of});
-        }
-    };
-    for (const JobColumn& column : job_columns()) {
-        const bool is_own = is_configuration_key(column.name);
-        add(std::array{column}, is_own ? "c" : "k", is_own ? Of::configuration : Of::curve);
-    }
-    add(map_columns(), "v", Of::curve);
-    add(result_columns(), "c", Of::configuration);
-    add(bias_curve_columns(), "v", Of::curve);
-    return all;
-}
-
-std::string results_tables()
-{
-    return "part p CROSS JOIN configurations c ON c.number = p.configuration"
-           " JOIN curves k ON k.number = c.curve"
-           " LEFT JOIN curves v ON v.number = c.curve AND c.status = 'done'";
-}
 
 std::string error_vs_z_columns()
 {

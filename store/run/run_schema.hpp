@@ -15,23 +15,6 @@ inline constexpr int run_schema = 2;
 /// The database of a run, in its folder.
 [[nodiscard]] std::filesystem::path results_path(const std::filesystem::path& folder);
 
-/// A column of the view `results`, which is `results.csv`'s.
-struct ResultsColumn {
-    /// What its value is the same for.
-    enum class Of : std::uint8_t {
-        configuration,
-        curve, ///< its configurations of the same status
-    };
-
-    std::string name;
-    std::string expression; ///< over `results_tables()`
-    Of of;
-};
-[[nodiscard]] std::vector<ResultsColumn> results_columns();
-/// What they are selected from: `part` p, `configurations` c, the curve k that a configuration
-/// belongs to, and the same v if the configuration is done.
-[[nodiscard]] std::string results_tables();
-
 /// What the view `error_vs_z` selects, the columns of the CSV file and FROM `curve_bins b`: between
 /// SELECT and a WHERE.
 [[nodiscard]] std::string error_vs_z_columns();

@@ -1,7 +1,7 @@
 #include "store/run/run_status.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/shell_text.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "store/run/run_store.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_plan.hpp"
@@ -65,8 +65,8 @@ std::vector<std::uint64_t> integers(Statement find)
 } // namespace
 
 /// The database, and what is kept of it between calls.
-struct RunStore::Parts {
-    Parts(const std::filesystem::path& run, Access access)
+struct RunStore::State {
+    State(const std::filesystem::path& run, Access access)
         : folder{run},
           database{results_path(run),
                    access == Access::write ? Database::Access::write : Database::Access::read}
@@ -90,15 +90,15 @@ RunStore::RunStore(const std::filesystem::path& folder, Access access)
     if (access != Access::write) {
         require_results(folder);
     }
-    parts_ = std::make_unique<Parts>(folder, access);
+    state_ = std::make_unique<State>(folder, access);
     if (access == Access::write) {
-        prepare_run(parts_->database);
+        prepare_run(state_->database);
     } else if (access == Access::read_older) {
-        parts_->schema = prepare_reading(parts_->database);
+        state_->schema = prepare_reading(state_->database);
     } else {
-        require_run_schema(parts_->database);
+        require_run_schema(state_->database);
     }
-    parts_->environment = environment_number(parts_->database);
+    state_->environment = environment_number(state_->database);
 }
 
 RunStore::RunStore(RunStore&&) noexcept = default;
@@ -119,29 +119,29 @@ PlanOutcome RunStore::plan(const RunDescription& description, const ShowConfigur
                            Environments environments, OtherScenes other_scenes)
 {
     const PlanOutcome outcome =
-        write_plan(parts_->database, description, show, environments, other_scenes);
-    parts_->environment = environment_number(parts_->database);
+        write_plan(state_->database, description, show, environments, other_scenes);
+    state_->environment = environment_number(state_->database);
     return outcome;
 }
 
 const RunSchema& RunStore::schema() const
 {
-    return parts_->schema;
+    return state_->schema;
 }
 
 bool RunStore::has_configurations() const
 {
-    return store::has_configurations(parts_->database);
+    return store::has_configurations(state_->database);
 }
 
 RunDescription RunStore::description() const
 {
-    return read_description(parts_->database);
+    return read_description(state_->database);
 }
 
 std::vector<std::uint64_t> RunStore::ordinals(RunState state) const
 {
-    Statement find{parts_->database,
+    Statement find{state_->database,
                    "SELECT p.ordinal FROM part p CROSS JOIN configurations c"
                    " ON c.number = p.configuration WHERE c.status = ? ORDER BY p.ordinal"};
     find.bind(1, state_names[static_cast<std::size_t>(state)]);
@@ -155,7 +155,7 @@ std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
     for (const std::string& axis : axes) {
         columns += ", " + sqlite::sql_name(axis);
     }
-    Statement find{parts_->database,
+    Statement find{state_->database,
                    fmt::format("SELECT ordinal, id, \"case\", message{} FROM results"
                                " WHERE status = ? ORDER BY ordinal LIMIT ?",
                                columns)};
@@ -178,12 +178,12 @@ std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
 
 PlanOutcome RunStore::outcome() const
 {
-    return read_outcome(parts_->database);
+    return read_outcome(state_->database);
 }
 
 std::vector<std::uint64_t> RunStore::unverified() const
 {
-    return integers({parts_->database,
+    return integers({state_->database,
                      "SELECT p.ordinal FROM part p CROSS JOIN configurations c"
                      " ON c.number = p.configuration JOIN curves v ON v.number = c.curve"
                      " WHERE c.status = 'done' AND v.bias_source = 'curve'"
@@ -193,7 +193,7 @@ std::vector<std::uint64_t> RunStore::unverified() const
 std::vector<std::uint64_t> RunStore::without_job_bias() const
 {
     // A curve without scored pixels has no bins at any bias.
-    return integers({parts_->database,
+    return integers({state_->database,
                      "SELECT a.first FROM (SELECT c.curve, p.job_bias, min(p.ordinal) AS first"
                      " FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
                      " WHERE c.status = 'done' GROUP BY c.curve, p.job_bias) a"
@@ -204,7 +204,7 @@ std::vector<std::uint64_t> RunStore::without_job_bias() const
 
 std::vector<std::uint64_t> RunStore::repeated() const
 {
-    return integers({parts_->database,
+    return integers({state_->database,
                      "SELECT ordinal FROM (SELECT ordinal, row_number() OVER"
                      " (PARTITION BY configuration, job_bias ORDER BY ordinal) AS place FROM part)"
                      " WHERE place > 1 ORDER BY ordinal"});
@@ -212,13 +212,13 @@ std::vector<std::uint64_t> RunStore::repeated() const
 
 RunChecks RunStore::checks() const
 {
-    return read_run_checks(parts_->database);
+    return read_run_checks(state_->database);
 }
 
 std::uint64_t RunStore::reset_failed()
 {
     const std::uint64_t count = ordinals(RunState::failed).size();
-    parts_->database.run("UPDATE configurations SET status = 'planned', message = NULL,"
+    state_->database.run("UPDATE configurations SET status = 'planned', message = NULL,"
                          " may_pass = NULL"
                          " WHERE status = 'failed'"
                          " AND number IN (SELECT configuration FROM part)");
@@ -227,25 +227,25 @@ std::uint64_t RunStore::reset_failed()
 
 void RunStore::record(const analysis::FinishedCurve& curve)
 {
-    parts_->recorder().record(curve, parts_->environment);
+    state_->recorder().record(curve, state_->environment);
 }
 
 void RunStore::record_failure(std::span<const std::uint64_t> ordinals, const std::string& message,
                               analysis::Retry retry)
 {
-    parts_->recorder().record_failure(ordinals, message, retry);
+    state_->recorder().record_failure(ordinals, message, retry);
 }
 
 std::uint64_t RunStore::retriable() const
 {
-    return static_cast<std::uint64_t>(parts_->database.integer(
+    return static_cast<std::uint64_t>(state_->database.integer(
         "SELECT count(*) FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
         " WHERE c.status = 'failed' AND c.may_pass"));
 }
 
 void RunStore::write_csv() const
 {
-    write_run_csv(parts_->database, parts_->folder);
+    write_run_csv(state_->database, state_->folder);
 }
 
 } // namespace gnomon::store

@@ -122,8 +122,7 @@ public:
     ///                        whose `shard` is not the description's are other parts': recorded,
     ///                        so that `merge` knows the whole, and left out of all else here.
     /// @throws scene::InputError  if it holds results of another environment and several are not
-    ///                            allowed, or of other scenes alone and those may not be
-    ///                            replaced.
+    ///                            allowed, or of other scenes alone and those may not be replaced.
     /// @throws std::invalid_argument  if an ordinal occurs twice, a key is no job key, or the shard
     ///                                is none.
     PlanOutcome plan(const RunDescription& description,
@@ -189,8 +188,8 @@ public:
     void write_csv() const;
 
 private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace gnomon::store

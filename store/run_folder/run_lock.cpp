@@ -1,7 +1,7 @@
 #include "store/run_folder/run_lock.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 #include "store/run_folder/leftovers.hpp"
 
 #include <fmt/chrono.h>

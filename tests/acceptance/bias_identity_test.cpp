@@ -28,12 +28,12 @@ bool is_full_run()
     return std::getenv("GNOMON_FULL_TESTS") != nullptr;
 }
 
-/// Scenes that between them have both kinds of light, both depth directions, every policy, a normal
-/// offset, and receivers beyond the map.
+/// Scenes that between them have both kinds of light, both depth directions, every border mode, a
+/// normal offset, and receivers beyond the map.
 struct Setting {
     const char* builtin;
     std::vector<scene::Override> keys;
-    bool has_policy_pixels = false; ///< receivers whose verdict no bias changes
+    bool has_border_pixels = false; ///< receivers whose verdict no bias changes
 };
 
 const std::vector<Setting>& settings()
@@ -152,7 +152,7 @@ void expect_amounts(const AmountsByBias& measured, const scene::Image<scene::Pix
     }
 }
 
-/// @return  how many receivers have their verdict from the policy.
+/// @return  how many receivers have their verdict from the border.
 std::size_t expect_identity(GlCase& c, const std::string& label)
 {
     c.draw_all();

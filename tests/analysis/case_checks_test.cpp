@@ -1,6 +1,6 @@
 #include "analysis/evaluate/bias_causes.hpp"
 #include "analysis/evaluate/half_positions.hpp"
-#include "analysis/evaluate/hypotheses.hpp"
+#include "analysis/evaluate/likely_mistakes.hpp"
 #include "analysis/evaluate/mask_check.hpp"
 #include "analysis/evaluate/position_check.hpp"
 #include "analysis/evaluate/shared_position.hpp"
@@ -96,7 +96,7 @@ TEST(BiasCauses, AreWhatTheVerdictWithoutBiasGetsRight)
     layers.mask[1] = 1;
     layers.z_map[1] = 0.6F; // lit without bias too
     layers.mask[2] = 1;
-    layers.z_map[2] = NAN;                  // the policy's word
+    layers.z_map[2] = NAN;                  // the border's word
     truth.pixel_class[3] = PixelClass::lit; // r > d: shadowed without bias too
     truth.pixel_class[4] = PixelClass::lit;
     layers.z_map[4] = 0.5F; // equal: lit without bias

@@ -35,11 +35,11 @@ inline std::string text_of(const std::optional<Quantiles>& value)
                  : "none";
 }
 
-inline std::string text_of(const ErrorPart& part)
+inline std::string text_of(const ErrorCell& cell)
 {
     std::string text =
-        fmt::format("{} {} {} {}", part.object, part.band.place, part.lit, part.blocked);
-    for (const KindOfError& kind : part.errors) {
+        fmt::format("{} {} {} {}", cell.object, cell.band.place, cell.lit, cell.blocked);
+    for (const KindOfError& kind : cell.errors) {
         text += fmt::format(" {}{}{}:{} {}", kind.is_false_lit, static_cast<int>(kind.cause),
                             static_cast<int>(kind.label), kind.pixels, kind.amount);
     }
@@ -49,9 +49,9 @@ inline std::string text_of(const ErrorPart& part)
 /// Everything that a row says; equal texts are equal results, bit by bit.
 inline std::string text_of(const ConfigurationResult& result)
 {
-    std::string parts;
-    for (const ErrorPart& part : result.parts) {
-        parts += text_of(part) + ';';
+    std::string cells;
+    for (const ErrorCell& cell : result.cells) {
+        cells += text_of(cell) + ';';
     }
     const Metrics& metrics = result.metrics;
     return fmt::format(
@@ -61,7 +61,7 @@ inline std::string text_of(const ConfigurationResult& result)
         text_of(metrics.error_rate), text_of(metrics.mean_abs_error),
         result.causes ? fmt::format("{}", result.causes->by_cause) : "none",
         result.causes ? fmt::format("{}", result.causes->by_label) : "none",
-        text_of(result.peter_panning.metres), text_of(result.peter_panning.texels), parts);
+        text_of(result.peter_panning.metres), text_of(result.peter_panning.texels), cells);
 }
 
 inline std::string text_of(const std::vector<ErrorBin>& bins)

@@ -1,4 +1,4 @@
-"""The cause chain and the labels of one pixel, by DESIGN section 4, over exact geometry.
+"""The cause chain and the labels of one pixel, by docs/causes.md, over exact geometry.
 
 A `LightView` knows what every texel's ray sees. A `Lookup` is what GL's lookup of one pixel did. A `Pixel` brings
 them together, and `explain` gives the pixel's cause, label and amounts.

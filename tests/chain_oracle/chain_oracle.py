@@ -5,7 +5,7 @@
 
 Ten small scenes are written to a temporary folder and compared by PROGRAM with N seeded jobs each. Of every scored
 pixel the verdict and the truth are derived again from the exact inputs, of every wrong or partial one the cause and
-the name, and of the job the sums. Nothing is shared with the program: what it stands on is DESIGN, section 4,
+the name, and of the job the sums. Nothing is shared with the program: what it stands on is docs/causes.md
 and docs/truth.md. The job files and images are left in DIR for those who look into a difference.
 
 Exit status: 0 no difference, and every cause and name occurred; 1 otherwise; 77 OpenImageIO or numpy is missing.

@@ -23,8 +23,7 @@ std::string document_text(const std::filesystem::path& file)
     return {std::istreambuf_iterator<char>{stream}, std::istreambuf_iterator<char>{}};
 }
 
-/// Whether a page names the member: by itself, linked or not, or as the path that metrics
-/// have.
+/// Whether a page names the member: by itself, linked or not, or as the path that metrics have.
 bool is_named(const std::string& text, const std::string& name)
 {
     return text.find(" `" + name + "`") != std::string::npos ||

@@ -29,7 +29,7 @@ using analysis::MeasuredDepthError;
 using analysis::TexelClass;
 using scene::ClipRange;
 using scene::DepthFormat;
-using scene::DepthPlaneSettings;
+using scene::MeasuredPlaneSettings;
 using scene::Projection;
 
 DepthFormat format_of(const std::string& name)
@@ -38,17 +38,17 @@ DepthFormat format_of(const std::string& name)
 }
 
 /// The textbook lesson's frustum.
-DepthPlaneSettings seed_planes(int count)
+MeasuredPlaneSettings seed_planes(int count)
 {
-    DepthPlaneSettings settings;
+    MeasuredPlaneSettings settings;
     settings.range = {Projection::perspective, 4, 50, false, {}};
     settings.count = count;
     return settings;
 }
 
-MeasuredDepthError measured(const DepthPlaneSettings& settings, const std::string& format)
+MeasuredDepthError measured(const MeasuredPlaneSettings& settings, const std::string& format)
 {
-    const scene::DepthPlanes planes = scene::make_depth_planes(settings);
+    const scene::MeasuredPlanes planes = scene::make_measured_planes(settings);
     RasterPlanes raster{*tests::shared_context(), planes};
     return analysis::measured_depth_error(DepthMapping{settings.range},
                                           raster.measure(format_of(format)));
@@ -95,7 +95,7 @@ TEST(DepthMeasurement, OfD16IsZeroAtTheDistancesOfItsCodes)
 {
     GNOMON_REQUIRE_GL();
     // The last metre has 44 codes of 8.8 mm: at 2^18 samples, a code every 50 or so.
-    DepthPlaneSettings settings = seed_planes(1 << 18);
+    MeasuredPlaneSettings settings = seed_planes(1 << 18);
     const MeasuredDepthError error = measured(settings, "d16");
     const DepthMapping mapping{settings.range};
     const DepthCoding coding = DepthCoding::unorm(16);
@@ -123,7 +123,7 @@ TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
     for (const std::string& format : supported_formats()) {
         for (const double tilt_deg : {0.0, 60.0}) {
             for (const double offset_m : {0.0, 100.0}) {
-                DepthPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 14);
+                MeasuredPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 14);
                 settings.tilt_rad = glm::radians(tilt_deg);
                 settings.offset_m = offset_m;
                 const MeasuredDepthError error = measured(settings, format);
@@ -158,7 +158,7 @@ TEST(DepthMeasurement, LeavesTheDriverModelNowhereNearTheEndsOfDepth)
     GNOMON_REQUIRE_GL();
     for (const scene::DepthRange& range : ranges_near_the_ends_of_depth()) {
         for (const std::string& format : supported_formats()) {
-            DepthPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 12);
+            MeasuredPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 12);
             settings.range = range;
             const MeasuredDepthError error = measured(settings, format);
             const auto where =
@@ -175,7 +175,7 @@ TEST(DepthMeasurement, LeavesOutTexelsThatFloat32MovedAnotherPlaneOver)
 {
     GNOMON_REQUIRE_GL();
     // At 100 m float32 moves corners by 4e-6 m, some 15 texels of 4 at the near plane.
-    DepthPlaneSettings settings;
+    MeasuredPlaneSettings settings;
     settings.range = {Projection::perspective, 1e-3, 10, false, ClipRange::zero_to_one};
     settings.count = 2048;
     settings.tilt_rad = glm::radians(80.0);
@@ -199,9 +199,9 @@ TEST(DepthMeasurement, Of32BitsOnLlvmpipeIsADoubledSignedInteger)
     }
     std::size_t below_gl = 0;
     for (const scene::DepthRange& range : ranges_near_the_ends_of_depth()) {
-        DepthPlaneSettings settings = seed_planes(1 << 12);
+        MeasuredPlaneSettings settings = seed_planes(1 << 12);
         settings.range = range;
-        const scene::DepthPlanes planes = scene::make_depth_planes(settings);
+        const scene::MeasuredPlanes planes = scene::make_measured_planes(settings);
         RasterPlanes raster{*tests::shared_context(), planes};
         const auto integers = raster.measure(format_of("d32")).samples;
         const auto floats = raster.measure(format_of("d32f")).samples;
@@ -224,7 +224,7 @@ TEST(DepthMeasurement, TransformsErrorStaysBelowTheTheorysBound)
     GNOMON_REQUIRE_GL();
     for (const bool reversed : {false, true}) {
         for (const double offset_m : {0.0, 100.0, 500.0}) {
-            DepthPlaneSettings settings;
+            MeasuredPlaneSettings settings;
             settings.range = {Projection::perspective, 0.1, 100, reversed,
                               reversed ? ClipRange::zero_to_one : ClipRange::minus_one_to_one};
             settings.count = 1 << 13;
@@ -250,7 +250,7 @@ TEST(DepthMeasurement, WorksReversedAndInEitherClipRange)
         for (const bool reversed : {false, true}) {
             for (const auto clip : {ClipRange::minus_one_to_one, ClipRange::zero_to_one}) {
                 for (const char* format : {"d16", "d32f", "u12"}) {
-                    DepthPlaneSettings settings = seed_planes(1 << 12);
+                    MeasuredPlaneSettings settings = seed_planes(1 << 12);
                     settings.range = {projection, 4, 50, reversed, clip};
                     const MeasuredDepthError error = measured(settings, format);
                     const auto where = fmt::format(
@@ -269,7 +269,7 @@ TEST(DepthMeasurement, WorksReversedAndInEitherClipRange)
 TEST(DepthMeasurement, OfReversedFloatStaysBelowFarTimesTwoToMinus26AndTheTransformsError)
 {
     GNOMON_REQUIRE_GL();
-    DepthPlaneSettings settings = seed_planes(1 << 18);
+    MeasuredPlaneSettings settings = seed_planes(1 << 18);
     settings.range = {Projection::perspective, 4, 50, true, ClipRange::zero_to_one};
     const MeasuredDepthError error = measured(settings, "d32f");
     for (const DepthErrorRow& row : error.rows) {
@@ -291,7 +291,7 @@ TEST(DepthMeasurement, OfReversedFloatStaysBelowFarTimesTwoToMinus26AndTheTransf
 TEST(DepthMeasurement, OfAnOrthographicD16SpreadsEvenlyOverACode)
 {
     GNOMON_REQUIRE_GL();
-    DepthPlaneSettings settings = seed_planes(1 << 16);
+    MeasuredPlaneSettings settings = seed_planes(1 << 16);
     settings.range.projection = Projection::orthographic;
     const MeasuredDepthError error = measured(settings, "d16");
     const double step_m = 46.0 / 65535;
@@ -311,7 +311,7 @@ TEST(DepthMeasurement, AnswersOfThePlanHold)
                 if (!answer.near_m) {
                     continue;
                 }
-                DepthPlaneSettings settings;
+                MeasuredPlaneSettings settings;
                 settings.range = answer.format.range(projection, *answer.near_m, 200);
                 settings.count = 1 << 14;
                 const MeasuredDepthError error = measured(settings, answer.format.name);

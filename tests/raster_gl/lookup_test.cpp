@@ -50,13 +50,13 @@ public:
         const scene::Bias& bias = c_.view.bias;
         const float b = bias.constant + bias.slope * tan_theta;
         const bool clamp = c_.job.lookup.outside == scene::Outside::clamp;
-        const float policy = c_.job.lookup.outside == scene::Outside::shadowed ? 0.0F : 1.0F;
+        const float border = c_.job.lookup.outside == scene::Outside::shadowed ? 0.0F : 1.0F;
         const bool beyond_far = c_.map->reversed ? !(result.r >= 0) : !(result.r <= 1);
         result.d = std::numeric_limits<float>::quiet_NaN();
         if (clamp) {
             result.r = std::min(std::max(result.r, 0.0F), 1.0F);
         } else if (beyond_far || !(w > 0)) {
-            result.verdict = policy;
+            result.verdict = border;
             return;
         }
         float lit = 0;
@@ -68,7 +68,7 @@ public:
                     result.d = d;
                 }
                 const bool tap_lit = c_.map->reversed ? result.r + b >= d : result.r - b <= d;
-                lit += std::isnan(d) ? policy : (tap_lit ? 1.0F : 0.0F);
+                lit += std::isnan(d) ? border : (tap_lit ? 1.0F : 0.0F);
             }
         }
         const int width = 2 * half_ + 1;
@@ -199,11 +199,11 @@ TEST(Lookup, AnswersThePolicyBeyondTheMap)
         GlCase c{"wall", small_map(outside)};
         c.draw_all();
         EXPECT_GT(expect_agreement(c, outside), 20000U);
-        int decided_by_policy = 0;
+        int decided_by_border = 0;
         for (const scene::LookupSample& sample : c.lookup_pass.read().samples) {
-            decided_by_policy += std::isnan(sample.map_depth) ? 1 : 0;
+            decided_by_border += std::isnan(sample.map_depth) ? 1 : 0;
         }
-        EXPECT_EQ(decided_by_policy > 0, std::string{outside} != "clamp") << outside;
+        EXPECT_EQ(decided_by_border > 0, std::string{outside} != "clamp") << outside;
     }
 }
 

@@ -16,8 +16,7 @@
 /// shows at a pixel centre lies up to `shift` pixels beside it: r is compared with the range of the
 /// exact depth over that neighbourhood. Light clip coordinates are transformed in float32 too
 /// (`transform`). Each coordinate c is interpolated as (c/w)/(1/w), two planes with the driver
-/// bound
-/// (`interpolation`). Division, ½z + ½ round at last.
+/// bound (`interpolation`). Division, ½z + ½ round at last.
 namespace gnomon::raster_gl {
 namespace {
 

@@ -156,18 +156,19 @@ TEST(GateRuleFile, ReadsWhichPixelsAreMeant)
     EXPECT_EQ(all.pixels.object, "wall");
     EXPECT_EQ(all.pixels.cause, analysis::Cause::bias);
     EXPECT_EQ(all.pixels.label, analysis::Label::peter_panning);
-    EXPECT_EQ(all.pixels.bands, (analysis::ZetaBands{analysis::light_distance_band_of(4),
-                                                     analysis::light_distance_band_of(8)}));
+    EXPECT_EQ(all.pixels.bands,
+              (analysis::LightDistanceBands{analysis::light_distance_band_of(4),
+                                            analysis::light_distance_band_of(8)}));
     EXPECT_TRUE(all.where.empty());
     EXPECT_TRUE(rule("wrong_pixels", "object = \"*\"").each_object);
     EXPECT_EQ(rule("wrong_pixels", "camera.eye = [3, 4.5, -7]").where.at("camera.eye"),
               "[3, 4.5, -7]");
     EXPECT_TRUE(rule("wrong_pixels", "zeta_band = \"*\"").each_band);
     EXPECT_EQ(rule("new_pixels", "zeta_band = [0, inf]").pixels.bands,
-              (analysis::ZetaBands{{0}, {analysis::ZetaBand::highest}}));
-    EXPECT_EQ(
-        rule("new_pixels", "zeta_band = [-inf, -0.5]").pixels.bands,
-        (analysis::ZetaBands{{analysis::ZetaBand::lowest}, analysis::light_distance_band_of(-1)}));
+              (analysis::LightDistanceBands{{0}, {analysis::LightDistanceBand::highest}}));
+    EXPECT_EQ(rule("new_pixels", "zeta_band = [-inf, -0.5]").pixels.bands,
+              (analysis::LightDistanceBands{{analysis::LightDistanceBand::lowest},
+                                            analysis::light_distance_band_of(-1)}));
 }
 
 TEST(GateRuleFile, RefusesPixelsThatCannotBeMeant)

@@ -1,4 +1,4 @@
-#include "scene/view/nearby.hpp"
+#include "scene/view/nearby_cameras.hpp"
 
 #include "scene/error.hpp"
 

@@ -7,7 +7,7 @@
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/pixel_mask.hpp"
 #include "store/images/image_encoding.hpp"
-#include "store/run/error_parts_json.hpp"
+#include "store/run/error_cells_json.hpp"
 
 #include "example_comparison.hpp"
 #include "example_run.hpp"
@@ -33,7 +33,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<analysis::ErrorPart> example_parts{
+const std::vector<analysis::ErrorCell> example_cells{
     {"a \"wall\"\n", analysis::light_distance_band_of(0.2F), 9, 0, {}},
     {"floor",
      analysis::light_distance_band_of(-5),
@@ -48,26 +48,27 @@ const std::vector<analysis::ErrorPart> example_parts{
       {false, analysis::Cause::filter, analysis::Label::edge, 0, 2.5},
       {true, analysis::Cause::coverage, analysis::Label::leak, 1, 1}}}};
 
-TEST(ErrorParts, ReadBackAsTheyWereWritten)
+TEST(ErrorCells, ReadBackAsTheyWereWritten)
 {
-    const Json json = Json::parse(parts_json(example_parts).dump());
-    EXPECT_EQ(parts_from_json(json, "parts"), example_parts);
+    const Json json = Json::parse(cells_json(example_cells).dump());
+    EXPECT_EQ(cells_from_json(json, "parts"), example_cells);
     const Json& floor = json.at("floor");
     EXPECT_EQ(floor.at("[4, 8)").at("false_lit.coverage.leak"), 1);
     EXPECT_FALSE(floor.at("[4, 8)").contains("light_amount.coverage.leak")) << "whole pixels";
     EXPECT_EQ(floor.at("[4, 8)").at("shadow_amount.filter.edge"), 2.5);
     EXPECT_FALSE(floor.at("[4, 8)").contains("false_shadow.filter.edge")) << "none is wrong";
     EXPECT_EQ(floor.at("[-8, -4)").at("shadow_amount.bias.overshadow"), 0.75);
-    for (int place = analysis::ZetaBand::lowest; place <= analysis::ZetaBand::highest; ++place) {
-        EXPECT_EQ(band_from_text(band_text({place})), analysis::ZetaBand{place}) << place;
+    for (int place = analysis::LightDistanceBand::lowest;
+         place <= analysis::LightDistanceBand::highest; ++place) {
+        EXPECT_EQ(band_from_text(band_text({place})), analysis::LightDistanceBand{place}) << place;
     }
 }
 
-TEST(ErrorParts, RefuseWhatTheyAreNot)
+TEST(ErrorCells, RefuseWhatTheyAreNot)
 {
     const auto refusal = [](const std::string& text) {
         try {
-            (void)parts_from_json(Json::parse(text), "parts");
+            (void)cells_from_json(Json::parse(text), "parts");
         } catch (const scene::InputError& error) {
             return std::string{error.what()};
         }
@@ -195,7 +196,7 @@ TEST(DamagedMasks, AreRefusedOrHoldTheSamePixels)
     });
 }
 
-/// Those of `example_parts`.
+/// Those of `example_cells`.
 const std::map<std::string, double> example_metrics{{"pixels.total", 921'600},
                                                     {"pixels.lit", 102},
                                                     {"pixels.blocked", 12},
@@ -238,7 +239,7 @@ analysis::GateEntries example_entries()
     const TemporaryFolder folder;
     ExampleRun{1, 2}.compute(folder / "run");
     analysis::GateEntries entries = read_gate_run(folder / "run").results;
-    entries.entries[0].parts = example_parts;
+    entries.entries[0].cells = example_cells;
     entries.entries[0].metrics = example_metrics;
     entries.entries[0].pixels = "0123456789abcdef";
     return entries;
@@ -303,11 +304,11 @@ rel = 0.5
     });
 }
 
-TEST(Baseline, HoldsPartsAndTheMasksNames)
+TEST(Baseline, HoldsCellsAndTheMasksNames)
 {
     const analysis::GateEntries entries = example_entries();
     const analysis::GateEntries back = parse_baseline(baseline_json(entries), "b.json");
-    EXPECT_EQ(back.entries[0].parts, example_parts);
+    EXPECT_EQ(back.entries[0].cells, example_cells);
     EXPECT_EQ(back.entries[0].pixels, "0123456789abcdef");
     EXPECT_TRUE(back.entries[1].pixels.empty());
     Json json = Json::parse(baseline_json(entries));

@@ -160,8 +160,8 @@ Subject random_subject(std::mt19937& random)
                                                 PixelClass::attached, PixelClass::background};
     for (std::size_t i = 0; i < subject.classes.pixel_count(); ++i) {
         subject.classes[i] = classes.at(random() % 5 == 0 ? random() % 4 : random() % 2);
-        const bool is_policy = subject.rule.outside != Outside::clamp && random() % 8 == 0;
-        subject.deciding.samples[i] = {random_depth(random), is_policy ? nan : random_depth(random),
+        const bool is_border = subject.rule.outside != Outside::clamp && random() % 8 == 0;
+        subject.deciding.samples[i] = {random_depth(random), is_border ? nan : random_depth(random),
                                        static_cast<float>(random() % 5) * 0.75F, 0};
         if (random() % 10 == 0) {
             // Depths that round.

@@ -1,7 +1,7 @@
 #include "analysis/gate/baseline_update.hpp"
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/gate/new_pixels.hpp"
-#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/error_cells.hpp"
 
 #include "gate_case.hpp"
 
@@ -15,7 +15,7 @@
 namespace gnomon::analysis {
 namespace {
 
-const std::vector<ErrorPart> two_objects{
+const std::vector<ErrorCell> two_objects{
     {"floor", light_distance_band_of(4), 90, 10, {{false, Cause::resolution, Label::acne, 7, 6.5}}},
     {"floor", light_distance_band_of(8), 50, 0, {}},
     {"wall",
@@ -32,9 +32,9 @@ PixelFilter of_object(const std::string& name)
     return filter;
 }
 
-TEST(ZetaBands, AreTheOctavesOfTheDistance)
+TEST(LightDistanceBands, AreTheOctavesOfTheDistance)
 {
-    const ZetaBand band = light_distance_band_of(4);
+    const LightDistanceBand band = light_distance_band_of(4);
     EXPECT_EQ(band.lower_m(), 4);
     EXPECT_EQ(band.upper_m(), 8);
     EXPECT_EQ(light_distance_band_of(std::nextafter(8.0F, 0.0F)), band);
@@ -44,20 +44,20 @@ TEST(ZetaBands, AreTheOctavesOfTheDistance)
     EXPECT_EQ(light_distance_band_of(std::nextafter(-4.0F, -5.0F)).lower_m(), -8);
 }
 
-TEST(ZetaBands, HoldAllDistances)
+TEST(LightDistanceBands, HoldAllDistances)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    EXPECT_EQ(light_distance_band_of(-infinity).place, ZetaBand::lowest);
-    EXPECT_EQ(light_distance_band_of(infinity).place, ZetaBand::highest);
+    EXPECT_EQ(light_distance_band_of(-infinity).place, LightDistanceBand::lowest);
+    EXPECT_EQ(light_distance_band_of(infinity).place, LightDistanceBand::highest);
     EXPECT_EQ(light_distance_band_of(0).place, 0);
     EXPECT_EQ(light_distance_band_of(-0.0F).place, 0);
     EXPECT_EQ(light_distance_band_of(-std::numeric_limits<float>::denorm_min()).place, -1);
-    for (int place = ZetaBand::lowest; place <= ZetaBand::highest; ++place) {
-        const auto lower_m = static_cast<float>(ZetaBand{place}.lower_m());
-        const auto upper_m = static_cast<float>(ZetaBand{place}.upper_m());
+    for (int place = LightDistanceBand::lowest; place <= LightDistanceBand::highest; ++place) {
+        const auto lower_m = static_cast<float>(LightDistanceBand{place}.lower_m());
+        const auto upper_m = static_cast<float>(LightDistanceBand{place}.upper_m());
         EXPECT_EQ(light_distance_band_of(lower_m).place, place);
         EXPECT_EQ(light_distance_band_of(std::nextafter(upper_m, -infinity)).place, place);
-        EXPECT_EQ(upper_m, ZetaBand{place + 1}.lower_m());
+        EXPECT_EQ(upper_m, LightDistanceBand{place + 1}.lower_m());
     }
 }
 
@@ -74,7 +74,7 @@ TEST(PixelFilters, CountTheirPixels)
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", filter), 0);
     EXPECT_EQ(metric_of_pixels(two_objects, "causes.bias", filter), 0);
     PixelFilter bands;
-    bands.bands = ZetaBands{light_distance_band_of(4), light_distance_band_of(4)};
+    bands.bands = LightDistanceBands{light_distance_band_of(4), light_distance_band_of(4)};
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", bands), 14);
     bands.bands->first = light_distance_band_of(8);
     bands.bands->last = light_distance_band_of(512);
@@ -111,7 +111,7 @@ TEST(PixelFilters, OfNoPixelsHaveNoValue)
 {
     EXPECT_EQ(metric_of_pixels(two_objects, "wrong_pixels", of_object("walls")), std::nullopt);
     PixelFilter far = of_object("floor");
-    far.bands = ZetaBands{light_distance_band_of(8), light_distance_band_of(8)};
+    far.bands = LightDistanceBands{light_distance_band_of(8), light_distance_band_of(8)};
     EXPECT_EQ(metric_of_pixels(two_objects, "false_lit_rate", far), std::nullopt) << "0 / 0";
 }
 
@@ -122,11 +122,11 @@ TEST(EachObject, IsJudgedByItself)
     rule.each_object = true;
     const std::vector<GateRule> rules{rule};
     GateEntry before = gate_entry("1", {{"wrong_pixels", 14}});
-    before.parts = two_objects;
+    before.cells = two_objects;
     GateEntry now = before;
-    now.parts[0].errors[0].pixels = 4; // three fewer
-    now.parts[2].errors[1].pixels = 7; // two more
-    now.parts.push_back({"zebra",
+    now.cells[0].errors[0].pixels = 4; // three fewer
+    now.cells[2].errors[1].pixels = 7; // two more
+    now.cells.push_back({"zebra",
                          light_distance_band_of(4),
                          9,
                          9,
@@ -140,10 +140,10 @@ TEST(EachObject, IsJudgedByItself)
 TEST(EachObject, IsHeldToItsAmountByTheDefaultRules)
 {
     GateEntry before = gate_entry("1", {{"pixels.total", 1000}});
-    before.parts = two_objects;
+    before.cells = two_objects;
     GateEntry now = before;
-    now.parts[0].errors[0].amount -= 1; // as many pixels are wrong, the floor's by less,
-    now.parts[2].errors[1].amount += 1; // the wall's by more: the total is what it was
+    now.cells[0].errors[0].amount -= 1; // as many pixels are wrong, the floor's by less,
+    now.cells[2].errors[1].amount += 1; // the wall's by more: the total is what it was
     const std::vector<GateRule> rules = default_gate_rules();
     const GateOutcome outcome = judge_run(gate_entries({before}), gate_entries({now}), rules);
     ASSERT_EQ(outcome.findings.size(), 1U);
@@ -157,7 +157,7 @@ TEST(AnObjectThatNobodyShows, MatchesNothing)
     rule.max = 0;
     rule.pixels = of_object("walls");
     GateEntry entry = gate_entry("1", {});
-    entry.parts = two_objects;
+    entry.cells = two_objects;
     const GateEntries run = gate_entries({entry});
     const std::vector<GateRule> rules{rule};
     EXPECT_EQ(judge_run(run, run, rules).unmatched_rules, std::vector<std::size_t>{0});
@@ -206,7 +206,7 @@ TEST(NewPixels, CanBeOfOneObjectCauseOrBand)
     filter.cause = Cause::coverage;
     EXPECT_EQ(find_new_pixels(before, now, filter).count, 0U);
     filter.cause = Cause::bias;
-    filter.bands = ZetaBands{light_distance_band_of(4), light_distance_band_of(4)};
+    filter.bands = LightDistanceBands{light_distance_band_of(4), light_distance_band_of(4)};
     EXPECT_EQ(find_new_pixels(before, now, filter).count, 2U);
     EXPECT_TRUE(now.knows(filter));
     now.light_distance_m = {};

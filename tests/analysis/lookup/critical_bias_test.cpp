@@ -243,9 +243,9 @@ TEST(CriticalBiases, MultipliesSlopeAndTangentInFloat32)
 
 TEST(CriticalBiases, AreInfiniteWhereThePolicyDecides)
 {
-    const auto policy = layers_of({{2.0F, std::nanf(""), 0, 1}});
-    EXPECT_EQ(critical_biases(policy, {.outside = scene::Outside::lit})[0], -infinity);
-    EXPECT_EQ(critical_biases(policy, {.outside = scene::Outside::shadowed})[0], infinity);
+    const auto border = layers_of({{2.0F, std::nanf(""), 0, 1}});
+    EXPECT_EQ(critical_biases(border, {.outside = scene::Outside::lit})[0], -infinity);
+    EXPECT_EQ(critical_biases(border, {.outside = scene::Outside::shadowed})[0], infinity);
 }
 
 } // namespace

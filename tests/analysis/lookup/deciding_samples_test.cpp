@@ -67,7 +67,7 @@ TEST(DecidingSamples, CountTapsOutsideByThePolicy)
 TEST(DecidingSamples, ReachIntoTheMapFromOutside)
 {
     Pcf pcf;
-    // The centre (1, -1) is outside; three of nine taps are inside, so the policy has a majority.
+    // The centre (1, -1) is outside; three of nine taps are inside, so the border has a majority.
     EXPECT_TRUE(std::isnan(pcf.deciding(centre_outside, {1.5F, -0.5F})));
     pcf.rule.filter = scene::Filter::pcf5;
     // The centre (2, -1) of 5×5 taps: rows 0 and 1, columns 0 to 3, eight taps of 25.
@@ -128,7 +128,7 @@ TEST(DecidingSamples, AgreeWithCountingLitTaps)
         const scene::Vec2f texel{coordinate(random), coordinate(random)};
         const float r = static_cast<float>(random() % 15) / 14.0F;
         const float bias = static_cast<float>(random() % 9) / 14.0F - 0.25F;
-        // With a map depth that is no NaN, a receiver inside near and far never is the policy's.
+        // With a map depth that is no NaN, a receiver inside near and far never is the border's.
         const scene::Image<scene::Vec2f> texels{{1, 1}, texel};
         const auto decided =
             deciding_samples(layers_of({{r, 0.5F, 0, 0}}), texels, pcf.map, pcf.rule);

@@ -1,6 +1,6 @@
 #include "analysis/metrics/breakdown.hpp"
 
-#include "analysis/metrics/part_table.hpp"
+#include "analysis/metrics/subset_table.hpp"
 #include "scene/infinity.hpp"
 
 #include <gmock/gmock.h>
@@ -121,11 +121,12 @@ TEST(ErrorsByDistance, SplitTheObservedRangeEvenly)
     EXPECT_EQ(bins[0].lower, 2.0);
     EXPECT_EQ(bins[0].upper, 3.0);
     EXPECT_EQ(bins[3].upper, 6.0);
-    EXPECT_EQ(bins[0].counts, (PartCounts{2, 0, 1, 0, 1, 0}));
+    EXPECT_EQ(bins[0].counts, (SubsetCounts{2, 0, 1, 0, 1, 0}));
     EXPECT_EQ(bins[1].counts,
-              (PartCounts{0, 1, 0, 1, 0, 1})); // an edge belongs to the bin above it
-    EXPECT_EQ(bins[2].counts, PartCounts{});
-    EXPECT_EQ(bins[3].counts, (PartCounts{0, 1, 0, 0, 0, 0})); // but the last edge to the last bin
+              (SubsetCounts{0, 1, 0, 1, 0, 1})); // an edge belongs to the bin above it
+    EXPECT_EQ(bins[2].counts, SubsetCounts{});
+    EXPECT_EQ(bins[3].counts,
+              (SubsetCounts{0, 1, 0, 0, 0, 0})); // but the last edge to the last bin
     EXPECT_EQ(bins[0].needed_bias, (Quantiles{2, 0.25F, 0.25F, 0.5F, 0.5F}));
     EXPECT_EQ(bins[0].map_error_m, (Quantiles{1, -0.25F, -0.25F, -0.25F, -0.25F}));
     EXPECT_FALSE(bins[1].needed_bias || bins[1].map_error_m);
@@ -136,7 +137,7 @@ TEST(ErrorsByDistance, NeedNoRange)
     EXPECT_TRUE(Images{{{PixelClass::background}}}.by_distance().empty());
     const auto bins = Images{{{lit}, {lit, 1}}}.by_distance();
     ASSERT_EQ(bins.size(), 1U);
-    EXPECT_EQ(bins[0].counts, (PartCounts{2, 0, 1, 0, 1, 0}));
+    EXPECT_EQ(bins[0].counts, (SubsetCounts{2, 0, 1, 0, 1, 0}));
 }
 
 TEST(ErrorsByDistance, HoldEveryScoredPixelInTheBinOfItsValue)
@@ -172,9 +173,9 @@ TEST(ErrorsByBin, CountAnyBiasByTheCriticalBiases)
     const auto profiles = errors_by_bin(bin_by_distance(images.classes, images.light_distance_m),
                                         images.inputs(), biases);
     ASSERT_EQ(profiles.size(), 3U);
-    EXPECT_EQ(profiles[0][0].counts, (PartCounts{2, 1, 2, 0, 2, 0}));
-    EXPECT_EQ(profiles[1][0].counts, (PartCounts{2, 1, 1, 1, 1, 1}));
-    EXPECT_EQ(profiles[2][0].counts, (PartCounts{2, 1, 0, 1, 0, 1}));
+    EXPECT_EQ(profiles[0][0].counts, (SubsetCounts{2, 1, 2, 0, 2, 0}));
+    EXPECT_EQ(profiles[1][0].counts, (SubsetCounts{2, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(profiles[2][0].counts, (SubsetCounts{2, 1, 0, 1, 0, 1}));
     EXPECT_EQ(profiles[2][0].needed_bias, profiles[0][0].needed_bias);
 }
 
@@ -185,23 +186,23 @@ TEST(ErrorsByBin, AddUpFractions)
     BreakdownInputs inputs = images.inputs();
     inputs.taps = 9;
     EXPECT_EQ(errors_by_bin(binning, inputs)[0].counts,
-              (PartCounts{2, 2, 0, 1, 1.0 / 9, 11.0 / 9}));
+              (SubsetCounts{2, 2, 0, 1, 1.0 / 9, 11.0 / 9}));
     // By the taps that are lit at a bias, whatever the lookup's own verdicts.
     const std::array<float, 1> biases{0.0F};
     std::vector<scene::Image<std::uint8_t>> lit_taps{scene::Image<std::uint8_t>{{4, 1}}};
     lit_taps[0][0] = 9;
     lit_taps[0][1] = 7;
     lit_taps[0][3] = 5;
-    const PartCounts counts = errors_by_bin(binning, inputs, biases, lit_taps)[0][0].counts;
+    const SubsetCounts counts = errors_by_bin(binning, inputs, biases, lit_taps)[0][0].counts;
     EXPECT_EQ(counts.shadow_amount, 2.0 / 9);
     EXPECT_EQ(counts.light_amount, 5.0 / 9);
 }
 
-TEST(PartRates, NameTheirDenominators)
+TEST(SubsetRates, NameTheirDenominators)
 {
-    const PartCounts counts{4, 0, 1, 0, 1.5, 0};
+    const SubsetCounts counts{4, 0, 1, 0, 1.5, 0};
     std::vector<std::optional<double>> rates;
-    for (const PartRate& rate : part_rates()) {
+    for (const SubsetRate& rate : subset_rates()) {
         rates.push_back(rate_of(rate, counts));
     }
     // false shadow, false lit, both; their amounts: per lit, blocked, scored pixel.
@@ -214,9 +215,9 @@ TEST(ErrorsByAngle, SplitTheQuarterTurnEvenly)
     const Images images{{{lit, 0, 0, 1, 0.0F}, {lit, 0, 0, 1, 0.9F}, {blocked, 1, 0, 1, 3.0e38F}}};
     const auto bins = images.by_angle();
     ASSERT_EQ(bins.size(), 18U);
-    EXPECT_EQ(bins[0].counts, (PartCounts{1, 0, 1, 0, 1, 0}));
-    EXPECT_EQ(bins[8].counts, (PartCounts{1, 0, 1, 0, 1, 0})); // atan 0.9 = 41.99 degrees
-    EXPECT_EQ(bins[17].counts, (PartCounts{0, 1, 0, 1, 0, 1}));
+    EXPECT_EQ(bins[0].counts, (SubsetCounts{1, 0, 1, 0, 1, 0}));
+    EXPECT_EQ(bins[8].counts, (SubsetCounts{1, 0, 1, 0, 1, 0})); // atan 0.9 = 41.99 degrees
+    EXPECT_EQ(bins[17].counts, (SubsetCounts{0, 1, 0, 1, 0, 1}));
     EXPECT_DOUBLE_EQ(bins[8].lower, 40 * std::numbers::pi / 180);
     EXPECT_DOUBLE_EQ(bins[17].upper, std::numbers::pi / 2);
 }
@@ -238,10 +239,10 @@ TEST(ErrorsByObject, ListEveryObjectInOrder)
     const auto errors = errors_by_object(images.classes, images.lookup, triangles, scene, 1);
     ASSERT_EQ(errors.size(), 3U);
     EXPECT_EQ(errors[0].name, "ground");
-    EXPECT_EQ(errors[0].counts, (PartCounts{1, 0, 1, 0, 1, 0}));
+    EXPECT_EQ(errors[0].counts, (SubsetCounts{1, 0, 1, 0, 1, 0}));
     EXPECT_EQ(errors[1].name, "box");
-    EXPECT_EQ(errors[1].counts, (PartCounts{1, 1, 0, 1, 0, 1}));
-    EXPECT_EQ(errors[2].counts, PartCounts{});
+    EXPECT_EQ(errors[1].counts, (SubsetCounts{1, 1, 0, 1, 0, 1}));
+    EXPECT_EQ(errors[2].counts, SubsetCounts{});
 }
 
 TEST(Breakdown, RejectsWhatItCannotBin)

@@ -52,11 +52,11 @@ TEST(SweepRunner, CountsPartsOnlyWhereTheyAreWanted)
 {
     for (const bool is_wanted : {true, false}) {
         FakeSweep sweep{{"bias.constant=0.0625,0"}, {}};
-        sweep.hooks.counts_parts = is_wanted;
+        sweep.hooks.counts_cells = is_wanted;
         sweep.hooks.record = [&](const FinishedCurve& finished) {
             ASSERT_EQ(finished.rows.size(), 2U);
             for (const FinishedCurve::Row& row : finished.rows) {
-                EXPECT_EQ(row.result.parts.empty(), !is_wanted);
+                EXPECT_EQ(row.result.cells.empty(), !is_wanted);
                 EXPECT_GT(row.result.metrics.pixels.total, 0U);
             }
         };

@@ -1,4 +1,4 @@
-#include "reports/tables/api_states.hpp"
+#include "reports/tables/graphics_api_states.hpp"
 
 #include <fmt/format.h>
 

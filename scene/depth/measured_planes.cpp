@@ -1,4 +1,4 @@
-#include "scene/light/depth_planes.hpp"
+#include "scene/depth/measured_planes.hpp"
 
 #include "scene/error.hpp"
 
@@ -27,20 +27,20 @@ int texel_in_tile(int tile_texels)
     return tile_texels / 3;
 }
 
-int tiles_across(const DepthPlanes& planes)
+int tiles_across(const MeasuredPlanes& planes)
 {
     return planes.resolution_texels / planes.tile_texels;
 }
 
 /// Position in the view's square, both in [−1, 1], of a point of the map counted from its lower
 /// left.
-Vec2d view_position(const DepthPlanes& planes, const Vec2d& texels)
+Vec2d view_position(const MeasuredPlanes& planes, const Vec2d& texels)
 {
     return 2.0 / planes.resolution_texels * texels - 1.0;
 }
 
 /// Lower left of a sample's tile, counted from the map's lower left [texels].
-Vec2d tile_corner(const DepthPlanes& planes, std::size_t sample)
+Vec2d tile_corner(const MeasuredPlanes& planes, std::size_t sample)
 {
     const auto across = static_cast<std::size_t>(tiles_across(planes));
     const std::size_t column = sample % across;
@@ -49,13 +49,13 @@ Vec2d tile_corner(const DepthPlanes& planes, std::size_t sample)
            static_cast<double>(planes.tile_texels);
 }
 
-Vec2d sample_position(const DepthPlanes& planes, std::size_t sample)
+Vec2d sample_position(const MeasuredPlanes& planes, std::size_t sample)
 {
     return view_position(planes,
                          tile_corner(planes, sample) + (texel_in_tile(planes.tile_texels) + 0.5));
 }
 
-std::array<Vec2d, 3> corner_positions(const DepthPlanes& planes, std::size_t sample)
+std::array<Vec2d, 3> corner_positions(const MeasuredPlanes& planes, std::size_t sample)
 {
     const Vec2d corner = tile_corner(planes, sample);
     const double end = planes.tile_texels - 0.5;
@@ -64,11 +64,11 @@ std::array<Vec2d, 3> corner_positions(const DepthPlanes& planes, std::size_t sam
             view_position(planes, corner + Vec2d{0.5, end})};
 }
 
-void check(const DepthPlaneSettings& settings)
+void check(const MeasuredPlaneSettings& settings)
 {
-    if (settings.count < 1 || settings.count > most_depth_planes) {
+    if (settings.count < 1 || settings.count > most_measured_planes) {
         throw InputError(
-            fmt::format("--samples {}: must be 1 to {}", settings.count, most_depth_planes));
+            fmt::format("--samples {}: must be 1 to {}", settings.count, most_measured_planes));
     }
     if (!(settings.tilt_rad >= 0 && settings.tilt_rad <= glm::radians(largest_plane_tilt_deg))) {
         throw InputError(fmt::format("--tilt-deg {:.10g}: must be 0 to {}",
@@ -80,7 +80,7 @@ void check(const DepthPlaneSettings& settings)
     }
 }
 
-void choose_tiles(DepthPlanes& planes, const DepthPlaneSettings& settings)
+void choose_tiles(MeasuredPlanes& planes, const MeasuredPlaneSettings& settings)
 {
     const int across = static_cast<int>(std::ceil(std::sqrt(settings.count)));
     planes.tile_texels = std::max(smallest_tile_texels, settings.smallest_map_texels / across);
@@ -92,7 +92,7 @@ void choose_tiles(DepthPlanes& planes, const DepthPlaneSettings& settings)
     }
 }
 
-void place_camera(LightFrustum& frustum, const DepthPlaneSettings& settings)
+void place_camera(LightFrustum& frustum, const MeasuredPlaneSettings& settings)
 {
     frustum.projection = settings.range.projection;
     frustum.near_m = settings.range.near_m;
@@ -153,7 +153,7 @@ struct SampleRange {
     double last_m = 0;
 };
 
-std::string no_room(const DepthPlaneSettings& settings)
+std::string no_room(const MeasuredPlaneSettings& settings)
 {
     const bool stands_straight = settings.tilt_rad == 0 && settings.offset_m == 0;
     return fmt::format("--near {} --far {}: in float32 no plane fits between them at --tilt-deg "
@@ -162,7 +162,7 @@ std::string no_room(const DepthPlaneSettings& settings)
                        settings.offset_m, stands_straight ? "" : ", or lower tilt and offset");
 }
 
-SampleRange sample_range(const DepthPlanes& planes, const DepthPlaneSettings& settings)
+SampleRange sample_range(const MeasuredPlanes& planes, const MeasuredPlaneSettings& settings)
 {
     const LightFrustum& f = planes.frustum;
     const bool perspective = f.projection == Projection::perspective;
@@ -220,7 +220,7 @@ void add_triangle(TriangleScene& scene, const std::array<Vec3d, 3>& corners)
 
 } // namespace
 
-DepthPlanes::Texel DepthPlanes::texel(std::size_t sample) const
+MeasuredPlanes::Texel MeasuredPlanes::texel(std::size_t sample) const
 {
     const auto across = static_cast<std::size_t>(tiles_across(*this));
     const int inner = texel_in_tile(tile_texels);
@@ -228,7 +228,7 @@ DepthPlanes::Texel DepthPlanes::texel(std::size_t sample) const
             resolution_texels - 1 - (static_cast<int>(sample / across) * tile_texels + inner)};
 }
 
-double DepthPlanes::light_distance_m(std::size_t sample) const
+double MeasuredPlanes::light_distance_m(std::size_t sample) const
 {
     const auto corners = triangles.corners(static_cast<std::uint32_t>(sample));
     const Vec3d a = Vec3d{corners[0]} - frustum.origin;
@@ -242,10 +242,10 @@ double DepthPlanes::light_distance_m(std::size_t sample) const
     return glm::dot(normal, Vec3d{side, 0} - a) / normal.z;
 }
 
-DepthPlanes make_depth_planes(const DepthPlaneSettings& settings)
+MeasuredPlanes make_measured_planes(const MeasuredPlaneSettings& settings)
 {
     check(settings);
-    DepthPlanes planes;
+    MeasuredPlanes planes;
     choose_tiles(planes, settings);
     place_camera(planes.frustum, settings);
     const SampleRange range = sample_range(planes, settings);

@@ -20,7 +20,7 @@ namespace gnomon::analysis {
 /// light's ζ may be below 0, [-2^(k + 1), -2^k); beside 0 [0, 2^-10) and [-2^-10, 0). The outermost
 /// hold all that is 2^50 or more. Bands are the same in every run, wherever its near plane and its
 /// pixels lie.
-struct ZetaBand {
+struct LightDistanceBand {
     int place = 0; ///< in the order of ζ; 0 begins at ζ = 0
     static constexpr int first_octave = -10;
     static constexpr int last_octave = 50;
@@ -31,11 +31,11 @@ struct ZetaBand {
     [[nodiscard]] double lower_m() const;
     /// Infinite for the highest.
     [[nodiscard]] double upper_m() const;
-    friend auto operator<=>(const ZetaBand&, const ZetaBand&) = default;
+    friend auto operator<=>(const LightDistanceBand&, const LightDistanceBand&) = default;
 };
 
 /// @param light_distance_m  Anything but NaN.
-[[nodiscard]] ZetaBand light_distance_band_of(float light_distance_m);
+[[nodiscard]] LightDistanceBand light_distance_band_of(float light_distance_m);
 
 /// Wrong and partial pixels of one kind.
 struct KindOfError {
@@ -48,41 +48,41 @@ struct KindOfError {
     friend bool operator==(const KindOfError&, const KindOfError&) = default;
 };
 
-/// Scored pixels of the objects of one name in one band of light distance, and how many of them
-/// are wrong, by how much.
-struct ErrorPart {
+/// A cell of the table of objects by bands of light distance: the scored pixels of the objects of
+/// one name in one band, and how many of them are wrong, by how much.
+struct ErrorCell {
     std::string object;
-    ZetaBand band;
+    LightDistanceBand band;
     std::uint64_t lit = 0;           ///< truth lit
     std::uint64_t blocked = 0;       ///< truth blocked
     std::vector<KindOfError> errors; ///< those that exist; by side, cause and label
 
-    friend bool operator==(const ErrorPart&, const ErrorPart&) = default;
+    friend bool operator==(const ErrorCell&, const ErrorCell&) = default;
 };
 
-/// Which part each scored pixel is of.
-struct PartMap {
+/// Which cell each scored pixel is of.
+struct CellMap {
     static constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();
-    /// Scenes with more parts than this in view have none: they would fill the store.
-    static constexpr std::size_t most_parts = 512;
+    /// Scenes with more cells than this in view have none: they would fill the store.
+    static constexpr std::size_t most_cells = 512;
 
-    scene::Image<std::uint16_t> part; ///< index into `parts`; `none` where nothing is scored
-    std::vector<ErrorPart> parts;     ///< by object and band, without errors; may be empty
+    scene::Image<std::uint16_t> cell; ///< index into `cells`; `none` where nothing is scored
+    std::vector<ErrorCell> cells;     ///< by object and band, without errors; may be empty
 };
 
 /// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
 /// @param light_distance_m     Light distance of the scored pixels [m], as `light_distances_m` has
 /// it.
 /// @throws std::invalid_argument  if the images differ in size.
-[[nodiscard]] PartMap find_parts(const scene::Image<scene::PixelClass>& classes,
-                                 const scene::Image<std::uint32_t>& triangles,
-                                 const scene::Image<float>& light_distance_m,
-                                 const scene::TriangleScene& scene);
+[[nodiscard]] CellMap find_error_cells(const scene::Image<scene::PixelClass>& classes,
+                                       const scene::Image<std::uint32_t>& triangles,
+                                       const scene::Image<float>& light_distance_m,
+                                       const scene::TriangleScene& scene);
 
-/// The parts with their errors at each of several biases.
+/// The cells with their errors at each of several biases.
 /// @param biases  Ascending, 0 or normal.
 /// @throws std::invalid_argument  as `count_rows`.
-[[nodiscard]] std::vector<std::vector<ErrorPart>>
-count_parts(const PartMap& map, const BiasRowInputs& inputs, std::span<const float> biases);
+[[nodiscard]] std::vector<std::vector<ErrorCell>>
+count_error_cells(const CellMap& map, const BiasRowInputs& inputs, std::span<const float> biases);
 
 } // namespace gnomon::analysis

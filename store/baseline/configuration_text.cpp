@@ -1,7 +1,7 @@
-#include "store/baseline/configuration_key.hpp"
+#include "store/baseline/configuration_text.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 

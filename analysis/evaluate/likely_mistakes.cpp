@@ -1,4 +1,4 @@
-#include "analysis/evaluate/hypotheses.hpp"
+#include "analysis/evaluate/likely_mistakes.hpp"
 
 #include <fmt/format.h>
 

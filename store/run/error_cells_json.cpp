@@ -1,7 +1,7 @@
-#include "store/run/error_parts_json.hpp"
+#include "store/run/error_cells_json.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 
@@ -17,10 +17,10 @@ namespace gnomon::store {
 namespace {
 
 using analysis::Cause;
-using analysis::ErrorPart;
+using analysis::ErrorCell;
 using analysis::KindOfError;
 using analysis::Label;
-using analysis::ZetaBand;
+using analysis::LightDistanceBand;
 
 /// Every integer up to here is a double.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 53U;
@@ -63,7 +63,7 @@ const std::map<std::string, NamedKind, std::less<>>& kinds_by_name()
     return by_name;
 }
 
-[[noreturn]] void refuse_part(const std::string& place, std::string_view problem)
+[[noreturn]] void refuse_cell(const std::string& place, std::string_view problem)
 {
     throw scene::InputError(fmt::format("{}: {}", scene::one_line(place.substr(0, 200)), problem));
 }
@@ -71,7 +71,7 @@ const std::map<std::string, NamedKind, std::less<>>& kinds_by_name()
 std::uint64_t pixel_count(const Json& json, const std::string& place)
 {
     if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most_pixels) {
-        refuse_part(place, "is no count of pixels");
+        refuse_cell(place, "is no count of pixels");
     }
     return json.get<std::uint64_t>();
 }
@@ -80,12 +80,12 @@ double pixel_amount(const Json& json, const std::string& place)
 {
     if (!json.is_number() || !(json.get<double>() >= 0) ||
         json.get<double>() > static_cast<double>(most_pixels)) {
-        refuse_part(place, "is no amount of pixels");
+        refuse_cell(place, "is no amount of pixels");
     }
     return json.get<double>();
 }
 
-/// The errors of a part: a kind whose amount is not written is off by whole pixels.
+/// The errors of a cell: a kind whose amount is not written is off by whole pixels.
 std::vector<KindOfError> errors_from_json(const Json& json, const std::string& place)
 {
     std::map<std::size_t, KindOfError> kinds; // by their order
@@ -95,7 +95,7 @@ std::vector<KindOfError> errors_from_json(const Json& json, const std::string& p
             const auto named = kinds_by_name().find(name);
             const bool is_kind = named != kinds_by_name().end();
             if (!is_kind && name != "lit" && name != "blocked") {
-                refuse_part(there, "is no kind of pixel");
+                refuse_cell(there, "is no kind of pixel");
             }
             if (!is_kind || named->second.is_amount != are_amounts) {
                 continue;
@@ -116,31 +116,31 @@ std::vector<KindOfError> errors_from_json(const Json& json, const std::string& p
     return errors;
 }
 
-ErrorPart part_from_json(const Json& json, const std::string& place)
+ErrorCell cell_from_json(const Json& json, const std::string& place)
 {
     if (!json.is_object() || !json.contains("lit") || !json.contains("blocked")) {
-        refuse_part(place, "is no object with \"lit\" and \"blocked\"");
+        refuse_cell(place, "is no object with \"lit\" and \"blocked\"");
     }
-    ErrorPart part;
-    part.lit = pixel_count(json.at("lit"), place + ".lit");
-    part.blocked = pixel_count(json.at("blocked"), place + ".blocked");
-    part.errors = errors_from_json(json, place);
-    return part;
+    ErrorCell cell;
+    cell.lit = pixel_count(json.at("lit"), place + ".lit");
+    cell.blocked = pixel_count(json.at("blocked"), place + ".blocked");
+    cell.errors = errors_from_json(json, place);
+    return cell;
 }
 
 } // namespace
 
-std::string band_text(ZetaBand band)
+std::string band_text(LightDistanceBand band)
 {
     return fmt::format("[{}, {})", band.lower_m(), band.upper_m());
 }
 
-std::optional<ZetaBand> band_from_text(std::string_view text)
+std::optional<LightDistanceBand> band_from_text(std::string_view text)
 {
     static const auto bands = [] {
-        std::map<std::string, ZetaBand, std::less<>> all;
-        for (int place = ZetaBand::lowest; place <= ZetaBand::highest; ++place) {
-            all.emplace(band_text({place}), ZetaBand{place});
+        std::map<std::string, LightDistanceBand, std::less<>> all;
+        for (int place = LightDistanceBand::lowest; place <= LightDistanceBand::highest; ++place) {
+            all.emplace(band_text({place}), LightDistanceBand{place});
         }
         return all;
     }();
@@ -148,12 +148,12 @@ std::optional<ZetaBand> band_from_text(std::string_view text)
     return found == bands.end() ? std::nullopt : std::optional{found->second};
 }
 
-Json parts_json(const std::vector<ErrorPart>& parts)
+Json cells_json(const std::vector<ErrorCell>& cells)
 {
     Json json = Json::object();
-    for (const ErrorPart& part : parts) {
-        Json counts{{"blocked", part.blocked}, {"lit", part.lit}};
-        for (const KindOfError& kind : part.errors) {
+    for (const ErrorCell& cell : cells) {
+        Json counts{{"blocked", cell.blocked}, {"lit", cell.lit}};
+        for (const KindOfError& kind : cell.errors) {
             if (kind.pixels > 0) {
                 counts[kind_text(kind, false)] = kind.pixels;
             }
@@ -161,37 +161,37 @@ Json parts_json(const std::vector<ErrorPart>& parts)
                 counts[kind_text(kind, true)] = kind.amount;
             }
         }
-        json[part.object][band_text(part.band)] = std::move(counts);
+        json[cell.object][band_text(cell.band)] = std::move(counts);
     }
     return json;
 }
 
-std::vector<ErrorPart> parts_from_json(const Json& json, const std::string& place)
+std::vector<ErrorCell> cells_from_json(const Json& json, const std::string& place)
 {
     if (!json.is_object()) {
-        refuse_part(place, "is no object");
+        refuse_cell(place, "is no object");
     }
-    std::vector<ErrorPart> parts;
+    std::vector<ErrorCell> cells;
     for (const auto& [object, bands] : json.items()) {
         const std::string of_object = fmt::format("{}.{}", place, object);
         if (!bands.is_object() || bands.empty()) {
-            refuse_part(of_object, "is no object with bands of light distance");
+            refuse_cell(of_object, "is no object with bands of light distance");
         }
         for (const auto& [name, counts] : bands.items()) {
             const std::string there = fmt::format("{}.{}", of_object, name);
             const auto band = band_from_text(name);
             if (!band) {
-                refuse_part(there, "is no band of light distance");
+                refuse_cell(there, "is no band of light distance");
             }
-            parts.push_back(part_from_json(counts, there));
-            parts.back().object = object;
-            parts.back().band = *band;
+            cells.push_back(cell_from_json(counts, there));
+            cells.back().object = object;
+            cells.back().band = *band;
         }
     }
-    std::sort(parts.begin(), parts.end(), [](const ErrorPart& a, const ErrorPart& b) {
+    std::sort(cells.begin(), cells.end(), [](const ErrorCell& a, const ErrorCell& b) {
         return std::tie(a.object, a.band) < std::tie(b.object, b.band);
     });
-    return parts;
+    return cells;
 }
 
 } // namespace gnomon::store

@@ -1,4 +1,4 @@
-#include "scene/import/gltf.hpp"
+#include "scene/import/gltf_facts.hpp"
 
 #include <assimp/scene.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "analysis/metrics/error_parts.hpp"
+#include "analysis/metrics/error_cells.hpp"
 
 #include "analysis/causes/error_segments.hpp"
 #include "analysis/pixel_runs.hpp"
@@ -72,11 +72,11 @@ private:
     std::vector<std::size_t> places_; ///< of each object's name
 };
 
-constexpr std::uint64_t band_count = ZetaBand::highest - ZetaBand::lowest + 1;
+constexpr std::uint64_t band_count = LightDistanceBand::highest - LightDistanceBand::lowest + 1;
 constexpr std::uint64_t no_key = std::numeric_limits<std::uint64_t>::max();
 
-/// Each scored pixel's object and band as one number, in the order of the parts; else `no_key`.
-scene::Image<std::uint64_t> part_keys(const scene::Image<PixelClass>& classes,
+/// Each scored pixel's object and band as one number, in the order of the cells; else `no_key`.
+scene::Image<std::uint64_t> cell_keys(const scene::Image<PixelClass>& classes,
                                       const scene::Image<std::uint32_t>& triangles,
                                       const scene::Image<float>& light_distance_m,
                                       const NamedObjects& objects)
@@ -86,7 +86,7 @@ scene::Image<std::uint64_t> part_keys(const scene::Image<PixelClass>& classes,
         for (std::size_t i = first; i != end; ++i) {
             if (scene::is_scored(classes[i])) {
                 const int band =
-                    light_distance_band_of(light_distance_m[i]).place - ZetaBand::lowest;
+                    light_distance_band_of(light_distance_m[i]).place - LightDistanceBand::lowest;
                 keys[i] =
                     objects.place_of(triangles[i]) * band_count + static_cast<std::uint64_t>(band);
             }
@@ -101,20 +101,20 @@ double border_m(int place)
     if (place < 0) {
         return -border_m(-place);
     }
-    if (place > ZetaBand::highest) {
+    if (place > LightDistanceBand::highest) {
         return std::numeric_limits<double>::infinity();
     }
-    return place == 0 ? 0 : std::ldexp(1.0, place - 1 + ZetaBand::first_octave);
+    return place == 0 ? 0 : std::ldexp(1.0, place - 1 + LightDistanceBand::first_octave);
 }
 
 /// @param distance_m  At least 0.
 int place_of_distance(float distance_m)
 {
-    constexpr int below = ZetaBand::first_octave - 1;
-    return std::clamp(std::ilogb(distance_m), below, ZetaBand::last_octave) - below;
+    constexpr int below = LightDistanceBand::first_octave - 1;
+    return std::clamp(std::ilogb(distance_m), below, LightDistanceBand::last_octave) - below;
 }
 
-/// By how much the errors of a part and kind differ from one bias to the next.
+/// By how much the errors of a cell and kind differ from one bias to the next.
 struct ErrorChange {
     std::int64_t pixels = 0;
     std::int64_t units = 0; ///< of `ErrorSegments`
@@ -126,28 +126,28 @@ struct ErrorChange {
     friend ErrorChange operator-(ErrorChange a) { return {-a.pixels, -a.units}; }
 };
 
-/// How the errors of each part and kind change from one bias to the next. Sums of integers: the
+/// How the errors of each cell and kind change from one bias to the next. Sums of integers: the
 /// same in whatever order.
-class PartChanges {
+class CellChanges {
 public:
-    PartChanges(std::size_t parts, std::size_t biases)
+    CellChanges(std::size_t cells, std::size_t biases)
         : stride_{biases + 1},
-          kinds_(parts * kind_count)
+          kinds_(cells * kind_count)
     {
     }
 
-    /// Adds a pixel's segment to a part.
-    void add(std::size_t part, bool is_false_lit, const ErrorSegment& segment)
+    /// Adds a pixel's segment to a cell.
+    void add(std::size_t cell, bool is_false_lit, const ErrorSegment& segment)
     {
         const auto place = [&](Label label) {
-            return part * kind_count + kind_place(is_false_lit, segment.cause, label);
+            return cell * kind_count + kind_place(is_false_lit, segment.cause, label);
         };
         add(place(segment.label), segment, {segment.is_wrong ? 1 : 0, 0});
         add(place(segment.rest_label), segment, {0, segment.rest});
         add(place(Label::acne), segment, {0, segment.acne});
     }
 
-    void add(const PartChanges& other)
+    void add(const CellChanges& other)
     {
         for (std::size_t i = 0; i < kinds_.size(); ++i) {
             if (!other.kinds_[i].empty()) {
@@ -158,9 +158,9 @@ public:
         }
     }
 
-    /// Adds to each bias's parts what is wrong of them.
+    /// Adds to each bias's cells what is wrong of them.
     /// @param units  Of a whole pixel.
-    void add_to(std::vector<std::vector<ErrorPart>>& rows, std::int64_t units) const
+    void add_to(std::vector<std::vector<ErrorCell>>& rows, std::int64_t units) const
     {
         for (std::size_t i = 0; i < kinds_.size(); ++i) {
             ErrorChange sum;
@@ -188,22 +188,22 @@ private:
     }
 
     std::size_t stride_;
-    std::vector<std::vector<ErrorChange>> kinds_; ///< by part and kind; empty: there are none
+    std::vector<std::vector<ErrorChange>> kinds_; ///< by cell and kind; empty: there are none
 };
 
 } // namespace
 
-double ZetaBand::lower_m() const
+double LightDistanceBand::lower_m() const
 {
     return border_m(place);
 }
 
-double ZetaBand::upper_m() const
+double LightDistanceBand::upper_m() const
 {
     return border_m(place + 1);
 }
 
-ZetaBand light_distance_band_of(float light_distance_m)
+LightDistanceBand light_distance_band_of(float light_distance_m)
 {
     if (light_distance_m >= 0) {
         return {place_of_distance(light_distance_m)};
@@ -212,17 +212,18 @@ ZetaBand light_distance_band_of(float light_distance_m)
     return {-1 - place_of_distance(std::nextafter(-light_distance_m, 0.0F))};
 }
 
-PartMap find_parts(const scene::Image<PixelClass>& classes,
-                   const scene::Image<std::uint32_t>& triangles,
-                   const scene::Image<float>& light_distance_m, const scene::TriangleScene& scene)
+CellMap find_error_cells(const scene::Image<PixelClass>& classes,
+                         const scene::Image<std::uint32_t>& triangles,
+                         const scene::Image<float>& light_distance_m,
+                         const scene::TriangleScene& scene)
 {
-    require_equal_sizes("find_parts", triangles.size(), classes.size());
-    require_equal_sizes("find_parts", light_distance_m.size(), classes.size());
+    require_equal_sizes("find_error_cells", triangles.size(), classes.size());
+    require_equal_sizes("find_error_cells", light_distance_m.size(), classes.size());
     const NamedObjects objects{scene};
     const scene::Image<std::uint64_t> keys =
-        part_keys(classes, triangles, light_distance_m, objects);
-    std::map<std::uint64_t, ErrorPart> found;
-    ErrorPart* last = nullptr; // neighbours are mostly of one part
+        cell_keys(classes, triangles, light_distance_m, objects);
+    std::map<std::uint64_t, ErrorCell> found;
+    ErrorCell* last = nullptr; // neighbours are mostly of one cell
     std::uint64_t last_key = no_key;
     for (std::size_t i = 0; i < keys.pixel_count(); ++i) {
         if (keys[i] != no_key) {
@@ -231,21 +232,21 @@ PartMap find_parts(const scene::Image<PixelClass>& classes,
             ++(classes[i] == PixelClass::lit ? last->lit : last->blocked);
         }
     }
-    PartMap map{scene::Image<std::uint16_t>{classes.size(), PartMap::none}, {}};
-    if (found.size() > PartMap::most_parts) {
+    CellMap map{scene::Image<std::uint16_t>{classes.size(), CellMap::none}, {}};
+    if (found.size() > CellMap::most_cells) {
         return map;
     }
     std::vector<std::uint64_t> order;
-    for (auto& [key, part] : found) {
-        part.object = objects.name(key / band_count);
-        part.band = {static_cast<int>(key % band_count) + ZetaBand::lowest};
+    for (auto& [key, cell] : found) {
+        cell.object = objects.name(key / band_count);
+        cell.band = {static_cast<int>(key % band_count) + LightDistanceBand::lowest};
         order.push_back(key);
-        map.parts.push_back(std::move(part));
+        map.cells.push_back(std::move(cell));
     }
     for_each_run(keys.pixel_count(), [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i != end; ++i) {
             if (keys[i] != no_key) {
-                map.part[i] = static_cast<std::uint16_t>(
+                map.cell[i] = static_cast<std::uint16_t>(
                     std::lower_bound(order.begin(), order.end(), keys[i]) - order.begin());
             }
         }
@@ -253,31 +254,31 @@ PartMap find_parts(const scene::Image<PixelClass>& classes,
     return map;
 }
 
-std::vector<std::vector<ErrorPart>> count_parts(const PartMap& map, const BiasRowInputs& inputs,
-                                                std::span<const float> biases)
+std::vector<std::vector<ErrorCell>>
+count_error_cells(const CellMap& map, const BiasRowInputs& inputs, std::span<const float> biases)
 {
     constexpr std::size_t biases_per_pass = 1024; // every thread counts for all: bounds the memory
-    require_equal_sizes("count_parts", inputs.classes.size(), map.part.size());
-    std::vector<std::vector<ErrorPart>> rows;
-    for (std::size_t begin = 0; begin < biases.size() && !map.parts.empty();
+    require_equal_sizes("count_error_cells", inputs.classes.size(), map.cell.size());
+    std::vector<std::vector<ErrorCell>> rows;
+    for (std::size_t begin = 0; begin < biases.size() && !map.cells.empty();
          begin += biases_per_pass) {
         const auto some = biases.subspan(begin, std::min(biases_per_pass, biases.size() - begin));
         const ErrorSegments segments{inputs, some};
-        const PartChanges none{map.parts.size(), some.size()};
-        tbb::enumerable_thread_specific<PartChanges> sums{none};
-        const auto has_part = [&](std::size_t pixel) { return map.part[pixel] != PartMap::none; };
-        for_each_run(map.part.pixel_count(), [&](std::size_t first, std::size_t last) {
-            PartChanges& sum = sums.local();
+        const CellChanges none{map.cells.size(), some.size()};
+        tbb::enumerable_thread_specific<CellChanges> sums{none};
+        const auto has_cell = [&](std::size_t pixel) { return map.cell[pixel] != CellMap::none; };
+        for_each_run(map.cell.pixel_count(), [&](std::size_t first, std::size_t last) {
+            CellChanges& sum = sums.local();
             segments.visit(
-                first, last, has_part, [&](std::size_t pixel, const ErrorSegment& segment) {
-                    sum.add(map.part[pixel], inputs.classes[pixel] == PixelClass::blocked, segment);
+                first, last, has_cell, [&](std::size_t pixel, const ErrorSegment& segment) {
+                    sum.add(map.cell[pixel], inputs.classes[pixel] == PixelClass::blocked, segment);
                 });
         });
-        PartChanges total = none;
-        for (const PartChanges& sum : sums) {
+        CellChanges total = none;
+        for (const CellChanges& sum : sums) {
             total.add(sum);
         }
-        std::vector<std::vector<ErrorPart>> counted(some.size(), map.parts);
+        std::vector<std::vector<ErrorCell>> counted(some.size(), map.cells);
         total.add_to(counted, segments.units());
         rows.insert(rows.end(), counted.begin(), counted.end());
     }

@@ -9,12 +9,12 @@
 namespace gnomon::scene {
 
 /// Planes that are measured at most.
-inline constexpr int most_depth_planes = 1 << 22;
+inline constexpr int most_measured_planes = 1 << 22;
 /// Tilt that a plane has at most.
 inline constexpr double largest_plane_tilt_deg = 80;
 
 /// Planes to measure stored depths on.
-struct DepthPlaneSettings {
+struct MeasuredPlaneSettings {
     DepthRange range;
     int count = 1024;    ///< planes, one sample each; [1, 2^22]
     double tilt_rad = 0; ///< of the planes about the camera's right axis; [0, 80°]
@@ -23,7 +23,7 @@ struct DepthPlaneSettings {
 };
 
 /// A triangle of each plane, side by side in one map, at distances spread evenly from near to far.
-struct DepthPlanes {
+struct MeasuredPlanes {
     TriangleScene triangles; ///< triangle i carries sample i
     LightFrustum frustum;
     int resolution_texels = 0;
@@ -46,6 +46,6 @@ struct DepthPlanes {
 /// would
 ///                     be larger than 16384, or float32 cannot tell the corners of a triangle
 ///                     apart.
-[[nodiscard]] DepthPlanes make_depth_planes(const DepthPlaneSettings& settings);
+[[nodiscard]] MeasuredPlanes make_measured_planes(const MeasuredPlaneSettings& settings);
 
 } // namespace gnomon::scene

@@ -1,4 +1,4 @@
-#include "reference_rt/exact/crossing.hpp"
+#include "reference_rt/exact/crossing_depth.hpp"
 
 #include "reference_rt/exact/terms.hpp"
 

@@ -1,4 +1,4 @@
-#include "reference_rt/traversal/pencil.hpp"
+#include "reference_rt/traversal/float_line_filter.hpp"
 
 #include <cmath>
 #include <cstdint>

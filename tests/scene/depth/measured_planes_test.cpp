@@ -1,4 +1,4 @@
-#include "scene/light/depth_planes.hpp"
+#include "scene/depth/measured_planes.hpp"
 
 #include "scene/depth/raster_plane.hpp"
 #include "scene/error.hpp"
@@ -14,10 +14,10 @@
 namespace gnomon::scene {
 namespace {
 
-DepthPlaneSettings settings_of(Projection projection, int count, double tilt_deg = 0,
-                               double offset_m = 0)
+MeasuredPlaneSettings settings_of(Projection projection, int count, double tilt_deg = 0,
+                                  double offset_m = 0)
 {
-    DepthPlaneSettings settings;
+    MeasuredPlaneSettings settings;
     settings.range = {projection, 4, 50, false, {}};
     settings.count = count;
     settings.tilt_rad = glm::radians(tilt_deg);
@@ -27,11 +27,12 @@ DepthPlaneSettings settings_of(Projection projection, int count, double tilt_deg
 
 constexpr Projection both_projections[] = {Projection::perspective, Projection::orthographic};
 
-TEST(DepthPlanes, ThatFaceTheCameraLieAtTheirVerticesDistance)
+TEST(MeasuredPlanes, ThatFaceTheCameraLieAtTheirVerticesDistance)
 {
     for (const Projection projection : both_projections) {
         for (const double offset_m : {0.0, 500.0}) {
-            const DepthPlanes planes = make_depth_planes(settings_of(projection, 100, 0, offset_m));
+            const MeasuredPlanes planes =
+                make_measured_planes(settings_of(projection, 100, 0, offset_m));
             for (std::uint32_t i = 0; i < 100; ++i) {
                 const double light_distance_m = offset_m - double{planes.triangles.corners(i)[0].z};
                 // A quotient of doubles whose numerator is a multiple of its denominator.
@@ -41,10 +42,10 @@ TEST(DepthPlanes, ThatFaceTheCameraLieAtTheirVerticesDistance)
     }
 }
 
-TEST(DepthPlanes, SpreadFromNearToFar)
+TEST(MeasuredPlanes, SpreadFromNearToFar)
 {
     for (const Projection projection : both_projections) {
-        const DepthPlanes planes = make_depth_planes(settings_of(projection, 1000));
+        const MeasuredPlanes planes = make_measured_planes(settings_of(projection, 1000));
         // Margins of 2^-22 of 54 m, and a float32 step at 50 m.
         EXPECT_NEAR(planes.light_distance_m(0), 4, 2e-5);
         EXPECT_NEAR(planes.light_distance_m(999), 50, 2e-5);
@@ -56,10 +57,10 @@ TEST(DepthPlanes, SpreadFromNearToFar)
     }
 }
 
-TEST(DepthPlanes, AreTiltedAsAsked)
+TEST(MeasuredPlanes, AreTiltedAsAsked)
 {
     for (const Projection projection : both_projections) {
-        const DepthPlanes planes = make_depth_planes(settings_of(projection, 64, 60));
+        const MeasuredPlanes planes = make_measured_planes(settings_of(projection, 64, 60));
         for (std::uint32_t i = 0; i < 64; ++i) {
             const auto corners = planes.triangles.corners(i);
             const Vec3d a{corners[0]};
@@ -71,12 +72,12 @@ TEST(DepthPlanes, AreTiltedAsAsked)
     }
 }
 
-TEST(DepthPlanes, StayBetweenNearAndFar)
+TEST(MeasuredPlanes, StayBetweenNearAndFar)
 {
     for (const Projection projection : both_projections) {
         for (const double tilt_deg : {0.0, 45.0, 80.0}) {
-            const DepthPlanes planes =
-                make_depth_planes(settings_of(projection, 500, tilt_deg, 10));
+            const MeasuredPlanes planes =
+                make_measured_planes(settings_of(projection, 500, tilt_deg, 10));
             for (const Vec3f& vertex : planes.triangles.vertices) {
                 const double light_distance_m = planes.frustum.light_distance_m(Vec3d{vertex});
                 EXPECT_TRUE(light_distance_m > 4 && light_distance_m < 50)
@@ -86,9 +87,9 @@ TEST(DepthPlanes, StayBetweenNearAndFar)
     }
 }
 
-TEST(DepthPlanes, HaveATexelEach)
+TEST(MeasuredPlanes, HaveATexelEach)
 {
-    const DepthPlanes planes = make_depth_planes(settings_of(Projection::perspective, 1000));
+    const MeasuredPlanes planes = make_measured_planes(settings_of(Projection::perspective, 1000));
     std::set<std::pair<int, int>> texels;
     for (std::size_t i = 0; i < 1000; ++i) {
         const auto [x, y] = planes.texel(i);
@@ -99,12 +100,12 @@ TEST(DepthPlanes, HaveATexelEach)
     EXPECT_EQ(texels.size(), 1000U);
 }
 
-TEST(DepthPlanes, RefuseWhatCannotBeMeasured)
+TEST(MeasuredPlanes, RefuseWhatCannotBeMeasured)
 {
     const auto refused = [](auto change) {
-        DepthPlaneSettings settings = settings_of(Projection::perspective, 64);
+        MeasuredPlaneSettings settings = settings_of(Projection::perspective, 64);
         change(settings);
-        EXPECT_THROW((void)make_depth_planes(settings), InputError);
+        EXPECT_THROW((void)make_measured_planes(settings), InputError);
     };
     refused([](auto& s) { s.count = 0; });
     refused([](auto& s) { s.count = (1 << 22) + 1; });

@@ -1,0 +1,143 @@
+#include "scene/light/near_far.hpp"
+
+#include "scene/error.hpp"
+#include "scene/light/clipped_range.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace gnomon::scene {
+namespace {
+
+constexpr double auto_padding = 1e-4;       // of the range of ζ, on both sides (docs/job_file.md)
+constexpr double smallest_spot_near = 1e-3; // of far
+/// Closer planes, or a nearer one, leave float32 biases no number for a texel's depth.
+constexpr double smallest_given_range_m = 1e-12;
+constexpr double smallest_given_near = 1e-24; // of far
+
+struct NearFar {
+    double near_m = 0;
+    double far_m = 0;
+};
+
+/// The planes around a range, with the padding.
+NearFar padded(const LightDistanceRange& range)
+{
+    const double padding_m = auto_padding * (range.farthest_m - range.nearest_m);
+    return {range.nearest_m - padding_m, range.farthest_m + padding_m};
+}
+
+/// The settings' planes; those that they leave to us from `automatic`, a spot's near limited.
+NearFar chosen_planes(const FrustumSettings& settings, Projection projection,
+                      const NearFar& automatic)
+{
+    const double far_m = settings.far_m.value_or(automatic.far_m);
+    const bool spot = projection == Projection::perspective;
+    const double least_m = spot ? smallest_spot_near * far_m : automatic.near_m;
+    return {settings.near_m.value_or(std::max(automatic.near_m, least_m)), far_m};
+}
+
+/// The planes around what lies within the map's sides: with the padding, or with as much as the
+/// float32 matrix needs for GL to find all of it between them, where that is more.
+///
+/// Let T be the largest sum of absolute terms of ζ, which no |ζ| exceeds, and u = 2^-24. Z and W
+/// err by 5u of their absolute terms: a rounding of each coefficient, four of the products and
+/// sums. In ζ that is at most 5u (T + |ζ|) <= 10u T, at a spot's far f, where depth is flattest,
+/// f/n times as much: 16u T and 16u T·f/n are to spare. The latter solves f = farthest + 16u T·f/n;
+/// half of f, at most, for beyond that the matrix cannot tell the distances anyway. Where near is a
+/// thousandth of far, far does not go beyond the whole scene's: near would, too.
+NearFar planes_around(const FrustumSettings& settings, Projection projection,
+                      const WholeScene& whole, const LightDistanceRange& inside,
+                      double largest_terms_m)
+{
+    const double rounding_m = 16 * 0x1p-24 * largest_terms_m;
+    const double whole_far_m = padded(whole.range).far_m;
+    NearFar planes = padded(inside);
+    planes.near_m = std::min(planes.near_m, inside.nearest_m - rounding_m);
+    planes.far_m = whole.keeps_far ? whole_far_m : planes.far_m;
+    if (projection == Projection::orthographic) {
+        planes.far_m = std::max(planes.far_m, inside.farthest_m + rounding_m);
+        return planes;
+    }
+    const double near_m = chosen_planes(settings, projection, planes).near_m;
+    const double lost_share = std::min(0.5, rounding_m / near_m);
+    planes.far_m = std::max(planes.far_m, inside.farthest_m / (1 - lost_share));
+    if (!settings.near_m && planes.near_m < smallest_spot_near * planes.far_m) {
+        planes.far_m = std::min(planes.far_m, whole_far_m);
+    }
+    return planes;
+}
+
+void check_planes(const NearFar& planes, Projection projection)
+{
+    if (projection == Projection::perspective && !(planes.near_m > 0)) {
+        throw InputError(
+            fmt::format("shadow_map.near = {}: a spot's near plane must be in front of it, above 0",
+                        planes.near_m));
+    }
+    if (!(planes.near_m < planes.far_m)) {
+        throw InputError(fmt::format("shadow_map.near = {} is not below shadow_map.far = {}: "
+                                     "correct them, or write \"auto\"",
+                                     planes.near_m, planes.far_m));
+    }
+    if (planes.far_m - planes.near_m < smallest_given_range_m) {
+        throw InputError(
+            fmt::format("shadow_map.near = {} is too close to shadow_map.far = {}: keep "
+                        "them {} m apart, or write \"auto\"",
+                        planes.near_m, planes.far_m, smallest_given_range_m));
+    }
+    if (projection == Projection::perspective &&
+        planes.near_m < smallest_given_near * planes.far_m) {
+        throw InputError(fmt::format("shadow_map.near = {} is too small for shadow_map.far = {}: "
+                                     "write {:.1g} or more, or \"auto\"",
+                                     planes.near_m, planes.far_m,
+                                     10 * smallest_given_near * planes.far_m));
+    }
+}
+
+/// The auto planes around what the scene has within the sides, which are set; none where that is
+/// nothing, or nothing on the right side of a given plane.
+std::optional<NearFar> clipped_planes(LightFrustum& frustum, const FrustumSettings& settings,
+                                      const TriangleScene& scene, const WholeScene& whole)
+{
+    compose_matrix(frustum); // for its rows of x, y and w: they do not depend on near and far
+    const ClippedRange inside = clipped_range(frustum, scene);
+    LightDistanceRange range{inside.nearest_m,
+                             whole.keeps_far ? whole.range.farthest_m : inside.farthest_m};
+    const bool spot = frustum.projection == Projection::perspective;
+    if (!(range.nearest_m <= range.farthest_m) || (spot && range.farthest_m <= 0)) {
+        return {};
+    }
+    widen(range.nearest_m, range.farthest_m, whole.smallest_range_m);
+    const auto planes =
+        planes_around(settings, frustum.projection, whole, range, inside.largest_terms_m);
+    const NearFar chosen = chosen_planes(settings, frustum.projection, planes);
+    return chosen.near_m < chosen.far_m ? std::optional{chosen} : std::nullopt;
+}
+
+} // namespace
+
+void set_near_far(LightFrustum& frustum, const FrustumSettings& settings,
+                  const TriangleScene& scene, const WholeScene& whole)
+{
+    const bool has_both = settings.near_m && settings.far_m;
+    const auto clipped = has_both ? std::nullopt : clipped_planes(frustum, settings, scene, whole);
+    const NearFar planes =
+        clipped ? *clipped : chosen_planes(settings, frustum.projection, padded(whole.range));
+    check_planes(planes, frustum.projection);
+    frustum.near_m = planes.near_m;
+    frustum.far_m = planes.far_m;
+}
+
+void widen(double& lower, double& upper, double smallest)
+{
+    if (upper - lower < smallest) {
+        const double centre = 0.5 * (lower + upper);
+        lower = centre - 0.5 * smallest;
+        upper = centre + 0.5 * smallest;
+    }
+}
+
+} // namespace gnomon::scene

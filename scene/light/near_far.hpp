@@ -1,0 +1,32 @@
+#pragma once
+
+#include "scene/light/frustum.hpp"
+#include "scene/triangles.hpp"
+
+namespace gnomon::scene {
+
+/// A range of ζ [m].
+struct LightDistanceRange {
+    double nearest_m = 0;
+    double farthest_m = 0;
+};
+
+/// The whole scene's range of ζ, and how auto planes follow from it.
+struct WholeScene {
+    LightDistanceRange range;    ///< up to the farthest that the camera sees, if `keeps_far`
+    bool keeps_far = false;      ///< `camera`: nothing beyond what the camera sees matters
+    double smallest_range_m = 0; ///< for flat scenes
+};
+
+/// Moves the ends of a range apart until it is at least that long.
+void widen(double& lower, double& upper, double smallest);
+
+/// Sets the frustum's near and far: those of the settings, else around the triangles within the
+/// sides, else around the whole scene. Its axes, origin and sides are set before.
+/// @throws InputError  if near >= far, if they are too close for float32 depths, or if a spot's
+/// near
+///                     is not above 0.
+void set_near_far(LightFrustum& frustum, const FrustumSettings& settings,
+                  const TriangleScene& scene, const WholeScene& whole);
+
+} // namespace gnomon::scene

@@ -1,0 +1,49 @@
+#include "store/run/results_columns.hpp"
+
+#include "store/run/run_columns.hpp"
+#include "store/run/run_schema.hpp"
+#include "store/sqlite.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+namespace gnomon::store {
+
+using sqlite::sql_name;
+
+std::vector<ResultsColumn> results_columns()
+{
+    using Of = ResultsColumn::Of;
+    std::vector<ResultsColumn> all{{"schema", fmt::format("{}", run_schema), Of::curve},
+                                   {"ordinal", "p.ordinal", Of::configuration},
+                                   {"id", "c.id", Of::configuration},
+                                   {"curve", "k.id", Of::curve},
+                                   {"case", "p.\"case\"", Of::configuration},
+                                   {"status", "c.status", Of::configuration},
+                                   {"message", "c.message", Of::configuration},
+                                   {"scene_hash", "k.scene_hash", Of::curve}};
+    const auto add = [&](const auto& columns, std::string_view table, Of of) {
+        for (const auto& column : columns) {
+            all.push_back({column.name, fmt::format("{}.{}", table, sql_name(column.name)), of});
+        }
+    };
+    for (const JobColumn& column : job_columns()) {
+        const bool is_own = is_configuration_key(column.name);
+        add(std::array{column}, is_own ? "c" : "k", is_own ? Of::configuration : Of::curve);
+    }
+    add(map_columns(), "v", Of::curve);
+    add(result_columns(), "c", Of::configuration);
+    add(bias_curve_columns(), "v", Of::curve);
+    return all;
+}
+
+std::string results_tables()
+{
+    return "part p CROSS JOIN configurations c ON c.number = p.configuration"
+           " JOIN curves k ON k.number = c.curve"
+           " LEFT JOIN curves v ON v.number = c.curve AND c.status = 'done'";
+}
+
+} // namespace gnomon::store
