@@ -9,19 +9,24 @@
 
 namespace gnomon::scene {
 
-/// The built-in scenes, each described in the file that generates it.
-[[nodiscard]] BuiltinScene sphere_cube_scene();
-[[nodiscard]] BuiltinScene sphere_plane_scene();
-[[nodiscard]] BuiltinScene yard_scene();
-[[nodiscard]] BuiltinScene playground_scene();
-[[nodiscard]] BuiltinScene two_distances_scene();
+/// The built-in scenes, by the file that generates them.
+// closed_forms.cpp
 [[nodiscard]] BuiltinScene tilted_plane_scene();
 [[nodiscard]] BuiltinScene wall_scene();
 [[nodiscard]] BuiltinScene room_scene();
 [[nodiscard]] BuiltinScene fence_scene();
-[[nodiscard]] BuiltinScene terrain_scene();
+// columns.cpp
 [[nodiscard]] BuiltinScene columns_scene();
+// large_scenes.cpp
+[[nodiscard]] BuiltinScene terrain_scene();
 [[nodiscard]] BuiltinScene sphere_field_scene();
+// lessons.cpp
+[[nodiscard]] BuiltinScene sphere_cube_scene();
+[[nodiscard]] BuiltinScene sphere_plane_scene();
+[[nodiscard]] BuiltinScene two_distances_scene();
+// outdoors.cpp
+[[nodiscard]] BuiltinScene yard_scene();
+[[nodiscard]] BuiltinScene playground_scene();
 
 /// An inclusive range of a numeric parameter.
 struct ParameterRange {
