@@ -41,9 +41,10 @@ struct SceneSummary {
     std::vector<scene::SceneNote> notes;  ///< on the scene as this job compares it
 };
 
-/// Of the built-in, or the file's name without its folder.
+/// The built-in's name, or the file's name without its folder.
 [[nodiscard]] std::string scene_name(const scene::SceneSettings& settings);
 
+/// A scene's name, counts and hash; the notes are left empty.
 [[nodiscard]] SceneSummary summarise_scene(const scene::SceneSettings& settings,
                                            const scene::TriangleScene& triangles);
 
@@ -89,7 +90,8 @@ struct Comparison {
     StageSeconds seconds;
 };
 
-/// A comparison of which nothing is measured yet: the job made concrete, and who will measure it.
+/// A comparison of which nothing is measured yet: the job made concrete, the scene with its notes,
+/// and the renderers' environment.
 /// @param file  must outlive it.
 /// @throws std::invalid_argument  if a renderer's stage has no callable.
 [[nodiscard]] Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,

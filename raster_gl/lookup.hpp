@@ -27,6 +27,7 @@ public:
     void render(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
                 const scene::LookupSettings& settings, const scene::View& view);
 
+    /// What `render` drew last, in images of the view's size, top left first.
     [[nodiscard]] scene::LookupLayers read() const;
 
 private:

@@ -27,6 +27,7 @@ public:
     explicit ReceiverPass(const Context& context);
 
     /// @param box  the scene's bounds; decides the near plane (`scene::camera_clip_from_world`).
+    /// @return  The pass's own buffer; the next call overwrites it.
     /// @throws scene::InputError  if the driver lacks the image size.
     const ReceiverBuffer& render(const GpuScene& scene, const scene::View& view,
                                  const scene::Box& box);
@@ -40,10 +41,13 @@ private:
     ReceiverBuffer buffer_;
 };
 
+/// GL's triangle per pixel, or `no_triangle`, top left first.
 [[nodiscard]] scene::Image<std::uint32_t> read_triangles(const Context& context,
                                                          const ReceiverBuffer& buffer);
+/// Light clip coordinates per pixel, interpolated; all 0 where there is no receiver.
 [[nodiscard]] scene::Image<scene::Vec4f> read_light_clip(const Context& context,
                                                          const ReceiverBuffer& buffer);
+/// World position (x, y, z, 1) per pixel [m], interpolated; all 0 where there is no receiver.
 [[nodiscard]] scene::Image<scene::Vec4f> read_world_positions(const Context& context,
                                                               const ReceiverBuffer& buffer);
 

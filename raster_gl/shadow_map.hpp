@@ -34,11 +34,12 @@ class ShadowMapPass {
 public:
     explicit ShadowMapPass(const Context& context, UnormCodes codes = UnormCodes::kept);
 
+    /// @return  The pass's own map; the next call overwrites it.
     /// @throws scene::InputError        if the driver substitutes the format or lacks the size.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
     const ShadowMap& render(const GpuScene& scene, const scene::LightFrustum& frustum,
                             const scene::ShadowMapSettings& settings);
-    /// The same map in these rows alone; what the others hold is left open.
+    /// The same map in these rows alone; what the others hold is not specified.
     const ShadowMap& render(const GpuScene& scene, const scene::LightFrustum& frustum,
                             const scene::ShadowMapSettings& settings, scene::TexelRows rows);
     /// Gives the map's memory back; what `render` returned is empty until the next map.

@@ -16,7 +16,7 @@ namespace gnomon::reference_rt {
 
 enum class TruthMethod : std::uint8_t {
     exact, ///< Embree proposes, exact predicates decide
-    plain, ///< float Embree rays, and GL's word for what is seen: for comparing speed
+    plain, ///< float Embree rays, and GL's triangles taken as seen: for comparing speed
 };
 
 struct TruthOptions {
@@ -42,7 +42,7 @@ struct ReferenceOptions {
     double start_error_m = 0;
 };
 
-/// The scene in Embree's hands; built once, then read by any number of threads.
+/// The scene with Embree's hierarchies over it; built once, then read by any number of threads.
 class ReferenceScene {
 public:
     /// @throws scene::EnvironmentError  if Embree fails.
@@ -83,6 +83,7 @@ private:
 ///
 /// @param pixels     row-major pixel indices; GL's triangle in each must be a first hit of its ray.
 /// @param receivers  GL's triangle per pixel, of size `view.image`.
+/// @return  In the order of the pixels.
 /// @throws std::invalid_argument  as `compute_truth` does, or if a pixel has no receiver.
 [[nodiscard]] std::vector<std::uint32_t>
 nearest_blockers(const ReferenceScene& reference, const scene::View& view,
@@ -91,6 +92,7 @@ nearest_blockers(const ReferenceScene& reference, const scene::View& view,
 
 /// How many scored pixels each of the usual float methods would have got wrong: shadow rays from P
 /// rounded to float32, kept off their own surface in one way or another.
+/// @return  Always the same four methods, in the same order.
 /// @throws std::invalid_argument  if sizes differ or `reference` does not serve plain rays.
 [[nodiscard]] std::vector<scene::FloatMethodErrors>
 audit_float_methods(const ReferenceScene& reference, const scene::View& view,

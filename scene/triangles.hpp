@@ -27,6 +27,7 @@ struct Box {
     [[nodiscard]] Vec3d centre() const { return 0.5 * (lower + upper); }
     /// Length of the space diagonal [m].
     [[nodiscard]] double diagonal_m() const;
+    /// Lower before upper; x varies fastest, then y, then z.
     [[nodiscard]] std::array<Vec3d, 8> corners() const;
 };
 
@@ -91,6 +92,7 @@ public:
     void count_ignored_primitives(std::uint64_t count) { scene_.ignored_primitives += count; }
     /// Keeps what else a file held beside its triangles.
     void keep_contents(FileContents contents) { scene_.file = std::move(contents); }
+    /// The scene built so far; leaves the builder empty.
     [[nodiscard]] TriangleScene take();
 
 private:

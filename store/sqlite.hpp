@@ -52,6 +52,7 @@ public:
 
     [[nodiscard]] int parameter_count() const;
     [[nodiscard]] int column_count() const;
+    /// Columns are numbered from 0. The integer of NULL is 0, its text empty.
     [[nodiscard]] std::string column_name(int column) const;
     [[nodiscard]] bool is_null(int column) const;
     [[nodiscard]] std::int64_t integer(int column) const;

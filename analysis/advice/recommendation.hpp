@@ -26,7 +26,7 @@ struct BiasPlace {
     int resolution_texels = 0;
     double light_distance_m = 0; ///< median light distance of the scored receivers [m]
 
-    /// Infinite for an infinite bias.
+    /// A bias in all three units; infinite in each for an infinite bias.
     [[nodiscard]] BiasLength length_of(float bias) const;
 };
 

@@ -16,7 +16,8 @@ namespace gnomon::analysis {
 /// @return  Empty without a diagnosis.
 [[nodiscard]] std::vector<Remedy> ranked_remedies(const Comparison& comparison);
 
-/// The amount of error of the comparison itself, without what a kernel softens on purpose [px].
+/// The amount of error of the comparison itself, without what a kernel softens on purpose [px];
+/// without a diagnosis softening is not known and counts, too.
 [[nodiscard]] double error_amount(const Comparison& comparison);
 
 } // namespace gnomon::analysis

@@ -23,16 +23,19 @@ struct ViewOutcome {
     }
     /// The same over the scored pixels; empty without any.
     [[nodiscard]] std::optional<double> error_rate() const;
-    /// Amounts without softening per lit, per blocked pixel; empty without any.
+    /// The amount of false shadow, without softening, per lit pixel; empty without any.
     [[nodiscard]] std::optional<double> shadow_rate() const;
+    /// The amount of false light, without softening, per blocked pixel; empty without any.
     [[nodiscard]] std::optional<double> light_rate() const;
 };
 
-/// Several views as one; the constant bias is the first one's.
+/// Several views as one: counts, amounts and softening are added up, rates are those of the sums.
+/// The constant bias is the first one's.
 /// @param outcomes  At least one.
 [[nodiscard]] ViewOutcome pooled(std::span<const ViewOutcome> outcomes);
 
-/// The view with the largest error rate; the first of several.
+/// Index of the view with the largest error rate, of several the first; a view without scored
+/// pixels counts as 0.
 /// @param outcomes  At least one.
 [[nodiscard]] std::size_t worst_view(std::span<const ViewOutcome> outcomes);
 

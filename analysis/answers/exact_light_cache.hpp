@@ -45,7 +45,8 @@ public:
     [[nodiscard]] std::optional<double> representative_light_distance_m();
     /// The scored receivers by light distance.
     [[nodiscard]] const Binning& distances() const { return *distances_; }
-    /// The scored receivers by object and light distance.
+    /// The scored receivers by object and light distance; no cells where they are too many or not
+    /// to be counted.
     [[nodiscard]] const CellMap& cells();
     [[nodiscard]] BlockerGaps& gaps() { return receivers_->gaps(); }
     /// The gaps of these blocked pixels, in the order of the pixels.
@@ -56,6 +57,7 @@ public:
     /// `find_blocked_causes`, the same.
     void find_blocked(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
                       PixelCauses& causes);
+    /// What the light sees through each scored pixel's centre texel; traced when first asked for.
     [[nodiscard]] const CentreHits& centre_hits(const CauseInputs& inputs);
     /// Lets go of `centre_hits`; they are traced again if they are asked for.
     void forget_texels() { centre_hits_.reset(); }

@@ -26,8 +26,8 @@ public:
         scene::Cull cull = scene::Cull::none; ///< the light's
     };
 
-    /// The texels' first hits, placed; of those asked for with a nearer near plane as a rule
-    /// without tracing.
+    /// The texels' first hits, placed, in their order; as a rule without tracing where the same
+    /// texels were asked for with a nearer near plane.
     [[nodiscard]] std::vector<scene::TexelHit> first_hits(const Map& map,
                                                           std::span<const scene::Texel> texels);
 

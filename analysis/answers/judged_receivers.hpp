@@ -40,7 +40,7 @@ public:
     [[nodiscard]] FirstHitMemory& first_hits() { return first_hits_; }
 
     /// Light distance of the scored receivers [m], else NaN. This and what follows from it are
-    /// found anew only where it is counted otherwise than the last time.
+    /// found anew only if the frustum's origin or direction changed since the last call.
     [[nodiscard]] std::shared_ptr<const scene::Image<float>>
     light_distance_m(const scene::LightFrustum& frustum, const ReceiverGeometry& geometry);
     /// The scored receivers by light distance.

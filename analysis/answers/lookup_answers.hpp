@@ -57,22 +57,25 @@ public:
     LookupAnswers(const LookupAnswers&) = delete;
     LookupAnswers& operator=(const LookupAnswers&) = delete;
 
-    /// Not for `hardware`, which has no curve.
+    /// The curve of the question's slope, and a row for each of its biases. Not for `hardware`,
+    /// which has no curve.
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question);
-    /// The critical bias of each pixel; for its argument see `CurveQuestion`. Not for `hardware`.
+    /// The critical bias of each pixel: −∞ if every bias is lit, +∞ if none is, 0 without a
+    /// receiver. For its argument see `CurveQuestion`. Not for `hardware`.
     [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
     /// What is measured with each of several constant biases, of one slope. Not for `hardware`.
     /// @param biases  Ascending, 0 or normal.
+    /// @return  In the order of the biases.
     [[nodiscard]] std::vector<MeasuredBias> measure_biases(float slope,
                                                            std::span<const float> biases);
-    /// All amounts of error at those biases: the same without asking for causes.
+    /// The amounts of error at each of those biases, without finding causes.
     [[nodiscard]] std::vector<ErrorAmounts> amounts_at(float slope,
                                                        std::span<const float> biases) const;
     /// Causes and labels of the same lookup's verdicts with another constant and slope bias.
     [[nodiscard]] CauseLayers causes_of(const scene::LookupLayers& own, float constant,
                                         float slope);
     /// Why the pixels of the same lookup with the job's bias are wrong, and what other biases would
-    /// do. Takes along what it tells: the last question.
+    /// do. Uses this object up: ask nothing more of it.
     /// @param own           verdicts of the job's bias.
     /// @param profile_bias  as in `CurveQuestion`.
     /// @param verdict_taps  as in `ComparedLayers`.

@@ -35,6 +35,7 @@ struct AcneInputs {
 
 /// Above the critical bias of a tap it shadows no more; a pixel is acne as long as it is wrong and
 /// at least half of what shadows it is its self-shadowing surface.
+/// @return  In the order of `allowed_pixels`.
 /// Source: docs/bias_curve.md#limits.
 [[nodiscard]] std::vector<AcneFree> find_acne_free(const AcneInputs& inputs,
                                                    std::span<const std::uint64_t> allowed_pixels);

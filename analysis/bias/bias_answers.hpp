@@ -45,6 +45,7 @@ struct BiasQuestion {
     double unit_light_distance_m = 0;            ///< at which biases are told as lengths [m]
 };
 
+/// Everything about constant biases with the job's own slope, and the best of other slopes.
 /// @param own          the curve of the job's own slope.
 /// @param recommended  what it recommends.
 /// @throws std::invalid_argument  if the images differ in size.

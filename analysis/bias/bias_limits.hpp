@@ -9,9 +9,8 @@
 
 namespace gnomon::analysis {
 
-/// The two sides between which a constant bias must lie. Infinite values mean what they say: a bias
-/// is free of acne iff it is at least `acne_free`, free of panning iff it is at most
-/// `panning_free`.
+/// The two limits between which a constant bias must lie, also where they are infinite: a bias is
+/// free of acne iff it is at least `acne_free`, free of panning iff it is at most `panning_free`.
 ///
 /// `acne_free`, of either kind, is −∞ when every bias is, +∞ when none is; `panning_free` is +∞
 /// when every bias is, −∞ when none is. (Reports write an infinite limit as empty: there is no such
@@ -28,7 +27,7 @@ struct BiasLimits {
     /// and no bias brought them about.
     float panning_free_beyond_zero = 0;
 
-    /// Does acne, by count, need more bias than panning allows?
+    /// Whether acne, by count, needs more bias than panning allows, or no bias serves one of them.
     [[nodiscard]] bool cross() const;
 };
 

@@ -21,7 +21,7 @@ struct FoundBias {
     BiasInterval run;  ///< the valley's, in the job's own view; hi infinite: nothing limits it
     float middle = 0;  ///< the recommended bias of the job's own view
     PastedBias pasted; ///< one of the valley with few digits, as a job file has it
-    std::vector<ViewOutcome> outcomes; ///< with the recommended one, by view
+    std::vector<ViewOutcome> outcomes; ///< with the pasted one, by view
     bool meets_limits = false;         ///< in every view
 
     /// In the job's own view [depth units].
@@ -52,9 +52,10 @@ public:
     /// Source: docs/bias_curve.md#what-is-recommended.
     [[nodiscard]] FoundBias find(const TuneLimits& limits, float slope) const;
 
-    /// What GL itself gives in each view with the constant bias that its job sets, and a slope.
+    /// What GL itself gives in each view, in the order in which they were added, with the constant
+    /// bias that its job sets, and a slope.
     [[nodiscard]] std::vector<ViewOutcome> measure_as_set(float slope) const;
-    /// What GL itself gives in each view with a constant bias and slope.
+    /// What GL itself gives in each view, in the same order, with a constant bias and slope.
     /// @param constant  In the first view; carried to the others.
     [[nodiscard]] std::vector<ViewOutcome> measure(float constant, float slope) const;
 

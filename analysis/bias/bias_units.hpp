@@ -68,6 +68,7 @@ struct BiasMapInputs {
     scene::DepthFormat depth_format;
 };
 
+/// The bias that each scored pixel needs or allows; NaN elsewhere.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] BiasMap map_biases(const BiasMapInputs& inputs);
 

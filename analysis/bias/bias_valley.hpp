@@ -20,6 +20,7 @@ struct ErrorPiece {
 /// The pieces of biases >= 0, exactly, of lookups with one comparison a pixel.
 /// @param lit, blocked  Critical biases of the scored pixels, ascending; of several views: all of
 ///                      them together.
+/// @return  Ascending, without gaps: the first begins at 0, the last is infinite.
 [[nodiscard]] std::vector<ErrorPiece> error_pieces(std::span<const float> lit,
                                                    std::span<const float> blocked);
 

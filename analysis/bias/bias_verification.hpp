@@ -37,8 +37,8 @@ struct BiasVerification {
                                                   const scene::Image<std::uint32_t>& triangles,
                                                   std::span<const float> wanted);
 
-/// Holds every verdict of a lookup with this constant bias to the pixel's critical bias: lit iff
-/// that is at most the bias.
+/// Compares every verdict of a lookup with this constant bias with the pixel's critical bias, which
+/// says: lit iff it is at most the bias.
 /// @param criticals, triangles  as for `biases_to_verify`.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] BiasVerification::Rerun hold_to_curve(const scene::LookupLayers& lookup,

@@ -21,9 +21,11 @@ namespace gnomon::analysis {
 /// Slope factors worth a curve: 0, ¼, ½, 1, 2 and 4 times `per_footprint`.
 ///
 /// A plane sampled at texel centres needs ½ when the grid lies along its steepest direction and
-/// 1/√2 when it lies across (docs/formulas.md#minimum-bias); below are a plane's lucky positions,
-/// above is slack for curved surfaces, whose tangent at P says too little about the texel's centre.
+/// 1/√2 when it lies across (docs/formulas.md#minimum-bias). Smaller factors serve a plane in some
+/// positions only; larger ones leave slack for curved surfaces, whose tangent at P says too little
+/// about the texel's centre.
 /// @param per_footprint  > 0, from `depth_per_footprint`.
+/// @return  Ascending; depth units per unit of tan θ.
 /// @throws std::invalid_argument  if it is not positive, or a factor is not a normal float32.
 [[nodiscard]] std::vector<float> default_slopes(double per_footprint);
 

@@ -49,7 +49,8 @@ struct CauseInputs {
             tap.is_inside ? stored_depth(layers, pixel, tap.texel) : without.outside_depth();
         return !without.is_lit(layers.samples[pixel].receiver_depth, depth);
     }
-    /// True where an infinitely fine map has nothing to say of the receiver.
+    /// True where the receiver lies outside the map or beyond far, so that no finer map would see
+    /// it.
     [[nodiscard]] bool is_uncovered(const Footprint& footprint, std::size_t pixel) const
     {
         return !footprint.is_inside(unbiased.texels[pixel]) ||

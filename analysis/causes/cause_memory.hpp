@@ -18,9 +18,10 @@ class CauseMemory {
 public:
     explicit CauseMemory(scene::ImageSize size) : causes_{size}, known_{size} {}
 
-    /// Of lit pixels that V1 shadows, and of blocked ones that it does not shadow by others.
+    /// Whether the pixel's cause is remembered: that of lit pixels that V1 shadows, and of blocked
+    /// ones that V1 does not shadow by other surfaces.
     [[nodiscard]] bool knows(std::size_t pixel) const { return has(pixel, knows_cause); }
-    /// As of one that V1 gets right, if nothing is known.
+    /// The cause remembered; if there is none, that of a pixel that V1 gets right.
     [[nodiscard]] const PixelCause& known(std::size_t pixel) const { return causes_[pixel]; }
     void remember(std::size_t pixel, const PixelCause& cause)
     {

@@ -79,9 +79,9 @@ struct ShadowingTaps {
     return taps.own > 0 && taps.own >= taps.others ? Label::acne : Label::edge;
 }
 
-/// The label of a blocked pixel that is wrong or partial by this cause. `bleed` is none that the
-/// filters here can have: where every texel of a footprint shadows, so do their mean depth and any
-/// weights, and V2 repairs.
+/// The label of a blocked pixel that is wrong or partial by this cause. Never `bleed` with the
+/// filters here: where every texel of a footprint shadows, so do their mean depth and any weights,
+/// and V2 repairs.
 /// @param sees  as `PixelCause::sees`.
 [[nodiscard]] inline Label label_of_blocked(Cause cause, bool sees)
 {

@@ -18,12 +18,13 @@ struct PrecisionKinds {
     std::uint64_t transform = 0; ///< by float32 matrices and interpolated positions
 };
 
-/// The wrong pixels of cause `precision`.
+/// The wrong pixels of cause `precision`: row-major indices, ascending.
 [[nodiscard]] std::vector<std::size_t> wrong_by_precision(const scene::Image<Cause>& causes,
                                                           const scene::TruthLayers& truth,
                                                           const scene::LookupLayers& lookup);
 
-/// Compares them as V1 does, with V2's bias, in the same map drawn as d32f.
+/// Counts them by whether the same map drawn as d32f repairs them, compared as V1 does, with V2's
+/// bias.
 /// @param floats  of that map: its `job` has the job's tan θ, its `unbiased` and `map_depths` are
 ///                the float map's (`linear`: without `map_depths`).
 /// @param pixels  from `wrong_by_precision`.

@@ -49,6 +49,7 @@ struct MeasuredDepthError {
     DepthCertificate certificate;
 };
 
+/// A row for each sample, in their order, and what they add up to.
 /// @throws std::invalid_argument  if there is no sample.
 [[nodiscard]] MeasuredDepthError measured_depth_error(const DepthMapping& mapping,
                                                       const scene::DepthMeasurement& measurement);

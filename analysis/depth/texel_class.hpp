@@ -22,6 +22,7 @@ inline constexpr std::size_t texel_class_count = 4;
 /// "nearest_code", "within_format", "within_model", "outside".
 [[nodiscard]] std::string_view texel_class_name(TexelClass texel_class);
 
+/// The first class that holds for the texel's stored code.
 /// Source: docs/depth_precision.md#certificate.
 [[nodiscard]] TexelClass classify_texel(const DepthCoding& coding, const scene::TexelDepth& texel);
 

@@ -17,8 +17,7 @@ struct Case {
     const scene::TriangleScene& mesh; ///< in the renderer's space, with its roles
 };
 
-/// A case held to what its mesh and light make of it, as far as it takes to know whether it can be
-/// scored.
+/// A case compared with its mesh and light, as far as needed to know whether it can be scored.
 struct CheckedCase {
     scene::Job job;
     scene::View view;
@@ -29,12 +28,12 @@ struct CheckedCase {
 
 /// Checks a case, and finds the truth of its pixels.
 /// @param tolerance_m  of the 99th percentile of distances; empty: `default_tolerance_m`.
-/// @throws scene::InputError  if the light or camera is none, or `objects` names no object.
+/// @throws scene::InputError  if the light or camera is not valid, or `objects` names no object.
 [[nodiscard]] CheckedCase check_case(const Case& subject, const CaseTruth& truth,
                                      std::optional<double> tolerance_m);
 
-/// The comparison of a case's mask with its truth, as far as the case's data allow, with what they
-/// do not tell; everything that reports show of GL's comparisons is in its place.
+/// Compares a case's mask with its truth. The result is filled in as GL's comparisons are, as far
+/// as the case's data allow; its `evaluation` says what they do not tell.
 /// @param checked  without a mistake.
 /// @return  It refers to the subject's mesh.
 [[nodiscard]] Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& truth);

@@ -25,12 +25,12 @@ using MixedAxes = std::array<scene::CaseSpace::Axis, 3>;
 /// All 48, the likeliest mistakes first: none, z up, one axis mirrored, two of them swapped, ….
 [[nodiscard]] const std::vector<MixedAxes>& all_axes();
 
-/// How many of the renderer's units a unit of the mesh may have been taken for.
+/// A way in which units may be mixed up.
 struct UnitMistake {
     double factor = 1; ///< P is too large by it
     std::string_view words;
 };
-/// The first is none at all, and of the others each leaves P larger than the next does.
+/// The first is no mistake, of factor 1; the others ascend by their factor.
 [[nodiscard]] const std::vector<UnitMistake>& unit_mistakes();
 
 } // namespace gnomon::analysis

@@ -21,16 +21,18 @@ struct MaskAgreement {
     std::uint64_t blocked_right = 0;
 
     /// Share of lit pixels that are lit plus share of blocked ones that are shadowed, minus 1: 1
-    /// where they agree, 0 where the mask says nothing (Youden's J). Of a kind that is missing half
-    /// counts.
+    /// where they agree, 0 where the mask says nothing, −1 where it is inverted (Youden's J). The
+    /// share of a kind without pixels is one half.
     [[nodiscard]] double index() const;
     [[nodiscard]] bool has_both() const { return lit > 0 && blocked > 0; }
 };
 
+/// Counts the scored pixels, and those that the mask gets right.
 [[nodiscard]] MaskAgreement agreement(const scene::Image<float>& mask,
                                       const scene::Image<scene::PixelClass>& classes);
 
-/// The mistake that a mask shows by itself: edges with fractions, where one sample has none.
+/// The mistake that a mask shows by itself: edges with fractions, where one sample has none. Empty
+/// if hardly any are, or where the case says that fractions are meant or that a filter made them.
 [[nodiscard]] std::optional<ImportMistake> check_fractions(const scene::CaseFile& file,
                                                            const scene::CaseLayers& layers);
 
@@ -48,6 +50,7 @@ struct MaskAgreement {
 ///
 /// A mask that is all lit or all shadowed shows none of them, and is left to the scores.
 /// @param truth  of `receivers` and the case's light.
+/// @return  Empty if no mistake explains it.
 [[nodiscard]] std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers,
                                                       const scene::Light& light,
                                                       const scene::RoundedReceivers& receivers,

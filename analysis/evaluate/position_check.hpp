@@ -18,7 +18,7 @@ struct ImportMistake {
     std::string sentence;
 };
 
-/// How far positions may be from their surfaces: 2^-16 of the largest coordinate that they have.
+/// How far positions may be from their surfaces [m]: 2^-16 of the mesh's largest coordinate.
 ///
 /// Rounding to float32 moves a coordinate by 2^-24 of it at most; the rest is for what renderers
 /// compute in float32 before. Rounding to half moves it by up to 2^-12.

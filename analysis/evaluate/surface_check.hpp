@@ -11,7 +11,8 @@
 
 namespace gnomon::analysis {
 
-/// The mistake of object numbers or normals that do not suit the surfaces that P lies on.
+/// The mistake of object numbers or normals that do not suit the surfaces that P lies on; empty if
+/// they do, or if there are neither.
 ///
 /// Numbers: with them more than a hundredth of the positions is farther off than tolerated, without
 /// them not. Normals: their angle to those of the triangles is beyond acos(0.9) at half the pixels

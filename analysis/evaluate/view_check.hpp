@@ -14,7 +14,8 @@
 
 namespace gnomon::analysis {
 
-/// What a case lacks for the causes of all wrong pixels; empty if it lacks nothing.
+/// What a case lacks for the causes of all wrong pixels, by the names of keys and layers; empty if
+/// it lacks nothing.
 ///
 /// With the whole camera, the shadow map's settings, r, d and where the map was looked up, causes
 /// and labels are found as those of GL are.
@@ -30,7 +31,8 @@ namespace gnomon::analysis {
                                             const scene::Image<std::uint32_t>& receivers,
                                             double tolerance_m);
 
-/// The mistake of an image that is flipped against the camera of its case.
+/// The mistake of an image that is flipped against the camera of its case; empty if it is not, or
+/// if the camera has no perspective.
 [[nodiscard]] std::optional<ImportMistake> check_camera(const scene::View& view,
                                                         const scene::CaseLayers& layers);
 

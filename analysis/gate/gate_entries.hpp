@@ -39,9 +39,10 @@ struct GateEntry {
     /// configuration's id; empty: they were not kept.
     std::string pixels = {};
 
-    /// A metric; the length of a gap is 0 where the causes are known and no pixel has a gap.
+    /// A metric's value, empty if it is not known; the length of a gap is 0 where the causes are
+    /// known and no pixel has a gap.
     [[nodiscard]] std::optional<double> metric(const std::string& name) const;
-    /// The same of the pixels that the filter takes.
+    /// The same of the pixels that the filter takes; empty too for a metric that is not of pixels.
     [[nodiscard]] std::optional<double> metric(const std::string& name,
                                                const PixelFilter& filter) const;
     /// The value of a parameter, of an axis, or of `case`; empty if it has none.
@@ -73,7 +74,8 @@ struct ParameterChange {
     friend bool operator==(const ParameterChange&, const ParameterChange&) = default;
 };
 
-/// By key. The path of a scene's file counts only where the scene is not known to be the same.
+/// The parameters whose values differ, by key. The path of a scene's file counts only where the
+/// scene is not known to be the same.
 [[nodiscard]] std::vector<ParameterChange> changed_parameters(const GateEntry& before,
                                                               const GateEntry& now);
 

@@ -27,8 +27,9 @@ struct PixelFilter {
     std::optional<LightDistanceBands> bands;
 
     [[nodiscard]] bool takes_all() const { return !object && !cause && !label && !bands; }
-    /// Whether it is of a cell, whatever is wrong there.
+    /// Whether it takes pixels of that cell, whatever their error.
     [[nodiscard]] bool has(const ErrorCell& cell) const;
+    /// Whether it takes errors of that kind, in whatever cell.
     [[nodiscard]] bool has(const KindOfError& kind) const;
     friend bool operator==(const PixelFilter&, const PixelFilter&) = default;
 };
@@ -38,11 +39,12 @@ struct PixelFilter {
 [[nodiscard]] bool is_of_pixels(std::string_view metric);
 
 /// The errors that a metric counts or adds up, of the pixels that the filter takes.
-/// @return  Empty if it is of no errors, or none can be such.
+/// @return  Empty if the metric counts no errors, or contradicts the filter.
 [[nodiscard]] std::optional<PixelFilter> counted_pixels(std::string_view metric,
                                                         const PixelFilter& filter);
 
-/// Whether a metric of errors is about those of that side.
+/// Whether a metric of errors counts false lit pixels, or else false shadow; one of both sides
+/// counts either.
 [[nodiscard]] bool counts_side(std::string_view metric, bool is_false_lit);
 
 /// Whether any error can be of that metric and filter: acne, for one, is never false lit

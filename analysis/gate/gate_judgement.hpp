@@ -38,7 +38,7 @@ struct GateFinding {
     std::optional<NewPixels> new_pixels = {}; ///< of `new_pixels`: where they are
 };
 
-/// What it means for the gate: what its rule says, or a warning where it is traded off.
+/// The severity of a finding: its rule's, or a warning where it is traded off.
 [[nodiscard]] Severity severity_of(const GateFinding& finding, std::span<const GateRule> rules);
 
 /// A metric that a rule on its change judges, and that changed for the better.
@@ -74,12 +74,11 @@ struct GateOutcome {
     std::vector<GateImprovement> improvements; ///< by entry
     std::vector<std::size_t> unmatched_rules;  ///< of no configuration, and not optional
 
-    /// How many rules of that severity are broken, configuration by configuration; what is not
-    /// available does not count.
+    /// How many findings have that severity; those of values that are not available do not count.
     [[nodiscard]] std::size_t broken(std::span<const GateRule> rules, Severity severity) const;
     /// Whether a rule that fails could not be judged, or configurations are missing.
     [[nodiscard]] bool is_incomplete(std::span<const GateRule> rules) const;
-    /// @return  nullptr if the baseline lacks that entry of the run.
+    /// The pair of an entry of the run; nullptr if the baseline lacks it.
     [[nodiscard]] const GatePair* pair_of(std::size_t entry) const;
 };
 
@@ -96,6 +95,8 @@ struct GateOutcome {
                                     std::span<const GateRule> rules,
                                     const AskNewPixels& ask_new_pixels = {});
 
+/// `incomplete` if results are missing or a rule that fails could not be judged; else `regression`
+/// if a rule that fails is broken; else `pass`.
 /// @param is_complete  Whether no configuration of the run failed or is missing.
 [[nodiscard]] GateVerdict gate_verdict(const GateOutcome& outcome, std::span<const GateRule> rules,
                                        bool is_complete);

@@ -22,7 +22,7 @@ struct GateMetric {
 /// All that have a name of their own: those columns, and what follows from them and other tables.
 [[nodiscard]] const std::vector<GateMetric>& gate_metrics();
 
-/// Also finds points of the bias curve.
+/// The metric of that name; for a point of the bias curve, its column.
 /// @return  nullptr if there is none of that name.
 [[nodiscard]] const GateMetric* find_gate_metric(std::string_view name);
 /// Whether a metric's values are integers; not of a name that no metric has.
@@ -48,7 +48,7 @@ struct CurvePointMetric {
 };
 /// The columns that such a metric may be of.
 [[nodiscard]] const std::vector<std::string>& curve_point_columns();
-/// @return  Empty if the text is none.
+/// Reads the name of such a metric; empty if the text is not one.
 [[nodiscard]] std::optional<CurvePointMetric> curve_point_metric(std::string_view text);
 
 /// How many pixels have a peter-panning gap.
@@ -57,7 +57,7 @@ inline constexpr std::string_view gap_pixels_metric = "peter_panning_gap_pixels"
 /// Whether a metric is a peter-panning gap's length, in metres or texels.
 [[nodiscard]] bool is_gap_length(std::string_view name);
 
-/// The whole text as a finite number.
+/// The whole text as a finite number; empty if it is anything else.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
 } // namespace gnomon::analysis

@@ -77,6 +77,7 @@ struct GateRule {
 /// The filters that a rule is judged by in one configuration: its own, or one for each object or
 /// band that both know.
 /// @param before  nullptr if the baseline lacks it.
+/// @return  Empty if the rule is of each object or band and there is none that both know.
 [[nodiscard]] std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* before,
                                                   const GateEntry& now);
 

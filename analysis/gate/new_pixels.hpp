@@ -51,13 +51,14 @@ struct NewPixels {
     static constexpr std::size_t most_named = 10;
 };
 
+/// The pixels that the filter takes, that are wrong now and were not before.
 /// @param before  Which pixels were wrong.
 /// @param now     `knows(filter)`.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] NewPixels find_new_pixels(const PixelMask& before, const WrongPixels& now,
                                         const PixelFilter& filter);
 
-/// New wrong pixels, or why there is no telling.
+/// New wrong pixels, or why they are not known.
 struct NewPixelAnswer {
     std::optional<NewPixels> found;
     std::string obstacle; ///< "the run kept no pixels"

@@ -68,14 +68,15 @@ public:
     /// The texel of the lower left tap, before any clamping.
     [[nodiscard]] scene::Texel first_tap(const scene::Vec2f& point) const;
 
-    /// Which tap reads the texel that contains the point, or would, were it on the map.
+    /// Index of the tap that reads the texel that contains the point, or would, were it on the map.
     [[nodiscard]] std::size_t centre_tap(const scene::Vec2f& point) const;
 
-    /// The lower left tap's texel where all taps are on the map: the others are the square from it.
+    /// The lower left tap's texel if all taps are on the map, which then are the square from it;
+    /// else empty.
     [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::Vec2f& point) const;
 
     /// The texels of the map around the taps: nearest, the 8 around one; linear and hardware, the
-    /// 12 around 2×2; pcfK, the 4K + 4 around K×K.
+    /// 12 around 2×2; pcfK, the 4K + 4 around K×K; fewer at the map's border.
     [[nodiscard]] std::vector<scene::Texel> ring(const scene::Vec2f& point) const;
 
     /// True when the point lies on the map.

@@ -60,7 +60,7 @@ struct Binning {
         return std::span{pixels}.subspan(first, ends[bin] - first);
     }
 
-    /// The i-th bin's lower edge.
+    /// The i-th bin's lower edge; for i = `bins` the upper edge of the last.
     [[nodiscard]] double edge(int i) const;
 };
 
@@ -82,6 +82,7 @@ struct Binning {
 /// @param biases    Verdicts are those of these constant biases, by the critical biases.
 /// @param lit_taps  Of a pcfK lookup, for each bias how many taps of each pixel are lit; empty for
 ///                  one comparison.
+/// @return  The bins of each bias, in the order of the biases.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<std::vector<ErrorBin>>
 errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases,

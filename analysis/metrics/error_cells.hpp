@@ -70,9 +70,10 @@ struct CellMap {
     std::vector<ErrorCell> cells;     ///< by object and band, without errors; may be empty
 };
 
-/// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
-/// @param light_distance_m     Light distance of the scored pixels [m], as `light_distances_m` has
-/// it.
+/// Divides the scored pixels into parts and counts them; no parts if there would be too many.
+/// @param triangles         The triangle that each pixel shows; one of the scene where it is
+///                          scored.
+/// @param light_distance_m  Light distance of the scored pixels [m], as `light_distances_m` has it.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] CellMap find_error_cells(const scene::Image<scene::PixelClass>& classes,
                                        const scene::Image<std::uint32_t>& triangles,
@@ -81,6 +82,7 @@ struct CellMap {
 
 /// The cells with their errors at each of several biases.
 /// @param biases  Ascending, 0 or normal.
+/// @return  The parts of each bias, in the order of the map; empty if the map has none.
 /// @throws std::invalid_argument  as `count_rows`.
 [[nodiscard]] std::vector<std::vector<ErrorCell>>
 count_error_cells(const CellMap& map, const BiasRowInputs& inputs, std::span<const float> biases);

@@ -18,7 +18,7 @@ struct PixelGap {
     float texels = 0; ///< in texels' world widths at P
 };
 
-/// Peter-panning as a length; empty if nothing pans.
+/// Peter-panning as a length; empty if no pixel has a gap.
 struct Gaps {
     std::optional<Quantiles> metres;
     std::optional<Quantiles> texels;

@@ -49,7 +49,7 @@ struct Metric : MetricDescription {
 using CurveMetrics = std::vector<Metric<CurveResult>>;
 using ConfigurationMetrics = std::vector<Metric<ConfigurationResult>>;
 
-/// The lists that everybody below reads, described anew.
+/// Build the lists that `map_metrics` and the functions below it keep.
 [[nodiscard]] CurveMetrics describe_map_metrics();
 [[nodiscard]] ConfigurationMetrics describe_configuration_metrics();
 [[nodiscard]] CurveMetrics describe_curve_metrics();

@@ -50,10 +50,11 @@ struct Metrics {
 
 [[nodiscard]] ClassCounts count_classes(const scene::TruthLayers& truth);
 
+/// Counts the wrong pixels, and adds up by how much verdicts differ from the truth.
 /// @param taps  `FilterPromises::equal_taps` of the lookup: the verdicts are multiples of 1/taps
-/// and their errors
-///              are added as integers; 0: as doubles.
+///              and their errors are added as integers; 0: as doubles.
 /// @throws std::invalid_argument  if the layers differ in size.
+/// @throws std::domain_error      if a scored pixel's verdict is not in [0, 1].
 [[nodiscard]] Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup,
                               int taps);
 

@@ -33,7 +33,7 @@ struct SubsetRate {
 
 /// Everything that is called a rate, and `mean_abs_error`.
 [[nodiscard]] std::span<const SubsetRate> subset_rates();
-/// Empty where there are no such pixels.
+/// The rate in one subset; empty where that has no such pixels.
 [[nodiscard]] std::optional<double> rate_of(const SubsetRate& rate, const SubsetCounts& counts);
 
 } // namespace gnomon::analysis

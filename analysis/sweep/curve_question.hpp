@@ -22,7 +22,8 @@ struct CurveQuestion {
     std::vector<Row> rows;
 };
 
-/// The job's own constant bias [depth units]; 0 where it is none in this frustum.
+/// The job's own constant bias [depth units]; 0 where this frustum does not allow it
+/// (`scene::resolve_bias`).
 [[nodiscard]] float own_constant_bias(const scene::Job& job, const scene::LightFrustum& frustum);
 
 /// A row that cannot be computed, and why.
@@ -35,8 +36,8 @@ struct RefusedRow {
 [[nodiscard]] CurveQuestion question_of(SweepTask& task, const scene::LightFrustum& frustum,
                                         std::vector<RefusedRow>& refused);
 
-/// The biases that a curve's numbers are asked for: the job's, the best one, and a few of the rows'
-/// evenly spread over them.
+/// The biases that a curve's numbers are asked for, in this order: the job's, the best one, and a
+/// few of the rows' evenly spread over them; some may be equal.
 [[nodiscard]] std::vector<float> wanted_biases(const CurveQuestion& question,
                                                const CurveResult& curve);
 

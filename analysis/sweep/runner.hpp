@@ -32,7 +32,8 @@ struct SweepTask {
     std::vector<Row> rows;
 };
 
-/// What a sweep is given and whom it tells. Callables are called from one thread at a time each.
+/// What a sweep reads from, and where its results go. Each callable is called from one thread at a
+/// time.
 struct SweepHooks {
     /// Reads the job's scene; the one before it may go.
     std::function<OpenScene(const scene::Job&)> open_scene;

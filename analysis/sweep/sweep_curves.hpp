@@ -37,7 +37,7 @@ public:
     /// Configurations whose keys do not go together.
     [[nodiscard]] const std::vector<Refusal>& refusals() const { return refusals_; }
 
-    /// A job of the request.
+    /// The job of the request's first configuration.
     [[nodiscard]] scene::Job job(std::size_t request) const;
     /// @param scene  the request's, which could be read.
     [[nodiscard]] SweepTask task(std::size_t request, const SceneIdentity& scene) const;
@@ -45,17 +45,17 @@ public:
     /// The request's curve: equal for requests that differ in nothing but the place of the same
     /// scene.
     [[nodiscard]] std::string curve_key(std::size_t request, const SceneIdentity& scene) const;
-    /// False only if no two of the requests' configurations are the same under two numbers.
+    /// Whether two ordinals may stand for the same configuration; false only if none do.
     /// @param scenes  of all requests, in their order.
     [[nodiscard]] bool may_repeat(std::span<const SceneIdentity> scenes) const;
 
     using Visit = std::function<void(const Configuration&)>;
-    /// Says who the request's configurations are.
+    /// Calls `visit` with each of the request's configurations.
     /// @param scene  the request's; if it cannot be read, its file stands for it in the ids.
     /// @param shard  that computes them.
     void describe(std::size_t request, const SceneIdentity& scene, const Visit& visit,
                   std::uint32_t shard = 1) const;
-    /// Says who the refused ones are: by the keys that they are given.
+    /// The same for the refused ones, which are described by the keys that they are given.
     void describe(const Refusal& refusal, const Visit& visit) const;
 
 private:

@@ -14,13 +14,13 @@ struct TuneLimits {
     int max_resolution_texels = 4096;
 };
 
-/// None: every setting meets them.
+/// Limits that every setting meets.
 [[nodiscard]] constexpr TuneLimits no_limits()
 {
     return {.max_shadow_amount_rate = 1, .max_light_amount_rate = 1};
 }
 
-/// A rate without a denominator meets every limit.
+/// Whether each rate is at most its limit; one without a denominator meets every limit.
 [[nodiscard]] bool meets(const ViewOutcome& outcome, const TuneLimits& limits);
 
 /// The constant biases with which a view meets the limits, where each verdict is one comparison;

@@ -24,14 +24,15 @@ struct MapSize {
 /// what the camera sees. Each once.
 [[nodiscard]] std::vector<scene::FrustumSettings> frusta(const scene::Job& job);
 
-/// What else to draw into a map than the job does.
+/// The kinds of culling other than the job's.
 [[nodiscard]] std::vector<scene::Cull> other_culls(const scene::Job& job);
 
-/// Those with a bias curve, and the job's own: by taps.
+/// nearest, linear, pcf3, pcf5 and the job's own; by ascending taps.
 [[nodiscard]] std::vector<scene::Filter> tuned_filters(const scene::Job& job);
 
-/// Normal offsets to try [texels], and slopes for a map; of a filter whose verdicts are fractions
-/// few, for each costs as much as a hundred others.
+/// Normal offsets to try [texels], and slopes for a map [depth units per unit of tan θ]; ascending,
+/// the job's own among them. Fewer for a filter whose verdicts are fractions: each costs as much as
+/// a hundred others.
 [[nodiscard]] std::vector<double> normal_offsets(const scene::Job& job, scene::Filter filter);
 [[nodiscard]] std::vector<double> slopes(const scene::Job& job, scene::Filter filter,
                                          const scene::LightFrustum& frustum, int resolution_texels);

@@ -15,7 +15,7 @@
 
 namespace gnomon::reference_rt {
 
-/// What somebody says is true of each pixel; the claims that `certify` tests.
+/// Claims about what is true of each pixel, for `certify` to test.
 struct TruthClaims {
     scene::Image<std::uint32_t> receiver; ///< GL's triangle, or `no_triangle`
     scene::Image<scene::PixelClass> pixel_class;

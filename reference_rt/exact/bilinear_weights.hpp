@@ -31,8 +31,9 @@ public:
     }
 
     [[nodiscard]] std::array<Bounded, 4> bounded() const;
-    /// Bounded far more closely, at a cost; not at all where the hit is not well scaled.
+    /// Bounded far more closely, at a cost; with infinite errors where the hit is not well scaled.
     [[nodiscard]] std::array<Wide, 4> sharp() const;
+    /// Denominators are 0 where P is in the light's camera plane.
     [[nodiscard]] std::array<Fraction, 4> exact() const;
 
 private:

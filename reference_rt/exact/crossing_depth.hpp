@@ -35,8 +35,8 @@ namespace gnomon::reference_rt {
                                     const scene::Light& light, const LightDepth& depth,
                                     SignCounts& counts);
 
-/// The part of the way from P to a spot at which the segment crosses the plane of S, or the
-/// multiple of −ℓ; to a relative 2^-42. Precondition: as above.
+/// Where the segment P→light crosses the plane of S, to a relative 2^-42: the part of the way from
+/// P to a spot, in (0, 1), or the multiple of −ℓ, above 0. Precondition: as above.
 [[nodiscard]] double way_to_crossing(const Receiver& receiver, const Corners& s,
                                      const scene::Light& light);
 

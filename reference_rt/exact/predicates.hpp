@@ -160,7 +160,8 @@ private:
 /// True when S lies in the plane of T.
 [[nodiscard]] bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts);
 
-/// Side of the light from the plane of a triangle.
+/// Side of the light from the plane of a triangle: 1 where it sees the corners counter-clockwise,
+/// −1 where clockwise, 0 in the plane.
 [[nodiscard]] Sign light_side(const Corners& corners, const scene::Light& light,
                               SignCounts& counts);
 [[nodiscard]] Sign light_side(const ExactTriangle& face, const scene::Light& light,

@@ -12,7 +12,8 @@
 
 namespace gnomon::reference_rt {
 
-/// The smallest bias that is not below `x`: 0 or a normal float32, as GL's biases are.
+/// The smallest bias that is not below `x`: 0 or a normal float32 of either sign, as GL's biases
+/// are; +∞ if `x` is larger than all.
 [[nodiscard]] float smallest_bias_from(double x);
 
 /// The depth of a point: bounded, and what makes it exact.
@@ -29,7 +30,8 @@ public:
     }
 
     [[nodiscard]] Bounded bounded() const { return bounded_; }
-    /// Bounded far more closely, at a cost; not at all where the hit is not well scaled.
+    /// Bounded far more closely, at a cost; with an infinite error where the hit is not well
+    /// scaled.
     [[nodiscard]] Wide sharp() const;
     [[nodiscard]] Fraction exact() const;
     /// The same, limited to [0, 1].

@@ -11,8 +11,8 @@ namespace gnomon::reference_rt {
                                                   const scene::Image<std::uint32_t>& receivers,
                                                   const RasterFacts& raster, int threads);
 
-/// GL's word for what is seen, exact signs for `attached` and `out_of_light`, and one float ray per
-/// pixel, started 1e-4 of the scene's diagonal off P, for the rest.
+/// Takes GL's triangles as seen; exact signs for `attached` and `out_of_light`, and one float ray
+/// per pixel, started 1e-4 of the scene's diagonal off P, for the rest.
 [[nodiscard]] scene::TruthLayers
 classify_by_plain_rays(const ReferenceScene::Implementation& reference, const scene::View& view,
                        const scene::Image<std::uint32_t>& receivers, int threads);

@@ -31,7 +31,8 @@ public:
     [[nodiscard]] LaneBits match(const Tile& tile, const LanePositions& points,
                                  SignCounts& counts) const;
 
-    /// Why GL's triangle, or its seeing none, does not match.
+    /// Class and reason of a pixel that `match` leaves out: `background` if neither GL nor the ray
+    /// meets a triangle, else `unmatched`.
     [[nodiscard]] UnmatchedVerdict explain(const CameraRay& ray, int x, int y,
                                            std::uint32_t triangle, SignCounts& counts) const;
 

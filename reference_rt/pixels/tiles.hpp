@@ -40,15 +40,16 @@ public:
     {
         return top + static_cast<int>(lane) / tile_side_px;
     }
-    /// Of a lane in `seen`.
+    /// The triangle that GL saw, of a lane in `seen`.
     [[nodiscard]] const ExactTriangle& face(std::size_t lane) const;
-    /// Of a lane in `seen`; made when first asked for, and valid until the tile is filled again.
+    /// The receiver of a lane in `seen`; made when first asked for, and valid until the tile is
+    /// filled again.
     [[nodiscard]] const Receiver& receiver(std::size_t lane) const
     {
         SignCounts ignored; // the sign of δ has been counted
         return receiver(lane, ignored);
     }
-    /// Of all lanes in `seen`.
+    /// The receivers of all lanes in `seen`; those of other lanes mean nothing.
     [[nodiscard]] const PacketOf<Receiver>& receivers() const;
 
 private:

@@ -30,14 +30,18 @@ namespace gnomon::reference_rt {
                                                         int threads = 0);
 
 /// The triangle of its scope nearest to each point, in double precision; for finding out what is
-/// wrong with points that are on no surface. Points that are not finite have none.
+/// wrong with points that are on no surface.
 /// @param scopes  one for each point; empty: all that receive.
+/// @return  In the order of the points; `no_triangle` where the point is not finite or its scope
+///          holds none.
 [[nodiscard]] std::vector<scene::NearestSurface>
 nearest_surfaces(const ReferenceScene& reference, std::span<const scene::Vec3d> points,
                  std::span<const scene::SurfaceScope> scopes = {}, int threads = 0);
 
 /// The blocker nearest to the light of blocked pixels, for the point of T nearest to P.
 /// @param pixels  row-major indices, `blocked` in `truth`.
+/// @return  In the order of the pixels; `no_triangle` where none is found. Light distances are not
+///          known: NaN for every blocker found.
 [[nodiscard]] std::vector<scene::BlockerHit>
 find_rounded_blockers(const ReferenceScene& reference, const scene::Light& light,
                       const scene::RoundedReceivers& receivers, const scene::RoundedTruth& truth,

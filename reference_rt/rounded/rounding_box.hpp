@@ -29,8 +29,9 @@ struct RoundingBox {
 [[nodiscard]] bool meets_plane(const RoundingBox& box, const ExactTriangle& face,
                                SignCounts& counts);
 
-/// By how much the box of all that rounds to p is grown until it meets the plane of a triangle; 0
-/// where it does: (|n·(P − a)| − Σ|n_k|h_k) / Σ|n_k|, and not more than rounding needs beyond that.
+/// By how much the box of all that rounds to p is grown on each side until it meets the plane of a
+/// triangle [m]; 0 where it does: (|n·(P − a)| − Σ|n_k|h_k) / Σ|n_k|, and not more than rounding
+/// needs beyond that.
 [[nodiscard]] double growth_to_plane_m(const scene::Vec3f& p, const ExactTriangle& face,
                                        SignCounts& counts);
 

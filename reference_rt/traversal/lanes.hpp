@@ -19,7 +19,7 @@ struct Lanes3 {
     Lanes<double> x, y, z;
 };
 
-/// Precondition: there is one.
+/// Index of the lowest lane in the set. Precondition: there is one.
 [[nodiscard]] inline std::size_t first_lane(LaneBits lanes)
 {
     return static_cast<std::size_t>(std::countr_zero(lanes));

@@ -22,7 +22,7 @@ namespace gnomon::reference_rt {
 /// P, when doubles do not resolve it: to within 2^-49 of its size.
 [[nodiscard]] BoundedPoint exact_unit_point(const Receiver& receiver, const UnitFrame& frame);
 
-/// E + t d, however large its error is.
+/// E + t d in the unit frame, however large its error is.
 [[nodiscard]] inline BoundedPoint point_along(const scene::Ray& ray, double t, double t_error,
                                               const UnitFrame& frame)
 {
@@ -34,7 +34,7 @@ namespace gnomon::reference_rt {
     return {origin + step, error};
 }
 
-/// P. Precondition: δ is not 0.
+/// P in the unit frame. Precondition: δ is not 0.
 [[nodiscard]] inline BoundedPoint unit_point(const Receiver& receiver, const UnitFrame& frame)
 {
     const BoundedPoint point = point_along(receiver.ray(), receiver.t, receiver.t_error, frame);
@@ -80,7 +80,8 @@ public:
     }
 
     [[nodiscard]] const BoundedPoint& origin() const { return origin_; }
-    /// A distance along the float ray beyond the hit; may be infinite.
+    /// A distance along the float ray beyond the hit; infinite where the hit is not known closely
+    /// enough.
     [[nodiscard]] float t_beyond(const Receiver& hit) const { return t_beyond(hit.t, hit.t_error); }
     [[nodiscard]] float t_beyond(double t, double t_error) const
     {

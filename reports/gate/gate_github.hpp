@@ -22,6 +22,7 @@ namespace gnomon::reports {
 
 /// The gate as Markdown, for $GITHUB_STEP_SUMMARY.
 /// @param most_bytes  It has no more: worst first, and rows that do not fit are counted.
+/// @return  Empty if not even the text without rows fits.
 [[nodiscard]] std::string github_summary(const GateReport& report, std::size_t most_bytes);
 
 } // namespace gnomon::reports

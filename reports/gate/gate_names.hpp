@@ -12,9 +12,9 @@
 /// How texts and JSON of the gate name things.
 namespace gnomon::reports {
 
-/// "object wall, cause bias, light_distance_band [4, 16) m"; empty if it takes all. One line.
+/// "object wall, cause bias, zeta_band [4, 16) m"; empty if it takes all. One line.
 [[nodiscard]] std::string filter_text(const analysis::PixelFilter& filter);
-/// Those members by the same names; `light_distance_band` as an array.
+/// Those members by the same names; `zeta_band` as an array of two, null for an infinite end.
 [[nodiscard]] store::Json filter_json(const analysis::PixelFilter& filter);
 
 /// A metric's value: counts of pixels grouped, others with six digits; "-" if there is none.

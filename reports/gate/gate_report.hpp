@@ -24,7 +24,7 @@ struct GateReport {
     std::map<std::size_t, std::filesystem::path> pictures = {}; ///< by the finding's index
 };
 
-/// Empty if there is none.
+/// The file of a finding's picture; empty if it has none.
 /// @param finding  One of the report's.
 [[nodiscard]] inline std::string picture_of(const GateReport& report,
                                             const analysis::GateFinding& finding)

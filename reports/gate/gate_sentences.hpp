@@ -10,7 +10,7 @@ namespace gnomon::reports {
 [[nodiscard]] std::string finding_sentence(const GateReport& report,
                                            const analysis::GateFinding& finding);
 
-/// What a finding breaks: "5 allowed", "max 3", "min 2", or why there is no telling.
+/// What a finding breaks: "5 allowed", "max 3", "min 2", or why a value is not available.
 [[nodiscard]] std::string broken_limit_text(const GateReport& report,
                                             const analysis::GateFinding& finding);
 

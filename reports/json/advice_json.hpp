@@ -12,7 +12,8 @@ namespace gnomon::reports {
 /// @param comparison  with a diagnosis.
 void add_advice(store::Json& json, const analysis::Comparison& comparison);
 
-/// What a setting gives in a view: counts, amounts and their rates without softening.
+/// What a setting gives in a view: counts and their rates, amounts, softening, and the rate of the
+/// amounts without softening. Rates without a denominator are null.
 [[nodiscard]] store::Json outcome_json(const analysis::ViewOutcome& outcome);
 
 /// A view's name, eye, target, up and light.

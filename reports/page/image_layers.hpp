@@ -53,9 +53,9 @@ public:
     [[nodiscard]] bool has_biases() const { return has_biases_; }
     [[nodiscard]] bool has_diagnosis() const { return has_diagnosis_; }
 
-    /// Of each scored pixel the critical bias, told by how far it is, in the order of biases, from
-    /// the plain difference of the pixel's two depths: mostly next to nothing, which packs well.
-    /// Modulo 2^32; 0 elsewhere.
+    /// Of each scored pixel the rank of its critical bias (`bias_rank`) less that of the plain
+    /// difference of its two depths: mostly next to nothing, which packs well. Modulo 2^32; 0
+    /// elsewhere.
     [[nodiscard]] std::vector<std::uint32_t> critical_steps() const;
     /// Whether every scored pixel's needed bias in metres and texels is, bit by bit, that of its
     /// critical bias and light distance, computed in double and rounded once.

@@ -20,8 +20,9 @@ enum class HeatMap : std::uint8_t {
     label,
 };
 
-/// "needed-bias", "depth-error", "amount", "cause", "label".
+/// The quantity called "needed-bias", "depth-error", "amount", "cause" or "label"; else empty.
 [[nodiscard]] std::optional<HeatMap> heat_map_from_name(std::string_view name);
+/// Those names, in this order.
 [[nodiscard]] std::vector<std::string_view> heat_map_names();
 
 /// Where a value stands on a scale that is linear up to `linear` in size and logarithmic beyond:

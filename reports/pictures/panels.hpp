@@ -10,6 +10,7 @@ namespace gnomon::reports {
 /// What the error panel marks at a pixel.
 enum class Mark : std::uint8_t { none, indeterminate, unmatched, false_shadow, false_lit };
 
+/// `none` for scored pixels that are right, `background`, `attached` and `out_of_light`.
 [[nodiscard]] Mark mark_of(scene::PixelClass pixel_class, float verdict);
 
 /// Okabe and Ito's colours, which people with any colour vision can tell apart.

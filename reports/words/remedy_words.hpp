@@ -10,7 +10,7 @@ namespace gnomon::reports {
 /// "bias.constant = 0.0075 (0.21 m, 3 texels)": what changes, and what a bias amounts to.
 [[nodiscard]] std::string remedy_keys(const analysis::Remedy& remedy);
 
-/// The same as a fragment of a job file.
+/// The keys that change as a fragment of a job file, a line each.
 [[nodiscard]] std::string remedy_toml(const analysis::Remedy& remedy);
 
 /// What a remedy leaves: "bias.constant = 0.0075 (0.21 m, 3 texels) leaves 0.30 % of the surface

@@ -47,7 +47,7 @@ struct Mesh {
 /// @param outline  (x, y) [m], counter-clockwise seen from +z.
 [[nodiscard]] Mesh make_prism(std::span<const Vec2d> outline, double lower_z_m, double upper_z_m);
 
-/// The outline of a wall on round arches, counter-clockwise, centred on x = 0.
+/// The shape of a wall on round arches, centred on x = 0.
 struct ArcadeShape {
     int arch_count = 7;         ///< at least 1
     double spacing_m = 3;       ///< from the middle of one pier to the next
@@ -56,6 +56,7 @@ struct ArcadeShape {
     double top_y_m = 2;         ///< above springing_y_m + arch_radius_m
     int arch_segments = 24;     ///< at least 2
 };
+/// The corners (x, y) [m] of its outline, counter-clockwise from the lower left one.
 [[nodiscard]] std::vector<Vec2d> arcade_outline(const ArcadeShape& shape);
 
 void move_by(Mesh& mesh, const Vec3d& offset_m);

@@ -43,7 +43,8 @@ struct ParameterRange {
 [[nodiscard]] BuiltinParameter word_parameter(std::string name, std::string description,
                                               std::vector<std::string> words);
 
-/// A completed parameter. @throws std::out_of_range if it is not among the values.
+/// The value of a parameter, after `complete_parameters`.
+/// @throws std::out_of_range  if it is not among the values.
 [[nodiscard]] double number(const ParameterValues& values, const std::string& name);
 [[nodiscard]] int count(const ParameterValues& values, const std::string& name);
 [[nodiscard]] const std::string& word(const ParameterValues& values, const std::string& name);

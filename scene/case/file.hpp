@@ -14,8 +14,7 @@
 
 namespace gnomon::scene {
 
-/// Names of an image's channels, the first that there is counts; of vectors what stands before
-/// ".X".
+/// Names of an image's channels: the first that exists counts; of a vector the part before ".X".
 struct ChannelNames {
     std::vector<std::string> shadow{"shadow.V"};
     std::vector<std::string> valid{"valid"};
@@ -26,7 +25,7 @@ struct ChannelNames {
     std::vector<std::string> z_map{"z.map"};
 };
 
-/// How an image says what it says, beside the channels' names.
+/// How an image's values are to be read, beside the channels' names.
 struct ImageConventions {
     ChannelNames channels;
     std::optional<double> lit_above;   ///< the mask is light: above this it is lit

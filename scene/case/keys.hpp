@@ -12,7 +12,7 @@
 
 namespace gnomon::scene {
 
-/// What a case.toml says in its own keys, before it is made sense of.
+/// What a case.toml says in its own keys, before it is resolved to a `CaseFile`.
 struct CaseDraft {
     CaseFile file;
     bool has_schema = false;

@@ -25,7 +25,7 @@ struct CaseSpace {
     [[nodiscard]] bool is_of_mesh() const;
     /// True if the axes are a mirror image of the mesh's.
     [[nodiscard]] bool is_mirrored() const;
-    /// A point of the mesh, in the renderer's space.
+    /// A point of the mesh, in the renderer's space [the renderer's units].
     [[nodiscard]] Vec3d from_mesh(const Vec3d& point) const;
 };
 

@@ -27,6 +27,7 @@ struct RasterModel {
 /// @param triangle      the corners from the float32 clip positions.
 /// @param vertex_error  B_vert: bound on the corners' own depth error (transform and division).
 /// @param centre_px     the pixel or texel centre.
+/// @return  Window depth, >= 0; infinite without an area, and for slivers too thin to be bounded.
 /// Source: docs/formulas.md#driver-bound; Mesa llvmpipe's lp_state_setup.c evaluates the plane from
 /// the framebuffer's origin, hence X and Y, the triangle's largest window coordinates.
 [[nodiscard]] double driver_depth_bound(const WindowTriangle& triangle, const RasterModel& model,

@@ -23,8 +23,8 @@ public:
     /// Exact window depth at a point of the window, counted from its lower left.
     [[nodiscard]] double depth(const Vec2d& at_px) const;
     /// Bound on |GL's depth − `depth`| before the format rounds: `driver_depth_bound` with the
-    /// corners' division and viewport as B_vert. Whether depth follows snapped corners is the
-    /// driver's secret, so the bound assumes the worse.
+    /// corners' division and viewport as B_vert. No driver says whether depth follows the snapped
+    /// corners, so the bound assumes that it does.
     [[nodiscard]] double driver_bound(const Vec2d& at_px, int subpixel_bits) const;
     /// The corners in the window.
     [[nodiscard]] const WindowTriangle& window() const { return window_; }

@@ -22,14 +22,14 @@ struct GltfFacts {
     bool requires_draco = false;
 };
 
-/// Reads the JSON of a .gltf or .glb file; of a file that is neither nothing is said, and of
-/// glTF 1.0 no number of triangles.
+/// Reads the JSON of a .gltf or .glb file. The facts of any other file are the defaults; those of
+/// glTF 1.0 have 0 triangles.
 /// @throws UnsupportedContent  naming an extension that the file requires, or a skin that Assimp
 ///                             crashes on.
 /// @throws std::runtime_error  naming a mesh whose indices make no whole number of triangles.
 [[nodiscard]] GltfFacts read_gltf_facts(const std::filesystem::path& scene_file);
 
-/// Assimp drops triangles that name vertices which are not there, and says nothing.
+/// Checks that Assimp kept all triangles: it drops those with missing vertices in silence.
 /// @throws std::runtime_error  with their number, if the scene lacks triangles.
 /// @throws UnsupportedContent  if it lacks them for a compression that Assimp was built without.
 void require_triangles(const GltfFacts& facts, const aiScene& scene);

@@ -91,7 +91,7 @@ private:
     std::vector<std::byte> block_;
 };
 
-/// The stream contradicts itself: the child that wrote it was out of its mind.
+/// The stream contradicts itself, so nothing that the child process wrote can be used.
 class CorruptStream : public std::runtime_error {
 public:
     CorruptStream() : std::runtime_error{"the importer returned contradictory data"} {}

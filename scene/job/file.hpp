@@ -83,10 +83,12 @@ struct JobFile {
 /// A commented job file with every key at its default: what `gnomon init` writes.
 [[nodiscard]] std::string commented_job_file();
 
-/// The candidate that needs the fewest edits to become `word`; empty if there is none.
+/// The candidate that needs the fewest edits to become `word`, of several the first; empty without
+/// candidates.
 [[nodiscard]] std::string nearest_word(std::string_view word,
                                        const std::vector<std::string>& candidates);
-/// The same where at most half of the longer one's letters are edited; else empty: nobody meant it.
+/// The same, but empty if more than half of the longer word's letters are edited: too far off to be
+/// meant.
 [[nodiscard]] std::string similar_word(std::string_view word,
                                        const std::vector<std::string>& candidates);
 

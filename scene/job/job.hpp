@@ -87,6 +87,7 @@ struct Bias {
     float normal_texels = 0;
 };
 
+/// The biases, each rounded to float32 once; constant_m [m] is divided by far − near before.
 /// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
 [[nodiscard]] Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum);
 

@@ -30,10 +30,11 @@ struct KeyPlace {
     std::string file;
     std::uint32_t line = 0;
 
+    /// "job.toml:3: ", to begin a message.
     [[nodiscard]] std::string text() const;
 };
 
-/// The key nearest to an unknown one: one of the same last part before all others.
+/// The key nearest to an unknown one: the first with the same last part, else that of fewest edits.
 /// @param candidates  What may also stand where the name was found.
 [[nodiscard]] std::string nearest_key(std::string_view name,
                                       std::vector<std::string> candidates = {});
@@ -60,14 +61,15 @@ void for_each_key(const TomlTable& table, const std::string& file,
 /// @throws InputError  naming the argument.
 [[nodiscard]] Layer layer_from_overrides(const std::vector<Override>& overrides);
 
-/// What the job itself says of its keys, `builtin` being where it comes from.
+/// A setting for each key that the job holds, in the order of `key_specs`.
+/// @param builtin  The scene whose default job it is, for messages.
 [[nodiscard]] Layer layer_from_job(const Job& job, std::string_view builtin);
 
 /// Lays a layer over the settings; a key replaces not only itself but also what it excludes, as
 /// light.type = "directional" replaces a cone from below.
 void lay_over(Settings& settings, const Layer& layer);
 
-/// Holds settings against each other: keys that exclude or need one another, near and far, …
+/// Checks settings against each other: keys that exclude or need one another, near and far, …
 /// @param source  What to name when a key is missing.
 /// @throws InputError  naming the keys and what to do.
 void check_settings(const Settings& settings, const std::string& source);

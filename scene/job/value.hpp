@@ -59,10 +59,11 @@ using Domain = std::variant<FlagDomain, IntegerDomain, RealDomain, WordDomain, T
 /// What the domain allows, in words: "an integer from 1 to 16384".
 [[nodiscard]] std::string range_text(const Domain& domain);
 
-/// The node's value if the domain allows it.
+/// The node's value if the domain allows it, else empty.
 [[nodiscard]] std::optional<JobValue> read_value(const Domain& domain, const TomlNode& node);
 
-/// Why the domain does not allow the node, with the nearest word where words are asked for.
+/// Why the domain does not allow the node: "must be an integer from 1 to 16384"; with the nearest
+/// word where words are asked for.
 [[nodiscard]] std::string refusal_text(const Domain& domain, const TomlNode& node);
 
 /// The value as TOML; it reads back as the same value.

@@ -24,6 +24,7 @@ struct ClippedRange {
 /// own arithmetic may err: of a point that GL finds inside, none is left out. They imply ζ >= 0 for
 /// a spot, up to the same rounding.
 /// @param frustum  with its matrices composed; near and far do not matter.
+/// @return  `empty()` if no triangle reaches between the sides.
 [[nodiscard]] ClippedRange clipped_range(const LightFrustum& frustum, const TriangleScene& scene);
 
 } // namespace gnomon::scene

@@ -98,6 +98,7 @@ public:
     /// The first hit of each texel-centre ray, with a triangle that the culling leaves, at a matrix
     /// depth in [0, 1]. A seam is a hit; other degenerate contacts are none.
     /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
+    /// @return  In the order of the texels.
     [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
                                                            HitDetail detail) const = 0;
 
@@ -109,22 +110,23 @@ public:
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
     /// @param clamps  limits r to [0, 1] first, as the border mode `clamp` does.
+    /// @return  In the order of the queries; either sign; +∞ for P in the light's camera plane.
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const NearestQuery> queries,
                                                              bool clamps) const = 0;
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const LinearQuery> queries,
                                                              bool clamps) const = 0;
 
-    /// 1 where a triangle that the culling leaves crosses the open segment P→light, properly or
-    /// through a seam, at a matrix depth in [0, 1].
+    /// For each pixel 1 where a triangle that the culling leaves crosses the open segment P→light,
+    /// properly or through a seam, at a matrix depth in [0, 1]; else 0.
     [[nodiscard]] virtual std::vector<std::uint8_t>
     are_crossed(std::span<const std::size_t> pixels) const = 0;
 
-    /// 1 where the surface leads from P, along the straight line to the texel's centre in light
-    /// view, into the triangle seen there (docs/truth.md).
+    /// For each query 1 where the surface leads from P, along the straight line to the texel's
+    /// centre in light view, into the triangle seen there (docs/truth.md); else 0.
     [[nodiscard]] virtual std::vector<std::uint8_t>
     are_self_shadowing(std::span<const SelfShadowingQuery> queries) const = 0;
 
-    /// The blockers of blocked pixels.
+    /// The blockers of blocked pixels, in their order; `no_triangle` where nothing blocks.
     [[nodiscard]] virtual std::vector<BlockerHit>
     find_blockers(std::span<const std::size_t> pixels) const = 0;
 };

@@ -43,11 +43,11 @@ struct LightFrustum {
     Mat4d light_clip_from_world_exact{1}; ///< composed in double
     Mat4f light_clip_from_world{1};       ///< rounded once: this one is GL's, and exact input
 
-    /// Eye-space distance ζ of a world point from the light's camera plane [m].
+    /// Eye-space distance ζ of a world point from the light's camera plane [m]; below 0 behind it.
     [[nodiscard]] double light_distance_m(const Vec3d& point) const;
     /// World width of a texel at distance ζ [m]: the larger of the texel's two sides.
     [[nodiscard]] double texel_width_m(double light_distance_m, int resolution_texels) const;
-    /// Metres along the axis that one depth unit spans; constant for orthographic frusta.
+    /// far − near [m]: for orthographic frusta what one depth unit spans along the axis.
     [[nodiscard]] double range_m() const { return far_m - near_m; }
     [[nodiscard]] DepthRange depth_range() const
     {

@@ -74,6 +74,7 @@ struct Ray {
     }
     return {{x, y, z}, camera.forward};
 }
+/// sx of a column and sy of a row, as `pixel_ray` defines them.
 [[nodiscard]] double pixel_sx(const Camera& camera, ImageSize image, int x);
 [[nodiscard]] double pixel_sy(const Camera& camera, ImageSize image, int y);
 

@@ -25,7 +25,9 @@ public:
     {
     }
 
-    /// An `analysis::AskNewPixels`. @throws  as `read_mask` and `read_wrong_pixels`.
+    /// An `analysis::AskNewPixels`; no pixels but an obstacle if the images differ in size, or the
+    /// run kept too little for the filter.
+    /// @throws  as `read_mask` and `read_wrong_pixels`.
     [[nodiscard]] analysis::NewPixelAnswer operator()(const analysis::GateEntry& before,
                                                       const analysis::GateEntry& now,
                                                       const analysis::PixelFilter& filter) const;

@@ -17,6 +17,7 @@ namespace gnomon::store {
 /// 16 hexadecimal digits, the same for the same pixels, however they are compressed. They tell
 /// contents apart, but do not resist somebody who wants two of the same hash.
 [[nodiscard]] std::string mask_name(const analysis::PixelMask& mask);
+/// Whether the text is 16 hexadecimal digits in small letters.
 [[nodiscard]] bool is_mask_name(std::string_view text);
 
 /// Writes the mask under its name, unless it stands there already.

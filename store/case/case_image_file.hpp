@@ -25,17 +25,20 @@ public:
     CaseImageFile(const std::filesystem::path& path, std::uint64_t memory_bytes);
 
     [[nodiscard]] scene::ImageSize size() const { return file_.size(); }
-    /// The first of the names that the file has, whole or as a vector; empty if it has none.
+    /// The first name that with the suffix behind it is a channel of the file; empty if none is.
     [[nodiscard]] std::string find(const std::vector<std::string>& names,
                                    std::string_view suffix = "");
-    /// A vector's first channel is named .X, .R or .x.
+    /// The three channels of the first vector whose first channel the file has: NAME.X, else
+    /// NAME.R, else NAME.x. Empty if it has none.
     [[nodiscard]] std::optional<std::array<std::string, 3>>
     find_vector(const std::vector<std::string>& names);
 
+    /// A channel of floats, halves or uints, as float32.
     [[nodiscard]] scene::Image<float> numbers(const std::string& name);
-    /// Depths and positions: half would round them away.
+    /// A channel that must be float32, as depths and positions: half would round them away.
     [[nodiscard]] scene::Image<float> exact_numbers(const std::string& name,
                                                     std::string_view why_not_half);
+    /// Whole numbers from 0: a uint channel as it is; of floats 2^32 − 1 where `position` is NaN.
     /// @param position  NaN where the number does not matter.
     [[nodiscard]] scene::Image<std::uint32_t>
     whole_numbers(const std::string& name, const scene::Image<scene::Vec3f>& position);

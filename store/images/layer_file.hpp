@@ -28,6 +28,7 @@ public:
 
     [[nodiscard]] scene::ImageSize size() const { return size_; }
     [[nodiscard]] bool has(const std::string& name);
+    /// `missing` if the file has no such channel.
     [[nodiscard]] LayerType type(const std::string& name);
     [[nodiscard]] std::vector<std::string> names();
     /// What reading a channel takes, for all of them are decoded at once [bytes].

@@ -8,10 +8,11 @@
 /// the two; ids, ordinals and environments' names are the same.
 namespace gnomon::store::merge_sql {
 
-/// Finds an ordinal that the two plans give to different configurations.
+/// Selects an ordinal that the two plans give to different configurations; no row if there is none.
 [[nodiscard]] std::string other_plan();
 
-/// Finds two results that differ: the id of what they are of, and a column.
+/// A query for two results that differ: it selects the id of what they are of, and a column; no row
+/// if there are none.
 struct Conflict {
     std::string_view subject; ///< what the id names
     std::string query;

@@ -11,7 +11,7 @@ namespace gnomon::store {
 /// The command that computes the run, but for its folder; of a part of a divided sweep that part.
 [[nodiscard]] std::string run_command(const RunDescription& description);
 
-/// The command that computes one configuration with all its layers.
+/// The command that computes one configuration with all its layers; empty if it is not known.
 [[nodiscard]] std::string compare_command(const RunDescription& description, const ResultRow& row);
 /// @param case_name  Empty without cases.
 /// @param axes       The sweep's keys and their values.
@@ -19,8 +19,8 @@ namespace gnomon::store {
 compare_command(const RunDescription& description, const std::string& case_name,
                 const std::vector<std::pair<std::string, std::string>>& axes);
 
-/// The settings of a configuration that are not its own alone: scene, camera, light, map, lookup,
-/// bias, as the job's keys and values.
+/// A configuration's job: its keys with their values as text, in the order of `job_columns`; keys
+/// without a value are left out.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row);
 
 } // namespace gnomon::store

@@ -9,8 +9,8 @@
 
 namespace gnomon::store {
 
-/// Adds notes on a scene, which are about so many configurations: to those of a note that is known,
-/// or as another.
+/// Adds notes on a scene that concern so many configurations; a note that is there already gains
+/// that number.
 void add_notes(std::vector<RunNote>& notes, const std::string& scene,
                std::span<const scene::SceneNote> of_scene, std::uint64_t configurations);
 

@@ -15,7 +15,7 @@ PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& d
 /// `RunStore::has_configurations`
 [[nodiscard]] bool has_configurations(const sqlite::Database& database);
 
-/// How the plan's configurations stand.
+/// Counts this part's configurations by state; what is only `plan`'s is left at its default.
 [[nodiscard]] PlanOutcome read_outcome(const sqlite::Database& database);
 
 /// `RunStore::description`; everything is empty where nothing was planned yet.

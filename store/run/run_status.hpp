@@ -29,7 +29,7 @@ struct RunStatus {
 /// @throws scene::InputError  if there is no run, or nothing was planned in it.
 [[nodiscard]] RunStatus read_run_status(const std::filesystem::path& folder, std::uint64_t most);
 
-/// The command that goes on with a run; empty if it is not known.
+/// The command that goes on with a run; empty if it is not known, or the run is of an older schema.
 [[nodiscard]] std::string resuming_command(const RunStatus& status);
 
 } // namespace gnomon::store

@@ -134,7 +134,7 @@ public:
                      Environments environments = Environments::one,
                      OtherScenes other_scenes = OtherScenes::replaced);
 
-    /// Which it has, where it was opened with `read_older`.
+    /// The run's schema: the present one unless it was opened with `read_older`.
     [[nodiscard]] const RunSchema& schema() const;
 
     /// Whether anything was ever planned here.
@@ -157,7 +157,7 @@ public:
     [[nodiscard]] std::vector<std::uint64_t> unverified() const;
 
     /// Of finished curves that lack the errors by distance at a job's bias, for each such bias the
-    /// first of this part's configurations that asks for it, ascending.
+    /// first ordinal of this part that asks for it, ascending.
     [[nodiscard]] std::vector<std::uint64_t> without_job_bias() const;
 
     /// Ordinals of this part that repeat an earlier one: the same id and the same bias of the job,
@@ -179,7 +179,7 @@ public:
     void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message,
                         analysis::Retry retry = analysis::Retry::may_help);
 
-    /// Failed configurations of this part that may pass when they are tried again.
+    /// How many failed configurations of this part may pass when they are tried again.
     [[nodiscard]] std::uint64_t retriable() const;
 
     /// Writes RUN/results.csv, RUN/error_vs_z.csv and RUN/bias_curves.csv (docs/csv_schema.md),
