@@ -70,7 +70,7 @@ struct CellMap {
     std::vector<ErrorCell> cells;     ///< by object and band, without errors; may be empty
 };
 
-/// Divides the scored pixels into parts and counts them; no parts if there would be too many.
+/// Divides the scored pixels into cells and counts them; no cells if there would be too many.
 /// @param triangles         The triangle that each pixel shows; one of the scene where it is
 ///                          scored.
 /// @param light_distance_m  Light distance of the scored pixels [m], as `light_distances_m` has it.
@@ -82,7 +82,7 @@ struct CellMap {
 
 /// The cells with their errors at each of several biases.
 /// @param biases  Ascending, 0 or normal.
-/// @return  The parts of each bias, in the order of the map; empty if the map has none.
+/// @return  The cells of each bias, in the order of the map; empty if the map has none.
 /// @throws std::invalid_argument  as `count_rows`.
 [[nodiscard]] std::vector<std::vector<ErrorCell>>
 count_error_cells(const CellMap& map, const BiasRowInputs& inputs, std::span<const float> biases);
