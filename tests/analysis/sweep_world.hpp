@@ -209,8 +209,11 @@ private:
             map_depths_ = {};
         };
         renderers_.read_map_depths = [this] { return map_depths_; };
-        renderers_.read_float_depths = [this](const scene::Job&, const scene::View&,
-                                              scene::TexelRows) { return map_depths_; };
+        renderers_.read_float_depths = [this](const scene::Job& job, const scene::View&,
+                                              scene::TexelRows) {
+            draw_map(job);
+            return map_depths_;
+        };
         renderers_.make_exact_light = [this](const scene::Job& job, const scene::View& view,
                                              const scene::ReceiverLayers&) {
             if (before_stage) {
