@@ -79,6 +79,10 @@ void note_alpha(Notes& notes, const ContentCounts& counts)
          fmt::format("{} a base alpha of 0, and would not be seen at all, but {} taken as solid",
                      counted_with_verb(counts.clear_materials, "material", "has", "have"),
                      counts.clear_materials == 1 ? "is" : "are"));
+    note(notes, "alpha_vertices", counts.vertex_alpha_objects,
+         fmt::format("{} vertices with an alpha below 1, but {} taken as solid",
+                     counted_with_verb(counts.vertex_alpha_objects, "object", "has", "have"),
+                     counts.vertex_alpha_objects == 1 ? "is" : "are"));
 }
 
 void note_motion(Notes& notes, const ContentCounts& counts)

@@ -21,6 +21,8 @@ struct ContentCounts {
     std::uint64_t blended_materials = 0; ///< that light shines through; likewise
     std::uint64_t blended_objects = 0;
     std::uint64_t clear_materials = 0; ///< of masked and blended ones, those with a base alpha of 0
+    /// Whose vertices have an alpha below 1 where no material says what that does, as in PLY.
+    std::uint64_t vertex_alpha_objects = 0;
     std::uint64_t skinned_objects = 0;
     std::uint64_t morphed_objects = 0;
     std::uint64_t animations = 0;

@@ -4,6 +4,8 @@
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
+#include <span>
 #include <string_view>
 
 namespace gnomon::scene {
@@ -32,6 +34,17 @@ Transparency transparency(const aiMaterial& material)
     return {material.GetTextureCount(aiTextureType_OPACITY) > 0, opacity < 1, opacity == 0};
 }
 
+/// Of glTF the material's mode decides, and of an opaque one alpha is ignored.
+bool has_vertex_alpha(const aiMesh& mesh, const aiMaterial& material)
+{
+    aiString mode;
+    if (!mesh.HasVertexColors(0) || material.Get("$mat.gltf.alphaMode", 0, 0, mode) == AI_SUCCESS) {
+        return false;
+    }
+    const std::span<const aiColor4D> colours{mesh.mColors[0], mesh.mNumVertices};
+    return std::ranges::any_of(colours, [](const aiColor4D& colour) { return colour.a < 1; });
+}
+
 } // namespace
 
 void SurfaceCounter::add(const aiMesh& mesh)
@@ -43,6 +56,8 @@ void SurfaceCounter::add(const aiMesh& mesh)
     }
     const unsigned material = mesh.mMaterialIndex;
     const Transparency found = transparency(*scene_->mMaterials[material]);
+    objects_.vertex_alpha_objects +=
+        has_vertex_alpha(mesh, *scene_->mMaterials[material]) ? 1U : 0U;
     if (found.is_masked) {
         ++objects_.masked_objects;
         masked_.insert(material);
@@ -63,6 +78,7 @@ void SurfaceCounter::write(ContentCounts& counts) const
     counts.blended_materials = blended_.size();
     counts.blended_objects = objects_.blended_objects;
     counts.clear_materials = clear_.size();
+    counts.vertex_alpha_objects = objects_.vertex_alpha_objects;
     counts.skinned_objects = objects_.skinned_objects;
     counts.morphed_objects = objects_.morphed_objects;
 }

@@ -115,6 +115,25 @@ TEST(SceneNotes, TellTransparencyOfObjMaterials)
                 ElementsAre(HasSubstr("alpha_blend 1: 1 material is transparent")));
 }
 
+TEST(SceneNotes, TellTheAlphaOfPlyVertices)
+{
+    const auto ply = [](int alpha) {
+        std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n"
+                           "property float x\nproperty float y\nproperty float z\n"
+                           "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                           "property uchar alpha\nelement face 1\n"
+                           "property list uchar int vertex_indices\nend_header\n";
+        for (const char* place : {"0 0 0", "1 0 0", "1 1 0"}) {
+            text += fmt::format("{} 9 9 9 {}\n", place, alpha);
+        }
+        return text + "3 0 1 2\n";
+    };
+    EXPECT_THAT(notes_of("a.ply", ply(255)), IsEmpty());
+    EXPECT_THAT(notes_of("a.ply", ply(254)),
+                ElementsAre("alpha_vertices 1: 1 object has vertices with an alpha below 1, but is "
+                            "taken as solid"));
+}
+
 TEST(SceneNotes, TellWhatTheFileGaveUnlessTheJobGivesItself)
 {
     QuadGltf gltf = with_lights(R"({"type":"directional"},{"type":"point"})", 2);
