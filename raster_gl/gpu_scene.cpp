@@ -56,7 +56,7 @@ Texture view_of(const Buffer& buffer)
 void draw_range(const scene::TriangleRange& range)
 {
     const std::uintptr_t first_byte = std::uintptr_t{range.first} * 3 * sizeof(std::uint32_t);
-    // GL's element offset is a byte count in a pointer's clothes.
+    // GL takes the byte offset as a pointer.
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count * 3), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(first_byte));
 }

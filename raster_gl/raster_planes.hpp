@@ -21,8 +21,7 @@ public:
     /// Draws them in one map and reads one texel of each plane; planes that float32 moved off their
     /// texel, or over that of another, are missing.
     /// @throws scene::InputError  if the driver lacks the format or the map's size, or float32
-    /// moves
-    ///                            the planes all over each other.
+    ///                            moves the planes all over each other.
     [[nodiscard]] scene::DepthMeasurement measure(scene::DepthFormat format);
     /// Draws them in one map and reads every texel whose centre a triangle covers with certainty.
     /// @throws scene::InputError  if the driver lacks the format or the map's size.

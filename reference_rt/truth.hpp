@@ -69,8 +69,7 @@ private:
 /// docs/truth.md.
 /// @param receivers  GL's triangle per pixel, of size `view.image`.
 /// @throws std::invalid_argument  if sizes differ, an index is out of range, or `reference` does
-/// not
-///                                serve the method.
+///                                not serve the method.
 [[nodiscard]] scene::TruthLayers compute_truth(const ReferenceScene& reference,
                                                const scene::View& view,
                                                const scene::Image<std::uint32_t>& receivers,

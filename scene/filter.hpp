@@ -10,7 +10,7 @@ namespace gnomon::scene {
 /// How a lookup filters the map: a row of `filters()` each.
 enum class Filter : std::uint8_t { nearest, linear, hardware, pcf3, pcf5, pcf7, pcf9 };
 
-/// What a filter promises of its lookups. Whoever must know asks this, and not which filter it is.
+/// What a filter promises of its lookups. Ask this, not which filter it is.
 struct FilterPromises {
     enum class Compares : std::uint8_t {
         each_tap, ///< each tap's depth with the receiver's: the verdict is the share, by weight, of

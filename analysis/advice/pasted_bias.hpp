@@ -9,7 +9,7 @@ namespace gnomon::analysis {
 
 /// A constant bias as a job file has it.
 struct PastedBias {
-    std::string key; ///< "bias.constant = 0.0075", or of constant_m where the job tells metres
+    std::string key; ///< "bias.constant = 0.0075", or of constant_m where the job has metres
     float bias = 0;  ///< what it amounts to, depth units
 };
 

@@ -20,7 +20,7 @@ struct BiasLength {
     friend bool operator==(const BiasLength&, const BiasLength&) = default;
 };
 
-/// What biases are told for: a map, and its median receiver.
+/// What converts a bias to metres and texels: a map, and its median receiver.
 struct BiasPlace {
     scene::LightFrustum frustum;
     int resolution_texels = 0;

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
     /// Light distance of the scored receivers [m], else NaN.
     [[nodiscard]] const scene::Image<float>& light_distance_m() const { return *light_distance_m_; }
-    /// The light distance at which biases are told as lengths [m]: the median of the scored
+    /// The light distance at which biases are converted to lengths [m]: the median of the scored
     /// receivers', or any of them where lengths are the same everywhere (a directional light's);
     /// empty if there are none.
     [[nodiscard]] std::optional<double> representative_light_distance_m();

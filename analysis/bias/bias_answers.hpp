@@ -42,7 +42,7 @@ struct BiasQuestion {
     const scene::View& view;
     SlopeInputs curves;
     const scene::Image<float>& light_distance_m; ///< light distance of the receivers [m]
-    double unit_light_distance_m = 0;            ///< at which biases are told as lengths [m]
+    double unit_light_distance_m = 0;            ///< where biases are made lengths [m]
 };
 
 /// Everything about constant biases with the job's own slope, and the best of other slopes.

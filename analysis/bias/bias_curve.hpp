@@ -80,7 +80,7 @@ struct BestBiases {
     }
 };
 
-/// Whether a is to be preferred to b: fewer errors, or as many over a wider interval.
+/// Whether a is better than b: fewer errors, or as many over a wider interval.
 [[nodiscard]] bool is_better(const BestBiases& a, const BestBiases& b);
 
 /// All biases.

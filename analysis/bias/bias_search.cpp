@@ -111,7 +111,7 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     added.judged = &judged;
     const bool is_directional = added.view.frustum.projection == scene::Projection::orthographic;
     if (views_.size() == 1 && in_metres_ && is_directional && !told_like_.constant_m) {
-        told_like_.constant_m = 0; // what is carried from light to light is told as such
+        told_like_.constant_m = 0; // carried from light to light as a length
     }
     draw(views_.size() - 1);
     scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);

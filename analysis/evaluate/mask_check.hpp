@@ -12,8 +12,8 @@
 
 namespace gnomon::analysis {
 
-/// How a mask stands to a truth, on scored pixels: where the light is behind a surface, masks say
-/// anything.
+/// How well a mask agrees with the truth, on scored pixels; where the light is behind the surface
+/// that is seen, masks follow no convention.
 struct MaskAgreement {
     std::uint64_t lit = 0;
     std::uint64_t lit_right = 0;

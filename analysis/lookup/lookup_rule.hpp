@@ -39,8 +39,8 @@ struct LookupRule {
     {
         return outside == scene::Outside::shadowed ? scene::infinity : -scene::infinity;
     }
-    /// True when r is beyond the far plane. `clamp` hands out a limited r: there the plane counts
-    /// as beyond, which a receiver in it hardly ever is.
+    /// True when r is beyond the far plane. `clamp` limits r to [0, 1], so an r on
+    /// the far plane counts as beyond it.
     [[nodiscard]] bool is_beyond_far(float r) const;
     /// True when the border mode decides all taps of the lookup.
     [[nodiscard]] bool border_decides(float r, std::span<const Tap> taps) const;

@@ -117,7 +117,7 @@ private:
         const scene::SceneFile& file = *require_result(scene_)->open.file;
         return scene::resolve_view(job, file.scene, file.defaults);
     }
-    /// The step's view without constant bias: one that is none fails its own row, not the stages.
+    /// The step's view without constant bias: an invalid bias fails its own row, not the stages.
     [[nodiscard]] scene::View stage_view() const
     {
         scene::Job job = task_.job;

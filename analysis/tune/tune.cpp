@@ -18,8 +18,8 @@ using scene::Job;
 
 namespace {
 
-/// Errors so many times above their limit are those of a map that is too coarse, which neither
-/// culling nor a filter mends; limits below the floor count as it.
+/// With errors this many times above their limit a map is too coarse for culling or filters to
+/// help; limits below the floor count as the floor.
 constexpr double hopeless_factor = 8;
 constexpr double limit_floor = 5e-4;
 

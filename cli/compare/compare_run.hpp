@@ -24,7 +24,7 @@ public:
     /// @param defaults  that the comparison's scene brings along.
     /// @param job_text, command  as in `store::RunDescription`.
     /// @throws scene::InputError        if the folder holds results of another scene that may not
-    /// be replaced.
+    ///                                  be replaced.
     /// @throws scene::EnvironmentError  if the disk fails.
     void record(scene::JobSource source, std::string_view case_name,
                 const analysis::Comparison& comparison, const scene::SceneDefaults& defaults,

@@ -91,7 +91,7 @@ struct PlaneDistance {
 /// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
 struct Receiver {
     Receiver() = default;
-    /// ExactTriangle and ray must outlive the receiver.
+    /// `face_in` and `ray_in` must outlive the receiver.
     Receiver(const ExactTriangle& face_in, const CameraRay& ray_in, SignCounts& counts)
         : Receiver{face_in, ray_in, nu_of(face_in, ray_in.ray.origin), counts}
     {

@@ -13,7 +13,7 @@ namespace {
 
 using scene::infinity;
 
-/// What a texel's ray meets; it stays where it is, as the hit refers to its ray and facet.
+/// What a texel's ray meets; it stays where it is, as the hit refers to its ray and triangle.
 struct TapHit {
     CameraRay ray;
     ExactTriangle face;

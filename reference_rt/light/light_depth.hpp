@@ -82,7 +82,7 @@ public:
         Bounded depth;
         double light_distance_m = 0;
     };
-    /// What places of hits have in common: with rays of one origin, and with one facet.
+    /// What places of hits have in common: with rays of one origin, and with one triangle.
     struct PlaceMemory {
         bool has_origin = false;
         scene::Vec3d origin{};
@@ -96,7 +96,7 @@ public:
     [[nodiscard]] Place place(const Receiver& hit, PlaceMemory& memory) const;
 
 private:
-    /// True where the facet's plane certainly has one depth: it faces a directional light.
+    /// True where the triangle's plane certainly has one depth: it faces a directional light.
     [[nodiscard]] bool is_level(const ExactTriangle& face) const;
     void remember_origin(const Receiver& hit, PlaceMemory& memory) const;
     /// The parameter of a hit within a few roundings, wherever twice the precision is enough for

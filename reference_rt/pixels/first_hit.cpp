@@ -15,7 +15,8 @@ using scene::PixelClass;
 
 namespace {
 
-/// True when the ray meets the closed facet beyond the near plane; `hit` is made where it meets it.
+/// True when the ray meets the closed triangle beyond the near plane; `hit` is made where it meets
+/// it.
 bool is_hit(const CameraRay& ray, const ExactTriangle& face, double near_m, SignCounts& counts,
             Receiver& hit)
 {
@@ -141,7 +142,7 @@ private:
         return lanes;
     }
 
-    /// True when the lane's ray meets the facet before its receiver, or without having one.
+    /// True when the lane's ray meets the triangle before its receiver, or without having one.
     [[nodiscard]] bool hides(std::size_t lane, const ExactTriangle& face)
     {
         const CameraRay ray = tile_.rays.ray(lane);

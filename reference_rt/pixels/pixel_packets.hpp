@@ -39,7 +39,7 @@ struct SeenPixels {
 };
 
 /// The receivers of up to sixteen pixels, wherever they are. It stays where it is, as receivers
-/// refer to rays and facets.
+/// refer to rays and triangles.
 struct PixelPacket {
     PixelPacket(const SeenPixels& seen, std::span<const std::size_t> pixels, SignCounts& counts)
     {

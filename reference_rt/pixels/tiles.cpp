@@ -78,7 +78,7 @@ void meet_planes(const LaneRays& rays, const LanePlanes& planes, LaneHits& hits)
     hits = found;
 }
 
-/// A plane for every lane: what is no lane of another facet has the first one's.
+/// A plane for every lane: what is no lane of another triangle has the first one's.
 GNOMON_WIDEST_VECTORS
 void broadcast(const FilteredNormal& normal, const Filtered<8>& nu, LanePlanes& planes)
 {

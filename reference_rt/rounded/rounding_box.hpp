@@ -40,7 +40,7 @@ struct RoundingBox {
 /// everything can be decided exactly.
 class PlaneSection {
 public:
-    /// The facet must outlive the section.
+    /// `face` must outlive the section.
     PlaneSection(const RoundingBox& box, const ExactTriangle& face, SignCounts& counts);
     PlaneSection(const PlaneSection&) = delete;
     PlaneSection& operator=(const PlaneSection&) = delete;

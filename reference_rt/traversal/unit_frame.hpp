@@ -46,8 +46,8 @@ inline constexpr double float_roundoff = 0x1p-24;
 inline constexpr double farthest_origin = 8;
 
 /// By how much the boxes that Embree traverses are larger than the triangles in them, on each side,
-/// in the unit frame. A ray that stands in for an exact segment must then hit the box of every
-/// triangle that the segment touches. Let X be a point of the segment in a triangle, u = 2^-24; the
+/// in the unit frame. The proxy ray of an exact segment must then hit the box of every triangle
+/// that the segment touches. Let X be a point of the segment in a triangle, u = 2^-24; the
 /// ray's point for X strays from X, in each component, by at most
 ///
 ///     8u      the origin, not farther than 8 from the frame's, rounded to float32;

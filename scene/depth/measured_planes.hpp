@@ -43,8 +43,7 @@ struct MeasuredPlanes {
 /// Builds the planes. They keep a few float32 steps away from near and far, and tilted ones as far
 /// as their triangles need, so that nothing is clipped.
 /// @throws InputError  naming the argument, if count, tilt or offset are out of range, the map
-/// would
-///                     be larger than 16384, or float32 cannot tell the corners of a triangle
+///                     would be larger than 16384, or float32 cannot tell the corners of a triangle
 ///                     apart.
 [[nodiscard]] MeasuredPlanes make_measured_planes(const MeasuredPlaneSettings& settings);
 

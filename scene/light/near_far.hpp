@@ -24,8 +24,7 @@ void widen(double& lower, double& upper, double smallest);
 /// Sets the frustum's near and far: those of the settings, else around the triangles within the
 /// sides, else around the whole scene. Its axes, origin and sides are set before.
 /// @throws InputError  if near >= far, if they are too close for float32 depths, or if a spot's
-/// near
-///                     is not above 0.
+///                     near is not above 0.
 void set_near_far(LightFrustum& frustum, const FrustumSettings& settings,
                   const TriangleScene& scene, const WholeScene& whole);
 

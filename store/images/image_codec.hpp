@@ -115,7 +115,7 @@ public:
 };
 
 /// The process's codec: OpenImageIO as it is linked, or loaded on demand (see
-/// reports/CMakeLists.txt).
+/// store/CMakeLists.txt).
 /// @throws scene::EnvironmentError  if it cannot be loaded.
 [[nodiscard]] const ImageCodec& image_codec();
 

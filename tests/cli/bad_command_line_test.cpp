@@ -71,7 +71,7 @@ TEST(CommandLine, RefusesWhatItCannotReadAsAJob)
     }
 }
 
-/// The settings of the list that a job of `builtin` must not have.
+/// Settings that a job of `builtin` must not have.
 void expect_settings_refused(const std::string& builtin, const std::vector<std::string>& settings,
                              const std::string& message)
 {

@@ -69,7 +69,7 @@ std::vector<Vec2d> shadow_polygon(const scene::Light& light)
     return convex_hull(points);
 }
 
-/// A ground point in the box_image, homogeneous [px], seen from the pixel's centre.
+/// A ground point in the image, homogeneous [px], seen from the pixel's centre.
 Vec3d image_of(const Vec2d& ground, const View& view, const Vec2d& centre)
 {
     const Vec3d q = Vec3d{ground.x, 0, ground.y} - view.camera.eye;
@@ -81,7 +81,7 @@ Vec3d image_of(const Vec2d& ground, const View& view, const Vec2d& centre)
             -scale * glm::dot(q, view.camera.up) + (half - centre.y) * w, w};
 }
 
-/// Signed distance of a pixel's centre from the polygon's border in the box_image, positive inside;
+/// Signed distance of a pixel's centre from the polygon's border in the image, positive inside;
 /// outside it is at most the true distance. `point` is what the pixel shows of the ground.
 double depth_inside_px(const std::vector<Vec2d>& polygon, const Vec2d& point, const View& view,
                        const Vec2d& centre)

@@ -55,7 +55,7 @@ inline EdgePassing edge_passing(const RationalVec& step, std::uint32_t triangle,
 {
     scene::Vec3f from = corner[(opposite + 1) % 3];
     scene::Vec3f to = corner[(opposite + 2) % 3];
-    // Both triangles of an edge must reckon their sides from the same end.
+    // Both triangles of an edge must compute their sides from the same end.
     if (std::tie(from.x, from.y, from.z) > std::tie(to.x, to.y, to.z)) {
         std::swap(from, to);
     }

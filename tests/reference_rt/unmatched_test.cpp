@@ -52,7 +52,7 @@ void expect_unmatched(const Reclassified& pixel, ClassReason reason)
 
 TEST(Unmatched, AcceptsBothFirstHitsOfASharedEdge)
 {
-    // In a square small_image, whose sx and sy have the same bits, the centres of (32 + k, 31 − k)
+    // In a square image, whose sx and sy have the same bits, the centres of (32 + k, 31 − k)
     // lie on the diagonal exactly.
     const TriangleScene scene = square_and_sheet(1);
     View view = front_view();

@@ -400,7 +400,7 @@ TEST(Causes, AFilterWithoutAShadowingTexelOvershadows)
     expect(pixel.classified(), Cause::filter, Label::edge);
     pixel.light.own.insert({0, 7});
     pixel.sees(4, 4, 0.4375);
-    expect(pixel.classified(), Cause::resolution, Label::acne); // a texel of its sheet shadows it
+    expect(pixel.classified(), Cause::resolution, Label::acne); // a texel of its surface shadows it
 }
 
 TEST(Causes, TheAmountOfALitPixelIsDividedAmongItsShadowingTaps)

@@ -143,7 +143,7 @@ Planned plan_of(const scene::SweepSpace& space)
 
 TEST(SweepPlan, OfTwoHundredThousandConfigurationsSharesAllItCan)
 {
-    // The example of the issue: 2 cameras come as cases, like anything that takes several keys.
+    // Two cameras come as cases, like anything that takes several keys.
     scene::JobSource source =
         scene::builtin_job_source("columns", {{"light.type", "spot"},
                                               {"light.position", "[0, 12, 0]"},

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-/// The light's rays in scenes small enough to reckon by hand: a sun at noon over x and z in [−2,
+/// The light's rays in scenes small enough to compute by hand: a sun at noon over x and z in [−2,
 /// 2], ζ = 4 − y, near 1 and far 5, so that depth is (3 − y)/4; every number below is a short
 /// binary fraction. Texels are 1 m wide: their centres are over odd multiples of 0.5 m, u towards
 /// −x.

@@ -41,7 +41,7 @@ struct NoonFromAbove : LitScene {
         return {static_cast<int>(std::lround((1.75 - centre.x) / 0.5)),
                 static_cast<int>(std::lround((1.75 + centre.z) / 0.5))};
     }
-    /// Whether the sheet of `receiver` at a multiple of 0.125 m leads to `seen` at the texel.
+    /// Whether the surface of `receiver` at a multiple of 0.125 m leads to `seen` at the texel.
     bool leads(Spot from, std::uint32_t receiver, Spot texel_centre, std::uint32_t seen)
     {
         const auto column = static_cast<std::size_t>(15 + std::lround(8 * from.x));
