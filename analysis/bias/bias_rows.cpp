@@ -43,7 +43,7 @@ void require_equal_sizes(const BiasRowInputs& inputs, std::string_view function)
 }
 
 /// Errors of one side of the truth, of one cause and one label.
-struct ErrorCell {
+struct ErrorKinds {
     static constexpr std::size_t labels = label_names.size();
     static constexpr std::size_t count = 2 * cause_names.size() * labels;
 
@@ -60,9 +60,9 @@ struct ErrorCell {
 
 void add_count(std::size_t cell, std::uint64_t pixels, BiasRow& row)
 {
-    row.causes.by_cause[ErrorCell::cause(cell)] += pixels;
-    row.causes.by_label[ErrorCell::label(cell)] += pixels;
-    (ErrorCell::is_blocked(cell) ? row.errors.false_lit : row.errors.false_shadow) += pixels;
+    row.causes.by_cause[ErrorKinds::cause(cell)] += pixels;
+    row.causes.by_label[ErrorKinds::label(cell)] += pixels;
+    (ErrorKinds::is_blocked(cell) ? row.errors.false_lit : row.errors.false_shadow) += pixels;
 }
 
 /// Amounts by cause and label, in units of which a pixel has so many: sums of integers.
@@ -70,12 +70,12 @@ class AmountUnits {
 public:
     void add(std::size_t cell, std::int64_t units)
     {
-        by_cause_[ErrorCell::cause(cell)] += units;
-        by_label_[ErrorCell::label(cell)] += units;
-        const std::size_t side = ErrorCell::is_blocked(cell) ? 1 : 0;
+        by_cause_[ErrorKinds::cause(cell)] += units;
+        by_label_[ErrorKinds::label(cell)] += units;
+        const std::size_t side = ErrorKinds::is_blocked(cell) ? 1 : 0;
         by_side_.at(side) += units;
-        const bool is_soft = ErrorCell::cause(cell) == static_cast<std::size_t>(Cause::filter) &&
-                             ErrorCell::label(cell) == static_cast<std::size_t>(Label::edge);
+        const bool is_soft = ErrorKinds::cause(cell) == static_cast<std::size_t>(Cause::filter) &&
+                             ErrorKinds::label(cell) == static_cast<std::size_t>(Label::edge);
         softening_.at(side) += is_soft ? units : 0;
     }
     void add(const AmountUnits& other)
@@ -126,7 +126,7 @@ public:
     Changes(std::size_t biases, std::int64_t units)
         : stride_{biases + 1},
           units_{units},
-          counts_(ErrorCell::count * stride_),
+          counts_(ErrorKinds::count * stride_),
           amounts_(units > 0 ? counts_.size() : 0)
     {
     }
@@ -134,12 +134,12 @@ public:
     void add(PixelClass truth, const ErrorSegment& segment)
     {
         if (segment.is_wrong) {
-            add_span(counts_, ErrorCell::of(truth, segment.cause, segment.label), segment, 1);
+            add_span(counts_, ErrorKinds::of(truth, segment.cause, segment.label), segment, 1);
         }
         if (units_ > 0) {
-            add_span(amounts_, ErrorCell::of(truth, segment.cause, Label::acne), segment,
+            add_span(amounts_, ErrorKinds::of(truth, segment.cause, Label::acne), segment,
                      segment.acne);
-            add_span(amounts_, ErrorCell::of(truth, segment.cause, segment.rest_label), segment,
+            add_span(amounts_, ErrorKinds::of(truth, segment.cause, segment.rest_label), segment,
                      segment.rest);
         }
     }
@@ -153,7 +153,7 @@ public:
     [[nodiscard]] std::vector<CountedRow> rows() const
     {
         std::vector<CountedRow> rows(stride_ - 1);
-        for (std::size_t cell = 0; cell < ErrorCell::count; ++cell) {
+        for (std::size_t cell = 0; cell < ErrorKinds::count; ++cell) {
             std::int64_t count = 0;
             std::int64_t amount = 0;
             for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -198,7 +198,7 @@ void add_errors_by_bias(CountedRow& counted, const ErrorCounts& all, const Error
                         std::int64_t units)
 {
     const auto add = [&](PixelClass truth, Label label, std::uint64_t count, double amount) {
-        const std::size_t cell = ErrorCell::of(truth, Cause::bias, label);
+        const std::size_t cell = ErrorKinds::of(truth, Cause::bias, label);
         const auto whole = static_cast<double>(std::max<std::int64_t>(units, 1));
         add_count(cell, count, counted.row);
         counted.units.add(cell, std::llrint(amount * whole) - counted.units.of(truth));
