@@ -14,7 +14,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-if(EXISTS ${WORK}/prefix/include/gnomon/reference_rt/faults.hpp)
+if(EXISTS ${WORK}/prefix/include/gnomon/reference_rt/injected_faults.hpp)
   message(FATAL_ERROR "the installed headers let a caller put faults into the truth")
 endif()
 run(${CMAKE_COMMAND} -S ${ROOT}/examples/find_package -B ${WORK}/build -G Ninja
