@@ -129,14 +129,18 @@ ShadowMapPass::ShadowMapPass(const Context& context, UnormCodes codes)
     context.check("compiling the shadow map programs");
 }
 
-void ShadowMapPass::forget()
+void ShadowMapPass::release(int largest_texels)
 {
-    const bool was_large = is_large(map_.resolution_texels);
     map_ = {};
     target_ = make_framebuffer();
-    if (was_large) {
+    if (is_large(largest_texels)) {
         let_go_of_deleted_textures();
     }
+}
+
+void ShadowMapPass::forget()
+{
+    release(map_.resolution_texels);
 }
 
 void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
@@ -151,7 +155,8 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
     if (map_.resolution_texels == size && map_.format == settings.depth_format) {
         return;
     }
-    forget(); // the old textures go before the new ones come
+    // The old textures go before the new ones come.
+    release(std::max(size, map_.resolution_texels));
     map_.depth = make_texture(internal_format(settings.depth_format), size, size);
     require_format(map_.depth, settings.depth_format);
     glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, map_.depth.name(), 0);

@@ -46,6 +46,8 @@ public:
     void forget();
 
 private:
+    /// Gives the textures back; at once beside a map of so many texels a side that is large.
+    void release(int largest_texels);
     void allocate(const scene::ShadowMapSettings& settings);
 
     const Context& context_;
