@@ -171,10 +171,6 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
 
     timed(seconds.analysis,
           [&] { measure_comparison(result, renderers, view.bias.constant, true); });
-    if (result.diagnosis && !result.diagnosis->biases) {
-        result.reruns = timed(seconds.analysis,
-                              [&] { return rerun_biases(job, view, result.truth, renderers); });
-    }
     if (result.diagnosis) {
         result.precision_kinds =
             timed(seconds.analysis, [&] { return measure_precision_kinds(result, renderers); });

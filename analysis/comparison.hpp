@@ -2,7 +2,6 @@
 
 #include "analysis/advice/remedy.hpp"
 #include "analysis/answers/diagnosis.hpp"
-#include "analysis/bias/bias_reruns.hpp"
 #include "analysis/bias/bias_verification.hpp"
 #include "analysis/causes/precision_kinds.hpp"
 #include "analysis/evaluate/evaluation.hpp"
@@ -73,10 +72,9 @@ struct Comparison {
     Metrics metrics;
     std::optional<Diagnosis> diagnosis;   ///< empty: not asked for
     std::optional<Evaluation> evaluation; ///< empty: GL's own; else of another renderer's case
-    std::vector<BiasRerun> reruns;        ///< for `hardware`, which has no bias curve; else empty
     /// GL's own lookup held to the bias curve; empty without one.
     std::optional<BiasVerification::Rerun> held;
-    /// Empty: not asked for, or nothing to verify (`hardware`).
+    /// Empty: not asked for, or nothing knows every bias.
     std::optional<BiasVerification> verification;
     /// Of the wrong pixels of cause `precision`; empty: not asked for.
     std::optional<PrecisionKinds> precision_kinds;
@@ -108,14 +106,12 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers, floa
 /// own and the best one among them.
 ///
 /// Receivers and map must be those drawn last.
-/// @return  Empty if there are no critical biases: the filter is `hardware`, whose every other bias
-///          is GL's own run anyway, or no diagnosis was asked for.
+/// @return  Empty if there are no critical biases: nothing knows every bias, or no diagnosis was
+///          asked for.
 [[nodiscard]] std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                                                                 const Renderers& renderers);
 
-/// Resolves the job's view, runs both renderers over it and measures the difference; where the
-/// filter has no bias curve, and a diagnosis is asked for, GL's lookup is run again with other
-/// biases.
+/// Resolves the job's view, runs both renderers over it and measures the difference.
 ///
 /// The shadow map drawn last need not be the job's afterwards.
 ///

@@ -37,6 +37,10 @@ struct Renderers {
     std::function<void(std::size_t slot)> select_receivers;
     std::function<void(const scene::Job&, const scene::View&)> draw_shadow_map;
     std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
+    /// The smallest constant bias of each pixel with which `look_up` lights it, of the same
+    /// receivers and map, with the view's slope and normal offset: found by trying. 0 without a
+    /// receiver. Empty: what no formula tells of other biases is not known.
+    std::function<scene::Image<float>(const scene::Job&, const scene::View&)> find_critical_biases;
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
     /// The depths of the map drawn last, as shaders see them, top left first.
     std::function<scene::Image<float>()> read_map_depths;

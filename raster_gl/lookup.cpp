@@ -72,17 +72,17 @@ const Program& LookupPass::program(const Variant& variant)
     if (found != programs_.end()) {
         return found->second;
     }
-    const auto [filter, outside, reversed, spot] = variant;
-    const scene::FilterPromises& promised = scene::promises(filter);
+    const scene::FilterPromises& promised = scene::promises(variant.filter);
     const Definitions definitions{
         // What GL interpolates is one fetch.
         {"FILTER_TAPS", std::to_string(promised.interpolates() ? 1 : promised.width_texels)},
         {"FILTER_LINEAR", flag(is_of_mean_depth(promised))},
         {"FILTER_HARDWARE", flag(is_by_gl(promised))},
-        {"OUTSIDE_CLAMP", flag(outside == Outside::clamp)},
-        {"OUTSIDE_VERDICT", outside == Outside::shadowed ? "0.0" : "1.0"},
-        {"REVERSED", flag(reversed)},
-        {"SPOT", flag(spot)},
+        {"OUTSIDE_CLAMP", flag(variant.outside == Outside::clamp)},
+        {"OUTSIDE_VERDICT", variant.outside == Outside::shadowed ? "0.0" : "1.0"},
+        {"REVERSED", flag(variant.reversed)},
+        {"SPOT", flag(variant.spot)},
+        {"BISECTS", flag(variant.bisects)},
     };
     Program made = make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr});
     return programs_.emplace(variant, std::move(made)).first->second;
@@ -126,16 +126,42 @@ void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
                         const ShadowMap& map, const scene::LookupSettings& settings,
                         const scene::View& view)
 {
+    allocate(view.image);
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    draw(scene, receivers, map, settings, view, false);
+    context_.check("looking up the shadow map");
+}
+
+scene::Image<float> LookupPass::find_critical_biases(const GpuScene& scene,
+                                                     const ReceiverBuffer& receivers,
+                                                     const ShadowMap& map,
+                                                     const scene::LookupSettings& settings,
+                                                     const scene::View& view)
+{
+    const scene::ImageSize size = view.image;
+    const Texture criticals = make_texture(GL_R32F, size.width_px, size.height_px);
+    const Framebuffer target = make_framebuffer();
+    glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, criticals.name(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    draw(scene, receivers, map, settings, view, true);
+    auto found = read_texture<float>(criticals, size, GL_RED, GL_FLOAT);
+    context_.check("finding critical biases");
+    return found;
+}
+
+void LookupPass::draw(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
+                      const scene::LookupSettings& settings, const scene::View& view, bool bisects)
+{
     if (!(receivers.size == view.image)) {
-        throw std::invalid_argument("LookupPass::render: receivers are not of the view's size");
+        throw std::invalid_argument("LookupPass: receivers are not of the view's size");
     }
     const bool zero_to_one = view.frustum.clip_range == scene::ClipRange::zero_to_one;
     if (zero_to_one != view.frustum.reversed) {
-        throw std::invalid_argument("LookupPass::render: only reversed depth looks up in [0, 1]");
+        throw std::invalid_argument("LookupPass: only reversed depth looks up in [0, 1]");
     }
-    allocate(view.image);
     const bool spot = view.light.type == scene::LightType::spot;
-    const Program& lookup = program({settings.filter, settings.outside, map.reversed, spot});
+    const Program& lookup =
+        program({settings.filter, settings.outside, map.reversed, spot, bisects});
     const double texel_width_m = view.frustum.texel_width_m(1.0, map.resolution_texels);
     set_uniform(lookup, "light_clip_from_world", view.frustum.light_clip_from_world);
     set_uniform(lookup, "light", light_uniform(view.light));
@@ -145,8 +171,7 @@ void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
                 static_cast<float>(double{view.bias.normal_texels} * texel_width_m));
     set_uniform(lookup, "resolution", static_cast<float>(map.resolution_texels));
 
-    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-    glViewport(0, 0, size_.width_px, size_.height_px);
+    glViewport(0, 0, view.image.width_px, view.image.height_px);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     scene.bind_normals(5);
@@ -160,7 +185,6 @@ void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
     glBindSampler(3, 0);
     glBindSampler(4, 0);
     glFinish();
-    context_.check("looking up the shadow map");
 }
 
 scene::LookupLayers LookupPass::read() const

@@ -8,9 +8,8 @@
 #include "scene/job/job.hpp"
 #include "scene/layers.hpp"
 
+#include <compare>
 #include <map>
-#include <string>
-#include <tuple>
 
 namespace gnomon::raster_gl {
 
@@ -30,10 +29,34 @@ public:
     /// What `render` drew last, in images of the view's size, top left first.
     [[nodiscard]] scene::LookupLayers read() const;
 
+    /// The smallest constant bias of each pixel with which `render`'s verdict is at least one half,
+    /// with the view's slope and normal offset: found by trying, in one draw, so that it holds
+    /// whatever the driver's arithmetic is, as long as the verdict rises with the bias.
+    /// @return  0 or a normal float32; −∞ if every bias is lit, +∞ if none is; 0 without a
+    ///          receiver. Top left first.
+    /// @throws std::invalid_argument  as `render`.
+    /// Source: docs/bias_curve.md#bisection.
+    [[nodiscard]] scene::Image<float> find_critical_biases(const GpuScene& scene,
+                                                           const ReceiverBuffer& receivers,
+                                                           const ShadowMap& map,
+                                                           const scene::LookupSettings& settings,
+                                                           const scene::View& view);
+
 private:
-    using Variant = std::tuple<scene::Filter, scene::Outside, bool, bool>;
+    struct Variant {
+        scene::Filter filter = scene::Filter::nearest;
+        scene::Outside outside = scene::Outside::lit;
+        bool reversed = false;
+        bool spot = false;
+        bool bisects = false; ///< finds critical biases
+
+        auto operator<=>(const Variant&) const = default;
+    };
     const Program& program(const Variant& variant);
     void allocate(scene::ImageSize size);
+    /// Draws to the bound framebuffer.
+    void draw(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
+              const scene::LookupSettings& settings, const scene::View& view, bool bisects);
     void bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const;
 
     const Context& context_;

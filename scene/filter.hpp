@@ -24,6 +24,13 @@ struct FilterPromises {
                        ///< GL's own
     };
 
+    /// What answers for every constant bias: the verdict rises with it.
+    enum class Curve : std::uint8_t {
+        by_formula,   ///< what one lookup returns
+        by_bisection, ///< GL itself, asked with biases of its own for each pixel
+        none
+    };
+
     std::string_view name; ///< in job files
     int width_texels = 1;  ///< of the square of texels that are its taps
     Compares compares = Compares::each_tap;
@@ -47,12 +54,18 @@ struct FilterPromises {
     {
         return has_one_tap() || compares == Compares::mean_depth;
     }
+    /// How the critical bias of each pixel is found.
+    [[nodiscard]] constexpr Curve curve() const
+    {
+        return weights == Weights::bilinear_of_gl ? Curve::by_bisection : Curve::by_formula;
+    }
+    [[nodiscard]] constexpr bool has_curve() const { return curve() != Curve::none; }
     /// Whether every constant bias follows from one lookup.
-    [[nodiscard]] constexpr bool has_curve() const { return weights != Weights::bilinear_of_gl; }
+    [[nodiscard]] constexpr bool has_formula() const { return curve() == Curve::by_formula; }
     /// Comparisons of equal weight that make a verdict; 0 where weights are not equal.
     [[nodiscard]] constexpr int equal_taps() const
     {
-        if (!has_curve()) {
+        if (!has_formula()) {
             return 0;
         }
         return compares == Compares::mean_depth ? 1 : static_cast<int>(tap_count());

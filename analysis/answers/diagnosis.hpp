@@ -21,7 +21,7 @@ struct Diagnosis {
     scene::Image<float> map_error_m;      ///< `map_depth_errors_m`
     CauseLayers causes;                   ///< at the job's
     Gaps peter_panning;                   ///< at the job's
-    /// Empty for `hardware`: its weights are the driver's own.
+    /// Empty where nothing knows every bias: another renderer's lookup that has no formula.
     std::optional<BiasAnswers> biases;
     std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below
     std::vector<ErrorBin> by_angle;

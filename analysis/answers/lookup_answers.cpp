@@ -17,17 +17,41 @@ namespace gnomon::analysis {
 
 using scene::PixelClass;
 
+namespace {
+
+LookupReruns reruns_of(const scene::Job& job, const scene::View& view, const Renderers& renderers)
+{
+    const auto with = [view](float constant, float slope) {
+        scene::View biased = view;
+        biased.bias.constant = constant;
+        biased.bias.slope = slope;
+        return biased;
+    };
+    return {[with, job, &renderers](float constant, float slope) {
+                return renderers.look_up(job, with(constant, slope));
+            },
+            [with, job, &renderers](float slope) {
+                return renderers.find_critical_biases(job, with(0, slope));
+            }};
+}
+
+} // namespace
+
 ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                               scene::LookupLayers layers, const Renderers& renderers)
 {
-    ObservedLookup lookup{job, view, std::move(layers), {}, {}};
+    ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}};
+    const scene::FilterPromises& promised = scene::promises(job.lookup.filter);
     if (!can_derive_unbiased(job, view)) {
         scene::View unbiased = view;
         unbiased.bias = {};
         lookup.unbiased = renderers.look_up(job, unbiased);
     }
-    if (!scene::promises(job.lookup.filter).has_one_tap()) {
+    if (!promised.has_one_tap()) {
         lookup.map_depths = renderers.read_map_depths();
+    }
+    if (promised.has_curve() && !promised.has_formula() && renderers.find_critical_biases) {
+        lookup.reruns = reruns_of(job, view, renderers);
     }
     return lookup;
 }
@@ -152,6 +176,9 @@ SlopeInputs LookupAnswers::curves()
         inputs.lookup = &lookup_.layers;
         inputs.map_depths = &lookup_.map_depths;
     }
+    if (lookup_.reruns) {
+        inputs.find_critical_biases = lookup_.reruns->find_critical_biases;
+    }
     return inputs;
 }
 
@@ -190,7 +217,8 @@ std::vector<ErrorAmounts> LookupAnswers::amounts(const SlopeCurve& curve,
 
 scene::Image<float> LookupAnswers::critical_biases(float slope) const
 {
-    return analysis::critical_biases(deciding(), rule_with(slope));
+    return lookup_.reruns ? lookup_.reruns->find_critical_biases(slope)
+                          : analysis::critical_biases(deciding(), rule_with(slope));
 }
 
 void LookupAnswers::break_down(const scene::LookupLayers& own, int verdict_taps,
@@ -224,16 +252,18 @@ CauseLayers LookupAnswers::causes_of(const scene::LookupLayers& own, float const
                            constant);
 }
 
-void LookupAnswers::explain(const scene::LookupLayers& own, Diagnosis& diagnosis)
+LookupAnswers::Explained LookupAnswers::explain(const scene::LookupLayers& own, float constant,
+                                                float slope)
 {
-    const std::array<float, 1> bias{lookup_.view.bias.constant};
+    const std::array<float, 1> bias{constant};
     const scene::Image<float> verdicts = criticals_of_verdicts(own);
-    diagnosis.causes = causes_of(own, bias.front(), rule_.slope);
-    const TapCriticals own_taps = taps(rule_.slope);
+    CauseLayers causes = causes_of(own, constant, slope);
+    const TapCriticals own_taps = taps(slope);
     const BiasRowInputs inputs{
-        classes(), own, verdicts, causes_, rule_, has_texels() ? &own_taps : nullptr, true};
-    diagnosis.cells = count_error_cells(exact_->cells(), inputs, bias).front();
-    diagnosis.peter_panning = find_gaps_at(panning_gaps(verdicts, bias.front()), bias).front();
+        classes(), own, verdicts, causes_, rule_with(slope), has_texels() ? &own_taps : nullptr,
+        true};
+    return {std::move(causes), find_gaps_at(panning_gaps(verdicts, constant), bias).front(),
+            count_error_cells(exact_->cells(), inputs, bias).front()};
 }
 
 std::vector<Softening> LookupAnswers::softening_with(float slope,
@@ -250,6 +280,9 @@ std::vector<Softening> LookupAnswers::softening_with(float slope,
 
 std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<const float> biases)
 {
+    if (lookup_.reruns) {
+        return rerun(slope, biases);
+    }
     const scene::Image<float> criticals = critical_biases(slope);
     const BiasCurve curve{criticals, classes()};
     const auto errors_by = amounts_at(slope, biases);
@@ -268,6 +301,9 @@ std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<c
 std::vector<ErrorAmounts> LookupAnswers::amounts_at(float slope,
                                                     std::span<const float> biases) const
 {
+    if (lookup_.reruns) {
+        return rerun_amounts(slope, biases);
+    }
     return has_taps() ? sum_amounts(classes(), taps(slope), biases)
                       : sum_amounts(BiasCurve{critical_biases(slope), classes()}, biases);
 }
@@ -276,12 +312,15 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
                                   int verdict_taps) &&
 {
     Diagnosis diagnosis;
-    explain(own, diagnosis);
-    if (rule_.promises().has_curve()) {
+    Explained found = explain(own, lookup_.view.bias.constant, rule_.slope);
+    diagnosis.causes = std::move(found.causes);
+    diagnosis.peter_panning = found.peter_panning;
+    diagnosis.cells = std::move(found.cells);
+    if (has_curve()) {
         require_lit_causes(0, 0); // as curves() asks, while what the rays saw is still known
     }
     exact_->forget_texels(); // what follows takes the most memory
-    if (rule_.promises().has_curve()) {
+    if (has_curve()) {
         const SlopeInputs inputs = curves();
         SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
         diagnosis.curve = describe(curve, profile_bias);

@@ -16,12 +16,22 @@
 #include "scene/layers.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace gnomon::analysis {
+
+/// GL, asked again about a lookup whose other biases no formula tells: of the same receivers and
+/// map, which must be those drawn last.
+struct LookupReruns {
+    /// With other constant and slope biases.
+    std::function<scene::LookupLayers(float constant, float slope)> look_up;
+    /// The critical bias of each pixel, with another slope.
+    std::function<scene::Image<float>(float slope)> find_critical_biases;
+};
 
 /// One GL lookup, and what it was made with.
 struct ObservedLookup {
@@ -30,6 +40,8 @@ struct ObservedLookup {
     scene::LookupLayers layers;     ///< with any constant and slope bias
     scene::LookupLayers unbiased;   ///< without any bias; empty where it follows from `layers`
     scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
+    /// Empty where a formula tells of other biases, or nothing does.
+    std::optional<LookupReruns> reruns;
 };
 
 /// What one constant bias gives.
@@ -46,24 +58,31 @@ struct MeasuredBias {
 
 /// Observes what must be known of a lookup beside its layers. Asks `look_up` and `read_map_depths`,
 /// which must still answer for the job's receivers and map.
+/// @param renderers  must outlive what is returned.
 [[nodiscard]] ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                                             scene::LookupLayers layers, const Renderers& renderers);
 
 /// Everything about one lookup that does not depend on constant and slope bias; answers for all of
-/// them without GL, whoever asks: a comparison for its own, a sweep for many.
+/// them, whoever asks: a comparison for its own, a sweep for many. Without GL where a formula tells
+/// of other biases, else by its `LookupReruns`.
 class LookupAnswers {
 public:
     LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup);
     LookupAnswers(const LookupAnswers&) = delete;
     LookupAnswers& operator=(const LookupAnswers&) = delete;
 
-    /// The curve of the question's slope, and a row for each of its biases. Not for `hardware`,
-    /// which has no curve.
+    /// Whether every constant bias is known.
+    [[nodiscard]] bool has_curve() const
+    {
+        return rule_.promises().has_formula() || lookup_.reruns.has_value();
+    }
+    /// The curve of the question's slope, and a row for each of its biases. Precondition: there is
+    /// a curve, as in what follows.
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question);
     /// The critical bias of each pixel: −∞ if every bias is lit, +∞ if none is, 0 without a
-    /// receiver. For its argument see `CurveQuestion`. Not for `hardware`.
+    /// receiver. For its argument see `CurveQuestion`.
     [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
-    /// What is measured with each of several constant biases, of one slope. Not for `hardware`.
+    /// What is measured with each of several constant biases, of one slope.
     /// @param biases  Ascending, 0 or normal.
     /// @return  In the order of the biases.
     [[nodiscard]] std::vector<MeasuredBias> measure_biases(float slope,
@@ -109,7 +128,12 @@ private:
     [[nodiscard]] SlopeInputs curves();
     [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
                                                        float largest_bias);
-    void add_rows(const CurveQuestion& question, const SlopeCurve& curve, FinishedCurve& finished);
+    /// A row of each bias, ascending.
+    [[nodiscard]] std::vector<ConfigurationResult> rows(const SlopeCurve& curve,
+                                                        std::span<const float> biases);
+    /// The same, each from GL's own lookup.
+    [[nodiscard]] std::vector<ConfigurationResult> rerun_rows(float slope,
+                                                              std::span<const float> biases);
     /// The rule with another slope.
     [[nodiscard]] LookupRule rule_with(float slope) const;
     /// Whether verdicts are made of several comparisons, so that amounts are not counts.
@@ -126,19 +150,50 @@ private:
     /// What is fitted, whatever the lookup.
     [[nodiscard]] CurveResult describe_map() const;
     [[nodiscard]] CurveResult describe(const SlopeCurve& curve, float profile_bias);
-    /// Empty if no scored pixel is lit.
+    /// All scored pixels at the biases that a curve is drawn at.
+    [[nodiscard]] std::vector<CurveSample> draw_curve(const SlopeCurve& curve) const;
+    /// Errors by distance at each of the biases.
+    [[nodiscard]] std::vector<std::vector<ErrorBin>> profiles(const SlopeCurve& curve,
+                                                              std::span<const float> biases) const;
+    /// The same, each from GL's own lookup.
+    [[nodiscard]] std::vector<std::vector<ErrorBin>>
+    rerun_profiles(const SlopeCurve& curve, std::span<const float> biases) const;
+    /// What is measured with each of several constant biases.
+    /// @param biases  Ascending, 0 or normal.
+    [[nodiscard]] std::vector<MeasuredBias> measure(const SlopeCurve& curve,
+                                                    std::span<const float> biases);
+    /// The same, each from GL's own lookup.
+    [[nodiscard]] std::vector<MeasuredBias> rerun(float slope, std::span<const float> biases);
+    /// Its amounts, without finding causes.
+    [[nodiscard]] std::vector<ErrorAmounts> rerun_amounts(float slope,
+                                                          std::span<const float> biases) const;
+    /// Draws the curve at the biases that GL looks up, and recommends one of them.
+    void sample_curve(const SlopeCurve& curve, CurveResult& result);
+    /// What is measured with the biases around the least amount of error, ascending.
+    [[nodiscard]] std::vector<MeasuredBias> around_least_amount(const SlopeCurve& curve);
+    /// What is recommended; empty if no scored pixel is lit.
     [[nodiscard]] std::optional<Recommendation> recommend(const SlopeCurve& curve);
-    /// The same of fractions: of the biases around the least amount of error.
-    [[nodiscard]] std::optional<Recommendation> recommend_by_amount(const SlopeCurve& curve,
-                                                                    const BiasPlace& place);
+    /// The same of fractions.
+    /// @param around  measured around the least amount of error; not empty.
+    [[nodiscard]] std::optional<Recommendation>
+    recommend_by_amount(const SlopeCurve& curve, const BiasPlace& place,
+                        std::span<const MeasuredBias> around);
+    /// Where biases are made lengths; empty if no scored pixel is lit.
+    [[nodiscard]] std::optional<BiasPlace> bias_place(const SlopeCurve& curve) const;
     /// What is softened on purpose with each of several biases.
     /// @param criticals  of that slope.
     /// @param biases     Ascending.
     [[nodiscard]] std::vector<Softening> softening_with(float slope,
                                                         const scene::Image<float>& criticals,
                                                         std::span<const float> biases);
-    /// Causes and gaps at the job's bias.
-    void explain(const scene::LookupLayers& own, Diagnosis& diagnosis);
+    /// What is found of one bias's verdicts.
+    struct Explained {
+        CauseLayers causes;
+        Gaps peter_panning;
+        std::vector<ErrorCell> cells;
+    };
+    /// Causes and gaps of the lookup's verdicts with these biases.
+    [[nodiscard]] Explained explain(const scene::LookupLayers& own, float constant, float slope);
     /// Errors by distance, angle and object, at the job's bias.
     void break_down(const scene::LookupLayers& own, int verdict_taps, Diagnosis& diagnosis) const;
 

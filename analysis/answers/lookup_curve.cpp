@@ -44,12 +44,14 @@ std::vector<float> samples_of(const SlopeCurve& curve)
 
 } // namespace
 
-void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& curve,
-                             FinishedCurve& finished)
+std::vector<ConfigurationResult> LookupAnswers::rows(const SlopeCurve& curve,
+                                                     std::span<const float> biases)
 {
-    const std::vector<float> biases = ascending_biases(question);
     if (biases.empty()) {
-        return;
+        return {};
+    }
+    if (lookup_.reruns) {
+        return rerun_rows(curve.slope, biases);
     }
     require_lit_causes(biases.front(), curve.slope);
     const TapCriticals taps_of_slope = taps(curve.slope);
@@ -64,16 +66,14 @@ void LookupAnswers::add_rows(const CurveQuestion& question, const SlopeCurve& cu
     const auto counts = count_rows(inputs, curve.curve, errors_by, biases);
     const auto cells = count_error_cells(exact_->cells(), inputs, biases);
     const auto gaps = find_gaps_at(panning_gaps(curve.critical_bias, biases.back()), biases);
-    for (const CurveQuestion::Row& row : question.rows) {
-        const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
-        const auto i = static_cast<std::size_t>(found - biases.begin());
+    std::vector<ConfigurationResult> rows;
+    for (std::size_t i = 0; i < biases.size(); ++i) {
         const ErrorCounts& errors = counts[i].errors;
-        finished.rows.push_back(
-            {row.ordinal,
-             {make_metrics(exact_->receivers().classes(),
-                           {errors.false_shadow, errors.false_lit, errors_by[i]}),
-              counts[i].causes, counts[i].amounts, gaps[i], cells[i]}});
+        rows.push_back({make_metrics(exact_->receivers().classes(),
+                                     {errors.false_shadow, errors.false_lit, errors_by[i]}),
+                        counts[i].causes, counts[i].amounts, gaps[i], cells[i]});
     }
+    return rows;
 }
 
 CurveResult LookupAnswers::describe_map() const
@@ -91,56 +91,101 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     CurveResult result = describe_map();
     result.best = curve.best;
     result.bounds = curve.bounds;
-    result.recommended = recommend(curve);
+    if (lookup_.reruns) {
+        sample_curve(curve, result);
+    } else {
+        result.recommended = recommend(curve);
+        result.points = draw_curve(curve);
+    }
+    const std::array<float, 2> biases{profile_bias, curve.best.recommended()};
+    auto by_bin = lookup_.reruns ? rerun_profiles(curve, biases) : profiles(curve, biases);
+    for (std::vector<ErrorBin>& profile : by_bin) {
+        add_envelopes(profile, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
+    }
+    result.by_distance = {{At::job_bias, biases[0], std::move(by_bin[0])},
+                          {At::best_bias, biases[1], std::move(by_bin[1])}};
+    return result;
+}
+
+std::vector<CurveSample> LookupAnswers::draw_curve(const SlopeCurve& curve) const
+{
     const std::vector<float> samples = samples_of(curve);
     const auto errors_by = amounts(curve, samples);
+    std::vector<CurveSample> points;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const ErrorCounts errors = curve.curve.at(samples[i]);
-        result.points.push_back(
+        points.push_back(
             {samples[i],
              {curve.curve.lit().size(), curve.curve.blocked().size(), errors.false_shadow,
               errors.false_lit, errors_by[i].shadow, errors_by[i].light}});
     }
-    const std::array<float, 2> biases{profile_bias, curve.best.recommended()};
-    const BreakdownInputs inputs{classes(), deciding(), curve.critical_bias, map_error_m_,
-                                 rule_.promises().equal_taps()};
-    auto profiles = errors_by_bin(exact_->distances(), inputs, biases,
-                                  has_taps() ? count_lit_taps(classes(), taps(curve.slope), biases)
-                                             : std::vector<scene::Image<std::uint8_t>>{});
-    for (std::vector<ErrorBin>& profile : profiles) {
-        add_envelopes(profile, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
-    }
-    result.by_distance = {{At::job_bias, biases[0], std::move(profiles[0])},
-                          {At::best_bias, biases[1], std::move(profiles[1])}};
-    return result;
+    return points;
 }
 
-std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
+std::vector<std::vector<ErrorBin>> LookupAnswers::profiles(const SlopeCurve& curve,
+                                                           std::span<const float> biases) const
+{
+    const BreakdownInputs inputs{classes(), deciding(), curve.critical_bias, map_error_m_,
+                                 rule_.promises().equal_taps()};
+    return errors_by_bin(exact_->distances(), inputs, biases,
+                         has_taps() ? count_lit_taps(classes(), taps(curve.slope), biases)
+                                    : std::vector<scene::Image<std::uint8_t>>{});
+}
+
+std::optional<BiasPlace> LookupAnswers::bias_place(const SlopeCurve& curve) const
 {
     const auto light_distance_m = exact_->representative_light_distance_m();
     if (curve.curve.lit().empty() || !light_distance_m) {
         return std::nullopt;
     }
-    const BiasPlace place{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
-                          *light_distance_m};
-    return has_taps() ? recommend_by_amount(curve, place)
-                      : recommend_by_count(curve.curve, place, lookup_.job.bias);
+    return BiasPlace{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
+                     *light_distance_m};
 }
 
-std::optional<Recommendation> LookupAnswers::recommend_by_amount(const SlopeCurve& curve,
-                                                                 const BiasPlace& place)
+std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
+{
+    const auto place = bias_place(curve);
+    if (!place) {
+        return std::nullopt;
+    }
+    return has_taps() ? recommend_by_amount(curve, *place, around_least_amount(curve))
+                      : recommend_by_count(curve.curve, *place, lookup_.job.bias);
+}
+
+std::vector<MeasuredBias> LookupAnswers::around_least_amount(const SlopeCurve& curve)
 {
     const std::vector<float> biases = tried_biases();
-    const std::vector<ErrorAmounts> amounts_of = amounts(curve, biases);
-    const std::span<const float> around = around_least(biases, amounts_of);
-    const auto softening = softening_with(curve.slope, curve.critical_bias, around);
-    std::vector<ErrorPiece> pieces;
-    const auto first = static_cast<std::size_t>(around.data() - biases.data());
-    for (std::size_t i = 0; i < around.size(); ++i) {
-        pieces.push_back(
-            {around[i], around[i], amounts_of[first + i].total() - softening[i].total()});
+    return measure(curve, around_least(biases, amounts(curve, biases)));
+}
+
+std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
+                                                 std::span<const float> biases)
+{
+    if (lookup_.reruns) {
+        return rerun(curve.slope, biases);
     }
-    if (pieces.back().lo == biases.back()) {
+    const auto amounts_of = amounts(curve, biases);
+    const auto softening = softening_with(curve.slope, curve.critical_bias, biases);
+    std::vector<MeasuredBias> measured;
+    for (std::size_t i = 0; i < biases.size(); ++i) {
+        const ErrorCounts errors = curve.curve.at(biases[i]);
+        measured.push_back({biases[i],
+                            make_metrics(exact_->receivers().classes(),
+                                         {errors.false_shadow, errors.false_lit, amounts_of[i]}),
+                            softening[i]});
+    }
+    return measured;
+}
+
+std::optional<Recommendation>
+LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasPlace& place,
+                                   std::span<const MeasuredBias> around)
+{
+    std::vector<ErrorPiece> pieces;
+    for (const MeasuredBias& at : around) {
+        pieces.push_back({at.bias, at.bias, at.outcome().error_amount()});
+    }
+    if (pieces.back().lo >= 1) {
         pieces.back().hi = scene::infinity; // from there on everything is lit
     }
     const auto valley = find_valley(pieces);
@@ -152,11 +197,9 @@ std::optional<Recommendation> LookupAnswers::recommend_by_amount(const SlopeCurv
     std::vector<float> both{middle, pasted.bias};
     std::ranges::sort(both);
     both.erase(std::unique(both.begin(), both.end()), both.end());
-    const auto soft = softening_with(curve.slope, curve.critical_bias, both);
-    const auto amounts_with = amounts(curve, both);
+    const auto measured = measure(curve, both);
     const auto outcome_of = [&](float bias) {
-        const std::size_t i = bias == both.front() ? 0 : 1;
-        return Outcome{curve.curve.at(bias), amounts_with[i], soft[i].total()};
+        return measured[bias == both.front() ? 0 : 1].outcome();
     };
     return Recommendation{place.length_of(middle),
                           place.length_of(valley->run.lo),
@@ -174,7 +217,13 @@ FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
     FinishedCurve finished;
     finished.curve = describe(curve, question.job_bias);
     finished.curve.id = question.id;
-    add_rows(question, curve, finished);
+    const std::vector<float> biases = ascending_biases(question);
+    const std::vector<ConfigurationResult> results = rows(curve, biases);
+    for (const CurveQuestion::Row& row : question.rows) {
+        const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
+        finished.rows.push_back(
+            {row.ordinal, results[static_cast<std::size_t>(found - biases.begin())]});
+    }
     return finished;
 }
 

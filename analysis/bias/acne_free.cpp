@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 
@@ -68,7 +69,7 @@ private:
     /// The bias from which on the pixel is on the right side.
     [[nodiscard]] float first_end(std::size_t pixel, std::span<const float> criticals) const
     {
-        if (!inputs_.has_fractions) {
+        if (!inputs_.has_fractions || inputs_.weighs_taps) {
             return inputs_.critical_bias[pixel];
         }
         std::array<float, scene::most_taps> copy{};
@@ -93,13 +94,13 @@ public:
 
     static constexpr std::uint32_t no_prefix = 1U << digit_bits;
 
-    void add(float value)
+    void add(float value, std::uint64_t times)
     {
         const std::uint32_t key = sort_key(value);
         if (prefix_ == no_prefix) {
-            ++counts_[key >> digit_bits];
+            counts_[key >> digit_bits] += times;
         } else if (key >> digit_bits == prefix_) {
-            ++counts_[key & (no_prefix - 1)];
+            counts_[key & (no_prefix - 1)] += times;
         }
     }
     void add(const KeyHistogram& other)
@@ -138,10 +139,10 @@ private:
 struct KeyHistograms {
     std::vector<KeyHistogram> all;
 
-    void add(float value)
+    void add(float value, std::uint64_t times)
     {
         for (KeyHistogram& histogram : all) {
-            histogram.add(value);
+            histogram.add(value, times);
         }
     }
     void add(const KeyHistograms& other)
@@ -181,9 +182,13 @@ public:
 
     [[nodiscard]] const std::vector<float>& ends() const { return tally_.ends; }
 
-    /// The smallest biases with at most so many own taps above them.
-    [[nodiscard]] std::vector<float> smallest_leaving(std::span<const std::uint64_t> taps) const
+    /// The smallest biases with at most own taps of so many pixels above them.
+    [[nodiscard]] std::vector<float> smallest_leaving(std::span<const std::uint64_t> pixels) const
     {
+        std::vector<std::uint64_t> taps; // in units of a tap's weight
+        for (const std::uint64_t allowed : pixels) {
+            taps.push_back(allowed * units_each());
+        }
         const KeyHistogram& upper = tally_.own_taps.all.front();
         const std::uint64_t all = upper.total();
         KeyHistograms lower;
@@ -207,6 +212,32 @@ public:
     }
 
 private:
+    /// What a pixel's taps weigh together.
+    [[nodiscard]] std::uint64_t units_each() const
+    {
+        constexpr std::uint64_t fine = 1U << 20U;
+        return inputs_.weighs_taps ? fine : inputs_.taps->taps_each();
+    }
+    /// Calls `visit(tap, units)` for those of the pixel's own taps that weigh anything.
+    template <typename Visit>
+    void visit_weights(std::size_t pixel, const TapSet& own, const Visit& visit) const
+    {
+        std::array<double, scene::most_taps> weights; // filled as far as it is read
+        if (inputs_.weighs_taps) {
+            inputs_.taps->weights(pixel, weights);
+        }
+        for (std::size_t t = 0; t < inputs_.taps->taps_each(); ++t) {
+            const auto units = [&] {
+                return inputs_.weighs_taps
+                           ? std::llrint(weights[t] * static_cast<double>(units_each()))
+                           : 1;
+            };
+            if (own[t]) {
+                visit(t, static_cast<std::uint64_t>(units()));
+            }
+        }
+    }
+
     [[nodiscard]] bool has_acne(std::size_t pixel) const
     {
         return inputs_.classes[pixel] == PixelClass::lit &&
@@ -232,11 +263,11 @@ private:
         visit_own(
             first, last, [&](std::size_t pixel) { return has_acne(pixel); },
             [&](std::size_t pixel, const TapSet& own, std::span<const float> criticals) {
-                for (std::size_t t = 0; t < criticals.size() && inputs_.has_fractions; ++t) {
-                    if (own[t]) {
-                        histogram.add(criticals[t]);
+                if (inputs_.has_fractions) {
+                    visit_weights(pixel, own, [&](std::size_t t, std::uint64_t units) {
+                        histogram.add(criticals[t], units);
                         largest_[pixel] = std::max(largest_[pixel], criticals[t]);
-                    }
+                    });
                 }
                 if (inputs_.causes.pixels[pixel].if_wrong == Cause::resolution) {
                     if (const float until = end.of(pixel, criticals); until != -infinity) {
@@ -258,12 +289,10 @@ private:
                         return has_acne(pixel) &&
                                sort_key(largest_[pixel]) >> KeyHistogram::digit_bits >= lowest;
                     },
-                    [&](std::size_t, const TapSet& own, std::span<const float> criticals) {
-                        for (std::size_t t = 0; t < criticals.size(); ++t) {
-                            if (own[t]) {
-                                sum.add(criticals[t]);
-                            }
-                        }
+                    [&](std::size_t pixel, const TapSet& own, std::span<const float> criticals) {
+                        visit_weights(pixel, own, [&](std::size_t t, std::uint64_t units) {
+                            sum.add(criticals[t], units);
+                        });
                     });
             });
     }
@@ -308,11 +337,7 @@ std::vector<AcneFree> find_acne_free(const AcneInputs& inputs,
     const AcneOfTaps acne{inputs};
     std::vector<AcneFree> found = smallest_leaving(acne.ends(), allowed_pixels);
     if (inputs.has_fractions) {
-        std::vector<std::uint64_t> allowed_taps;
-        for (const std::uint64_t allowed : allowed_pixels) {
-            allowed_taps.push_back(allowed * inputs.taps->taps_each());
-        }
-        const auto by_tap = acne.smallest_leaving(allowed_taps);
+        const auto by_tap = acne.smallest_leaving(allowed_pixels);
         for (std::size_t i = 0; i < found.size(); ++i) {
             found[i].by_tap = by_tap[i];
         }

@@ -31,6 +31,7 @@ struct AcneInputs {
     const PixelCauses& causes;
     const TapCriticals* taps = nullptr; ///< nullptr where one texel is read
     bool has_fractions = false;         ///< else both counts are one
+    bool weighs_taps = false;           ///< else all of a pixel's taps weigh the same
 };
 
 /// Above the critical bias of a tap it shadows no more; a pixel is acne as long as it is wrong and

@@ -1,7 +1,6 @@
 #include "analysis/bias/bias_search.hpp"
 
 #include "analysis/advice/tried_biases.hpp"
-#include "analysis/bias/bias_reruns.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "scene/error.hpp"
@@ -195,8 +194,8 @@ BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
 
 std::vector<float> BiasSearch::fraction_biases(float slope) const
 {
-    if (!scene::promises(views_.front().job.lookup.filter).has_curve()) {
-        return rerun_list();
+    if (!scene::promises(views_.front().job.lookup.filter).has_formula()) {
+        return coarse_biases();
     }
     const std::vector<float> biases = tried_biases();
     std::vector<ErrorAmounts> sums(biases.size());
@@ -238,7 +237,7 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
         here.push_back(carried(view, bias));
     }
     std::vector<ViewOutcome> outcomes;
-    if (!scene::promises(views_[view].job.lookup.filter).has_curve()) {
+    if (!scene::promises(views_[view].job.lookup.filter).has_formula()) {
         for (const float bias : here) {
             outcomes.push_back(measured_by_gl(view, bias, slope));
         }

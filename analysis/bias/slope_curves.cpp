@@ -41,7 +41,9 @@ SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
 {
     LookupRule rule = inputs.rule;
     rule.slope = slope;
-    scene::Image<float> criticals = critical_biases(inputs.samples, rule);
+    scene::Image<float> criticals = inputs.find_critical_biases
+                                        ? inputs.find_critical_biases(slope)
+                                        : critical_biases(inputs.samples, rule);
     BiasCurve curve{criticals, inputs.classes};
     const BestBiases best = find_best_biases(curve);
     std::optional<TapCriticals> taps;
@@ -50,7 +52,7 @@ SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
     }
     const auto acne_free = [&](std::span<const std::uint64_t> allowed_pixels) {
         return find_acne_free({inputs.classes, criticals, inputs.causes, taps ? &*taps : nullptr,
-                               rule.promises().has_fractions()},
+                               rule.promises().has_fractions(), rule.promises().interpolates()},
                               allowed_pixels);
     };
     const BiasBounds bounds =

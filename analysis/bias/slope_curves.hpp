@@ -3,6 +3,7 @@
 #include "analysis/bias/bias_limits.hpp"
 #include "analysis/lookup/critical_bias.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -48,6 +49,8 @@ struct SlopeInputs {
     /// The lookup with its texels and the map, where several texels are read; else nullptr.
     const scene::LookupLayers* lookup = nullptr;
     const scene::Image<float>* map_depths = nullptr;
+    /// Of a slope, where no formula has them; else empty.
+    std::function<scene::Image<float>(float slope)> find_critical_biases = {};
 };
 
 /// The curve of one slope factor.

@@ -56,7 +56,7 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
     const scene::FilterPromises& promised = scene::promises(rule.filter);
-    if (!promised.has_curve()) {
+    if (!promised.has_formula()) {
         throw std::invalid_argument("deciding_samples: rule: the filter hardware has the driver's "
                                     "weights and no deciding tap");
     }
@@ -76,7 +76,7 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
 
 bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
 {
-    return scene::promises(job.lookup.filter).has_curve() && view.bias.normal_texels == 0;
+    return scene::promises(job.lookup.filter).has_formula() && view.bias.normal_texels == 0;
 }
 
 } // namespace gnomon::analysis

@@ -78,11 +78,12 @@ struct CurveResult {
     std::optional<double> near_m; ///< of the map, as fitted; empty: another renderer's, not known
     std::optional<double> far_m;
     std::optional<std::uint64_t> map_bytes;
-    /// Empty for `hardware`, which has no curve.
+    /// Empty where nothing knows every bias.
     std::optional<BestBiases> best;
     std::optional<BiasBounds> bounds;
     std::optional<Recommendation> recommended; ///< empty too if no scored pixel is lit
-    std::vector<CurveSample> points;           ///< at its `sample_biases`
+    std::vector<CurveSample> points;  ///< at its `sample_biases`, or where amounts are sampled
+    bool amounts_are_sampled = false; ///< known at the points alone, each from a lookup of its own
     std::vector<DistanceProfile> by_distance;
     std::optional<BiasVerification> verification; ///< empty: not asked for, or without a curve
 };

@@ -226,6 +226,12 @@ private:
         return hooks_.keep_pixels || !scene::promises(task_.job.lookup.filter).has_curve();
     }
 
+    /// Whether GL is asked again for what a curve says, or to verify it.
+    [[nodiscard]] bool asks_gl() const
+    {
+        return hooks_.verifies_biases || !scene::promises(task_.job.lookup.filter).has_formula();
+    }
+
     void answer(std::size_t slot)
     {
         ++counts_.curves;
@@ -233,8 +239,11 @@ private:
         if (is_compared()) {
             return answer_by_comparison(slot, task_.rows.at(0));
         }
-        if (hooks_.verifies_biases) {
+        if (asks_gl()) {
             finish_lanes(); // GL holds this lookup's map and receivers only until the next step
+            if (lookup_.value) {
+                select(slot);
+            }
             answer_by_curve(task_, lookup_, slot);
             return task_curve_.reset();
         }

@@ -185,8 +185,7 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
 {
     comparison.verification = analysis::verify_comparison(comparison, renderers);
     if (!comparison.verification) {
-        fmt::print(stderr, "gnomon: --verify: the hardware filter has no critical biases to hold "
-                           "GL to; its other biases are GL's own reruns\n");
+        fmt::print(stderr, "gnomon: --verify: this lookup has no bias curve to hold GL to\n");
     }
 }
 

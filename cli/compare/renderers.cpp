@@ -46,12 +46,23 @@ void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
 
 scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View& view)
 {
+    lookup_pass_.render(scene_, drawn_receivers(), *shadow_map_, job.lookup, view);
+    return lookup_pass_.read();
+}
+
+scene::Image<float> GlRenderer::find_critical_biases(const scene::Job& job, const scene::View& view)
+{
+    return lookup_pass_.find_critical_biases(scene_, drawn_receivers(), *shadow_map_, job.lookup,
+                                             view);
+}
+
+const raster_gl::ReceiverBuffer& GlRenderer::drawn_receivers() const
+{
     const raster_gl::ReceiverBuffer* receivers = receivers_[slot_].buffer;
     if (receivers == nullptr || shadow_map_ == nullptr) {
-        throw std::invalid_argument("GlRenderer::look_up: draw receivers and shadow map first");
+        throw std::invalid_argument("GlRenderer: draw receivers and shadow map first");
     }
-    lookup_pass_.render(scene_, *receivers, *shadow_map_, job.lookup, view);
-    return lookup_pass_.read();
+    return *receivers;
 }
 
 scene::Image<float> GlRenderer::read_map_depths() const
@@ -89,6 +100,9 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     };
     renderers.look_up = [&gl](const scene::Job& job, const scene::View& view) {
         return gl.look_up(job, view);
+    };
+    renderers.find_critical_biases = [&gl](const scene::Job& job, const scene::View& view) {
+        return gl.find_critical_biases(job, view);
     };
     renderers.find_truth = [&gl, &reference, subpixel_bits = facts.subpixel_bits, options](
                                const scene::View& view, const scene::ReceiverLayers& receivers) {

@@ -28,6 +28,9 @@ public:
     void draw_shadow_map(const scene::Job& job, const scene::View& view);
     /// Looks the selected receivers up in the last shadow map.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
+    /// The smallest constant bias with which each of them is lit, found by trying.
+    [[nodiscard]] scene::Image<float> find_critical_biases(const scene::Job& job,
+                                                           const scene::View& view);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
     /// Gives the last shadow map's memory back: it is to be drawn again before it is asked.
@@ -37,6 +40,10 @@ public:
     read_float_depths(const scene::Job& job, const scene::View& view, scene::TexelRows rows);
 
 private:
+    /// The selected ones.
+    /// @throws std::invalid_argument  if they, or the map, were not drawn.
+    [[nodiscard]] const raster_gl::ReceiverBuffer& drawn_receivers() const;
+
     struct Receivers {
         std::unique_ptr<raster_gl::ReceiverPass> pass;
         const raster_gl::ReceiverBuffer* buffer = nullptr; ///< nullptr until drawn

@@ -1,8 +1,11 @@
 // The shadow test of one pixel. FILTER_TAPS (1, 3, 5, 7, 9), FILTER_LINEAR, FILTER_HARDWARE,
-// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED and SPOT are defined by the program that compiles this.
+// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT and BISECTS are defined by the program that
+// compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
+// Where they cannot (FILTER_HARDWARE), BISECTS finds the smallest bias with which the very same
+// verdict is at least one half: it rises with the bias.
 layout(binding = 0) uniform usampler2D receiver_triangle;
 layout(binding = 1) uniform sampler2D receiver_light_clip;
 layout(binding = 2) uniform sampler2D receiver_world_position;
@@ -17,8 +20,12 @@ uniform float bias_slope;
 uniform float normal_offset; // in metres at ζ = 1 for SPOT, else in metres
 uniform float resolution;    // in texels
 
+#if BISECTS
+layout(location = 0) out float critical_out; // −∞: lit with every bias; +∞: with none
+#else
 layout(location = 0) out vec4 sample_out; // r, d, tan θ, verdict
 layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lower left
+#endif
 
 const float not_a_depth = uintBitsToFloat(0x7FC00000u);
 
@@ -60,11 +67,100 @@ bool footprint_is_outside(vec2 texel)
     return any(lessThan(first, vec2(-1.0))) || any(greaterThanEqual(first, vec2(resolution)));
 }
 
+// The verdict with the whole bias, in [0, 1].
+// @param d  the depth looked up: the centre tap's; of FILTER_LINEAR the interpolated one.
+float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
+{
+#if FILTER_LINEAR
+    d = textureLod(map, uv, 0.0).r;
+    return is_lit(r, bias, d) ? 1.0 : 0.0;
+#elif FILTER_HARDWARE
+    fetch_depth(floor(texel), d);
+#if REVERSED
+    precise float reference = r + bias;
+#else
+    precise float reference = r - bias;
+#endif
+    return textureLod(map_compare, vec3(uv, reference), 0.0);
+#else
+    vec2 centre = floor(texel);
+    fetch_depth(centre, d);
+    float lit_taps = 0.0;
+    for (int y = -FILTER_TAPS / 2; y <= FILTER_TAPS / 2; ++y) {
+        for (int x = -FILTER_TAPS / 2; x <= FILTER_TAPS / 2; ++x) {
+            float tap;
+            bool fetched = fetch_depth(centre + vec2(x, y), tap);
+            lit_taps += fetched ? (is_lit(r, bias, tap) ? 1.0 : 0.0) : OUTSIDE_VERDICT;
+        }
+    }
+    return lit_taps / float(FILTER_TAPS * FILTER_TAPS);
+#endif
+}
+
+#if BISECTS
+const float infinity = uintBitsToFloat(0x7F800000u);
+const int largest_rank = 0x7F000000; // of the largest finite float32; infinity's follows
+
+// The biases, 0 and the normal float32 of either sign, numbered in ascending order: 0 has rank 0.
+float bias_of_rank(int rank)
+{
+    if (rank == 0) {
+        return 0.0;
+    }
+    uint magnitude = uint(abs(rank)) + 0x007FFFFFu;
+    return uintBitsToFloat(rank < 0 ? magnitude | 0x80000000u : magnitude);
+}
+
+bool is_lit_with(int rank, float r, float slope_term, vec2 uv, vec2 texel)
+{
+    precise float bias = bias_of_rank(rank) + slope_term;
+    float d;
+    return visibility(r, bias, uv, texel, d) >= 0.5;
+}
+
+float critical_bias(float r, float slope_term, vec2 uv, vec2 texel)
+{
+    if (is_lit_with(-largest_rank, r, slope_term, uv, texel)) {
+        return -infinity;
+    }
+    int shadowed = -largest_rank;
+    int lit = largest_rank + 1;
+    for (int i = 0; i < 32; ++i) { // there are fewer than 2^32 ranks
+        int middle = (shadowed & lit) + ((shadowed ^ lit) >> 1); // their mean, rounded down
+        if (is_lit_with(middle, r, slope_term, uv, texel)) {
+            lit = middle;
+        } else {
+            shadowed = middle;
+        }
+    }
+    return bias_of_rank(lit);
+}
+#endif
+
+void write_nothing()
+{
+#if BISECTS
+    critical_out = 0.0;
+#else
+    sample_out = vec4(0.0);
+    texel_out = vec2(0.0);
+#endif
+}
+
+// Where the border mode decides, whatever the bias.
+void write_border(float r, float tan_theta)
+{
+#if BISECTS
+    critical_out = OUTSIDE_VERDICT > 0.5 ? -infinity : infinity;
+#else
+    sample_out = vec4(r, not_a_depth, tan_theta, OUTSIDE_VERDICT);
+#endif
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    sample_out = vec4(0.0);
-    texel_out = vec2(0.0);
+    write_nothing();
     uint triangle = texelFetch(receiver_triangle, pixel, 0).r;
     if (triangle == 0xFFFFFFFFu) {
         return;
@@ -96,50 +192,31 @@ void main()
     bool beyond_far = !(r <= 1.0);
 #endif
     precise float slope_term = bias_slope * tan_theta;
-    precise float bias = bias_constant + slope_term;
+#if !BISECTS
     texel_out = texel;
+#endif
 
 #if OUTSIDE_CLAMP
     r = clamp(r, 0.0, 1.0);
 #else
     if (beyond_far || !(clip.w > 0.0)) {
-        sample_out = vec4(r, not_a_depth, tan_theta, OUTSIDE_VERDICT);
+        write_border(r, tan_theta);
         return;
     }
+#if FILTER_LINEAR || FILTER_HARDWARE
+    if (footprint_is_outside(texel)) {
+        write_border(r, tan_theta);
+        return;
+    }
+#endif
 #endif
 
+#if BISECTS
+    critical_out = critical_bias(r, slope_term, uv, texel);
+#else
+    precise float bias = bias_constant + slope_term;
     float d;
-#if FILTER_LINEAR || FILTER_HARDWARE
-#if !OUTSIDE_CLAMP
-    if (footprint_is_outside(texel)) {
-        sample_out = vec4(r, not_a_depth, tan_theta, OUTSIDE_VERDICT);
-        return;
-    }
-#endif
-#if FILTER_LINEAR
-    d = textureLod(map, uv, 0.0).r;
-    float verdict = is_lit(r, bias, d) ? 1.0 : 0.0;
-#else
-    fetch_depth(floor(texel), d);
-#if REVERSED
-    precise float reference = r + bias;
-#else
-    precise float reference = r - bias;
-#endif
-    float verdict = textureLod(map_compare, vec3(uv, reference), 0.0);
-#endif
-#else
-    vec2 centre = floor(texel);
-    fetch_depth(centre, d);
-    float lit_taps = 0.0;
-    for (int y = -FILTER_TAPS / 2; y <= FILTER_TAPS / 2; ++y) {
-        for (int x = -FILTER_TAPS / 2; x <= FILTER_TAPS / 2; ++x) {
-            float tap;
-            bool fetched = fetch_depth(centre + vec2(x, y), tap);
-            lit_taps += fetched ? (is_lit(r, bias, tap) ? 1.0 : 0.0) : OUTSIDE_VERDICT;
-        }
-    }
-    float verdict = lit_taps / float(FILTER_TAPS * FILTER_TAPS);
-#endif
+    float verdict = visibility(r, bias, uv, texel, d);
     sample_out = vec4(r, d, tan_theta, verdict);
+#endif
 }

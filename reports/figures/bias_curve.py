@@ -42,7 +42,7 @@ def read(run):
     rows = run_settings.done(run)
     rows = rows[rows["bias_source"] == "curve"].reset_index(drop=True)
     if rows.empty:
-        raise run_settings.DoesNotApply(f"{run.folder}: the filter hardware has no bias curve")
+        raise run_settings.DoesNotApply(f"{run.folder}: no configuration has a bias curve")
     chosen, why = run_settings.curves_of(run, rows)
     titles = run_settings.panel_titles(run, rows, chosen)
     settings = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))

@@ -62,7 +62,8 @@ void add_bias_curve(store::Json& json, const analysis::Diagnosis& diagnosis)
     }
     add_metrics(json, analysis::curve_metrics(), diagnosis.curve);
     add_pareto_front(json["bias_curve"], diagnosis.biases->curve);
-    json["bias_curve"]["amount_ordinate"] = "exact";
+    json["bias_curve"]["amount_ordinate"] =
+        diagnosis.curve.amounts_are_sampled ? "sampled" : "exact";
 }
 
 store::Json precision_kinds(const std::optional<analysis::PrecisionKinds>& kinds)
@@ -124,18 +125,17 @@ store::Json by_object(const std::vector<analysis::ObjectErrors>& objects)
     return json;
 }
 
-store::Json reruns(const std::vector<analysis::BiasRerun>& reruns)
+/// What GL's own lookups with other biases measured; null where a formula knows them.
+store::Json reruns(const analysis::CurveResult& curve)
 {
+    if (!curve.amounts_are_sampled) {
+        return nullptr;
+    }
     store::Json json = store::Json::array();
-    for (const analysis::BiasRerun& rerun : reruns) {
-        json.push_back({{"bias", rerun.bias},
-                        {"false_shadow", rerun.errors.false_shadow},
-                        {"false_lit", rerun.errors.false_lit},
-                        {"false_shadow_rate", store::number_or_null(rerun.false_shadow_rate)},
-                        {"false_lit_rate", store::number_or_null(rerun.false_lit_rate)},
-                        {"error_rate", store::number_or_null(rerun.error_rate)},
-                        {"shadow_amount", rerun.amounts.shadow},
-                        {"light_amount", rerun.amounts.light}});
+    for (const analysis::CurveSample& point : curve.points) {
+        store::Json entry{{"bias", point.bias}};
+        entry.update(subset_json(point.counts));
+        json.push_back(std::move(entry));
     }
     return json;
 }
@@ -180,8 +180,7 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
     json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
     add_bias_curve(json, *diagnosis);
     json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
-    json["bias_reruns"] =
-        comparison.reruns.empty() ? store::Json(nullptr) : reruns(comparison.reruns);
+    json["bias_reruns"] = reruns(diagnosis->curve);
     json["verification"] = verification(comparison.verification);
     json["slope_curves"] =
         diagnosis->biases ? slope_answers(*diagnosis->biases) : store::Json(nullptr);

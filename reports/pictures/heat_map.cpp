@@ -105,9 +105,8 @@ scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap ki
     const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
     if (kind == HeatMap::needed_bias) {
         if (!diagnosis.biases) {
-            throw scene::InputError("--heat-map needed-bias: the filter hardware has no critical "
-                                    "biases: take depth-error, amount, cause or label, or another "
-                                    "filter");
+            throw scene::InputError("--heat-map needed-bias: this lookup has no bias curve: "
+                                    "take depth-error, amount, cause or label");
         }
         return diagnosis.biases->map.texels;
     }

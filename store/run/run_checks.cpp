@@ -40,7 +40,7 @@ RunChecks read_run_checks(const sqlite::Database& database)
 std::string verification_text(const RunChecks& checks)
 {
     if (checks.curves == 0) {
-        return "nothing: without a bias curve (hardware) every bias is GL's own run";
+        return "nothing: without a bias curve every bias is GL's own run";
     }
     return fmt::format("{} of {}, {} of {} differ", scene::grouped(checks.verified),
                        scene::counted(checks.curves, "bias curve"),

@@ -152,6 +152,12 @@ void expect_amounts(const AmountsByBias& measured, const scene::Image<scene::Pix
     }
 }
 
+/// The critical biases that GL finds by trying.
+scene::Image<float> bisected(GlCase& c)
+{
+    return c.lookup_pass.find_critical_biases(c.gpu, *c.receivers, *c.map, c.job.lookup, c.view);
+}
+
 /// @return  how many receivers have their verdict from the border.
 std::size_t expect_identity(GlCase& c, const std::string& label)
 {
@@ -159,8 +165,11 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
     const auto lookup = c.lookup_pass.read();
     const auto depths = read_shader_depths(*shared_context(), *c.map);
-    const auto samples = analysis::deciding_samples(lookup, lookup.texels, depths, rule);
-    const auto criticals = analysis::critical_biases(samples, rule);
+    const auto criticals =
+        rule.promises().has_formula()
+            ? analysis::critical_biases(
+                  analysis::deciding_samples(lookup, lookup.texels, depths, rule), rule)
+            : bisected(c);
     const auto triangles = read_triangles(*shared_context(), *c.receivers);
     std::vector<float> seen;
     for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
@@ -207,8 +216,38 @@ TEST_P(BiasIdentity, HoldsForGlsOwnRerunInEveryPixel)
 
 INSTANTIATE_TEST_SUITE_P(ScenesAndFilters, BiasIdentity,
                          testing::Combine(testing::Range<std::size_t>(0, 6),
-                                          testing::Values("nearest", "linear", "pcf3", "pcf5",
-                                                          "pcf9")));
+                                          testing::Values("nearest", "linear", "hardware", "pcf3",
+                                                          "pcf5", "pcf9")));
+
+class Bisection : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Bisection, FindsWhatTheFormulaSays)
+{
+    GNOMON_REQUIRE_GL();
+    const Setting& setting = settings()[GetParam()];
+    GlCase c{setting.builtin, keys_of(setting, "d16", "nearest", "0")};
+    for (const char* filter : {"nearest", "linear", "pcf3"}) {
+        for (const char* slope : {"0", "0.002"}) {
+            SCOPED_TRACE(fmt::format("{} {} slope {}", setting.builtin, filter, slope));
+            c.set(keys_of(setting, "d24", filter, slope));
+            c.draw_all();
+            const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
+            const auto lookup = c.lookup_pass.read();
+            const auto depths = read_shader_depths(*shared_context(), *c.map);
+            const auto formula = analysis::critical_biases(
+                analysis::deciding_samples(lookup, lookup.texels, depths, rule), rule);
+            const auto found = bisected(c);
+            std::size_t finite = 0;
+            for (std::size_t i = 0; i < found.pixel_count(); ++i) {
+                ASSERT_EQ(found[i], formula[i]) << "pixel " << i;
+                finite += std::isfinite(found[i]) && found[i] != 0 ? 1 : 0;
+            }
+            EXPECT_GT(finite, 1000U);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Bisection, testing::Range<std::size_t>(0, 6));
 
 } // namespace
 } // namespace gnomon::tests

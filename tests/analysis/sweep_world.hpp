@@ -1,11 +1,13 @@
 #pragma once
 
+#include "analysis/bias/bias_order.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 #include "fake_light.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/import/scene_file.hpp"
+#include "scene/infinity.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,9 +15,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -171,6 +175,26 @@ private:
         const scene::View& view_;
     };
 
+    /// Found by trying, as GL does.
+    [[nodiscard]] float critical_bias(const scene::Job& job, scene::View view,
+                                      std::size_t pixel) const
+    {
+        const auto is_lit = [&](std::int32_t rank) {
+            view.bias.constant = bias_of_rank(rank);
+            return scene::is_lit(Lookup{*this, job, view}.sample(pixel).verdict);
+        };
+        if (is_lit(-largest_bias_rank)) {
+            return -scene::infinity;
+        }
+        std::int32_t shadowed = -largest_bias_rank;
+        std::int32_t lit = largest_bias_rank + 1;
+        while (lit - 1 > shadowed) {
+            const std::int32_t middle = std::midpoint(shadowed, lit);
+            (is_lit(middle) ? lit : shadowed) = middle;
+        }
+        return bias_of_rank(lit);
+    }
+
     void begin(std::string_view stage, const scene::Job* job, const scene::View& view)
     {
         calls.emplace_back(stage);
@@ -202,6 +226,13 @@ private:
         renderers_.look_up = [this](const scene::Job& job, const scene::View& view) {
             begin("lookup", &job, view);
             return look_up(job, view);
+        };
+        renderers_.find_critical_biases = [this](const scene::Job& job, const scene::View& view) {
+            scene::Image<float> criticals{view.image};
+            for (std::size_t pixel = 0; pixel < criticals.pixel_count(); ++pixel) {
+                criticals[pixel] = critical_bias(job, view, pixel);
+            }
+            return criticals;
         };
         renderers_.forget_shadow_map = [this] {
             calls.emplace_back("forget map");

@@ -151,10 +151,10 @@ class BiasCurve(unittest.TestCase):
             self.assertIn("0", texts)
             self.assertTrue(style.fit(axes, axes.get_xticks(), texts), texts)
 
-    def test_does_not_apply_to_hardware(self):
+    def test_does_not_apply_without_a_curve(self):
         run = load("compare")
         run.results["bias_source"] = "rerun"
-        with self.assertRaisesRegex(run_settings.DoesNotApply, "hardware has no bias curve"):
+        with self.assertRaisesRegex(run_settings.DoesNotApply, "no configuration has a bias curve"):
             bias_curve.read(run)
 
 

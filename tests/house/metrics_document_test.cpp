@@ -76,9 +76,7 @@ std::string document()
            section("The map", "As fitted; not in the JSON, where `frustum` says more.",
                    map_metrics()) +
            section("The pixels", "With the configuration's own bias.", configuration_metrics()) +
-           section("The bias curve",
-                   "Of all constant biases at once; not available for `hardware`.",
-                   curve_metrics());
+           section("The bias curve", "Of all constant biases at once.", curve_metrics());
 }
 
 TEST(MetricsDocument, IsTheTable)

@@ -103,14 +103,19 @@ class ImageLayers(unittest.TestCase):
             self.assertEqual(layers.errors(point["bias"]),
                              {name: point[name] for name in ("false_shadow", "false_lit")})
 
-    def test_of_hardware_know_the_jobs_bias_alone(self):
+    def test_of_hardware_know_every_bias_too(self):
         path = folder / "hardware.exr"
         gnomon.call("compare", *JOB, "--set", "lookup.filter=hardware", "--aov", path)
         hardware = gnomon.load_layers(path)
-        said = compare("--set", "lookup.filter=hardware")
-        self.assertEqual(hardware.errors()["false_lit"], said["false_lit"])
+        for bias in (0.0, 0.001):
+            said = compare("--set", "lookup.filter=hardware", "--set", f"bias.constant={bias}")
+            self.assertEqual(hardware.errors(bias)["false_lit"], said["false_lit"])
+
+    def test_say_where_nothing_knows_other_biases(self):
+        path = folder / "float.exr"
+        gnomon.call("compare", *JOB, "--truth", "float", "--aov", path)
         with self.assertRaisesRegex(gnomon.InputError, "no critical_bias"):
-            hardware.errors(0.001)
+            gnomon.load_layers(path).errors(0.001)
 
 
 class Crops(unittest.TestCase):

@@ -101,7 +101,7 @@ TEST(HeatMap, SaysWhatItDoesNotKnow)
         return std::string{"drawn"};
     };
     EXPECT_THAT(refusal(store::example().comparison, HeatMap::cause), HasSubstr("--truth float"));
-    EXPECT_THAT(refusal(diagnosed(), HeatMap::needed_bias), HasSubstr("hardware"));
+    EXPECT_THAT(refusal(diagnosed(), HeatMap::needed_bias), HasSubstr("no bias curve"));
     EXPECT_EQ(refusal(diagnosed(), HeatMap::label), "drawn");
 }
 

@@ -83,7 +83,7 @@ TEST(RunChecks, DoNotPassWithAMismatch)
                 StartsWith("1 configuration with pixels that mismatch"));
 }
 
-TEST(RunChecks, LeaveHardwareOut)
+TEST(RunChecks, LeaveOutWhatHasNoCurve)
 {
     const TemporaryFolder folder;
     RunStore store = planned(folder.path());

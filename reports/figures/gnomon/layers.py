@@ -50,12 +50,12 @@ class Layers(Mapping):
 
         Exact for every float32 bias: the layer `critical_bias` is the smallest with which a pixel is
         lit. Pixels that are not scored may say anything. Raises InputError for another bias where
-        there is no such layer, that is, for the filter `hardware`.
+        there is no such layer: another renderer's image whose other biases nothing knows.
         """
         if bias is None:
             return self["verdict"] >= 0.5
         if "critical_bias" not in self:
-            raise InputError("the image has no critical_bias: its filter has no bias curve")
+            raise InputError("the image has no critical_bias: nothing knows its other biases")
         return self["critical_bias"] <= numpy.float32(bias)
 
     def errors(self, bias=None):

@@ -209,18 +209,17 @@ TEST(SweepCurves, LeavesTheConstantBiasOutOfTheCurvesName)
     EXPECT_NE(only_one({}).curve, only_one({{"lookup.filter", "linear"}}).curve);
 }
 
-TEST(SweepCurves, GivesEachBiasOfHardwareACurveOfItsOwn)
+TEST(SweepCurves, PutsAllBiasesOfALookupIntoOneCurve)
 {
     const scene::SweepSpace space =
         space_of({"lookup.filter=hardware,linear", "bias.constant=0,0.25,0.5"});
     const auto all = describe_all(space);
-    EXPECT_NE(all[0].curve, all[1].curve);
-    EXPECT_NE(all[1].curve, all[2].curve);
+    EXPECT_EQ(all[0].curve, all[2].curve);
     EXPECT_EQ(all[3].curve, all[4].curve);
+    EXPECT_NE(all[0].curve, all[3].curve);
     const SweepCurves sweep_curves{space, false, "1.0"};
-    ASSERT_THAT(sweep_curves.requests(), SizeIs(4));
-    EXPECT_THAT(sweep_curves.requests()[1].ordinals, ElementsAre(1));
-    EXPECT_THAT(sweep_curves.requests()[3].ordinals, ElementsAre(3, 4, 5));
+    ASSERT_THAT(sweep_curves.requests(), SizeIs(2));
+    EXPECT_THAT(sweep_curves.requests()[0].ordinals, ElementsAre(0, 1, 2));
 }
 
 TEST(SweepCurves, AsksForEveryBiasByItselfToKeepPixels)
@@ -283,14 +282,6 @@ TEST(SweepCurves, KnowsTheFilesBiasBesideTheAxes)
     EXPECT_EQ(all[0].job_bias, "0.05 m") << "the built-in's own";
     EXPECT_EQ(all[1].job_bias, "0.125");
     EXPECT_EQ(all[2].job_bias, "0.25 m");
-}
-
-TEST(SweepCurves, KnowsNoJobsBiasForHardware)
-{
-    for (const Configuration& configuration :
-         describe_all(space_of({"bias.constant=0,0.5"}, {{"lookup.filter", "hardware"}}))) {
-        EXPECT_EQ(configuration.job_bias, "");
-    }
 }
 
 TEST(SweepCurves, PutsMetresInPlaceOfDepthUnits)

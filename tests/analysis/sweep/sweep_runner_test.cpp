@@ -88,7 +88,7 @@ TEST(SweepRunner, GivesTheSameRowsWhenItKeepsPixels)
         EXPECT_EQ(curve.far_m, other.far_m);
         EXPECT_EQ(curve.map_bytes, other.map_bytes);
         ASSERT_EQ(curve.best.has_value(), other.best.has_value());
-        ASSERT_EQ(curve.points.size(), other.points.size());
+        EXPECT_EQ(curve.points, other.points);
         ASSERT_EQ(curve.by_distance.size(), other.by_distance.size());
         for (std::size_t i = 0; i < curve.by_distance.size(); ++i) {
             EXPECT_EQ(curve.by_distance[i].at, other.by_distance[i].at);
@@ -125,17 +125,31 @@ TEST(SweepRunner, DescribesTheCurveAtTheJobsOwnBias)
     }
 }
 
-TEST(SweepRunner, HasNoCurveForHardware)
+TEST(SweepRunner, SamplesTheAmountsOfACurveByBisection)
 {
     FakeSweep sweep{{"bias.constant=0,0.125"}, {{"lookup.filter", "hardware"}}};
     sweep.run();
-    ASSERT_EQ(sweep.curves.size(), 2U);
-    for (const auto& [id, curve] : sweep.curves) {
-        EXPECT_FALSE(curve.best.has_value());
-        EXPECT_FALSE(curve.bounds.has_value());
-        EXPECT_THAT(curve.points, IsEmpty());
-        EXPECT_EQ(curve.by_distance.size(), 1U);
-    }
+    ASSERT_EQ(sweep.curves.size(), 1U);
+    const CurveResult& curve = sweep.curves.begin()->second;
+    EXPECT_TRUE(curve.best.has_value());
+    EXPECT_TRUE(curve.bounds.has_value());
+    EXPECT_TRUE(curve.amounts_are_sampled);
+    EXPECT_GE(curve.points.size(), 26U);
+    EXPECT_LE(curve.points.size(), 26U + 64U);
+    EXPECT_EQ(curve.by_distance.size(), 2U);
+    EXPECT_EQ(sweep.done.size(), 2U);
+    expect_compared(sweep);
+}
+
+TEST(SweepRunner, BisectsWhileGlHasTheLookupsMapAndReceivers)
+{
+    FakeSweep sweep{{"shadow_map.resolution=4,5", "lookup.filter=nearest,hardware",
+                     "bias.slope=0,0.0625", "bias.constant=0,0.125"},
+                    {},
+                    two_cameras};
+    EXPECT_EQ(sweep.run(), sweep.planned);
+    EXPECT_THAT(sweep.failed, IsEmpty());
+    expect_compared(sweep);
 }
 
 TEST(SweepRunner, KeepsMoreCamerasThanSlotsApart)

@@ -43,7 +43,7 @@ function rateChart(host, title, bins, x) {
 
 function neededChart(host, title, bins, x, step) {
   if (bins.every(({ needed }) => needed.p95 === null || needed.p95 === undefined)) {
-    const text = "The bias that lit pixels need is not known: the hardware filter’s weights are up to the driver.";
+    const text = "The bias that lit pixels need is not known: nothing tells of this lookup’s other biases.";
     host.replaceChildren(element("p", { class: "hint", text }));
     return null;
   }

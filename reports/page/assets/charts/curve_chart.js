@@ -75,29 +75,3 @@ class CurveChart {
     this.chart.moveCursor(bias);
   }
 }
-
-/** What GL itself showed with other biases, where there is no curve. */
-function rerunChart(host, reruns) {
-  const points = (name) => reruns.map((rerun) => [rerun.bias, rerun[name]]);
-  return new PageChart(host, {
-    title: "Wrong pixels at other biases, measured by running GL with them",
-    summary: `${reruns.length} biases from ${readable(reruns[0].bias)} to ${readable(reruns.at(-1).bias)}.`,
-    x: { label: "constant bias [depth units]", name: "bias", layout: symlogLayout(1e-6) },
-    y: { label: "share of the lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },
-    series: [
-      {
-        name: "false shadow, of the lit",
-        colour: errorColours.falseShadow,
-        points: points("false_shadow_rate"),
-        radius: 3,
-      },
-      {
-        name: "false lit, of the blocked",
-        colour: errorColours.falseLit,
-        points: points("false_lit_rate"),
-        radius: 3,
-        dash: [6, 3],
-      },
-    ],
-  });
-}

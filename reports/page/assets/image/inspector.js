@@ -1,8 +1,7 @@
 // The pixel inspector: two layers with a wipe between them, the bias slider and a pixel's numbers.
 
-const hardwareLine =
-  "The hardware filter has no critical bias: its weights are up to the driver, so one lookup says nothing about " +
-  "other biases. The layers show the job’s bias.";
+const noCurveLine =
+  "Nothing tells of this lookup’s other biases: its weights are its renderer’s own. The layers show the job’s bias.";
 
 /** What is said of an image of which not all pixels are on the page. */
 function thinnedText({ step }) {
@@ -138,9 +137,9 @@ class Inspector {
     this.bias = this.image.jobBias;
     const heading = element("h3", { text: "Bias" });
     if (!this.image.hasCurve || this.image.detail.bias_curve === null) {
-      this.biasHost.replaceChildren(heading, element("p", { class: "hint", text: hardwareLine }));
+      this.biasHost.replaceChildren(heading, element("p", { class: "hint", text: noCurveLine }));
       this.curve = null;
-      this.showReruns();
+      this.curveHost.replaceChildren();
       return;
     }
     const slider = new BiasSlider(this.image, (bias) => {
@@ -150,15 +149,6 @@ class Inspector {
     this.biasHost.replaceChildren(heading, slider.root);
     this.curve = new CurveChart(this.curveHost, this.image, slider.scale);
     slider.setBias(this.bias);
-  }
-
-  /** Other biases of the filter hardware, where GL was run again with them. */
-  showReruns() {
-    const reruns = this.image.detail.bias_reruns ?? [];
-    this.curveHost.replaceChildren();
-    if (reruns.length > 0) {
-      rerunChart(this.curveHost, reruns);
-    }
   }
 
   chooseLayers() {

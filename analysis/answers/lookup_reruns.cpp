@@ -1,0 +1,93 @@
+// What GL's own lookups with other biases say, where no formula tells.
+
+#include "analysis/advice/tried_biases.hpp"
+#include "analysis/answers/lookup_answers.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace gnomon::analysis {
+
+std::vector<MeasuredBias> LookupAnswers::rerun(float slope, std::span<const float> biases)
+{
+    std::vector<MeasuredBias> measured;
+    for (const float bias : biases) {
+        const scene::LookupLayers own = lookup_.reruns->look_up(bias, slope);
+        const CauseAmounts amounts = causes_of(own, bias, slope).amounts;
+        measured.push_back(
+            {bias,
+             analysis::measure(exact_->receivers().truth(), own, rule_.promises().equal_taps()),
+             {amounts.shadow_softening, amounts.light_softening}});
+    }
+    return measured;
+}
+
+std::vector<ErrorAmounts> LookupAnswers::rerun_amounts(float slope,
+                                                       std::span<const float> biases) const
+{
+    std::vector<ErrorAmounts> amounts;
+    for (const float bias : biases) {
+        amounts.push_back(analysis::measure(exact_->receivers().truth(),
+                                            lookup_.reruns->look_up(bias, slope),
+                                            rule_.promises().equal_taps())
+                              .amounts);
+    }
+    return amounts;
+}
+
+std::vector<ConfigurationResult> LookupAnswers::rerun_rows(float slope,
+                                                           std::span<const float> biases)
+{
+    std::vector<ConfigurationResult> rows;
+    for (const float bias : biases) {
+        const scene::LookupLayers own = lookup_.reruns->look_up(bias, slope);
+        Explained found = explain(own, bias, slope);
+        rows.push_back(
+            {analysis::measure(exact_->receivers().truth(), own, rule_.promises().equal_taps()),
+             found.causes.counts, found.causes.amounts, found.peter_panning,
+             std::move(found.cells)});
+    }
+    return rows;
+}
+
+std::vector<std::vector<ErrorBin>>
+LookupAnswers::rerun_profiles(const SlopeCurve& curve, std::span<const float> biases) const
+{
+    std::vector<std::vector<ErrorBin>> profiles;
+    for (const float bias : biases) {
+        const scene::LookupLayers own = lookup_.reruns->look_up(bias, curve.slope);
+        profiles.push_back(
+            errors_by_bin(exact_->distances(), {classes(), own, curve.critical_bias, map_error_m_,
+                                                rule_.promises().equal_taps()}));
+    }
+    return profiles;
+}
+
+void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
+{
+    const std::vector<float> coarse = coarse_biases();
+    const std::vector<ErrorAmounts> amounts = rerun_amounts(curve.slope, coarse);
+    const std::vector<MeasuredBias> around =
+        rerun(curve.slope, fine_biases_around_least(coarse, amounts));
+    const auto add = [&](float bias, const ErrorAmounts& at) {
+        const ErrorCounts errors = curve.curve.at(bias);
+        result.points.push_back({bias,
+                                 {curve.curve.lit().size(), curve.curve.blocked().size(),
+                                  errors.false_shadow, errors.false_lit, at.shadow, at.light}});
+    };
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+        if (std::ranges::find(around, coarse[i], &MeasuredBias::bias) == around.end()) {
+            add(coarse[i], amounts[i]);
+        }
+    }
+    for (const MeasuredBias& at : around) {
+        add(at.bias, at.metrics.amounts);
+    }
+    std::ranges::sort(result.points, {}, &CurveSample::bias);
+    result.amounts_are_sampled = true;
+    if (const auto place = bias_place(curve)) {
+        result.recommended = recommend_by_amount(curve, *place, around);
+    }
+}
+
+} // namespace gnomon::analysis
