@@ -181,7 +181,7 @@ TEST(Causes, WhatNoInfinitelyFineMapSeesIsCoverage)
     expect(pixel.verdicts(1, 1).sees(4, 4, 0.5).classified(), Cause::coverage, Label::leak);
 }
 
-TEST(Causes, ThePolicyOutsideTheMapLeavesOnlyCoverage)
+TEST(Causes, TheBorderModeOutsideTheMapLeavesOnlyCoverage)
 {
     for (const PixelClass truth : {PixelClass::lit, PixelClass::blocked}) {
         const bool is_lit = truth == PixelClass::lit;
@@ -197,7 +197,7 @@ TEST(Causes, ThePolicyOutsideTheMapLeavesOnlyCoverage)
     }
 }
 
-TEST(Causes, BeyondTheFarPlaneThePolicyDecides)
+TEST(Causes, BeyondTheFarPlaneTheBorderModeDecides)
 {
     for (const bool reversed : {false, true}) {
         OnePixel pixel{PixelClass::blocked};
@@ -244,7 +244,7 @@ TEST(Causes, EqualDepthsAmongPcfTapsAreRanked)
     EXPECT_EQ(pixel.found().exact_critical_bias, 0.25F);
 }
 
-TEST(Causes, PolicyTapsOfPcfCountAsTheyDecide)
+TEST(Causes, BorderTapsOfPcfCountAsTheyDecide)
 {
     OnePixel pixel{PixelClass::lit};
     pixel.settings = {Filter::pcf3, Outside::shadowed};
@@ -308,7 +308,7 @@ TEST(Causes, HardwareComparesEachTapAndWeighsTheVerdicts)
     EXPECT_EQ(pixel.found().exact_critical_bias, 0.0F); // ¾ of it is lit without bias
 }
 
-TEST(Causes, OutsideTheMapLinearTapsAreAsFarOrNearAsThePolicySays)
+TEST(Causes, OutsideTheMapLinearTapsAreAsFarOrNearAsTheBorderModeSays)
 {
     OnePixel pixel{PixelClass::lit};
     pixel.settings = {Filter::linear, Outside::shadowed};
