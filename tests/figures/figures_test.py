@@ -79,11 +79,11 @@ class ErrorVsZ(unittest.TestCase):
         self.assertAlmostEqual(self.curves[1]["envelope"][1][-1], 1.7136e-5, delta=5e-10)
 
     def test_teeth_are_drawn_where_six_samples_resolve_them(self):
-        zeta, error = self.curves[0]["teeth"]
+        light_distance_m, error = self.curves[0]["teeth"]
         spacing = 46 / 199
-        all_zeta, envelope = self.curves[0]["envelope"]
-        expected = all_zeta[2 * envelope >= 6 * spacing * (1 - 1e-9)]
-        assert_array_equal(zeta, expected)
+        all_distances_m, envelope = self.curves[0]["envelope"]
+        expected = all_distances_m[2 * envelope >= 6 * spacing * (1 - 1e-9)]
+        assert_array_equal(light_distance_m, expected)
         assert_array_equal(error, abs(column("formula8", "formula_error_m")[-len(expected):]))
         self.assertEqual(self.curves[1]["teeth"][0].size, 0)
         self.assertEqual(self.curves[1]["dots"][0].size, 40)
@@ -91,8 +91,8 @@ class ErrorVsZ(unittest.TestCase):
     def test_no_sample_leaves_its_envelope(self):
         for curve in self.curves:
             for part in ("teeth", "dots"):
-                zeta, error = curve[part]
-                bound = numpy.interp(zeta, *curve["envelope"])
+                light_distance_m, error = curve[part]
+                bound = numpy.interp(light_distance_m, *curve["envelope"])
                 self.assertTrue(numpy.all(error <= bound), (curve["name"], part))
 
     def test_axes(self):
@@ -112,10 +112,10 @@ class ErrorVsZ(unittest.TestCase):
         self.assertEqual([axes.get_title() for axes in self.figure.axes[1:]],
                          ["8 bits: the last 8 codes"])
         axes = self.figure.axes[1]
-        zeta, error = axes.get_lines()[0].get_data()
+        light_distance_m, error = axes.get_lines()[0].get_data()
         # Half a code below the eighth from the end: 1/ζ = 1/4 - (1/4 - 1/50)(247.5/255).
-        self.assertAlmostEqual(zeta[0], 1 / (0.25 - 0.23 * 247.5 / 255), delta=46 / 199)
-        assert_array_equal(error, column("formula8", "formula_error_m")[-len(zeta):])
+        self.assertAlmostEqual(light_distance_m[0], 1 / (0.25 - 0.23 * 247.5 / 255), delta=46 / 199)
+        assert_array_equal(error, column("formula8", "formula_error_m")[-len(light_distance_m):])
         self.assertEqual(axes.get_ylabel(), "error of ζ [m]")
         self.assertEqual(self.curves[1]["last_codes"][0].size, 0)
 
@@ -135,17 +135,17 @@ class ToleranceVsZ(unittest.TestCase):
         self.assertEqual(self.tables.tolerance, 1e-8)
         # sqrt(T/(AΔ)) with A = 0.23/m and Δ = 1/2/(2^32 - 1), to half a step between codes, 1e-8 m.
         self.assertAlmostEqual(self.tables.exceeded_from, (2e-8 * (2**32 - 1) / 0.23)**0.5, delta=1e-8)
-        zeta, envelope = self.tables.envelope
-        self.assertTrue(numpy.all((envelope > 1e-8) == (zeta >= self.tables.exceeded_from)))
+        light_distance_m, envelope = self.tables.envelope
+        self.assertTrue(numpy.all((envelope > 1e-8) == (light_distance_m >= self.tables.exceeded_from)))
 
     def test_shows_single_codes_with_their_sign_at_three_places(self):
         self.assertEqual([name for name, *_ in self.tables.details],
                          ["near", "where it begins to fail", "far"])
         ratios = []
-        for name, zeta, error, envelope in self.tables.details:
+        for name, light_distance_m, error, envelope in self.tables.details:
             with self.subTest(place=name):
                 stored = column("tolerance32", "formula_error_m",
-                                lambda row: zeta[0] <= float(row["zeta_m"]) <= zeta[-1])
+                                lambda row: light_distance_m[0] <= float(row["zeta_m"]) <= light_distance_m[-1])
                 assert_array_equal(error, stored)
                 # Sixteen samples a code: a tooth's tips are missed by an eighth at most.
                 self.assertGreater(error.max(), 0.87 * envelope[0])
@@ -231,8 +231,8 @@ class MeasuredAgainstFormula(unittest.TestCase):
 
     def test_plots_gls_errors_over_the_envelope(self):
         for axes, name, title in zip(self.figure.axes[::2], ("d16", "d24"), ("16 bits", "24 bits")):
-            zeta, error = line(axes, "GL's |error| (measured)")
-            assert_array_equal(zeta, column(name, "zeta_m"))
+            light_distance_m, error = line(axes, "GL's |error| (measured)")
+            assert_array_equal(light_distance_m, column(name, "zeta_m"))
             assert_array_equal(error, abs(column(name, "error_m")))
             assert_array_equal(line(axes, "envelope (formula)")[1], column(name, "envelope_m"))
             assert_array_equal(line(axes, "bound of the driver model")[1],
@@ -281,10 +281,10 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
             factor = {"µm": 1e6, "mm": 1e3}[axes.get_ylabel()[-3:-1]]
             for label, key in (("median", "map_error_m.median"), ("95 % are below",
                                                                   "map_error_m.p95")):
-                zeta, error = line(axes, label)
+                light_distance_m, error = line(axes, label)
                 assert_array_equal(error, factor * column("error_vs_z", key, rows))
-                assert_array_equal(zeta, 0.5 * (column("error_vs_z", "lower_m", rows)
-                                                + column("error_vs_z", "upper_m", rows)))
+                assert_array_equal(light_distance_m, 0.5 * (column("error_vs_z", "lower_m", rows)
+                                                            + column("error_vs_z", "upper_m", rows)))
             upper, envelope = line(axes, "envelope (formula)")
             assert_array_equal(upper, column("error_vs_z", "upper_m", rows))
             assert_array_equal(envelope, factor * column("error_vs_z", "envelope_m", rows))
