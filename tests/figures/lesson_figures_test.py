@@ -1,6 +1,6 @@
 """The figures of the lessons as numbers: pixels of an image, a depth map, sweeps of wall and of resolutions.
 
-The stored files are crops and rows of what examples/figures/seeds.sh measures.
+The stored files are crops and rows of what examples/figures/lessons.sh measures.
 """
 
 import csv
@@ -26,7 +26,7 @@ import peter_panning  # noqa: E402
 
 
 def path(name):
-    return HERE / "seeds" / f"{name}.csv"
+    return HERE / "lessons" / f"{name}.csv"
 
 
 def rows_of(name, **where):

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures and draws the figures of docs/figures.md: seeds.sh [GNOMON [FOLDER]].
+# Measures and draws the figures of docs/figures.md: lessons.sh [GNOMON [FOLDER]].
 # GNOMON is the program, by default that of ./dev build; figures and what they are drawn from go to
 # FOLDER, by default out/figures. Needs python3 with matplotlib, pandas and OpenImageIO.
 set -euo pipefail
@@ -7,10 +7,10 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 gnomon=${1:-$root/build/release/bin/gnomon}
 out=${2:-$root/out/figures}
-data=$out/seeds
+data=$out/lessons
 
 [ -x "$gnomon" ] || {
-    echo "seeds.sh: $gnomon is missing; build it with ./dev build" >&2
+    echo "lessons.sh: $gnomon is missing; build it with ./dev build" >&2
     exit 1
 }
 rm -rf "$data"
