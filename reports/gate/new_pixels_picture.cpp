@@ -305,7 +305,7 @@ private:
     Canvas canvas_;
 };
 
-/// Grey of a surface, brighter towards a lamp above the viewer's shoulder.
+/// Grey of a surface, brighter towards a light above the viewer's shoulder.
 store::Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_class)
 {
     if (!std::isfinite(normal.x) || pixel_class == scene::PixelClass::background) {
