@@ -6,7 +6,7 @@
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <map>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/triangles.hpp"
 #include "scene/vec.hpp"
 

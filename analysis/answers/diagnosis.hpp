@@ -8,7 +8,7 @@
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -10,8 +10,8 @@
 #include "analysis/receiver_geometry.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
 #include "scene/light/exact_light.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstdint>
 #include <limits>

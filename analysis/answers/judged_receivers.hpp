@@ -6,8 +6,8 @@
 #include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/receiver_geometry.hpp"
-#include "scene/layers.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstddef>
 #include <cstdint>

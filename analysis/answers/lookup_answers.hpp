@@ -13,7 +13,7 @@
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/results.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstdint>
 #include <memory>

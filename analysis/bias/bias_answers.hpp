@@ -7,7 +7,7 @@
 #include "analysis/bias/slope_curves.hpp"
 #include "analysis/causes/pixel_causes.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "analysis/metrics/amounts.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <optional>
 #include <vector>

@@ -6,7 +6,7 @@
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/bias/bias_valley.hpp"
 #include "analysis/tune/tune_limits.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstddef>
 #include <memory>

@@ -2,8 +2,8 @@
 
 #include "analysis/comparison.hpp"
 #include "analysis/evaluate/case_truth.hpp"
+#include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/case/layers.hpp"
 #include "scene/import/scene_file.hpp"
 
 #include <optional>

@@ -17,7 +17,7 @@ const std::string sphere_plane = "scene.builtin = \"sphere-plane\"\n";
 const std::string yard = "scene.builtin = \"yard\"\n";
 const std::string model = "scene.file = \"model.obj\"\n";
 
-TEST(JobLayers, BuiltInsDefaultsLieBeneathTheFilesKeys)
+TEST(SettingLayers, BuiltInsDefaultsLieBeneathTheFilesKeys)
 {
     const Job job = job_of(sphere_plane + "image.width = 99\n").job;
     EXPECT_EQ(job.image.width_px, 99);
@@ -25,7 +25,7 @@ TEST(JobLayers, BuiltInsDefaultsLieBeneathTheFilesKeys)
     EXPECT_EQ(job.shadow_map.resolution_texels, 512);
 }
 
-TEST(JobLayers, OverridesLieAboveCasesAndCasesAboveTheFile)
+TEST(SettingLayers, OverridesLieAboveCasesAndCasesAboveTheFile)
 {
     const std::string text = wall_job +
                              "image = {width = 10, height = 10}\nshadow_map.resolution = 10\n"
@@ -36,14 +36,14 @@ TEST(JobLayers, OverridesLieAboveCasesAndCasesAboveTheFile)
     EXPECT_EQ(job.shadow_map.resolution_texels, 10);
 }
 
-TEST(JobLayers, BuiltInsParametersChangeItsDefaults)
+TEST(SettingLayers, BuiltInsParametersChangeItsDefaults)
 {
     const Job job = job_of(sphere_plane + "[scene.sphere-plane]\nlight = \"orthographic\"\n").job;
     EXPECT_EQ(job.light->type, LightType::directional);
     EXPECT_EQ(std::get<std::string>(job.scene.parameters.at("light")), "orthographic");
 }
 
-TEST(JobLayers, KeepEveryBuiltInsOwnJobAsItIs)
+TEST(SettingLayers, KeepEveryBuiltInsOwnJobAsItIs)
 {
     for (const char* name : {"wall", "sphere-plane", "yard"}) {
         const auto keys = resolved_keys(builtin_job(name).job);
@@ -55,7 +55,7 @@ TEST(JobLayers, KeepEveryBuiltInsOwnJobAsItIs)
     }
 }
 
-TEST(JobLayers, PartialCameraTakesTheDefaultsForTheRest)
+TEST(SettingLayers, PartialCameraTakesTheDefaultsForTheRest)
 {
     const Job job = job_of(model + "camera.eye = [9, 9, 9]\n").job;
     ASSERT_TRUE(job.camera);
@@ -64,7 +64,7 @@ TEST(JobLayers, PartialCameraTakesTheDefaultsForTheRest)
     EXPECT_EQ(job.camera->vertical_fov_deg, 45);
 }
 
-TEST(JobLayers, PartialCameraKeepsTheBuiltInsRest)
+TEST(SettingLayers, PartialCameraKeepsTheBuiltInsRest)
 {
     const Job built_in = builtin_job("wall").job;
     const Job job = job_of(wall_job + "camera.eye = [9, 9, 9]\n").job;
@@ -72,7 +72,7 @@ TEST(JobLayers, PartialCameraKeepsTheBuiltInsRest)
     EXPECT_EQ(job.camera->target, built_in.camera->target);
 }
 
-TEST(JobLayers, OrthographicHeightReplacesAPerspectiveAndBack)
+TEST(SettingLayers, OrthographicHeightReplacesAPerspectiveAndBack)
 {
     const Job job = job_of(wall_job + "camera.orthographic_height = 3\n").job;
     EXPECT_EQ(job.camera->projection, Projection::orthographic);
@@ -84,7 +84,7 @@ TEST(JobLayers, OrthographicHeightReplacesAPerspectiveAndBack)
     EXPECT_EQ(back.camera->vertical_fov_deg, 30);
 }
 
-TEST(JobLayers, BiasInDepthUnitsReplacesABiasInMetresAndBack)
+TEST(SettingLayers, BiasInDepthUnitsReplacesABiasInMetresAndBack)
 {
     const Job depth_units = job_of(wall_job + "bias.constant = 0.5\n").job;
     EXPECT_FALSE(depth_units.bias.constant_m);
@@ -93,7 +93,7 @@ TEST(JobLayers, BiasInDepthUnitsReplacesABiasInMetresAndBack)
     EXPECT_EQ(metres.bias.constant_m, 0.5);
 }
 
-TEST(JobLayers, DirectionalLightReplacesASpotsConeAndPointOfView)
+TEST(SettingLayers, DirectionalLightReplacesASpotsConeAndPointOfView)
 {
     const Job job =
         job_of(sphere_plane + "[light]\ntype = \"directional\"\ndirection = [0, -1, 0]\n").job;
@@ -104,7 +104,7 @@ TEST(JobLayers, DirectionalLightReplacesASpotsConeAndPointOfView)
     EXPECT_FALSE(keys_of(job).contains("light.cone_deg"));
 }
 
-TEST(JobLayers, DirectionalLightWithNoDirectionKeepsThePointOfViewOfASpot)
+TEST(SettingLayers, DirectionalLightWithNoDirectionKeepsThePointOfViewOfASpot)
 {
     const Job spot = builtin_job("sphere-plane").job;
     const Job job = job_of(sphere_plane + "light.type = \"directional\"\n").job;
@@ -113,7 +113,7 @@ TEST(JobLayers, DirectionalLightWithNoDirectionKeepsThePointOfViewOfASpot)
     EXPECT_EQ(job.light->target, spot.light->target);
 }
 
-TEST(JobLayers, SpotReplacesADirectionAndAnExtent)
+TEST(SettingLayers, SpotReplacesADirectionAndAnExtent)
 {
     const std::string light =
         "[light]\ntype = \"spot\"\nposition = [0, 9, 0]\ntarget = [0, 0, 0]\n";
@@ -123,7 +123,7 @@ TEST(JobLayers, SpotReplacesADirectionAndAnExtent)
     EXPECT_FALSE(keys_of(job).contains("shadow_map.half_extent"));
 }
 
-TEST(JobLayers, DirectionAloneOverASpotIsRefusedWithBothRemedies)
+TEST(SettingLayers, DirectionAloneOverASpotIsRefusedWithBothRemedies)
 {
     EXPECT_EQ(refusal(sphere_plane + "light.direction = [0, -1, 0]\n"),
               "job.toml:2: light.direction = [0, -1, 0]: the light is a spot (built-in "
@@ -131,7 +131,7 @@ TEST(JobLayers, DirectionAloneOverASpotIsRefusedWithBothRemedies)
               "light.target; for a directional light also set light.type = \"directional\"");
 }
 
-TEST(JobLayers, TargetReplacesADirectionFromBelow)
+TEST(SettingLayers, TargetReplacesADirectionFromBelow)
 {
     const Job job = job_of(wall_job + "light.position = [1, 5, 0]\nlight.target = [0, 0, 0]\n").job;
     EXPECT_FALSE(job.light->direction);
@@ -142,20 +142,20 @@ TEST(JobLayers, TargetReplacesADirectionFromBelow)
     EXPECT_EQ(moved.light->position, Vec3d(1, 5, 0));
 }
 
-TEST(JobLayers, ADirectionalLightThatSaysNothingPointsTheDefaultWay)
+TEST(SettingLayers, ADirectionalLightThatSaysNothingPointsTheDefaultWay)
 {
     EXPECT_EQ(job_of(model + "light.type = \"directional\"\n").job.light->direction,
               Vec3d(-0.4, -1, -0.3));
 }
 
-TEST(JobLayers, AnotherFitReplacesTheFixedExtent)
+TEST(SettingLayers, AnotherFitReplacesTheFixedExtent)
 {
     const Job job = job_of(yard + "shadow_map.fit = \"scene\"\n").job;
     EXPECT_EQ(job.shadow_map.frustum.fit, Fit::scene);
     EXPECT_EQ(builtin_job("yard").job.shadow_map.frustum.fit, Fit::fixed);
 }
 
-TEST(JobLayers, AnotherSceneLeavesTheParametersOfTheFormer)
+TEST(SettingLayers, AnotherSceneLeavesTheParametersOfTheFormer)
 {
     const std::string thick = wall_job + "scene.wall.thickness_m = 0.5\n";
     const auto thickness = [](const Job& job) {
@@ -170,13 +170,13 @@ TEST(JobLayers, AnotherSceneLeavesTheParametersOfTheFormer)
     EXPECT_FALSE(file.camera); // the wall's own camera went with it
 }
 
-TEST(JobLayers, LastOverrideOfAKeyCounts)
+TEST(SettingLayers, LastOverrideOfAKeyCounts)
 {
     EXPECT_EQ(builtin_job("wall", {{"image.width", "1"}, {"image.width", "2"}}).job.image.width_px,
               2);
 }
 
-TEST(JobLayers, RefuseTwoKeysThatExcludeEachOther)
+TEST(SettingLayers, RefuseTwoKeysThatExcludeEachOther)
 {
     EXPECT_EQ(refusal(wall_job + model),
               "job.toml:2: scene.file = \"model.obj\": scene.builtin excludes it (job.toml:1: "
@@ -191,7 +191,7 @@ TEST(JobLayers, RefuseTwoKeysThatExcludeEachOther)
                 StartsWith("job.toml:3: light.target = [0, 0, 0]: light.direction excludes it"));
 }
 
-TEST(JobLayers, RefuseKeysOfTheOtherLight)
+TEST(SettingLayers, RefuseKeysOfTheOtherLight)
 {
     EXPECT_THAT(refusal(wall_job + "light.cone_deg = 30\n"),
                 HasSubstr("light.cone_deg = 30: only a spot has a cone"));
@@ -205,7 +205,7 @@ TEST(JobLayers, RefuseKeysOfTheOtherLight)
                 HasSubstr("light.type = \"point\": point lights are for `evaluate` only, for now"));
 }
 
-TEST(JobLayers, RefuseAnExtentThatTheFitDoesNotUse)
+TEST(SettingLayers, RefuseAnExtentThatTheFitDoesNotUse)
 {
     EXPECT_THAT(refusal(wall_job + "shadow_map.half_extent = 3\n"),
                 HasSubstr("only for shadow_map.fit = \"fixed\""));
@@ -216,7 +216,7 @@ TEST(JobLayers, RefuseAnExtentThatTheFitDoesNotUse)
                 HasSubstr("a spot's map takes shadow_map.fov_deg"));
 }
 
-TEST(JobLayers, RefuseNearThatIsNotBeforeFar)
+TEST(SettingLayers, RefuseNearThatIsNotBeforeFar)
 {
     EXPECT_EQ(refusal(wall_job + "[shadow_map]\nnear = 5\nfar = 5\n"),
               "job.toml:3: shadow_map.near = 5: must be less than shadow_map.far (job.toml:4: "
@@ -232,7 +232,7 @@ TEST(JobLayers, RefuseNearThatIsNotBeforeFar)
               -5);
 }
 
-TEST(JobLayers, RefuseImagesThatAreTooLargeAltogether)
+TEST(SettingLayers, RefuseImagesThatAreTooLargeAltogether)
 {
     EXPECT_EQ(job_of(wall_job + "image = {width = 16384, height = 8192}\n").job.image.height_px,
               8192);
@@ -242,7 +242,7 @@ TEST(JobLayers, RefuseImagesThatAreTooLargeAltogether)
                 HasSubstr("image.width = 20000: must be an integer from 1 to 16384"));
 }
 
-TEST(JobLayers, RefuseParametersOfASceneThatIsNotShown)
+TEST(SettingLayers, RefuseParametersOfASceneThatIsNotShown)
 {
     EXPECT_EQ(refusal(yard + "scene.wall.thickness_m = 1\n"),
               "job.toml:2: scene.wall.thickness_m = 1: the parameter of a scene that this job does "
@@ -250,7 +250,7 @@ TEST(JobLayers, RefuseParametersOfASceneThatIsNotShown)
     EXPECT_THAT(refusal(model + "scene.wall.thickness_m = 1\n"), HasSubstr("does not show"));
 }
 
-TEST(JobLayers, RefuseAJobWithoutAScene)
+TEST(SettingLayers, RefuseAJobWithoutAScene)
 {
     EXPECT_EQ(refusal("image.width = 3\n"), "job.toml: no scene: set scene.builtin (`gnomon "
                                             "scenes` lists them) or scene.file");

@@ -1,4 +1,4 @@
-#include "scene/job/layers.hpp"
+#include "scene/job/setting_layers.hpp"
 
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
