@@ -3,6 +3,7 @@
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <functional>

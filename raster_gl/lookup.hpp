@@ -7,6 +7,7 @@
 #include "raster_gl/shadow_map.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <map>
 #include <string>

@@ -9,6 +9,7 @@
 #include "analysis/sweep/results.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -8,6 +8,7 @@
 #include "analysis/causes/pixel_causes.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -5,6 +5,7 @@
 #include "analysis/renderers.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <optional>
 #include <vector>

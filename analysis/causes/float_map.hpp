@@ -4,7 +4,7 @@
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
-#include "scene/view/settings.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <span>

@@ -4,6 +4,7 @@
 #include "scene/light/exact_light.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/rounded_receivers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <functional>

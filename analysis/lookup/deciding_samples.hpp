@@ -5,6 +5,7 @@
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/vec.hpp"
+#include "scene/view/view.hpp"
 
 namespace gnomon::analysis {
 
