@@ -1,4 +1,4 @@
-#include "cli/certify_command.hpp"
+#include "cli/certify/certify_command.hpp"
 
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
