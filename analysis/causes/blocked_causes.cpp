@@ -25,11 +25,11 @@ struct Repair {
 class BlockedCauses {
 public:
     BlockedCauses(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
-                  PixelCauses& causes, CauseMemory* memory)
+                  PixelCauses& causes, CauseCache* cache)
         : inputs_{inputs},
           wanted_{wanted},
           causes_{causes},
-          memory_{memory},
+          cache_{cache},
           rule_{inputs.rule()},
           footprint_{inputs.lookup, inputs.resolution_texels},
           is_mean_depth_{inputs.promises().compares == scene::FilterPromises::Compares::mean_depth}
@@ -53,16 +53,16 @@ private:
     /// Takes over what is remembered of the pixel; false if that is not enough.
     [[nodiscard]] bool recall(std::size_t pixel) const
     {
-        if (memory_ == nullptr) {
+        if (cache_ == nullptr) {
             return false;
         }
-        const auto own = memory_->own(pixel);
+        const auto own = cache_->own(pixel);
         if (own && !*own && !is_lit_unbiased(pixel)) {
             causes_.pixels[pixel] = {};
             return true;
         }
-        causes_.pixels[pixel] = memory_->known(pixel);
-        return memory_->knows(pixel);
+        causes_.pixels[pixel] = cache_->known(pixel);
+        return cache_->knows(pixel);
     }
 
     void explain(std::span<const std::size_t> pixels)
@@ -91,12 +91,12 @@ private:
     }
     void remember(std::size_t pixel, bool own)
     {
-        if (memory_ == nullptr) {
+        if (cache_ == nullptr) {
             return;
         }
-        memory_->remember_own(pixel, own);
+        cache_->remember_own(pixel, own);
         if (!causes_.pixels[pixel].is_of_bias_alone()) {
-            memory_->remember(pixel, causes_.pixels[pixel]);
+            cache_->remember(pixel, causes_.pixels[pixel]);
         }
     }
 
@@ -308,7 +308,7 @@ private:
     const CauseInputs& inputs_;
     const scene::Image<std::uint8_t>& wanted_;
     PixelCauses& causes_;
-    CauseMemory* memory_;
+    CauseCache* cache_;
     LookupRule rule_;
     Footprint footprint_;
     bool is_mean_depth_;
@@ -317,10 +317,10 @@ private:
 } // namespace
 
 void find_blocked_causes(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
-                         PixelCauses& causes, CauseMemory* memory)
+                         PixelCauses& causes, CauseCache* cache)
 {
     require_cause_inputs(inputs);
-    BlockedCauses{inputs, wanted, causes, memory}.find();
+    BlockedCauses{inputs, wanted, causes, cache}.find();
 }
 
 } // namespace gnomon::analysis

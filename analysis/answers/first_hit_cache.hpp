@@ -13,10 +13,10 @@ namespace gnomon::analysis {
 
 /// What one light saw first through the texels of its maps, for maps that differ in the near plane
 /// alone.
-class FirstHitMemory {
+class FirstHitCache {
 public:
     /// @param most_texels  that it remembers, of all maps together: 8 bytes each.
-    explicit FirstHitMemory(std::size_t most_texels) : room_{most_texels} {}
+    explicit FirstHitCache(std::size_t most_texels) : room_{most_texels} {}
 
     /// The map whose texels are asked for, and the light that sees through them.
     struct Map {

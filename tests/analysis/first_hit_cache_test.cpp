@@ -1,4 +1,4 @@
-#include "analysis/answers/first_hit_memory.hpp"
+#include "analysis/answers/first_hit_cache.hpp"
 
 #include "fake_light.hpp"
 
@@ -28,12 +28,12 @@ void show(FakeLight& light)
     light.hits[{16383, 0}] = {9, 0.5, 4, 0};
 }
 
-/// Asks a memory about a map of a near plane.
-void ask(FirstHitMemory& memory, FakeLight& light, double near_m, int resolution_texels = 16384,
+/// Asks a cache about a map of a near plane.
+void ask(FirstHitCache& cache, FakeLight& light, double near_m, int resolution_texels = 16384,
          Cull cull = Cull::none, const std::vector<Texel>& of = texels)
 {
     const scene::LightFrustum frustum = frustum_from(near_m);
-    const auto hits = memory.first_hits({light, frustum, resolution_texels, cull}, of);
+    const auto hits = cache.first_hits({light, frustum, resolution_texels, cull}, of);
     ASSERT_EQ(hits.size(), of.size());
     for (std::size_t i = 0; i < of.size(); ++i) {
         const auto expected = light.hits.find({of[i].x, of[i].y});
@@ -42,16 +42,16 @@ void ask(FirstHitMemory& memory, FakeLight& light, double near_m, int resolution
     }
 }
 
-TEST(FirstHitMemory, TellsWhatWasSeenFromANearerPlane)
+TEST(FirstHitCache, TellsWhatWasSeenFromANearerPlane)
 {
-    FirstHitMemory memory{3};
+    FirstHitCache cache{3};
     FakeLight light;
     show(light);
-    ask(memory, light, 0.5);
+    ask(cache, light, 0.5);
     EXPECT_EQ(light.traced_texels, 3U);
     EXPECT_TRUE(light.known_frusta.empty());
-    ask(memory, light, 1);
-    ask(memory, light, 0.5);
+    ask(cache, light, 1);
+    ask(cache, light, 0.5);
     EXPECT_EQ(light.traced_texels, 3U);
     ASSERT_EQ(light.known_frusta.size(), 2U);
     for (const scene::LightFrustum& known : light.known_frusta) {
@@ -60,51 +60,51 @@ TEST(FirstHitMemory, TellsWhatWasSeenFromANearerPlane)
     EXPECT_THAT(light.known_triangles[0], ElementsAre(7U, 9U, scene::no_triangle));
 }
 
-TEST(FirstHitMemory, StartsAnewFromTheNearestPlane)
+TEST(FirstHitCache, StartsAnewFromTheNearestPlane)
 {
-    FirstHitMemory memory{3};
+    FirstHitCache cache{3};
     FakeLight light;
     show(light);
-    ask(memory, light, 1);
-    ask(memory, light, 0.5);
+    ask(cache, light, 1);
+    ask(cache, light, 0.5);
     EXPECT_EQ(light.traced_texels, 6U);
-    ask(memory, light, 0.75);
+    ask(cache, light, 0.75);
     ASSERT_EQ(light.known_frusta.size(), 1U);
     EXPECT_EQ(light.known_frusta[0].near_m, 0.5);
 }
 
-TEST(FirstHitMemory, TellsMapsApart)
+TEST(FirstHitCache, TellsMapsApart)
 {
-    FirstHitMemory memory{100};
+    FirstHitCache cache{100};
     FakeLight light;
     show(light);
-    ask(memory, light, 1);
-    ask(memory, light, 2, 8192);
-    ask(memory, light, 2, 16384, Cull::back);
+    ask(cache, light, 1);
+    ask(cache, light, 2, 8192);
+    ask(cache, light, 2, 16384, Cull::back);
     EXPECT_TRUE(light.known_frusta.empty());
-    ask(memory, light, 2, 16384, Cull::none, {texels[0], texels[1]}); // another camera's, in effect
-    ask(memory, light, 2, 16384, Cull::none, {texels[1], texels[0]});
+    ask(cache, light, 2, 16384, Cull::none, {texels[0], texels[1]}); // another camera's, in effect
+    ask(cache, light, 2, 16384, Cull::none, {texels[1], texels[0]});
     EXPECT_TRUE(light.known_frusta.empty());
-    ask(memory, light, 3, 8192);
-    ask(memory, light, 3, 16384, Cull::back);
+    ask(cache, light, 3, 8192);
+    ask(cache, light, 3, 16384, Cull::back);
     EXPECT_EQ(light.known_frusta.size(), 2U);
 }
 
-TEST(FirstHitMemory, TakesNoMoreThanItMay)
+TEST(FirstHitCache, TakesNoMoreThanItMay)
 {
-    FirstHitMemory memory{5};
+    FirstHitCache cache{5};
     FakeLight light;
     show(light);
-    ask(memory, light, 1);
-    ask(memory, light, 1, 8192); // no room
-    ask(memory, light, 2, 8192);
+    ask(cache, light, 1);
+    ask(cache, light, 1, 8192); // no room
+    ask(cache, light, 2, 8192);
     EXPECT_TRUE(light.known_frusta.empty());
-    ask(memory, light, 1, 4096, Cull::none, {texels[0], texels[1]}); // what is left
-    ask(memory, light, 2, 4096, Cull::none, {texels[0], texels[1]});
-    ask(memory, light, 2);
+    ask(cache, light, 1, 4096, Cull::none, {texels[0], texels[1]}); // what is left
+    ask(cache, light, 2, 4096, Cull::none, {texels[0], texels[1]});
+    ask(cache, light, 2);
     EXPECT_EQ(light.known_frusta.size(), 2U);
-    ask(memory, light, 0.5); // in place of its own
-    ask(memory, light, 0.75);
+    ask(cache, light, 0.5); // in place of its own
+    ask(cache, light, 0.75);
     EXPECT_EQ(light.known_frusta.size(), 3U);
 }
 

@@ -1,4 +1,4 @@
-#include "analysis/answers/first_hit_memory.hpp"
+#include "analysis/answers/first_hit_cache.hpp"
 
 #include <algorithm>
 
@@ -7,17 +7,17 @@ namespace gnomon::analysis {
 using scene::Texel;
 using scene::TexelHit;
 
-FirstHitMemory::Packed FirstHitMemory::packed(const Texel& texel)
+FirstHitCache::Packed FirstHitCache::packed(const Texel& texel)
 {
     return static_cast<Packed>(texel.y) << 16U | static_cast<Packed>(texel.x);
 }
 
-bool FirstHitMemory::is_of(const Seen& seen, std::span<const Texel> texels)
+bool FirstHitCache::is_of(const Seen& seen, std::span<const Texel> texels)
 {
     return std::ranges::equal(seen.texels, texels, {}, {}, packed);
 }
 
-FirstHitMemory::Seen* FirstHitMemory::find(const Map& map)
+FirstHitCache::Seen* FirstHitCache::find(const Map& map)
 {
     const auto found = std::ranges::find_if(seen_, [&](const Seen& seen) {
         return seen.resolution_texels == map.resolution_texels && seen.cull == map.cull;
@@ -25,7 +25,7 @@ FirstHitMemory::Seen* FirstHitMemory::find(const Map& map)
     return found == seen_.end() ? nullptr : &*found;
 }
 
-std::vector<TexelHit> FirstHitMemory::first_hits(const Map& map, std::span<const Texel> texels)
+std::vector<TexelHit> FirstHitCache::first_hits(const Map& map, std::span<const Texel> texels)
 {
     const Seen* const seen = find(map);
     const bool is_known =
@@ -38,8 +38,8 @@ std::vector<TexelHit> FirstHitMemory::first_hits(const Map& map, std::span<const
     return hits;
 }
 
-void FirstHitMemory::remember(const Map& map, std::span<const Texel> texels,
-                              std::span<const TexelHit> hits)
+void FirstHitCache::remember(const Map& map, std::span<const Texel> texels,
+                             std::span<const TexelHit> hits)
 {
     Seen* seen = find(map);
     const std::size_t own = seen == nullptr ? 0 : seen->texels.size();

@@ -14,9 +14,9 @@ namespace gnomon::analysis {
 /// tap nothing but whether V1 is right depends on what is stored.
 ///
 /// Valid as long as truth, light, receivers, resolution, culling and border mode stay the same.
-class CauseMemory {
+class CauseCache {
 public:
-    explicit CauseMemory(scene::ImageSize size) : causes_{size}, known_{size} {}
+    explicit CauseCache(scene::ImageSize size) : causes_{size}, known_{size} {}
 
     /// Whether the pixel's cause is remembered: that of lit pixels that V1 shadows, and of blocked
     /// ones that V1 does not shadow by other surfaces.
