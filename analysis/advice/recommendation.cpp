@@ -16,13 +16,13 @@ Outcome outcome_of(const ErrorCounts& errors)
 
 } // namespace
 
-BiasLength BiasPlace::length_of(float bias) const
+BiasLength BiasLengths::of(float bias) const
 {
     const double metres = bias_length_m(frustum, double{bias}, light_distance_m);
     return {bias, metres, metres / frustum.texel_width_m(light_distance_m, resolution_texels)};
 }
 
-std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const BiasPlace& place,
+std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const BiasLengths& lengths,
                                                  const scene::BiasSettings& settings)
 {
     if (curve.lit().empty()) {
@@ -33,13 +33,13 @@ std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const B
         return std::nullopt;
     }
     const float middle = valley->middle();
-    const PastedBias pasted = pasted_bias(middle, valley->run, settings, place.frustum);
-    return Recommendation{place.length_of(middle),
-                          place.length_of(valley->run.lo),
-                          place.length_of(valley->run.hi),
+    const PastedBias pasted = pasted_bias(middle, valley->run, settings, lengths.frustum);
+    return Recommendation{lengths.of(middle),
+                          lengths.of(valley->run.lo),
+                          lengths.of(valley->run.hi),
                           outcome_of(curve.at(middle)),
                           pasted,
-                          place.length_of(pasted.bias),
+                          lengths.of(pasted.bias),
                           outcome_of(curve.at(pasted.bias)),
                           1};
 }

@@ -20,14 +20,14 @@ struct BiasLength {
     friend bool operator==(const BiasLength&, const BiasLength&) = default;
 };
 
-/// What converts a bias to metres and texels: a map, and its median receiver.
-struct BiasPlace {
+/// Biases as lengths: what converts one to metres and texels, a map and its median receiver.
+struct BiasLengths {
     scene::LightFrustum frustum;
     int resolution_texels = 0;
     double light_distance_m = 0; ///< median light distance of the scored receivers [m]
 
     /// A bias in all three units; infinite in each for an infinite bias.
-    [[nodiscard]] BiasLength length_of(float bias) const;
+    [[nodiscard]] BiasLength of(float bias) const;
 };
 
 /// What verdicts are worth with some setting.
@@ -56,7 +56,7 @@ struct Recommendation {
 /// @param settings  The job's biases, which decide the unit to paste.
 /// @return  Empty if no scored pixel is lit.
 [[nodiscard]] std::optional<Recommendation> recommend_by_count(const BiasCurve& curve,
-                                                               const BiasPlace& place,
+                                                               const BiasLengths& lengths,
                                                                const scene::BiasSettings& settings);
 
 } // namespace gnomon::analysis

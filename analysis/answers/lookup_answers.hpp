@@ -131,7 +131,7 @@ private:
     [[nodiscard]] std::optional<Recommendation> recommend(const SlopeCurve& curve);
     /// The same of fractions: of the biases around the least amount of error.
     [[nodiscard]] std::optional<Recommendation> recommend_by_amount(const SlopeCurve& curve,
-                                                                    const BiasPlace& place);
+                                                                    const BiasLengths& lengths);
     /// What is softened on purpose with each of several biases.
     /// @param criticals  of that slope.
     /// @param biases     Ascending.

@@ -121,14 +121,14 @@ std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
     if (curve.curve.lit().empty() || !light_distance_m) {
         return std::nullopt;
     }
-    const BiasPlace place{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
-                          *light_distance_m};
-    return has_taps() ? recommend_by_amount(curve, place)
-                      : recommend_by_count(curve.curve, place, lookup_.job.bias);
+    const BiasLengths lengths{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
+                              *light_distance_m};
+    return has_taps() ? recommend_by_amount(curve, lengths)
+                      : recommend_by_count(curve.curve, lengths, lookup_.job.bias);
 }
 
 std::optional<Recommendation> LookupAnswers::recommend_by_amount(const SlopeCurve& curve,
-                                                                 const BiasPlace& place)
+                                                                 const BiasLengths& lengths)
 {
     const std::vector<float> biases = tried_biases();
     const std::vector<ErrorAmounts> amounts_of = amounts(curve, biases);
@@ -148,7 +148,7 @@ std::optional<Recommendation> LookupAnswers::recommend_by_amount(const SlopeCurv
         return std::nullopt;
     }
     const float middle = valley->middle();
-    const PastedBias pasted = pasted_bias(middle, valley->run, lookup_.job.bias, place.frustum);
+    const PastedBias pasted = pasted_bias(middle, valley->run, lookup_.job.bias, lengths.frustum);
     std::vector<float> both{middle, pasted.bias};
     std::ranges::sort(both);
     both.erase(std::unique(both.begin(), both.end()), both.end());
@@ -158,12 +158,12 @@ std::optional<Recommendation> LookupAnswers::recommend_by_amount(const SlopeCurv
         const std::size_t i = bias == both.front() ? 0 : 1;
         return Outcome{curve.curve.at(bias), amounts_with[i], soft[i].total()};
     };
-    return Recommendation{place.length_of(middle),
-                          place.length_of(valley->run.lo),
-                          place.length_of(valley->run.hi),
+    return Recommendation{lengths.of(middle),
+                          lengths.of(valley->run.lo),
+                          lengths.of(valley->run.hi),
                           outcome_of(middle),
                           pasted,
-                          place.length_of(pasted.bias),
+                          lengths.of(pasted.bias),
                           outcome_of(pasted.bias),
                           1};
 }
