@@ -13,16 +13,16 @@ namespace gnomon::analysis {
 
 /// A thread that does pieces of work in order, and takes only so many on: what they hold stays
 /// bounded.
-class Background {
+class BackgroundWorker {
 public:
     /// @param most_pieces  that it holds, the one that is being done included; >= 1.
-    explicit Background(std::size_t most_pieces) : most_pieces_{most_pieces}
+    explicit BackgroundWorker(std::size_t most_pieces) : most_pieces_{most_pieces}
     {
         thread_ = std::thread{[this] { work(); }};
     }
-    Background(const Background&) = delete;
-    Background& operator=(const Background&) = delete;
-    ~Background()
+    BackgroundWorker(const BackgroundWorker&) = delete;
+    BackgroundWorker& operator=(const BackgroundWorker&) = delete;
+    ~BackgroundWorker()
     {
         {
             const std::lock_guard lock{mutex_};

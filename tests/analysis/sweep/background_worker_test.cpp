@@ -1,4 +1,4 @@
-#include "analysis/sweep/background.hpp"
+#include "analysis/sweep/background_worker.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,33 +12,33 @@
 namespace gnomon::analysis {
 namespace {
 
-TEST(Background, WorksInOrder)
+TEST(BackgroundWorker, WorksInOrder)
 {
     std::vector<int> done;
     {
-        Background background{1};
+        BackgroundWorker worker{1};
         for (int i = 0; i < 100; ++i) {
-            background.add([&done, i] { done.push_back(i); });
+            worker.add([&done, i] { done.push_back(i); });
         }
-        background.finish();
+        worker.finish();
         ASSERT_EQ(done.size(), 100U);
-        background.add([&done] { done.push_back(100); });
+        worker.add([&done] { done.push_back(100); });
     }
     // Its end waits for what it took on.
     ASSERT_EQ(done.size(), 101U);
     EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
 }
 
-TEST(Background, TakesOnlySoManyPiecesOn)
+TEST(BackgroundWorker, TakesOnlySoManyPiecesOn)
 {
     constexpr std::size_t most_pieces = 3;
     std::atomic<int> added{0};
     std::atomic<int> begun{0};
     std::atomic<bool> may_go{false};
-    Background background{most_pieces};
+    BackgroundWorker worker{most_pieces};
     std::thread giver{[&] {
         for (int i = 0; i < 10; ++i) {
-            background.add([&] {
+            worker.add([&] {
                 ++begun;
                 while (!may_go) {
                     std::this_thread::sleep_for(std::chrono::milliseconds{1});
@@ -56,21 +56,21 @@ TEST(Background, TakesOnlySoManyPiecesOn)
     EXPECT_EQ(begun, 1);
     may_go = true;
     giver.join();
-    background.finish();
+    worker.finish();
     EXPECT_EQ(begun, 10);
 }
 
-TEST(Background, EndsWithWhatAPieceThrewAndDropsThoseAfterIt)
+TEST(BackgroundWorker, EndsWithWhatAPieceThrewAndDropsThoseAfterIt)
 {
     std::atomic<int> done{0};
-    Background background{8};
-    background.add([&] {
+    BackgroundWorker worker{8};
+    worker.add([&] {
         while (done == 0) {
             std::this_thread::sleep_for(std::chrono::milliseconds{1});
         }
         throw std::runtime_error{"broken"};
     });
-    background.add([&] { ADD_FAILURE() << "it was done"; });
+    worker.add([&] { ADD_FAILURE() << "it was done"; });
     done = 1;
     const auto expect_broken = [](const auto& call) {
         try {
@@ -80,15 +80,15 @@ TEST(Background, EndsWithWhatAPieceThrewAndDropsThoseAfterIt)
             EXPECT_STREQ(error.what(), "broken");
         }
     };
-    expect_broken([&] { background.finish(); });
-    expect_broken([&] { background.add([] { ADD_FAILURE() << "it was done"; }); });
-    expect_broken([&] { background.finish(); });
+    expect_broken([&] { worker.finish(); });
+    expect_broken([&] { worker.add([] { ADD_FAILURE() << "it was done"; }); });
+    expect_broken([&] { worker.finish(); });
 }
 
-TEST(Background, ForgetsAnErrorThatNobodyAsksFor)
+TEST(BackgroundWorker, ForgetsAnErrorThatNobodyAsksFor)
 {
-    Background background{1};
-    background.add([] { throw std::runtime_error{"broken"}; });
+    BackgroundWorker worker{1};
+    worker.add([] { throw std::runtime_error{"broken"}; });
     // Its end neither throws nor hangs.
 }
 
