@@ -224,9 +224,9 @@ private:
     }
 
     /// V3 and V4.
-    /// @param places  of the pixels among the lookups.
+    /// @param indices  Of the pixels, among the lookups.
     void explain_by_truth(const TracedLookups& lookups, std::span<const TapSet> own,
-                          std::span<const std::size_t> pixels, std::span<const std::size_t> places)
+                          std::span<const std::size_t> pixels, std::span<const std::size_t> indices)
     {
         const auto crossed = inputs_.light.are_crossed(pixels);
         std::vector<std::size_t> between_texels;
@@ -239,7 +239,7 @@ private:
                 for (Cause* cause : {&pixel.if_wrong, &pixel.if_partial}) {
                     *cause = *cause == Cause::coverage ? Cause::resolution : *cause;
                 }
-                between_texels.push_back(places[i]);
+                between_texels.push_back(indices[i]);
             }
         }
         look_around(lookups, own, between_texels);
@@ -247,18 +247,18 @@ private:
 
     /// Sets `sees` where some texel at or around the taps, of those that do not see the
     /// self-shadowing surface, sees the blocker, or anything as near to the light.
-    /// @param places  among the lookups.
+    /// @param indices  Among the lookups.
     void look_around(const TracedLookups& lookups, std::span<const TapSet> own,
-                     std::span<const std::size_t> places)
+                     std::span<const std::size_t> indices)
     {
         std::vector<std::size_t> pixels;
         std::vector<scene::Texel> texels;
         std::vector<std::size_t> ends;
-        for (const std::size_t place : places) {
-            const std::size_t pixel = lookups.pixel(place);
-            const auto taps = lookups.taps_of(place);
+        for (const std::size_t index : indices) {
+            const std::size_t pixel = lookups.pixel(index);
+            const auto taps = lookups.taps_of(index);
             for (std::size_t t = 0; t < taps.size(); ++t) {
-                if (taps[t].is_inside && !own[place][t]) {
+                if (taps[t].is_inside && !own[index][t]) {
                     texels.push_back(taps[t].texel);
                 }
             }
