@@ -1,8 +1,8 @@
 #include "analysis/advice/advise.hpp"
 
+#include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/map_cost.hpp"
 #include "analysis/advice/variants.hpp"
-#include "analysis/bias/bias_search.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "scene/error.hpp"
 

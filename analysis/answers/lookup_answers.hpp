@@ -1,10 +1,10 @@
 #pragma once
 
-#include "analysis/advice/recommendation.hpp"
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/bias/bias_rows.hpp"
+#include "analysis/bias/recommendation.hpp"
 #include "analysis/bias/slope_curves.hpp"
 #include "analysis/causes/cause_inputs.hpp"
 #include "analysis/causes/pixel_causes.hpp"

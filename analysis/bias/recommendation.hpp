@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/advice/pasted_bias.hpp"
 #include "analysis/bias/bias_curve.hpp"
+#include "analysis/bias/pasted_bias.hpp"
 #include "analysis/metrics/amounts.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/tune/tune_limits.hpp"
+#include "analysis/advice/tune_limits.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "analysis/advice/recommendation.hpp"
+#include "analysis/bias/recommendation.hpp"
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/bias/bias_valley.hpp"

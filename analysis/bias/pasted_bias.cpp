@@ -1,4 +1,4 @@
-#include "analysis/advice/pasted_bias.hpp"
+#include "analysis/bias/pasted_bias.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "analysis/advice/judged_views.hpp"
-#include "analysis/advice/pasted_bias.hpp"
+#include "analysis/advice/tune_limits.hpp"
 #include "analysis/advice/view_outcome.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/bias/bias_valley.hpp"
-#include "analysis/tune/tune_limits.hpp"
+#include "analysis/bias/pasted_bias.hpp"
 #include "scene/pixel_layers.hpp"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "analysis/advice/tried_biases.hpp"
+#include "analysis/bias/tried_biases.hpp"
 
 #include <algorithm>
 #include <cmath>
