@@ -76,7 +76,7 @@ SceneSummary summarise_scene(const scene::SceneSettings& settings,
 }
 
 void measure_comparison(Comparison& comparison, const Renderers& renderers, float profile_bias,
-                        bool is_last_of_map)
+                        MapAfterDiagnosis map)
 {
     const scene::View& view = comparison.view;
     require_size("receivers", comparison.receivers.triangle, view.image);
@@ -89,7 +89,7 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers, floa
         comparison.diagnosis =
             diagnose(comparison.job, view,
                      {*comparison.triangles, comparison.receivers, comparison.truth,
-                      comparison.lookup, profile_bias, taps, is_last_of_map},
+                      comparison.lookup, profile_bias, taps, map},
                      renderers);
         if (const auto& biases = comparison.diagnosis->biases) {
             comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
@@ -169,8 +169,9 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     result.truth =
         timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
 
-    timed(seconds.analysis,
-          [&] { measure_comparison(result, renderers, view.bias.constant, true); });
+    timed(seconds.analysis, [&] {
+        measure_comparison(result, renderers, view.bias.constant, MapAfterDiagnosis::given_back);
+    });
     if (result.diagnosis) {
         result.precision_kinds =
             timed(seconds.analysis, [&] { return measure_precision_kinds(result, renderers); });

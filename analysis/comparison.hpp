@@ -9,7 +9,8 @@
 #include "analysis/renderers.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -97,10 +98,10 @@ struct Comparison {
 
 /// Fills in metrics and, where the renderers can answer for it, the diagnosis of a comparison whose
 /// other members are known, and holds its verdicts to the bias curve.
-/// @param profile_bias, is_last_of_map  As `ComparedLayers` has them.
+/// @param profile_bias, map  As `ComparedLayers` has them.
 /// @throws std::invalid_argument  if its layers are not of the image's size.
 void measure_comparison(Comparison& comparison, const Renderers& renderers, float profile_bias,
-                        bool is_last_of_map = false);
+                        MapAfterDiagnosis map = MapAfterDiagnosis::kept);
 
 /// Runs GL's lookup again with biases that put the comparison's critical biases to the test, its
 /// own and the best one among them.

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/triangles.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <memory>

@@ -6,7 +6,8 @@
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <compare>
 #include <map>

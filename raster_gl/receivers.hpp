@@ -5,8 +5,8 @@
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/program.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 

@@ -6,7 +6,7 @@
 #include "raster_gl/program.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #include "scene/moved_scene.hpp"
 
-#include "scene/view/settings.hpp"
+#include "scene/view/view.hpp"
 
 #include <algorithm>
 #include <cmath>

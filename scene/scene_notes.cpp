@@ -2,6 +2,7 @@
 
 #include "scene/counted.hpp"
 #include "scene/job/job.hpp"
+#include "scene/scene_defaults.hpp"
 #include "scene/triangles.hpp"
 
 #include <fmt/format.h>

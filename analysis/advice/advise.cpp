@@ -1,8 +1,8 @@
 #include "analysis/advice/advise.hpp"
 
+#include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/map_cost.hpp"
 #include "analysis/advice/variants.hpp"
-#include "analysis/bias/bias_search.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "scene/error.hpp"
 
@@ -54,8 +54,9 @@ private:
         for (const JudgedView& judged : views_.views) {
             search.add_view(with_view_of(variant.job, judged.view.job), judged);
         }
-        const BiasPlace place{search.own_view().frustum, variant.job.shadow_map.resolution_texels,
-                              views_.own().median_light_distance_m};
+        const BiasLengths lengths{search.own_view().frustum,
+                                  variant.job.shadow_map.resolution_texels,
+                                  views_.own().median_light_distance_m};
         const auto slope = static_cast<float>(variant.job.bias.slope);
         const std::vector<ViewOutcome> as_it_is = search.measure_as_set(slope);
         if (variant.keys.empty()) {
@@ -67,9 +68,9 @@ private:
         const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, slope);
         std::vector<std::string> keys = variant.keys;
         keys.push_back(found.pasted.key);
-        add(variant, std::move(keys), measured, place.length_of(found.pasted.bias));
+        add(variant, std::move(keys), measured, lengths.of(found.pasted.bias));
         if (variant.keys.empty() && views_.views.size() > 1) {
-            recommend(found, search.measure(found.middle, slope), measured, place);
+            recommend(found, search.measure(found.middle, slope), measured, lengths);
         }
     }
 
@@ -95,20 +96,19 @@ private:
     /// What is recommended holds for all views now.
     /// @param with_middle, with_pasted  What GL gives with that bias.
     void recommend(const FoundBias& found, const std::vector<ViewOutcome>& with_middle,
-                   const std::vector<ViewOutcome>& with_pasted, const BiasPlace& place)
+                   const std::vector<ViewOutcome>& with_pasted, const BiasLengths& lengths)
     {
         if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
             return;
         }
-        comparison_.diagnosis->curve.recommended =
-            Recommendation{place.length_of(found.middle),
-                           place.length_of(found.run.lo),
-                           place.length_of(found.run.hi),
-                           own_outcome(with_middle.front()),
-                           found.pasted,
-                           place.length_of(found.pasted.bias),
-                           own_outcome(with_pasted.front()),
-                           with_pasted.size()};
+        comparison_.diagnosis->curve.recommended = Recommendation{lengths.of(found.middle),
+                                                                  lengths.of(found.run.lo),
+                                                                  lengths.of(found.run.hi),
+                                                                  own_outcome(with_middle.front()),
+                                                                  found.pasted,
+                                                                  lengths.of(found.pasted.bias),
+                                                                  own_outcome(with_pasted.front()),
+                                                                  with_pasted.size()};
     }
 
     /// How far a step of the stored depth reaches at the median receiver, now and with the change.

@@ -4,7 +4,7 @@
 #include "analysis/receiver_geometry.hpp"
 #include "scene/error.hpp"
 #include "scene/view/nearby_cameras.hpp"
-#include "scene/view/settings.hpp"
+#include "scene/view/view.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 #include "analysis/renderers.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstddef>
 #include <string>

@@ -15,7 +15,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     auto receivers = std::make_shared<JudgedReceivers>(
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
     ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
-    if (layers.is_last_of_map && renderers.forget_shadow_map &&
+    if (layers.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map &&
         scene::promises(job.lookup.filter).has_formula()) {
         renderers.forget_shadow_map();
     }

@@ -8,8 +8,10 @@
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -30,6 +32,13 @@ struct Diagnosis {
     CurveResult curve;            ///< what a sweep keeps of it; without its id
 };
 
+/// What becomes of a shadow map when its lookup is diagnosed.
+enum class MapAfterDiagnosis : std::uint8_t {
+    kept,
+    /// Its memory, at once where its lookup has a bias curve; else it is asked bias by bias.
+    given_back,
+};
+
 /// What a comparison found.
 struct ComparedLayers {
     const scene::TriangleScene& triangles;
@@ -41,9 +50,7 @@ struct ComparedLayers {
     /// What the verdicts are multiples of, as `AmountSum` has it; 0: another renderer's, any
     /// fractions.
     int verdict_taps = 0;
-    /// Whether nothing is asked of the map after its diagnosis. Where its lookup has a bias curve
-    /// (else it is asked bias by bias) its memory is then given back at once.
-    bool is_last_of_map = false;
+    MapAfterDiagnosis map = MapAfterDiagnosis::kept;
 };
 
 /// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/answers/judged_receivers.hpp"
+#include "analysis/causes/cause_cache.hpp"
 #include "analysis/causes/cause_inputs.hpp"
-#include "analysis/causes/cause_memory.hpp"
 #include "analysis/causes/pixel_causes.hpp"
 #include "analysis/metrics/gaps.hpp"
 #include "analysis/metrics/map_errors.hpp"
@@ -10,8 +10,9 @@
 #include "analysis/receiver_geometry.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
 #include "scene/light/exact_light.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -86,7 +87,7 @@ private:
     std::optional<CentreHits> centre_hits_;
     /// Only with a single tap what is found does not depend on the stored depths.
     bool remembers_causes_;
-    CauseMemory causes_;
+    CauseCache causes_;
     scene::Image<PixelGap> pixel_gaps_; ///< or `unknown_gap`; empty: not remembered
 };
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "analysis/answers/first_hit_memory.hpp"
+#include "analysis/answers/first_hit_cache.hpp"
 #include "analysis/metrics/blocker_gaps.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/receiver_geometry.hpp"
-#include "scene/layers.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] const ReceiverUse& use() const { return use_; }
 
     [[nodiscard]] BlockerGaps& gaps() { return gaps_; }
-    [[nodiscard]] FirstHitMemory& first_hits() { return first_hits_; }
+    [[nodiscard]] FirstHitCache& first_hits() { return first_hits_; }
 
     /// Light distance of the scored receivers [m], else NaN. This and what follows from it are
     /// found anew only if the frustum's origin or direction changed since the last call.
@@ -62,7 +62,7 @@ private:
     ReceiverUse use_;
     ClassCounts classes_;
     BlockerGaps gaps_;
-    FirstHitMemory first_hits_;
+    FirstHitCache first_hits_;
     std::shared_ptr<const scene::Image<float>> light_distance_m_;
     std::shared_ptr<const Binning> distances_;
     std::shared_ptr<const CellMap> cells_;

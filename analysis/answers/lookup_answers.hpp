@@ -1,10 +1,10 @@
 #pragma once
 
-#include "analysis/advice/recommendation.hpp"
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/bias/bias_rows.hpp"
+#include "analysis/bias/recommendation.hpp"
 #include "analysis/bias/slope_curves.hpp"
 #include "analysis/causes/cause_inputs.hpp"
 #include "analysis/causes/pixel_causes.hpp"
@@ -13,7 +13,8 @@
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/results.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -176,10 +177,10 @@ private:
     /// The same of fractions.
     /// @param around  measured around the least amount of error; not empty.
     [[nodiscard]] std::optional<Recommendation>
-    recommend_by_amount(const SlopeCurve& curve, const BiasPlace& place,
+    recommend_by_amount(const SlopeCurve& curve, const BiasLengths& lengths,
                         std::span<const MeasuredBias> around);
     /// Where biases are made lengths; empty if no scored pixel is lit.
-    [[nodiscard]] std::optional<BiasPlace> bias_place(const SlopeCurve& curve) const;
+    [[nodiscard]] std::optional<BiasLengths> bias_lengths(const SlopeCurve& curve) const;
     /// What is softened on purpose with each of several biases.
     /// @param criticals  of that slope.
     /// @param biases     Ascending.

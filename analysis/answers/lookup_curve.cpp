@@ -1,9 +1,9 @@
 // What the bias curve of a lookup says: its shape, what it recommends, and a sweep's rows of it.
 
 #include "analysis/advice/map_cost.hpp"
-#include "analysis/advice/tried_biases.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/bias/bias_valley.hpp"
+#include "analysis/bias/tried_biases.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "scene/infinity.hpp"
 
@@ -132,24 +132,24 @@ std::vector<std::vector<ErrorBin>> LookupAnswers::profiles(const SlopeCurve& cur
                                     : std::vector<scene::Image<std::uint8_t>>{});
 }
 
-std::optional<BiasPlace> LookupAnswers::bias_place(const SlopeCurve& curve) const
+std::optional<BiasLengths> LookupAnswers::bias_lengths(const SlopeCurve& curve) const
 {
     const auto light_distance_m = exact_->representative_light_distance_m();
     if (curve.curve.lit().empty() || !light_distance_m) {
         return std::nullopt;
     }
-    return BiasPlace{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
+    return BiasLengths{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
                      *light_distance_m};
 }
 
 std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
 {
-    const auto place = bias_place(curve);
-    if (!place) {
+    const auto lengths = bias_lengths(curve);
+    if (!lengths) {
         return std::nullopt;
     }
-    return has_taps() ? recommend_by_amount(curve, *place, around_least_amount(curve))
-                      : recommend_by_count(curve.curve, *place, lookup_.job.bias);
+    return has_taps() ? recommend_by_amount(curve, *lengths, around_least_amount(curve))
+                      : recommend_by_count(curve.curve, *lengths, lookup_.job.bias);
 }
 
 std::vector<MeasuredBias> LookupAnswers::around_least_amount(const SlopeCurve& curve)
@@ -178,7 +178,7 @@ std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
 }
 
 std::optional<Recommendation>
-LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasPlace& place,
+LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasLengths& lengths,
                                    std::span<const MeasuredBias> around)
 {
     std::vector<ErrorPiece> pieces;
@@ -193,7 +193,7 @@ LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasPlace& pla
         return std::nullopt;
     }
     const float middle = valley->middle();
-    const PastedBias pasted = pasted_bias(middle, valley->run, lookup_.job.bias, place.frustum);
+    const PastedBias pasted = pasted_bias(middle, valley->run, lookup_.job.bias, lengths.frustum);
     std::vector<float> both{middle, pasted.bias};
     std::ranges::sort(both);
     both.erase(std::unique(both.begin(), both.end()), both.end());
@@ -201,12 +201,12 @@ LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasPlace& pla
     const auto outcome_of = [&](float bias) {
         return measured[bias == both.front() ? 0 : 1].outcome();
     };
-    return Recommendation{place.length_of(middle),
-                          place.length_of(valley->run.lo),
-                          place.length_of(valley->run.hi),
+    return Recommendation{lengths.of(middle),
+                          lengths.of(valley->run.lo),
+                          lengths.of(valley->run.hi),
                           outcome_of(middle),
                           pasted,
-                          place.length_of(pasted.bias),
+                          lengths.of(pasted.bias),
                           outcome_of(pasted.bias),
                           1};
 }

@@ -1,6 +1,6 @@
 // What GL's own lookups with other biases say, where no formula tells.
 
-#include "analysis/advice/tried_biases.hpp"
+#include "analysis/bias/tried_biases.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 
 #include <algorithm>
@@ -85,8 +85,8 @@ void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
     }
     std::ranges::sort(result.points, {}, &CurveSample::bias);
     result.amounts_are_sampled = true;
-    if (const auto place = bias_place(curve)) {
-        result.recommended = recommend_by_amount(curve, *place, around);
+    if (const auto lengths = bias_lengths(curve)) {
+        result.recommended = recommend_by_amount(curve, *lengths, around);
     }
 }
 

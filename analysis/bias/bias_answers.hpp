@@ -1,13 +1,14 @@
 #pragma once
 
-#include "analysis/advice/recommendation.hpp"
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/bias/bias_limits.hpp"
 #include "analysis/bias/bias_units.hpp"
+#include "analysis/bias/recommendation.hpp"
 #include "analysis/bias/slope_curves.hpp"
 #include "analysis/causes/pixel_causes.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -8,7 +8,7 @@
 #include "analysis/metrics/amounts.hpp"
 #include "analysis/metrics/gaps.hpp"
 #include "scene/image.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstdint>
 #include <span>

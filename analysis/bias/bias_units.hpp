@@ -2,7 +2,7 @@
 
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 namespace gnomon::analysis {
 

@@ -1,7 +1,7 @@
 #include "analysis/bias/bias_verification.hpp"
 
 #include "analysis/bias/bias_order.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/triangles.hpp"
 
 #include <fmt/format.h>

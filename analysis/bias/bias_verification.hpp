@@ -3,7 +3,8 @@
 #include "analysis/renderers.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <span>

@@ -25,11 +25,11 @@ struct Repair {
 class BlockedCauses {
 public:
     BlockedCauses(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
-                  PixelCauses& causes, CauseMemory* memory)
+                  PixelCauses& causes, CauseCache* cache)
         : inputs_{inputs},
           wanted_{wanted},
           causes_{causes},
-          memory_{memory},
+          cache_{cache},
           rule_{inputs.rule()},
           footprint_{inputs.lookup, inputs.resolution_texels},
           is_mean_depth_{inputs.promises().compares == scene::FilterPromises::Compares::mean_depth}
@@ -53,16 +53,16 @@ private:
     /// Takes over what is remembered of the pixel; false if that is not enough.
     [[nodiscard]] bool recall(std::size_t pixel) const
     {
-        if (memory_ == nullptr) {
+        if (cache_ == nullptr) {
             return false;
         }
-        const auto own = memory_->own(pixel);
+        const auto own = cache_->own(pixel);
         if (own && !*own && !is_lit_unbiased(pixel)) {
             causes_.pixels[pixel] = {};
             return true;
         }
-        causes_.pixels[pixel] = memory_->known(pixel);
-        return memory_->knows(pixel);
+        causes_.pixels[pixel] = cache_->known(pixel);
+        return cache_->knows(pixel);
     }
 
     void explain(std::span<const std::size_t> pixels)
@@ -91,12 +91,12 @@ private:
     }
     void remember(std::size_t pixel, bool own)
     {
-        if (memory_ == nullptr) {
+        if (cache_ == nullptr) {
             return;
         }
-        memory_->remember_own(pixel, own);
+        cache_->remember_own(pixel, own);
         if (!causes_.pixels[pixel].is_of_bias_alone()) {
-            memory_->remember(pixel, causes_.pixels[pixel]);
+            cache_->remember(pixel, causes_.pixels[pixel]);
         }
     }
 
@@ -224,9 +224,9 @@ private:
     }
 
     /// V3 and V4.
-    /// @param places  of the pixels among the lookups.
+    /// @param indices  Of the pixels, among the lookups.
     void explain_by_truth(const TracedLookups& lookups, std::span<const TapSet> own,
-                          std::span<const std::size_t> pixels, std::span<const std::size_t> places)
+                          std::span<const std::size_t> pixels, std::span<const std::size_t> indices)
     {
         const auto crossed = inputs_.light.are_crossed(pixels);
         std::vector<std::size_t> between_texels;
@@ -239,7 +239,7 @@ private:
                 for (Cause* cause : {&pixel.if_wrong, &pixel.if_partial}) {
                     *cause = *cause == Cause::coverage ? Cause::resolution : *cause;
                 }
-                between_texels.push_back(places[i]);
+                between_texels.push_back(indices[i]);
             }
         }
         look_around(lookups, own, between_texels);
@@ -247,18 +247,18 @@ private:
 
     /// Sets `sees` where some texel at or around the taps, of those that do not see the
     /// self-shadowing surface, sees the blocker, or anything as near to the light.
-    /// @param places  among the lookups.
+    /// @param indices  Among the lookups.
     void look_around(const TracedLookups& lookups, std::span<const TapSet> own,
-                     std::span<const std::size_t> places)
+                     std::span<const std::size_t> indices)
     {
         std::vector<std::size_t> pixels;
         std::vector<scene::Texel> texels;
         std::vector<std::size_t> ends;
-        for (const std::size_t place : places) {
-            const std::size_t pixel = lookups.pixel(place);
-            const auto taps = lookups.taps_of(place);
+        for (const std::size_t index : indices) {
+            const std::size_t pixel = lookups.pixel(index);
+            const auto taps = lookups.taps_of(index);
             for (std::size_t t = 0; t < taps.size(); ++t) {
-                if (taps[t].is_inside && !own[place][t]) {
+                if (taps[t].is_inside && !own[index][t]) {
                     texels.push_back(taps[t].texel);
                 }
             }
@@ -308,7 +308,7 @@ private:
     const CauseInputs& inputs_;
     const scene::Image<std::uint8_t>& wanted_;
     PixelCauses& causes_;
-    CauseMemory* memory_;
+    CauseCache* cache_;
     LookupRule rule_;
     Footprint footprint_;
     bool is_mean_depth_;
@@ -317,10 +317,10 @@ private:
 } // namespace
 
 void find_blocked_causes(const CauseInputs& inputs, const scene::Image<std::uint8_t>& wanted,
-                         PixelCauses& causes, CauseMemory* memory)
+                         PixelCauses& causes, CauseCache* cache)
 {
     require_cause_inputs(inputs);
-    BlockedCauses{inputs, wanted, causes, memory}.find();
+    BlockedCauses{inputs, wanted, causes, cache}.find();
 }
 
 } // namespace gnomon::analysis

@@ -3,8 +3,8 @@
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
 #include "scene/light/exact_light.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <cstddef>
 

@@ -3,8 +3,8 @@
 #include "analysis/renderers.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
-#include "scene/view/settings.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <span>

@@ -17,10 +17,10 @@ namespace {
 
 class LitCauses {
 public:
-    LitCauses(const CauseInputs& inputs, PixelCauses& causes, CauseMemory* memory)
+    LitCauses(const CauseInputs& inputs, PixelCauses& causes, CauseCache* cache)
         : inputs_{inputs},
           causes_{causes},
-          memory_{memory},
+          cache_{cache},
           rule_{inputs.rule()},
           footprint_{inputs.lookup, inputs.resolution_texels}
     {
@@ -28,13 +28,13 @@ public:
 
     void find()
     {
-        if (memory_ != nullptr) {
+        if (cache_ != nullptr) {
             recall();
         }
         explain_in_squares(
             causes_.pixels.size(), footprint_.tap_count(),
             [&](std::size_t pixel) {
-                return is_asked(pixel) && (memory_ == nullptr || !memory_->knows(pixel));
+                return is_asked(pixel) && (cache_ == nullptr || !cache_->knows(pixel));
             },
             [&](std::span<const std::size_t> pixels) { explain(pixels); });
     }
@@ -59,7 +59,7 @@ private:
         constexpr PixelCause right;
         for_each_run(causes_.pixels.pixel_count(), [&](std::size_t first, std::size_t last) {
             for (std::size_t pixel = first; pixel != last; ++pixel) {
-                causes_.pixels[pixel] = *(is_asked(pixel) ? &memory_->known(pixel) : &right);
+                causes_.pixels[pixel] = *(is_asked(pixel) ? &cache_->known(pixel) : &right);
             }
         });
     }
@@ -86,9 +86,9 @@ private:
             }
         }
         explain_by_texels(open);
-        if (memory_ != nullptr) {
+        if (cache_ != nullptr) {
             for (const std::size_t pixel : pixels) {
-                memory_->remember(pixel, causes_.pixels[pixel]);
+                cache_->remember(pixel, causes_.pixels[pixel]);
             }
         }
     }
@@ -158,17 +158,17 @@ private:
 
     const CauseInputs& inputs_;
     PixelCauses& causes_;
-    CauseMemory* memory_;
+    CauseCache* cache_;
     LookupRule rule_;
     Footprint footprint_;
 };
 
 } // namespace
 
-void find_lit_causes(const CauseInputs& inputs, PixelCauses& causes, CauseMemory* memory)
+void find_lit_causes(const CauseInputs& inputs, PixelCauses& causes, CauseCache* cache)
 {
     require_cause_inputs(inputs);
-    LitCauses{inputs, causes, memory}.find();
+    LitCauses{inputs, causes, cache}.find();
 }
 
 } // namespace gnomon::analysis

@@ -3,7 +3,7 @@
 #include "analysis/causes/cause.hpp"
 #include "analysis/causes/cause_inputs.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <cstdint>

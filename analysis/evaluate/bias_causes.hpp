@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/evaluate/evaluation.hpp"
-#include "scene/case/layers.hpp"
-#include "scene/layers.hpp"
+#include "scene/case/case_layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 namespace gnomon::analysis {
 

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
 #include "scene/light/exact_light.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/view/rounded_receivers.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -34,7 +34,7 @@ struct ImportCheck {
 };
 
 /// Something that a case's data cannot tell, and what would tell it.
-struct CannotKnow {
+struct UnansweredQuestion {
     std::string what;
     std::string needs;
 };
@@ -55,7 +55,7 @@ struct BiasCauses {
 struct Evaluation {
     std::string case_name;
     int level = 0; ///< 1: the side that is seen is known
-    std::vector<CannotKnow> cannot_know;
+    std::vector<UnansweredQuestion> cannot_know;
     ImportCheck import_check;
     scene::Image<scene::Vec3f> points; ///< P, as the renderer says it; NaN where nothing is judged
     scene::Image<scene::Vec3f> normal; ///< of T, on the side that is seen; NaN: not known

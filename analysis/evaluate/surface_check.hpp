@@ -2,8 +2,8 @@
 
 #include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/position_check.hpp"
+#include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/case/layers.hpp"
 #include "scene/triangles.hpp"
 #include "scene/view/rounded_receivers.hpp"
 

@@ -2,11 +2,11 @@
 
 #include "analysis/evaluate/evaluation.hpp"
 #include "analysis/evaluate/position_check.hpp"
+#include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/case/layers.hpp"
-#include "scene/job/job.hpp"
 #include "scene/triangles.hpp"
 #include "scene/view/rounded_receivers.hpp"
+#include "scene/view/view.hpp"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/lookup_rule.hpp"
 #include "scene/image.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <array>
 #include <cstddef>

@@ -3,8 +3,9 @@
 #include "analysis/lookup/lookup_rule.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/vec.hpp"
+#include "scene/view/view.hpp"
 
 namespace gnomon::analysis {
 

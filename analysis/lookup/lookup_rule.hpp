@@ -3,6 +3,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "scene/infinity.hpp"
 #include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <span>

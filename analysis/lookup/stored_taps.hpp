@@ -3,7 +3,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "scene/image.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/vec.hpp"
 
 #include <span>

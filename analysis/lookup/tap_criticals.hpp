@@ -5,7 +5,7 @@
 #include "analysis/lookup/stored_taps.hpp"
 #include "scene/filter.hpp"
 #include "scene/image.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <algorithm>
 #include <array>

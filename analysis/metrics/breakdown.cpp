@@ -82,8 +82,9 @@ Range scored_range(const scene::Image<PixelClass>& classes,
             continue;
         }
         if (!std::isfinite(light_distance_m[i])) {
-            throw std::invalid_argument(fmt::format(
-                "bin_by_distance: zeta_m: that of scored pixel {} is {}", i, light_distance_m[i]));
+            throw std::invalid_argument(
+                fmt::format("bin_by_distance: light_distance_m: that of scored pixel {} is {}", i,
+                            light_distance_m[i]));
         }
         range.lower = std::min(range.lower, double{light_distance_m[i]});
         range.upper = std::max(range.upper, double{light_distance_m[i]});

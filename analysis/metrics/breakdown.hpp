@@ -2,7 +2,7 @@
 
 #include "analysis/metrics/quantiles.hpp"
 #include "scene/image.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/triangles.hpp"
 
 #include <optional>

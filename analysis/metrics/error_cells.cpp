@@ -24,17 +24,17 @@ namespace {
 constexpr std::size_t label_count = label_names.size();
 constexpr std::size_t kind_count = 2 * cause_names.size() * label_count;
 
-std::size_t kind_place(bool is_false_lit, Cause cause, Label label)
+std::size_t kind_index(bool is_false_lit, Cause cause, Label label)
 {
     const std::size_t side = is_false_lit ? 1 : 0;
     return (side * cause_names.size() + static_cast<std::size_t>(cause)) * label_count +
            static_cast<std::size_t>(label);
 }
 
-KindOfError kind_at(std::size_t place)
+KindOfError kind_at(std::size_t index)
 {
-    return {place >= kind_count / 2, static_cast<Cause>(place / label_count % cause_names.size()),
-            static_cast<Label>(place % label_count)};
+    return {index >= kind_count / 2, static_cast<Cause>(index / label_count % cause_names.size()),
+            static_cast<Label>(index % label_count)};
 }
 
 void require_equal_sizes(std::string_view function, scene::ImageSize a, scene::ImageSize b)
@@ -44,7 +44,7 @@ void require_equal_sizes(std::string_view function, scene::ImageSize a, scene::I
     }
 }
 
-/// The objects that receive each triangle, by their name's place in the sorted names.
+/// The objects that receive each triangle, by their name's index in the sorted names.
 class NamedObjects {
 public:
     explicit NamedObjects(const scene::TriangleScene& scene) : scene_{scene}
@@ -55,21 +55,21 @@ public:
         std::sort(names_.begin(), names_.end());
         names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
         for (const scene::Object& object : scene.objects) {
-            places_.push_back(static_cast<std::size_t>(
+            indices_.push_back(static_cast<std::size_t>(
                 std::lower_bound(names_.begin(), names_.end(), object.name) - names_.begin()));
         }
     }
 
-    [[nodiscard]] std::size_t place_of(std::uint32_t triangle) const
+    [[nodiscard]] std::size_t index_of(std::uint32_t triangle) const
     {
-        return places_[scene_.object_of(triangle)];
+        return indices_[scene_.object_of(triangle)];
     }
-    [[nodiscard]] const std::string& name(std::size_t place) const { return names_[place]; }
+    [[nodiscard]] const std::string& name(std::size_t index) const { return names_[index]; }
 
 private:
     const scene::TriangleScene& scene_;
     std::vector<std::string> names_;
-    std::vector<std::size_t> places_; ///< of each object's name
+    std::vector<std::size_t> indices_; ///< of each object's name
 };
 
 constexpr std::uint64_t band_count = LightDistanceBand::highest - LightDistanceBand::lowest + 1;
@@ -86,29 +86,29 @@ scene::Image<std::uint64_t> cell_keys(const scene::Image<PixelClass>& classes,
         for (std::size_t i = first; i != end; ++i) {
             if (scene::is_scored(classes[i])) {
                 const int band =
-                    light_distance_band_of(light_distance_m[i]).place - LightDistanceBand::lowest;
+                    light_distance_band_of(light_distance_m[i]).index - LightDistanceBand::lowest;
                 keys[i] =
-                    objects.place_of(triangles[i]) * band_count + static_cast<std::uint64_t>(band);
+                    objects.index_of(triangles[i]) * band_count + static_cast<std::uint64_t>(band);
             }
         }
     });
     return keys;
 }
 
-/// Where the band of that place begins [m].
-double border_m(int place)
+/// Where the band of an index begins [m].
+double border_m(int index)
 {
-    if (place < 0) {
-        return -border_m(-place);
+    if (index < 0) {
+        return -border_m(-index);
     }
-    if (place > LightDistanceBand::highest) {
+    if (index > LightDistanceBand::highest) {
         return std::numeric_limits<double>::infinity();
     }
-    return place == 0 ? 0 : std::ldexp(1.0, place - 1 + LightDistanceBand::first_octave);
+    return index == 0 ? 0 : std::ldexp(1.0, index - 1 + LightDistanceBand::first_octave);
 }
 
 /// @param distance_m  At least 0.
-int place_of_distance(float distance_m)
+int index_of_distance(float distance_m)
 {
     constexpr int below = LightDistanceBand::first_octave - 1;
     return std::clamp(std::ilogb(distance_m), below, LightDistanceBand::last_octave) - below;
@@ -139,12 +139,12 @@ public:
     /// Adds a pixel's segment to a cell.
     void add(std::size_t cell, bool is_false_lit, const ErrorSegment& segment)
     {
-        const auto place = [&](Label label) {
-            return cell * kind_count + kind_place(is_false_lit, segment.cause, label);
+        const auto index_of = [&](Label label) {
+            return cell * kind_count + kind_index(is_false_lit, segment.cause, label);
         };
-        add(place(segment.label), segment, {segment.is_wrong ? 1 : 0, 0});
-        add(place(segment.rest_label), segment, {0, segment.rest});
-        add(place(Label::acne), segment, {0, segment.acne});
+        add(index_of(segment.label), segment, {segment.is_wrong ? 1 : 0, 0});
+        add(index_of(segment.rest_label), segment, {0, segment.rest});
+        add(index_of(Label::acne), segment, {0, segment.acne});
     }
 
     void add(const CellChanges& other)
@@ -195,21 +195,21 @@ private:
 
 double LightDistanceBand::lower_m() const
 {
-    return border_m(place);
+    return border_m(index);
 }
 
 double LightDistanceBand::upper_m() const
 {
-    return border_m(place + 1);
+    return border_m(index + 1);
 }
 
 LightDistanceBand light_distance_band_of(float light_distance_m)
 {
     if (light_distance_m >= 0) {
-        return {place_of_distance(light_distance_m)};
+        return {index_of_distance(light_distance_m)};
     }
     // The bands below 0 mirror those above, but hold their lower end as those do.
-    return {-1 - place_of_distance(std::nextafter(-light_distance_m, 0.0F))};
+    return {-1 - index_of_distance(std::nextafter(-light_distance_m, 0.0F))};
 }
 
 CellMap find_error_cells(const scene::Image<PixelClass>& classes,

@@ -21,7 +21,7 @@ namespace gnomon::analysis {
 /// hold all that is 2^50 or more. Bands are the same in every run, wherever its near plane and its
 /// pixels lie.
 struct LightDistanceBand {
-    int place = 0; ///< in the order of ζ; 0 begins at ζ = 0
+    int index = 0; ///< in the order of ζ; 0 begins at ζ = 0
     static constexpr int first_octave = -10;
     static constexpr int last_octave = 50;
     static constexpr int highest = last_octave - first_octave + 1;

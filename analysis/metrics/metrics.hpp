@@ -2,7 +2,7 @@
 
 #include "analysis/metrics/amounts.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include "analysis/sweep/results.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <string>

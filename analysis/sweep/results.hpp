@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/advice/recommendation.hpp"
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/bias/bias_limits.hpp"
 #include "analysis/bias/bias_verification.hpp"
+#include "analysis/bias/recommendation.hpp"
 #include "analysis/causes/cause.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/answers/lookup_answers.hpp"
-#include "analysis/sweep/background.hpp"
+#include "analysis/sweep/background_worker.hpp"
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/lookup_stage.hpp"
 #include "analysis/sweep/stage_result.hpp"
@@ -54,7 +54,7 @@ public:
         // What one camera's lookups say is kept for the next: their curves are answered in turn.
         const std::size_t lanes = std::min<std::size_t>(cameras(plan), most_lookups);
         for (std::size_t i = 0; i < lanes; ++i) {
-            lanes_.push_back(std::make_unique<Background>(most_lookups / lanes));
+            lanes_.push_back(std::make_unique<BackgroundWorker>(most_lookups / lanes));
         }
     }
 
@@ -347,7 +347,7 @@ private:
     ExactLightCaches caches_; ///< the lanes'
     StageResult<LookupStage> lookup_;
     std::string verified_; ///< the curve that was verified last, of those compared bias by bias
-    std::vector<std::unique_ptr<Background>> lanes_; ///< last: they work on the others
+    std::vector<std::unique_ptr<BackgroundWorker>> lanes_; ///< last: they work on the others
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <string>
 

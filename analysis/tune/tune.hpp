@@ -1,10 +1,10 @@
 #pragma once
 
+#include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/judged_views.hpp"
-#include "analysis/bias/bias_search.hpp"
+#include "analysis/advice/tune_limits.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/renderers.hpp"
-#include "analysis/tune/tune_limits.hpp"
 #include "analysis/tune/tune_space.hpp"
 
 #include <cstddef>

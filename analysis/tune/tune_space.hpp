@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/tune/tune_limits.hpp"
+#include "analysis/advice/tune_limits.hpp"
 #include "scene/job/job.hpp"
 
 #include <cstdint>

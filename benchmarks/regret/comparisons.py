@@ -38,7 +38,7 @@ class ScoredView:
     """The error curve of one view, and what turns its biases into lengths."""
 
     curve: ErrorCurve
-    median_zeta_m: float  # light distance of the median scored pixel; NaN where nothing is scored
+    median_light_distance_m: float  # light distance of the median scored pixel; NaN where nothing is scored
     near_m: float
     far_m: float
     is_spot: bool
@@ -99,7 +99,7 @@ class Program:
             written = file.with_suffix(f".{id(view)}.part")
             with written.open("wb") as out:
                 numpy.savez(out, lit=view.curve.lit, blocked=view.curve.blocked, is_spot=view.is_spot,
-                            lengths=[view.median_zeta_m, view.near_m, view.far_m])
+                            lengths=[view.median_light_distance_m, view.near_m, view.far_m])
             written.rename(file)
         return view
 
@@ -107,11 +107,11 @@ class Program:
         with tempfile.TemporaryDirectory(prefix="gnomon_regret_") as folder:
             aov = Path(folder) / "view.exr"
             result = self.compare(scene, settings, aov)
-            truth, critical, zeta_m = read_channels(aov, ["truth", "critical_bias", "light_distance_m"])
+            truth, critical, light_distance_m = read_channels(aov, ["truth", "critical_bias", "light_distance_m"])
         scored = truth >= 0
         frustum = result["frustum"]
         view = ScoredView(ErrorCurve(critical[truth == 1], critical[truth == 0]),
-                          float(numpy.median(zeta_m[scored])) if scored.any() else float("nan"),
+                          float(numpy.median(light_distance_m[scored])) if scored.any() else float("nan"),
                           frustum["near_m"], frustum["far_m"], frustum["projection"] == "perspective")
         measured = result["false_shadow"] + result["false_lit"]
         if view.curve.errors_at(0) != measured:  # the study's jobs have no bias

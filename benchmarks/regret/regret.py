@@ -46,10 +46,10 @@ def carried(bias, source, destination):
     """
     if not source.is_spot:
         return to_bias(float(bias) * (source.far_m - source.near_m) / (destination.far_m - destination.near_m))
-    per_metre, zeta_m = 1 / source.near_m - 1 / source.far_m, source.median_zeta_m
-    metres = per_metre * float(bias) * zeta_m**2 / (1 + per_metre * float(bias) * zeta_m)
-    per_metre, zeta_m = 1 / destination.near_m - 1 / destination.far_m, destination.median_zeta_m
-    return to_bias(metres / (per_metre * zeta_m * (zeta_m - metres)))
+    per_metre, light_distance_m = 1 / source.near_m - 1 / source.far_m, source.median_light_distance_m
+    metres = per_metre * float(bias) * light_distance_m**2 / (1 + per_metre * float(bias) * light_distance_m)
+    per_metre, light_distance_m = 1 / destination.near_m - 1 / destination.far_m, destination.median_light_distance_m
+    return to_bias(metres / (per_metre * light_distance_m * (light_distance_m - metres)))
 
 
 def percentile(values, share):

@@ -3,7 +3,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "cli/compare/kept_pixels.hpp"
-#include "scene/view/settings.hpp"
+#include "scene/view/view.hpp"
 #include "store/case/case_write.hpp"
 
 namespace gnomon::cli {

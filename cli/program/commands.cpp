@@ -1,6 +1,6 @@
 #include "cli/program/commands.hpp"
 
-#include "cli/certify_command.hpp"
+#include "cli/certify/certify_command.hpp"
 #include "cli/compare/compare_command.hpp"
 #include "cli/depth/depth_command.hpp"
 #include "cli/evaluate/capture_kit_command.hpp"

@@ -1,7 +1,7 @@
 #include "cli/sweep/sweep_run.hpp"
 
 #include "analysis/comparison.hpp"
-#include "analysis/sweep/background.hpp"
+#include "analysis/sweep/background_worker.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/scene_identity.hpp"
@@ -382,7 +382,7 @@ private:
     std::unique_ptr<Progress> progress_; ///< while configurations are computed
     /// Has the store to itself from the first piece of work until all of them are finished; reads
     /// what is above.
-    analysis::Background recording_{waiting_curves(sweep_curves_.requests())};
+    analysis::BackgroundWorker recording_{waiting_curves(sweep_curves_.requests())};
 };
 
 } // namespace

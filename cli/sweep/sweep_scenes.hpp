@@ -5,6 +5,7 @@
 #include "raster_gl/context.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
+#include "scene/scene_defaults.hpp"
 
 #include <map>
 #include <memory>

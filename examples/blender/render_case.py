@@ -3,7 +3,7 @@
     blender --background --factory-startup --python render_case.py -- MESH.obj CASE
 
 writes CASE/case.toml, CASE/mesh.obj and CASE/aov.exr. Mask and position come from the same single sample
-of each pixel; surfaces are flat, white and diffuse, light does not bounce and the lamp has no radius: a
+of each pixel; surfaces are flat, white and diffuse, light does not bounce and its source has no radius: a
 pixel is lit where any light arrives. Made for Blender 3.4, which Debian 12 packages.
 """
 
@@ -104,20 +104,20 @@ def finish_surfaces(objects):
         item.pass_index = number
 
 
-def add_lamp_and_camera(lower, upper):
+def add_light_and_camera(lower, upper):
     centre, size = 0.5 * (lower + upper), (upper - lower).length
-    lamp = bpy.data.lights.new("lamp", type="POINT")
-    lamp.shadow_soft_size = 0
-    lamp.energy = 1000 * size * size
-    lamp_object = bpy.data.objects.new("lamp", lamp)
-    lamp_object.location = centre + size * Vector((1.1, -0.8, 1.6))
-    bpy.context.scene.collection.objects.link(lamp_object)
+    light = bpy.data.lights.new("light", type="POINT")
+    light.shadow_soft_size = 0
+    light.energy = 1000 * size * size
+    light_object = bpy.data.objects.new("light", light)
+    light_object.location = centre + size * Vector((1.1, -0.8, 1.6))
+    bpy.context.scene.collection.objects.link(light_object)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.location = centre + size * Vector((0.2, -1.9, 0.9))
     camera.rotation_euler = (centre - camera.location).to_track_quat("-Z", "Y").to_euler()
     bpy.context.scene.collection.objects.link(camera)
     bpy.context.scene.camera = camera
-    return lamp_object, camera
+    return light_object, camera
 
 
 def set_up_cycles(width, height, path):
@@ -163,7 +163,7 @@ def main():
     lower, upper = box_of(model)
     objects = [model, add_ground(lower, upper)]
     finish_surfaces(objects)
-    lamp, camera = add_lamp_and_camera(lower, upper)
+    light, camera = add_light_and_camera(lower, upper)
     set_up_cycles(arguments.width, arguments.height, folder / "aov.exr")
     bpy.context.view_layer.update()
     bpy.ops.render.render(write_still=True)
@@ -171,7 +171,7 @@ def main():
     numbers = lambda v: ", ".join(f"{x:.9g}" for x in v)  # noqa: E731
     (folder / "case.toml").write_text(CASE.format(
         name=f"{model.name} by Cycles", version=bpy.app.version_string,
-        light=numbers(lamp.matrix_world.translation), eye=numbers(camera.matrix_world.translation),
+        light=numbers(light.matrix_world.translation), eye=numbers(camera.matrix_world.translation),
         objects="\n".join(f'"{o.name}" = {o.pass_index}' for o in objects)), encoding="utf-8")
 
 

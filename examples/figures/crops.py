@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes the pixels that figures are drawn from as CSV files: crops.py FOLDER.
 
-The folder has the images of seeds.sh; the package gnomon is found through PYTHONPATH.
+The folder has the images of lessons.sh; the package gnomon is found through PYTHONPATH.
 """
 
 import sys

@@ -15,7 +15,7 @@ csv=$out/csv
 }
 mkdir -p "$csv"
 
-# depth NAME OPTION…: the seed's frustum into NAME.csv.
+# depth NAME OPTION…: the lesson's frustum into NAME.csv.
 depth()
 {
     "$gnomon" depth --near 4 --far 50 "${@:2}" --csv "$csv/$1.csv" >/dev/null

@@ -8,6 +8,7 @@
 #include "reference_rt/truth.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <cinttypes>
 #include <cstdio>

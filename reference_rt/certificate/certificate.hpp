@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
 #include "scene/pixel_class.hpp"
 #include "scene/triangles.hpp"
+#include "scene/view/view.hpp"
 
 #include <array>
 #include <cstdint>

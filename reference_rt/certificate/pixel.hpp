@@ -2,9 +2,9 @@
 
 #include "reference_rt/certificate/boxes.hpp"
 #include "reference_rt/certificate/rational_geometry.hpp"
-#include "scene/job/job.hpp"
 #include "scene/pixel_class.hpp"
 #include "scene/triangles.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <memory>

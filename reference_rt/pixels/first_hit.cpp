@@ -39,7 +39,7 @@ LaneBits certainly_beyond(const LaneHits& hits, double near_m)
 }
 
 /// The camera rays of one packet: which are hidden from their receivers, or see where GL does not.
-class Sight final : public CandidateJudge {
+class FirstHitJudge final : public CandidateJudge {
 public:
     struct Setting {
         const ReferenceScene::Implementation& reference;
@@ -48,7 +48,8 @@ public:
         double near_m;
     };
 
-    Sight(const Setting& setting, const Tile& tile, const LanePositions& points, SignCounts& counts)
+    FirstHitJudge(const Setting& setting, const Tile& tile, const LanePositions& points,
+                  SignCounts& counts)
         : setting_{setting},
           tile_{tile},
           counts_{counts}
@@ -230,7 +231,7 @@ FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scen
 
 LaneBits FirstHits::match(const Tile& tile, const LanePositions& points, SignCounts& counts) const
 {
-    return Sight{{reference_, pencil_, has_eye_, near_m_}, tile, points, counts}.match();
+    return FirstHitJudge{{reference_, pencil_, has_eye_, near_m_}, tile, points, counts}.match();
 }
 
 std::vector<std::uint32_t> FirstHits::first_hits(const CameraRay& ray, SignCounts& counts) const

@@ -6,7 +6,7 @@
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/float_line_filter.hpp"
 #include "reference_rt/traversal/packet.hpp"
-#include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <vector>

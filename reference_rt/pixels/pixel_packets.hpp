@@ -5,7 +5,7 @@
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,8 +2,8 @@
 
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/job/job.hpp"
 #include "scene/vec.hpp"
+#include "scene/view/view.hpp"
 
 #include <array>
 #include <cstdint>

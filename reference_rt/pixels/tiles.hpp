@@ -5,6 +5,7 @@
 #include "reference_rt/traversal/packet.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>

@@ -42,7 +42,7 @@ def _curve(bins, name):
     block = bins[(bins["at"] == first["at"]) & (bins["bias"] == first["bias"])]
     return {
         "name": name,
-        "zeta": 0.5 * (block["lower_m"] + block["upper_m"]).to_numpy(),
+        "light_distance_m": 0.5 * (block["lower_m"] + block["upper_m"]).to_numpy(),
         "edges": numpy.append(block["lower_m"], block["upper_m"].iloc[-1]),
         **{key: block[column].to_numpy(dtype=float) for key, column in COLUMNS.items()},
     }

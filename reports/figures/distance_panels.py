@@ -37,12 +37,12 @@ def draw_map_errors(axes, curve):
         axes.annotate(f"largest beyond\nthe axis: {style.length_text(largest)}", (0.02, 0.03),
                       xycoords="axes fraction", size=9, color="#444444",
                       bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5}, zorder=5)
-    zeta = curve["zeta"]
-    axes.fill_between(zeta, factor * curve["min"], factor * curve["max"], color=style.SKY,
-                      alpha=0.45, linewidth=0, label="map error, smallest to largest")
-    axes.plot(zeta, factor * curve["p95"], color=style.GREEN, linewidth=1.5, linestyle="-.",
+    light_distance_m = curve["light_distance_m"]
+    axes.fill_between(light_distance_m, factor * curve["min"], factor * curve["max"],
+                      color=style.SKY, alpha=0.45, linewidth=0, label="map error, smallest to largest")
+    axes.plot(light_distance_m, factor * curve["p95"], color=style.GREEN, linewidth=1.5, linestyle="-.",
               label="95 % are below")
-    axes.plot(zeta, factor * curve["median"], color=style.BLACK, linewidth=1.5, label="median")
+    axes.plot(light_distance_m, factor * curve["median"], color=style.BLACK, linewidth=1.5, label="median")
     axes.plot(curve["upper"], factor * curve["envelope"], color=style.ORANGE,
               label="envelope (formula)")
     axes.plot(curve["upper"], -factor * curve["envelope"], color=style.ORANGE)

@@ -30,16 +30,16 @@ def _series(table, storage):
         raise csv_tables.InputError(
             f"{table.attrs['path']}: codes of a float are not evenly spaced; use --bits"
         )
-    zeta = table["zeta_m"].to_numpy()
+    light_distance_m = table["zeta_m"].to_numpy()
     envelope = table["envelope_m"].to_numpy()
     error = table["formula_error_m"].to_numpy()
     tooth = 2 * envelope
-    spacing = numpy.gradient(zeta)
+    spacing = numpy.gradient(light_distance_m)
     is_resolved = tooth >= numpy.maximum(
         SAMPLES_PER_TOOTH * spacing, (storage.far_m - storage.near_m) / TEETH_ACROSS
     )
-    first = len(zeta) if not is_resolved.any() else int(is_resolved.argmax())
-    dots = numpy.arange(0, first, max(1, len(zeta) // DOTS))
+    first = len(light_distance_m) if not is_resolved.any() else int(is_resolved.argmax())
+    dots = numpy.arange(0, first, max(1, len(light_distance_m) // DOTS))
     code = table["formula_code"].to_numpy()
     last = numpy.abs(code - code[-1]) < LAST_CODES
     if last.sum() < LAST_CODES * SAMPLES_PER_TOOTH:
@@ -48,11 +48,11 @@ def _series(table, storage):
         "bits": storage.bits,
         "name": storage.name,
         "frustum": storage.frustum,
-        "envelope": (zeta, envelope),
-        "teeth": (zeta[first:], numpy.abs(error[first:])),
-        "dots": (zeta[dots], numpy.abs(error[dots])),
-        "last_codes": (zeta[last], error[last]),
-        "last_envelope": (zeta[last], envelope[last]),
+        "envelope": (light_distance_m, envelope),
+        "teeth": (light_distance_m[first:], numpy.abs(error[first:])),
+        "dots": (light_distance_m[dots], numpy.abs(error[dots])),
+        "last_codes": (light_distance_m[last], error[last]),
+        "last_envelope": (light_distance_m[last], envelope[last]),
     }
 
 
@@ -84,19 +84,19 @@ def _colours(curves):
 
 def _draw_all(axes, curves):
     for curve, colour in zip(curves, _colours(curves)):
-        zeta, envelope = curve["envelope"]
+        light_distance_m, envelope = curve["envelope"]
         axes.plot(*curve["dots"], ".", color=colour, markersize=2.2, alpha=0.55, zorder=2)
         axes.plot(*curve["teeth"], color=colour, linewidth=0.9, alpha=0.8, zorder=2)
-        axes.plot(zeta, envelope, color=colour, zorder=3)
-        axes.annotate(curve["name"], (zeta[-1], envelope[-1]), (6, 0), color=colour,
+        axes.plot(light_distance_m, envelope, color=colour, zorder=3)
+        axes.annotate(curve["name"], (light_distance_m[-1], envelope[-1]), (6, 0), color=colour,
                       textcoords="offset points", va="center", weight="bold", size=10,
                       annotation_clip=False)
     axes.plot([], [], color=style.GREY, label="envelope (formula)")
     axes.plot([], [], color=style.GREY, linewidth=0.9, label="sawtooth")
     axes.plot([], [], ".", color=style.GREY, markersize=4, label="samples of a finer sawtooth")
     axes.set_yscale("log")
-    zeta, envelope = curves[0]["envelope"]
-    axes.set_xlim(zeta[0], zeta[-1])
+    light_distance_m, envelope = curves[0]["envelope"]
+    axes.set_xlim(light_distance_m[0], light_distance_m[-1])
     axes.set_ylim(min(curve["envelope"][1][0] for curve in curves) / 12, 2.2 * envelope[-1])
     axes.set_xlabel(style.DISTANCE_LABEL)
     axes.set_ylabel("|error of ζ| [m]")
@@ -105,13 +105,13 @@ def _draw_all(axes, curves):
 
 
 def _draw_last_codes(axes, curve, colour):
-    zeta, error = curve["last_codes"]
+    light_distance_m, error = curve["last_codes"]
     envelope = curve["last_envelope"][1]
     factor, unit = style.length_unit(envelope[-1])
-    axes.plot(zeta, factor * error, color=colour, linewidth=1.1)
+    axes.plot(light_distance_m, factor * error, color=colour, linewidth=1.1)
     for sign in (-1, 1):
-        axes.plot(zeta, sign * factor * envelope, color=style.GREY, linewidth=1.2)
-    axes.set_xlim(zeta[0], zeta[-1])
+        axes.plot(light_distance_m, sign * factor * envelope, color=style.GREY, linewidth=1.2)
+    axes.set_xlim(light_distance_m[0], light_distance_m[-1])
     axes.locator_params(axis="x", nbins=3)
     axes.ticklabel_format(axis="x", useOffset=False)
     axes.set_title(f"{curve['name']}: the last {LAST_CODES} codes", color=colour, size=10)

@@ -17,7 +17,7 @@ def data(tables):
         {
             "name": storage.name,
             "frustum": storage.frustum,
-            "zeta": table["zeta_m"].to_numpy(),
+            "light_distance_m": table["zeta_m"].to_numpy(),
             "error": table["error_m"].to_numpy(),
             "envelope": table["envelope_m"].to_numpy(),
             "model": table["model_m"].to_numpy(),
@@ -33,7 +33,7 @@ def draw(tables):
     curves = data(tables)
     figure = style.TitledFigure(
         "Depth as GL stores it, against the formula",
-        f"{curves[0]['frustum']}; {len(curves[0]['zeta']):,} planes",
+        f"{curves[0]['frustum']}; {len(curves[0]['light_distance_m']):,} planes",
         6.0,
     )
     grid = style.lay_out(figure, top_in=1.35, nrows=2, ncols=len(curves), hspace=0.12,
@@ -48,13 +48,13 @@ def draw(tables):
 
 
 def _draw_errors(axes, curve):
-    zeta = curve["zeta"]
-    axes.plot(zeta, numpy.abs(curve["error"]), ".", color=style.BLUE, markersize=2.2, alpha=0.6,
+    light_distance_m = curve["light_distance_m"]
+    axes.plot(light_distance_m, numpy.abs(curve["error"]), ".", color=style.BLUE, markersize=2.2, alpha=0.6,
               label="GL's |error| (measured)")
-    axes.plot(zeta, curve["envelope"], color=style.VERMILION, label="envelope (formula)")
-    axes.plot(zeta, curve["model"], color=style.BLACK, linewidth=1,
+    axes.plot(light_distance_m, curve["envelope"], color=style.VERMILION, label="envelope (formula)")
+    axes.plot(light_distance_m, curve["model"], color=style.BLACK, linewidth=1,
               label="bound of the driver model")
-    axes.set_xlim(zeta[0], zeta[-1])
+    axes.set_xlim(light_distance_m[0], light_distance_m[-1])
     axes.set_yscale("log")
     axes.set_ylim(curve["envelope"].min() / 20, 2 * curve["model"].max())
     axes.set_ylabel("|error of ζ| [m]")
@@ -64,9 +64,9 @@ def _draw_errors(axes, curve):
 
 def _draw_residuals(axes, curve):
     factor, unit = style.length_unit(numpy.abs(curve["residual"]).max())
-    axes.plot(curve["zeta"], factor * curve["transform"], ".", color=style.ORANGE, markersize=2.2,
+    axes.plot(curve["light_distance_m"], factor * curve["transform"], ".", color=style.ORANGE, markersize=2.2,
               alpha=0.6, label="vertex transform's share")
-    axes.plot(curve["zeta"], factor * curve["residual"], ".", color=style.GREEN, markersize=2.2,
+    axes.plot(curve["light_distance_m"], factor * curve["residual"], ".", color=style.GREEN, markersize=2.2,
               alpha=0.7, label="residual: measured − formula")
     axes.set_ylabel(f"residual [{unit}]")
     axes.set_xlabel("distance ζ [m]")

@@ -17,7 +17,7 @@ def data(tables):
         {
             "name": storage.name,
             "frustum": storage.frustum,
-            "zeta": table["zeta_m"].to_numpy(),
+            "light_distance_m": table["zeta_m"].to_numpy(),
             "envelope": table["envelope_m"].to_numpy(),
             "formula": numpy.abs(table["formula_error_m"].to_numpy()),
             "measured": numpy.abs(table["error_m"].to_numpy()),
@@ -32,7 +32,7 @@ def draw(tables):
     storage = csv_tables.storage_of(tables[0])
     figure = style.TitledFigure(
         "Reversed depth makes float32 precise far away",
-        f"{storage.frustum}; {len(curves[0]['zeta']):,} planes; lines: envelope, dots: |error|",
+        f"{storage.frustum}; {len(curves[0]['light_distance_m']):,} planes; lines: envelope, dots: |error|",
         4.6,
     )
     grid = style.lay_out(figure, top_in=1.15, nrows=1, ncols=2, wspace=0.08)
@@ -51,15 +51,15 @@ def draw(tables):
 
 
 def _draw_panel(axes, curve, which, colour):
-    axes.plot(curve["zeta"], curve[which], ".", color=colour, markersize=2, alpha=0.45, zorder=2)
-    axes.plot(curve["zeta"], curve["envelope"], color=colour, zorder=3, label=curve["name"])
+    axes.plot(curve["light_distance_m"], curve[which], ".", color=colour, markersize=2, alpha=0.45, zorder=2)
+    axes.plot(curve["light_distance_m"], curve["envelope"], color=colour, zorder=3, label=curve["name"])
 
 
 def _set_axes(axes, curves):
     largest = max(max(curve["measured"].max(), curve["envelope"].max()) for curve in curves)
     # The envelope of reversed floats ends at 0, where no logarithmic axis reaches.
     smallest = min(curve["envelope"][0] for curve in curves)
-    axes.set_xlim(curves[0]["zeta"][0], curves[0]["zeta"][-1])
+    axes.set_xlim(curves[0]["light_distance_m"][0], curves[0]["light_distance_m"][-1])
     axes.set_yscale("log")
     axes.set_ylim(smallest / 40, 2.5 * largest)
     axes.set_ylabel("|error of ζ| [m]")

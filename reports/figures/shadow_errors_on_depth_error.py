@@ -79,7 +79,7 @@ def _series(block, name):
         "name": name,
         "at": block["at"].iloc[0],
         "bias": block["bias"].iloc[0],
-        "zeta": (0.5 * (block["lower_m"] + block["upper_m"])).to_numpy(),
+        "light_distance_m": (0.5 * (block["lower_m"] + block["upper_m"])).to_numpy(),
         "upper": block["upper_m"].to_numpy(),
         "envelope": block["envelope_m"].to_numpy(),
         **{name.split(".")[1]: block[name].to_numpy() for name in MAP_ERRORS},

@@ -41,26 +41,27 @@ def read(paths):
     storage = csv_tables.storage_of(table)
     if storage.bits is None:
         raise InputError(f"{path}: codes of a float are not evenly spaced; use --bits")
-    zeta, error, envelope = (table[name].to_numpy()
-                             for name in ("zeta_m", "formula_error_m", "envelope_m"))
+    light_distance_m, error, envelope = (table[name].to_numpy()
+                                         for name in ("zeta_m", "formula_error_m", "envelope_m"))
     beyond = numpy.flatnonzero(envelope > tolerance)
     first = beyond[0] if beyond.size else None
     places = [("near", 0)]
-    if first is not None and 0 < first < len(zeta) - 1:
+    if first is not None and 0 < first < len(light_distance_m) - 1:
         places.append(("where it begins to fail", first))
-    places.append(("far", len(zeta) - 1))
+    places.append(("far", len(light_distance_m) - 1))
     details = [_detail(table, name, index) for name, index in places]
     details = [detail for detail in details if detail is not None]
     if not details:
         raise InputError(f"{path}: no place where single codes are sampled; was it written with"
                          " --theory-only?")
     # Evenly by distance, as the places in detail have many rows.
-    every = numpy.unique(numpy.searchsorted(zeta, numpy.linspace(zeta[0], zeta[-1], DOTS)))
+    evenly_m = numpy.linspace(light_distance_m[0], light_distance_m[-1], DOTS)
+    every = numpy.unique(numpy.searchsorted(light_distance_m, evenly_m))
     return Tables(
         f"{storage.frustum}; ideal storage, {storage.bits} bits, evenly spaced codes;"
         f" tolerance {style.length_text(tolerance)}",
-        tolerance, None if first is None else zeta[first],
-        (zeta[every], numpy.abs(error[every])), (zeta, envelope), details)
+        tolerance, None if first is None else light_distance_m[first],
+        (light_distance_m[every], numpy.abs(error[every])), (light_distance_m, envelope), details)
 
 
 def _detail(table, name, index):
@@ -70,9 +71,9 @@ def _detail(table, name, index):
     around = numpy.abs(code - middle) <= CODES / 2
     if around.sum() < CODES * SAMPLES_PER_CODE:
         return None
-    zeta, error, envelope = (table[key].to_numpy()[around]
-                             for key in ("zeta_m", "formula_error_m", "envelope_m"))
-    return name, zeta, error, envelope
+    light_distance_m, error, envelope = (table[key].to_numpy()[around]
+                                         for key in ("zeta_m", "formula_error_m", "envelope_m"))
+    return name, light_distance_m, error, envelope
 
 
 def draw(tables):
@@ -88,28 +89,29 @@ def draw(tables):
 
 
 def _draw_range(axes, tables):
-    zeta, envelope = tables.envelope
-    axes.fill_between(zeta, tables.tolerance, envelope, where=envelope > tables.tolerance,
+    light_distance_m, envelope = tables.envelope
+    axes.fill_between(light_distance_m, tables.tolerance, envelope, where=envelope > tables.tolerance,
                       color=style.VERMILION, alpha=0.15, linewidth=0,
                       label="errors that it does not cover")
     axes.plot(*tables.dots, ".", color=style.SKY, markersize=2.5, label="|error|, samples")
-    axes.plot(zeta, envelope, color=style.VERMILION, label="envelope (formula)")
+    axes.plot(light_distance_m, envelope, color=style.VERMILION, label="envelope (formula)")
     axes.axhline(tables.tolerance, color=style.BLUE, label="tolerance")
     if tables.exceeded_from is not None:
         axes.axvline(tables.exceeded_from, color=style.BLUE, linewidth=1, linestyle=":")
     axes.set_yscale("log")
-    axes.set_xlim(zeta[0], zeta[-1])
+    axes.set_xlim(light_distance_m[0], light_distance_m[-1])
     axes.set_ylim(0.1 * min(envelope[0], tables.tolerance), 2.2 * max(envelope[-1], tables.tolerance))
     axes.set_xlabel(style.DISTANCE_LABEL)
     axes.set_ylabel("|error of ζ| [m]")
 
 
 def _draw_detail(axes, detail, tolerance):
-    name, zeta, error, envelope = detail
+    name, light_distance_m, error, envelope = detail
     factor, unit = style.length_unit(max(envelope[-1], tolerance))
-    centre = zeta[0] if name == "near" else zeta[-1] if name == "far" else zeta[len(zeta) // 2]
-    along, along_unit = style.length_unit(zeta[-1] - zeta[0])
-    offset = along * (zeta - centre)
+    middle = 0 if name == "near" else -1 if name == "far" else len(light_distance_m) // 2
+    centre = light_distance_m[middle]
+    along, along_unit = style.length_unit(light_distance_m[-1] - light_distance_m[0])
+    offset = along * (light_distance_m - centre)
     axes.plot(offset, factor * error, color=style.SKY, linewidth=1.2)
     for sign in (-1, 1):
         axes.fill_between(offset, sign * factor * tolerance, factor * error,

@@ -282,9 +282,9 @@ private:
         const auto lower =
             ends != nullptr && ends->size() == 2 ? distance((*ends)[0]) : std::nullopt;
         const auto upper = lower ? distance((*ends)[1]) : std::nullopt;
-        for (int place = analysis::LightDistanceBand::lowest;
-             place <= analysis::LightDistanceBand::highest; ++place) {
-            const analysis::LightDistanceBand band{place};
+        for (int index = analysis::LightDistanceBand::lowest;
+             index <= analysis::LightDistanceBand::highest; ++index) {
+            const analysis::LightDistanceBand band{index};
             if (lower && band.lower_m() == *lower) {
                 rule.pixels.bands = analysis::LightDistanceBands{band, band};
             }

@@ -62,12 +62,12 @@ struct Part {
 /// The pixels that a panel's pixel shows, of those that the whole panel shows.
 Part covered_part(const Part& all, scene::ImageSize panel, int x, int y)
 {
-    const auto scaled = [](std::int64_t place, std::int64_t pixels, std::int64_t side) {
-        return static_cast<int>(place * pixels / side);
+    const auto scaled = [](std::int64_t index, std::int64_t pixels, std::int64_t side) {
+        return static_cast<int>(index * pixels / side);
     };
-    const auto span = [&](int place, int first, int last, int side) {
-        const int begin = first + scaled(place, last - first, side);
-        const int end = first + scaled(place + 1, last - first, side);
+    const auto span = [&](int index, int first, int last, int side) {
+        const int begin = first + scaled(index, last - first, side);
+        const int end = first + scaled(index + 1, last - first, side);
         return std::pair{begin, std::max(begin + 1, end)};
     };
     const auto [left, right] = span(x, all.left, all.right, panel.width_px);
@@ -305,7 +305,7 @@ private:
     Canvas canvas_;
 };
 
-/// Grey of a surface, brighter towards a lamp above the viewer's shoulder.
+/// Grey of a surface, brighter towards a light above the viewer's shoulder.
 store::Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_class)
 {
     if (!std::isfinite(normal.x) || pixel_class == scene::PixelClass::background) {

@@ -33,10 +33,10 @@ void add_bias_causes(store::Json& json, const analysis::BiasCauses& found)
                       {"edge", nullptr},  {"overshadow", nullptr}};
 }
 
-store::Json cannot_know(const std::vector<analysis::CannotKnow>& all)
+store::Json cannot_know(const std::vector<analysis::UnansweredQuestion>& all)
 {
     store::Json json = store::Json::array();
-    for (const analysis::CannotKnow& one : all) {
+    for (const analysis::UnansweredQuestion& one : all) {
         json.push_back({{"what", one.what}, {"needs", one.needs}});
     }
     return json;

@@ -11,15 +11,15 @@ namespace gnomon::reports {
 
 namespace {
 
-std::optional<std::size_t> place_in_array(std::string_view part)
+std::optional<std::size_t> index_in_array(std::string_view part)
 {
     if (part == "lo" || part == "hi") {
         return part == "lo" ? 0 : 1;
     }
-    std::size_t place = 0;
+    std::size_t index = 0;
     const char* const end = part.data() + part.size();
-    const auto [stop, error] = std::from_chars(part.data(), end, place);
-    return error == std::errc{} && stop == end ? std::optional{place} : std::nullopt;
+    const auto [stop, error] = std::from_chars(part.data(), end, index);
+    return error == std::errc{} && stop == end ? std::optional{index} : std::nullopt;
 }
 
 } // namespace
@@ -30,8 +30,8 @@ store::Json& member_at(store::Json& json, std::string_view name)
     while (!name.empty()) {
         const std::string_view part = name.substr(0, name.find('.'));
         name.remove_prefix(part.size() == name.size() ? part.size() : part.size() + 1);
-        const auto place = place_in_array(part);
-        found = place ? &(*found)[*place] : &(*found)[std::string{part}];
+        const auto index = index_in_array(part);
+        found = index ? &(*found)[*index] : &(*found)[std::string{part}];
     }
     return *found;
 }

@@ -153,7 +153,7 @@ std::size_t PackedBlocks::byte_count() const
 
 store::Json PackedBlocks::add_texts(std::span<const std::string> texts)
 {
-    std::unordered_map<std::string_view, std::uint32_t> places;
+    std::unordered_map<std::string_view, std::uint32_t> index_of;
     store::Json dictionary = store::Json::array();
     std::vector<std::uint32_t> indices;
     indices.reserve(texts.size());
@@ -163,7 +163,7 @@ store::Json PackedBlocks::add_texts(std::span<const std::string> texts)
             continue;
         }
         const auto [entry, is_new] =
-            places.try_emplace(text, static_cast<std::uint32_t>(places.size()));
+            index_of.try_emplace(text, static_cast<std::uint32_t>(index_of.size()));
         if (is_new) {
             dictionary.push_back(text);
         }

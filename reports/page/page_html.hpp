@@ -1,7 +1,6 @@
 #pragma once
 
-#include "reports/page/report.hpp"
-#include "reports/page/run_overview.hpp"
+#include "store/json_values.hpp"
 
 #include <span>
 #include <string>
@@ -11,12 +10,6 @@ namespace gnomon::reports {
 
 /// A text in HTML, also within quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
-
-/// The part of a page that can be read without JavaScript: from the header to the end of main.
-/// @param pictures  data: addresses of the figures, in their order.
-[[nodiscard]] std::string page_body(const store::RunReader& run, const RunOverview& overview,
-                                    const ReportOptions& options,
-                                    std::span<const std::string> pictures);
 
 /// The whole page: a head with a Content-Security-Policy that names its style and scripts alone,
 /// the body, data and scripts.

@@ -2,6 +2,7 @@
 
 #include "analysis/metrics/metric_table.hpp"
 #include "reports/page/base64.hpp"
+#include "reports/page/page_body.hpp"
 #include "reports/page/page_html.hpp"
 #include "reports/page/page_images.hpp"
 #include "reports/page/page_tables.hpp"

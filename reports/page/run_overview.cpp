@@ -62,7 +62,7 @@ std::string settings_text(const store::RunDescription& description, const store:
                           : fmt::format("{} ({})", text, counted(tie.count, "configuration"));
 }
 
-std::uint64_t place_of(const store::RunReader& run, std::uint64_t ordinal)
+std::uint64_t row_index(const store::RunReader& run, std::uint64_t ordinal)
 {
     return static_cast<std::uint64_t>(run.database().integer(
         fmt::format("SELECT count(*) FROM part WHERE ordinal < {}", ordinal)));
@@ -70,11 +70,11 @@ std::uint64_t place_of(const store::RunReader& run, std::uint64_t ordinal)
 
 OverviewRow named_row(const store::RunReader& run, store::ResultRow row, const Tie& tie = {})
 {
-    const std::uint64_t place = place_of(run, row.count("ordinal"));
+    const std::uint64_t index = row_index(run, row.count("ordinal"));
     std::string settings = settings_text(run.description(), row, tie);
     std::string mean_error =
         tie.mean_error.empty() ? percent(row.number("mean_abs_error")) : tie.mean_error;
-    return {place, std::move(settings), std::move(mean_error), std::move(row)};
+    return {index, std::move(settings), std::move(mean_error), std::move(row)};
 }
 
 std::vector<std::string> bias_axes(const store::RunDescription& description)

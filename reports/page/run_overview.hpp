@@ -13,7 +13,7 @@ namespace gnomon::reports {
 
 /// A configuration that a report names.
 struct OverviewRow {
-    std::uint64_t row = 0; ///< its place among the run's configurations, from 0
+    std::uint64_t row = 0; ///< its index among the run's configurations, from 0
     /// "shadow_map.resolution = 2048, bias.constant = 0.01 to 0.03 (9 configurations)", which have
     /// the same errors; empty: one only.
     std::string settings;

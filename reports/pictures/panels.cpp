@@ -55,7 +55,7 @@ Shade shade_pixel(const analysis::Comparison& comparison, std::uint32_t triangle
     const double distance = along != 0 ? glm::dot(normal, origin - ray.origin) / along : 0;
     const Vec3d light = towards_light(comparison.view.light, ray.origin + distance * ray.direction);
 
-    // Sky above, and a faint lamp at the eye that keeps unlit surfaces readable.
+    // Sky above, and a faint light at the eye that keeps unlit surfaces readable.
     const double sky = 0.5 + 0.5 * normal.y;
     const double ambient = 0.09 + 0.10 * sky + 0.10 * std::abs(glm::dot(normal, view));
     const bool receives_light =

@@ -89,7 +89,7 @@ std::string evaluation_table(const analysis::Comparison& comparison,
         text += fmt::format("\n{}", warning_line(evaluation.import_check));
     }
     text += evaluation.cannot_know.empty() ? "" : "\n";
-    for (const analysis::CannotKnow& one : evaluation.cannot_know) {
+    for (const analysis::UnansweredQuestion& one : evaluation.cannot_know) {
         text += fmt::format("cannot know {}; needs {}\n", one.what, one.needs);
     }
     return text;

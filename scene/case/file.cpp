@@ -2,7 +2,7 @@
 
 #include "scene/case/keys.hpp"
 #include "scene/error.hpp"
-#include "scene/job/layers.hpp"
+#include "scene/job/setting_layers.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"

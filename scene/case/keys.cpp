@@ -1,6 +1,6 @@
 #include "scene/case/keys.hpp"
 
-#include "scene/job/layers.hpp"
+#include "scene/job/setting_layers.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -231,20 +231,20 @@ bool is_named(const std::filesystem::path& scene_file, std::initializer_list<std
 }
 
 /// What the file says of itself, where Assimp keeps silent about what it lost.
-struct OwnWords {
+struct FileFacts {
     GltfFacts gltf;
     std::uint64_t free_form_shapes = 0;
 };
 
-OwnWords read_own_words(const std::filesystem::path& scene_file)
+FileFacts read_file_facts(const std::filesystem::path& scene_file)
 {
-    OwnWords words;
+    FileFacts facts;
     if (is_named(scene_file, {".gltf", ".glb"})) {
-        words.gltf = read_gltf_facts(scene_file);
+        facts.gltf = read_gltf_facts(scene_file);
     } else if (is_named(scene_file, {".obj"})) {
-        words.free_form_shapes = count_free_form_shapes(scene_file);
+        facts.free_form_shapes = count_free_form_shapes(scene_file);
     }
-    return words;
+    return facts;
 }
 
 void count_placed(const aiScene& scene, const std::vector<PlacedNode>& nodes,
@@ -266,7 +266,7 @@ void count_placed(const aiScene& scene, const std::vector<PlacedNode>& nodes,
     counts.animations = scene.mNumAnimations;
 }
 
-void write_scene(const aiScene& scene, const OwnWords& words, const ImportLimits& limits,
+void write_scene(const aiScene& scene, const FileFacts& facts, const ImportLimits& limits,
                  int output)
 {
     const std::vector<PlacedNode> nodes = placed_nodes(*scene.mRootNode);
@@ -281,9 +281,9 @@ void write_scene(const aiScene& scene, const OwnWords& words, const ImportLimits
     check_size(all, limits);
     header.object_count = all.size();
     count_placed(scene, nodes, all, header.contents);
-    header.contents.free_form_shapes = words.free_form_shapes;
+    header.contents.free_form_shapes = facts.free_form_shapes;
     std::string extensions;
-    for (const std::string& extension : words.gltf.unread_extensions) {
+    for (const std::string& extension : facts.gltf.unread_extensions) {
         extensions += extension + '\n';
     }
     header.extension_bytes = extensions.size();
@@ -330,17 +330,17 @@ void write_imported_scene(const std::filesystem::path& scene_file, const ImportL
     importer.SetIOHandler(folder); // takes ownership
     keep_known_formats(importer);
     try {
-        const OwnWords words = read_own_words(scene_file);
+        const FileFacts facts = read_file_facts(scene_file);
         const bool is_ply = is_named(scene_file, {".ply"});
         if (is_ply) {
             require_whole_ply(scene_file);
         }
         const aiScene& scene = read(importer, scene_file.string());
-        require_triangles(words.gltf, scene);
+        require_triangles(facts.gltf, scene);
         if (is_ply) {
             require_ply_faces(scene_file, scene);
         }
-        write_scene(scene, words, limits, output);
+        write_scene(scene, facts, limits, output);
     } catch (const UnsupportedContent& content) {
         write_refusal(content.what(), output, ImportOutcome::unsupported);
     } catch (const std::bad_alloc&) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/job.hpp"
+#include "scene/scene_defaults.hpp"
 #include "scene/triangles.hpp"
 
 #include <chrono>

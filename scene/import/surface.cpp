@@ -12,15 +12,26 @@ namespace gnomon::scene {
 
 namespace {
 
+/// What makes a surface see-through in places, as glTF's alphaMode and other files' opacities say.
 struct Transparency {
     bool is_masked = false;
     bool is_blended = false;
     bool is_clear = false;
+    bool has_vertex_alpha = false;
 };
 
-/// A glTF material says what its alpha does; one of an OBJ file has an opacity, and perhaps a
-/// texture that cuts it.
-Transparency transparency(const aiMaterial& material)
+bool any_vertex_alpha(const aiMesh& mesh)
+{
+    if (!mesh.HasVertexColors(0)) {
+        return false;
+    }
+    const std::span<const aiColor4D> colours{mesh.mColors[0], mesh.mNumVertices};
+    return std::ranges::any_of(colours, [](const aiColor4D& colour) { return colour.a < 1; });
+}
+
+/// A glTF material says what its alpha does, and of an opaque one that of vertices is ignored, too;
+/// one of an OBJ file has an opacity, and perhaps a texture that cuts it.
+Transparency transparency(const aiMesh& mesh, const aiMaterial& material)
 {
     float opacity = 1;
     material.Get(AI_MATKEY_OPACITY, opacity);
@@ -29,20 +40,10 @@ Transparency transparency(const aiMaterial& material)
         const std::string_view name{mode.C_Str()};
         const bool is_masked = name == "MASK";
         const bool is_blended = name == "BLEND";
-        return {is_masked, is_blended, (is_masked || is_blended) && opacity == 0};
+        return {is_masked, is_blended, (is_masked || is_blended) && opacity == 0, false};
     }
-    return {material.GetTextureCount(aiTextureType_OPACITY) > 0, opacity < 1, opacity == 0};
-}
-
-/// Of glTF the material's mode decides, and of an opaque one alpha is ignored.
-bool has_vertex_alpha(const aiMesh& mesh, const aiMaterial& material)
-{
-    aiString mode;
-    if (!mesh.HasVertexColors(0) || material.Get("$mat.gltf.alphaMode", 0, 0, mode) == AI_SUCCESS) {
-        return false;
-    }
-    const std::span<const aiColor4D> colours{mesh.mColors[0], mesh.mNumVertices};
-    return std::ranges::any_of(colours, [](const aiColor4D& colour) { return colour.a < 1; });
+    return {material.GetTextureCount(aiTextureType_OPACITY) > 0, opacity < 1, opacity == 0,
+            any_vertex_alpha(mesh)};
 }
 
 } // namespace
@@ -55,9 +56,8 @@ void SurfaceCounter::add(const aiMesh& mesh)
         return;
     }
     const unsigned material = mesh.mMaterialIndex;
-    const Transparency found = transparency(*scene_->mMaterials[material]);
-    objects_.vertex_alpha_objects +=
-        has_vertex_alpha(mesh, *scene_->mMaterials[material]) ? 1U : 0U;
+    const Transparency found = transparency(mesh, *scene_->mMaterials[material]);
+    objects_.vertex_alpha_objects += found.has_vertex_alpha ? 1U : 0U;
     if (found.is_masked) {
         ++objects_.masked_objects;
         masked_.insert(material);

@@ -1,5 +1,5 @@
 #include "scene/error.hpp"
-#include "scene/job/layers.hpp"
+#include "scene/job/setting_layers.hpp"
 
 #include <fmt/format.h>
 

@@ -80,35 +80,4 @@ struct Job {
     BiasSettings bias;
 };
 
-/// The bias as GL receives it: float32, depth units, each 0 or a normal float.
-struct Bias {
-    float constant = 0;
-    float slope = 0;
-    float normal_texels = 0;
-};
-
-/// The biases, each rounded to float32 once; constant_m [m] is divided by far − near before.
-/// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
-[[nodiscard]] Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum);
-
-/// A job made concrete against its scene: every exact input, ready for both renderers.
-struct View {
-    Camera camera;
-    ImageSize image;
-    Light light;
-    LightFrustum frustum;
-    Bias bias;
-};
-
-/// What a scene file may bring along.
-struct SceneDefaults {
-    std::optional<CameraSettings> camera;
-    std::optional<LightSettings> light;
-};
-
-/// Resolves camera, light, frustum and bias; of a point light camera and light alone.
-/// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
-[[nodiscard]] View resolve_view(const Job& job, const TriangleScene& scene,
-                                const SceneDefaults& defaults);
-
 } // namespace gnomon::scene

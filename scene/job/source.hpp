@@ -2,7 +2,7 @@
 
 #include "scene/job/file.hpp"
 #include "scene/job/job.hpp"
-#include "scene/job/layers.hpp"
+#include "scene/job/setting_layers.hpp"
 
 #include <filesystem>
 #include <string>

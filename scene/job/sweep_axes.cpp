@@ -1,7 +1,7 @@
 #include "scene/job/sweep_axes.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/layers.hpp"
+#include "scene/job/setting_layers.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/layers.hpp"
+#include "scene/job/setting_layers.hpp"
 #include "scene/job/source.hpp"
 
 #include <cstdint>

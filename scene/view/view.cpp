@@ -1,6 +1,6 @@
+#include "scene/view/view.hpp"
+
 #include "scene/error.hpp"
-#include "scene/job/job.hpp"
-#include "scene/view/settings.hpp"
 
 #include <fmt/format.h>
 

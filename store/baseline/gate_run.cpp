@@ -114,12 +114,12 @@ private:
         const auto& columns = analysis::curve_point_columns();
         for (const analysis::CurvePointMetric& point : *points_) {
             const auto column = std::find(columns.begin(), columns.end(), point.column);
-            const auto place = static_cast<int>(column - columns.begin());
+            const auto index = static_cast<int>(column - columns.begin());
             // The lookup takes a float32 bias.
             find_point_.bind(1, std::string_view{curve})
                 .bind(2, double{static_cast<float>(point.bias)});
-            if (find_point_.step() && !find_point_.is_null(place)) {
-                metrics[point.name()] = number_of(find_point_.value(place));
+            if (find_point_.step() && !find_point_.is_null(index)) {
+                metrics[point.name()] = number_of(find_point_.value(index));
             }
             find_point_.reset();
         }

@@ -45,11 +45,11 @@ fs::path mask_path(const fs::path& baseline, std::string_view name)
         fmt::format("{}: {}: {}", scene::one_line(path.string()), problem, mask_advice));
 }
 
-std::uint32_t big_endian_word(std::string_view bytes, std::size_t place)
+std::uint32_t big_endian_word(std::string_view bytes, std::size_t offset)
 {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        value = value << 8U | static_cast<unsigned char>(bytes[place + i]);
+        value = value << 8U | static_cast<unsigned char>(bytes[offset + i]);
     }
     return value;
 }
@@ -63,9 +63,9 @@ scene::ImageSize png_size(std::string_view bytes)
     if (!bytes.starts_with(start) || bytes.size() < start.size() + 8) {
         return {0, 0};
     }
-    const auto number = [&](std::size_t place) {
+    const auto number = [&](std::size_t offset) {
         constexpr std::uint32_t largest = 1U << 20U; // far beyond any image
-        return static_cast<int>(std::min(big_endian_word(bytes, place), largest));
+        return static_cast<int>(std::min(big_endian_word(bytes, offset), largest));
     };
     return {number(start.size()), number(start.size() + 4)};
 }
@@ -77,21 +77,21 @@ bool is_whole_png(std::string_view bytes)
 {
     constexpr std::size_t signature_bytes = 8;
     constexpr std::size_t frame_bytes = 12; // length, type and checksum
-    std::size_t place = signature_bytes;
-    while (bytes.size() >= place + frame_bytes) {
-        const std::size_t length = big_endian_word(bytes, place);
-        if (length > bytes.size() - place - frame_bytes) {
+    std::size_t offset = signature_bytes;
+    while (bytes.size() >= offset + frame_bytes) {
+        const std::size_t length = big_endian_word(bytes, offset);
+        if (length > bytes.size() - offset - frame_bytes) {
             return false;
         }
-        const std::string_view summed = bytes.substr(place + 4, 4 + length);
+        const std::string_view summed = bytes.substr(offset + 4, 4 + length);
         const uLong sum = crc32_z(
             0, static_cast<const Bytef*>(static_cast<const void*>(summed.data())), summed.size());
-        if (sum != big_endian_word(bytes, place + 8 + length)) {
+        if (sum != big_endian_word(bytes, offset + 8 + length)) {
             return false;
         }
-        place += frame_bytes + length;
+        offset += frame_bytes + length;
         if (summed.starts_with("IEND")) {
-            return place == bytes.size();
+            return offset == bytes.size();
         }
     }
     return false;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/case/layers.hpp"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 #include "analysis/comparison.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 #include "scene/vec.hpp"
 
 #include <filesystem>

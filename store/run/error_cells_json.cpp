@@ -139,8 +139,8 @@ std::optional<LightDistanceBand> band_from_text(std::string_view text)
 {
     static const auto bands = [] {
         std::map<std::string, LightDistanceBand, std::less<>> all;
-        for (int place = LightDistanceBand::lowest; place <= LightDistanceBand::highest; ++place) {
-            all.emplace(band_text({place}), LightDistanceBand{place});
+        for (int index = LightDistanceBand::lowest; index <= LightDistanceBand::highest; ++index) {
+            all.emplace(band_text({index}), LightDistanceBand{index});
         }
         return all;
     }();

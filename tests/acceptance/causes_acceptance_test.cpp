@@ -337,7 +337,7 @@ void expect_every_combination_explained(const std::string& builtin, const Keys& 
 
 const Keys small{{"image.width", "240"}, {"image.height", "135"}, {"shadow_map.resolution", "256"}};
 
-TEST(Causes, EveryWrongPixelHasOneWhateverFilterPolicyAndCulling)
+TEST(Causes, EveryWrongPixelHasOneWhateverFilterBorderAndCulling)
 {
     GNOMON_REQUIRE_GL();
     for (const char* builtin : {"sphere-cube", "wall"}) {

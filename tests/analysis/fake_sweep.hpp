@@ -38,7 +38,7 @@ inline std::string text_of(const std::optional<Quantiles>& value)
 inline std::string text_of(const ErrorCell& cell)
 {
     std::string text =
-        fmt::format("{} {} {} {}", cell.object, cell.band.place, cell.lit, cell.blocked);
+        fmt::format("{} {} {} {}", cell.object, cell.band.index, cell.lit, cell.blocked);
     for (const KindOfError& kind : cell.errors) {
         text += fmt::format(" {}{}{}:{} {}", kind.is_false_lit, static_cast<int>(kind.cause),
                             static_cast<int>(kind.label), kind.pixels, kind.amount);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/layers.hpp"
+#include "scene/pixel_layers.hpp"
 
 #include <vector>
 

@@ -147,15 +147,15 @@ class Lookup:
         return {(x + i, y + j) for x, y in taps for j in (-1, 0, 1) for i in (-1, 0, 1)}
 
     def resolve(self, texel):
-        """The map's texel that is looked up, or None where the policy decides."""
+        """The map's texel that is looked up, or None where the border mode decides."""
         n = self.settings.resolution
         if self.settings.outside == "clamp":
             return (min(max(texel[0], 0), n - 1), min(max(texel[1], 0), n - 1))
         inside = 0 <= texel[0] < n and 0 <= texel[1] < n
         return texel if inside and not self.is_beyond_far else None
 
-    def is_decided_by_policy(self):
-        """Whether the policy decides the whole lookup."""
+    def is_decided_by_border(self):
+        """Whether the border mode decides the whole lookup."""
         return all(self.resolve(texel) is None for texel in self.footprint())
 
 
@@ -168,7 +168,7 @@ class Settings:
         self.taps = int(self.filter[3:]) if self.filter.startswith("pcf") else 1
         self.outside = job["lookup.outside"]
         self.is_reversed = job["shadow_map.reversed"]
-        self.policy_is_lit = self.outside == "lit"
+        self.border_is_lit = self.outside == "lit"
 
     def is_lit(self, receiver, stored):
         return bool(receiver >= stored if self.is_reversed else receiver <= stored)
@@ -179,9 +179,9 @@ class Settings:
     def biased_exactly(self, receiver, bias):
         return receiver + Fraction(float(bias)) if self.is_reversed else receiver - Fraction(float(bias))
 
-    def policy_depth(self):
+    def border_depth(self):
         """The depth that a texel outside has for linear."""
-        return 0 if self.policy_is_lit == self.is_reversed else 1
+        return 0 if self.border_is_lit == self.is_reversed else 1
 
 
 class Pixel:
@@ -218,9 +218,9 @@ class Pixel:
         compared = self.settings.biased_float(self.job_lookup.depth, self.bias)
         if looked_up is not None:
             return self.settings.is_lit(compared, self.stored_depth(looked_up))
-        if self.settings.filter == "linear" and not self.job_lookup.is_decided_by_policy():
-            return self.settings.is_lit(compared, self.settings.policy_depth())
-        return self.settings.policy_is_lit
+        if self.settings.filter == "linear" and not self.job_lookup.is_decided_by_border():
+            return self.settings.is_lit(compared, self.settings.border_depth())
+        return self.settings.border_is_lit
 
     def shadowing_taps(self):
         return [texel for texel in self.job_lookup.footprint() if not self.tap_is_lit_in_job(texel)]
@@ -228,21 +228,21 @@ class Pixel:
     def job_verdict(self):
         """V0 again, from the stored depths; None where it interpolates, which GL does in its own way."""
         if self.settings.filter == "linear":
-            if self.job_lookup.is_decided_by_policy():
-                return Fraction(self.settings.policy_is_lit)
+            if self.job_lookup.is_decided_by_border():
+                return Fraction(self.settings.border_is_lit)
             compared = self.settings.biased_float(self.job_lookup.depth, self.bias)
             return Fraction(self.settings.is_lit(compared, numpy.float32(self.job_lookup.map_depth)))
         taps = self.job_lookup.footprint()
         return 1 - Fraction(len(self.shadowing_taps()), len(taps))
 
     def mean_of_taps(self, compare):
-        """A verdict without bias: the policy goes first, then a blocked pixel's self-shadowing surface, then the depths."""
+        """A verdict without bias: the border goes first, then a blocked pixel's self-shadowing surface, then the depths."""
         lit = 0
         taps = self.lookup.footprint()
         for tap in taps:
             texel = self.lookup.resolve(tap)
             if texel is None:
-                lit += self.settings.policy_is_lit
+                lit += self.settings.border_is_lit
             else:
                 lit += (self.truth == BLOCKED and self.sees_own_sheet(texel)) or compare(texel)
         return Fraction(lit, len(taps))
@@ -266,16 +266,16 @@ class Pixel:
         """V1."""
         if self.settings.filter != "linear":
             return self.mean_of_taps(self.compare_stored)
-        if self.lookup.is_decided_by_policy():
-            return Fraction(self.settings.policy_is_lit)
+        if self.lookup.is_decided_by_border():
+            return Fraction(self.settings.border_is_lit)
         return Fraction(self.settings.is_lit(self.lookup.depth, numpy.float32(self.lookup.map_depth)))
 
     def exact_verdict(self):
         """V2."""
         if self.settings.filter != "linear":
             return self.mean_of_taps(self.compare_exact)
-        if self.lookup.is_decided_by_policy():
-            return Fraction(self.settings.policy_is_lit)
+        if self.lookup.is_decided_by_border():
+            return Fraction(self.settings.border_is_lit)
         return Fraction(self.settings.is_lit(self.exact_compared(), self.interpolated_depth()))
 
     def interpolated_depth(self):
@@ -286,7 +286,7 @@ class Pixel:
         total = Fraction(0)
         for i, j, weight in ((0, 0, (1 - x) * (1 - y)), (1, 0, x * (1 - y)), (0, 1, (1 - x) * y), (1, 1, x * y)):
             texel = self.lookup.resolve((left + i, bottom + j))
-            depth = self.settings.policy_depth() if texel is None else self.view.seen_depth(texel)
+            depth = self.settings.border_depth() if texel is None else self.view.seen_depth(texel)
             total += weight * depth
         return total
 
@@ -294,7 +294,7 @@ class Pixel:
         """V2n."""
         texel = self.lookup.resolve(self.lookup.centre())
         if texel is None:
-            return Fraction(self.settings.policy_is_lit)
+            return Fraction(self.settings.border_is_lit)
         own = self.sees_own_sheet(texel)
         if self.truth == BLOCKED:
             return Fraction(own or self.compare_exact(texel))
@@ -308,7 +308,7 @@ class Pixel:
             if outside or self.lookup.is_at_far:
                 return self.single_verdict()
         elif outside or self.lookup.is_beyond_far:
-            return Fraction(self.settings.policy_is_lit)
+            return Fraction(self.settings.border_is_lit)
         found, _ = geometry.crossings(self.view.mesh, self.triangle, self.point, self.view.light, self.view.is_kept)
         depths = (self.view.depth(geometry.point_on_way(self.point, self.view.light, s)) for s, _ in found)
         return Fraction(not any(0 <= depth <= 1 for depth in depths))
@@ -326,7 +326,7 @@ class Pixel:
 
     def repairs_by_map(self, verdict):
         """A repair by V1 or V2: of a verdict that is not made of taps none by the pixel's own shadow."""
-        if self.settings.filter == "linear" and self.truth == BLOCKED and not self.lookup.is_decided_by_policy() \
+        if self.settings.filter == "linear" and self.truth == BLOCKED and not self.lookup.is_decided_by_border() \
                 and self.centre_sees_own_sheet():
             return False
         return self.repairs(verdict)

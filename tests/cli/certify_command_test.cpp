@@ -1,4 +1,4 @@
-#include "cli/certify_command.hpp"
+#include "cli/certify/certify_command.hpp"
 
 #include "analysis/comparison.hpp"
 #include "reference_rt/certificate/pixel.hpp"

@@ -175,9 +175,9 @@ class ErrorsVsZ(unittest.TestCase):
             assert_array_equal(steps.edges, edges)
         for label, key in (("false shadow, best bias", "false_shadow_rate"),
                            ("false lit, best bias", "false_lit_rate")):
-            zeta, percent = drawn[label].get_data()
+            light_distance_m, percent = drawn[label].get_data()
             assert_array_equal(percent, 100 * numbers(self.best, key))
-            assert_array_equal(zeta, 0.5 * (edges[1:] + edges[:-1]))
+            assert_array_equal(light_distance_m, 0.5 * (edges[1:] + edges[:-1]))
 
     def test_draws_the_pixels_of_each_bin(self):
         drawn = by_label(self.figure.axes[1])

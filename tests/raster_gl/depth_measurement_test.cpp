@@ -237,7 +237,7 @@ TEST(DepthMeasurement, TransformsErrorStaysBelowTheTheorysBound)
                           analysis::transform_error_m(
                               mapping, analysis::TransformOrder::premultiplied,
                               row.light_distance_m, std::max(row_sum_m, row.light_distance_m)))
-                    << "offset " << offset_m << " zeta " << row.light_distance_m;
+                    << "offset " << offset_m << " light distance " << row.light_distance_m;
             }
         }
     }

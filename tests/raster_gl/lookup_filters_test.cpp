@@ -112,7 +112,7 @@ TEST(HardwareLookup, WeighsTheFourComparisons)
     }
 }
 
-TEST(FilteredLookup, AnswersThePolicyWhereTheWholeFootprintIsOutside)
+TEST(FilteredLookup, AnswersTheBorderModeWhereTheWholeFootprintIsOutside)
 {
     GNOMON_REQUIRE_GL();
     for (const char* filter : {"linear", "hardware"}) {

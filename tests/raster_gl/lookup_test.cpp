@@ -149,7 +149,7 @@ std::vector<scene::Override> with(std::vector<scene::Override> keys)
     return keys;
 }
 
-TEST(Lookup, EqualsArithmeticByHandForEveryFilterPolicyAndFormat)
+TEST(Lookup, EqualsArithmeticByHandForEveryFilterBorderAndFormat)
 {
     GNOMON_REQUIRE_GL();
     const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
@@ -192,7 +192,7 @@ std::vector<scene::Override> small_map(const char* outside)
                  {"lookup.outside", outside}});
 }
 
-TEST(Lookup, AnswersThePolicyBeyondTheMap)
+TEST(Lookup, AnswersTheBorderModeBeyondTheMap)
 {
     GNOMON_REQUIRE_GL();
     for (const char* outside : {"lit", "shadowed", "clamp"}) {

@@ -4,6 +4,7 @@
 #include "reference_rt/light/texel_rays.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
+#include "scene/view/view.hpp"
 
 #include <functional>
 #include <limits>

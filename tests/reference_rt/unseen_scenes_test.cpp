@@ -238,18 +238,18 @@ INSTANTIATE_TEST_SUITE_P(Kinds, UnseenScene,
                                          Unseen{"boxes, diagonal", touching_boxes, diagonal},
                                          Unseen{"boxes, orthographic", touching_boxes, diagonal,
                                                 scene::Projection::orthographic},
-                                         Unseen{"boxes, lamp", touching_boxes, positional},
+                                         Unseen{"boxes, positional", touching_boxes, positional},
                                          Unseen{"sheets, slanted", coplanar_sheets, slanted},
-                                         Unseen{"sheets, lamp", coplanar_sheets, positional},
+                                         Unseen{"sheets, positional", coplanar_sheets, positional},
                                          Unseen{"strip, upright", folded_strip, upright},
-                                         Unseen{"strip, lamp", folded_strip, positional},
+                                         Unseen{"strip, positional", folded_strip, positional},
                                          Unseen{"soup, slanted", soup, slanted},
-                                         Unseen{"soup, lamp, orthographic", soup, positional,
+                                         Unseen{"soup, positional, orthographic", soup, positional,
                                                 scene::Projection::orthographic}));
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SceneOnTheSamplingLattice,
                          testing::Values(Unseen{"boxes, diagonal", touching_boxes, diagonal},
-                                         Unseen{"boxes, lamp", touching_boxes,
+                                         Unseen{"boxes, positional", touching_boxes,
                                                 spot({0.0625, 3, 0.0625}, {0, 0, 0}, 150)},
                                          Unseen{"strip, diagonal", folded_strip, diagonal}));
 

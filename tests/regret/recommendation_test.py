@@ -197,8 +197,9 @@ class Regret(unittest.TestCase):
 class Frustum:
     """What `carried` reads of a view."""
 
-    def __init__(self, near_m, far_m, zeta_m=None):
-        self.near_m, self.far_m, self.median_zeta_m, self.is_spot = near_m, far_m, zeta_m, zeta_m is not None
+    def __init__(self, near_m, far_m, light_distance_m=None):
+        self.near_m, self.far_m, self.median_light_distance_m = near_m, far_m, light_distance_m
+        self.is_spot = light_distance_m is not None
 
 
 class Carried(unittest.TestCase):
@@ -211,8 +212,8 @@ class Carried(unittest.TestCase):
         def metres(bias, frustum):
             """How far the bias moves the median receiver towards the light, by way of its depth."""
             per_metre = 1 / frustum.near_m - 1 / frustum.far_m
-            depth = (1 / frustum.near_m - 1 / frustum.median_zeta_m) / per_metre - bias
-            return frustum.median_zeta_m - 1 / (1 / frustum.near_m - per_metre * depth)
+            depth = (1 / frustum.near_m - 1 / frustum.median_light_distance_m) / per_metre - bias
+            return frustum.median_light_distance_m - 1 / (1 / frustum.near_m - per_metre * depth)
 
         bias = float32(0.01)
         # The bias is rounded to float32 once, and metres are nearly in proportion to it.

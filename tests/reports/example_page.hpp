@@ -6,8 +6,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 namespace gnomon::reports {
+
+/// What a page must show, and not follow.
+inline const std::string hostile_text =
+    "</script><img src=x onerror=alert(1)> \"'&\u202e\U0001f600";
 
 /// Writes the report of a run and reads it back.
 /// @param most_image_bytes  Of all layers.

@@ -1,5 +1,6 @@
 #include "scene/error.hpp"
 #include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

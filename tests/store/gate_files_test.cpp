@@ -58,9 +58,9 @@ TEST(ErrorCells, ReadBackAsTheyWereWritten)
     EXPECT_EQ(floor.at("[4, 8)").at("shadow_amount.filter.edge"), 2.5);
     EXPECT_FALSE(floor.at("[4, 8)").contains("false_shadow.filter.edge")) << "none is wrong";
     EXPECT_EQ(floor.at("[-8, -4)").at("shadow_amount.bias.overshadow"), 0.75);
-    for (int place = analysis::LightDistanceBand::lowest;
-         place <= analysis::LightDistanceBand::highest; ++place) {
-        EXPECT_EQ(band_from_text(band_text({place})), analysis::LightDistanceBand{place}) << place;
+    for (int index = analysis::LightDistanceBand::lowest;
+         index <= analysis::LightDistanceBand::highest; ++index) {
+        EXPECT_EQ(band_from_text(band_text({index})), analysis::LightDistanceBand{index}) << index;
     }
 }
 

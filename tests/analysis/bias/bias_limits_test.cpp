@@ -48,7 +48,7 @@ TEST(BiasBounds, AreInfiniteWhereNothingLimits)
     }
 }
 
-TEST(BiasBounds, AreOutOfReachWherePolicyDecides)
+TEST(BiasBounds, AreOutOfReachWhereTheBorderDecides)
 {
     const BiasBounds bounds = bounds_of({{lit, infinity, true}, {blocked, -infinity}});
     EXPECT_EQ(bounds.strict.acne_free, infinity);

@@ -123,7 +123,7 @@ TEST(BiasRows, CountAPixelOnEitherSideOfItsCriticalBias)
     EXPECT_EQ(text_of(rows[4]), "0 1 | 1 0 0 0 | 0 1 0 0 0");
 }
 
-TEST(BiasRows, CountPolicyPixelsAtEveryBias)
+TEST(BiasRows, CountBorderPixelsAtEveryBias)
 {
     Subject subject{{2, 1}};
     subject.classes[0] = PixelClass::lit;

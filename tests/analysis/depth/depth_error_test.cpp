@@ -105,9 +105,9 @@ TEST(Sawtooth, NeverLeavesTheEnvelope)
                     std::abs(stored_depth(mapping, coding, light_distance_m).error_m);
                 const double slack_m = rounding * mapping.slope_m(light_distance_m);
                 ASSERT_LE(error_m, error_envelope_m(mapping, coding, light_distance_m) + slack_m)
-                    << bits << " bits, zeta " << light_distance_m;
+                    << bits << " bits, light distance " << light_distance_m;
                 ASSERT_LE(error_m, largest_m + slack_m)
-                    << bits << " bits, zeta " << light_distance_m;
+                    << bits << " bits, light distance " << light_distance_m;
             }
         }
     }

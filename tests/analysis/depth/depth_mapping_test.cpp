@@ -122,7 +122,7 @@ TEST(DepthMapping, ErrorOfAStoredDepthIsTheDifferenceOfItsDistances)
                     EXPECT_NEAR(mapping.stored_error_m(light_distance_m, coding.split_depth(code)),
                                 difference_m, 20 * 0x1p-53 * larger_m)
                         << mapping.near_m() << " to " << mapping.far_m() << ", " << coding.bits()
-                        << " bits, code " << code << ", zeta " << light_distance_m;
+                        << " bits, code " << code << ", light distance " << light_distance_m;
                 }
             }
         }

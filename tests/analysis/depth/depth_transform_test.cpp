@@ -132,7 +132,7 @@ TEST(TransformError, BoundsFloat32EvaluationOfBothOrders)
     }
 }
 
-TEST(TransformError, GrowsWithZetaOverNearWhenPremultiplied)
+TEST(TransformError, GrowsWithLightDistanceOverNearWhenPremultiplied)
 {
     const DepthMapping mapping{{Projection::perspective, 0.1, 100, false, {}}};
     const double premultiplied_m =

@@ -38,7 +38,7 @@ TEST(LightDistanceBands, AreTheOctavesOfTheDistance)
     EXPECT_EQ(band.lower_m(), 4);
     EXPECT_EQ(band.upper_m(), 8);
     EXPECT_EQ(light_distance_band_of(std::nextafter(8.0F, 0.0F)), band);
-    EXPECT_EQ(light_distance_band_of(8).place, band.place + 1);
+    EXPECT_EQ(light_distance_band_of(8).index, band.index + 1);
     EXPECT_EQ(light_distance_band_of(-4).lower_m(), -4) << "the lower end belongs to a band";
     EXPECT_EQ(light_distance_band_of(-4).upper_m(), -2);
     EXPECT_EQ(light_distance_band_of(std::nextafter(-4.0F, -5.0F)).lower_m(), -8);
@@ -47,17 +47,17 @@ TEST(LightDistanceBands, AreTheOctavesOfTheDistance)
 TEST(LightDistanceBands, HoldAllDistances)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    EXPECT_EQ(light_distance_band_of(-infinity).place, LightDistanceBand::lowest);
-    EXPECT_EQ(light_distance_band_of(infinity).place, LightDistanceBand::highest);
-    EXPECT_EQ(light_distance_band_of(0).place, 0);
-    EXPECT_EQ(light_distance_band_of(-0.0F).place, 0);
-    EXPECT_EQ(light_distance_band_of(-std::numeric_limits<float>::denorm_min()).place, -1);
-    for (int place = LightDistanceBand::lowest; place <= LightDistanceBand::highest; ++place) {
-        const auto lower_m = static_cast<float>(LightDistanceBand{place}.lower_m());
-        const auto upper_m = static_cast<float>(LightDistanceBand{place}.upper_m());
-        EXPECT_EQ(light_distance_band_of(lower_m).place, place);
-        EXPECT_EQ(light_distance_band_of(std::nextafter(upper_m, -infinity)).place, place);
-        EXPECT_EQ(upper_m, LightDistanceBand{place + 1}.lower_m());
+    EXPECT_EQ(light_distance_band_of(-infinity).index, LightDistanceBand::lowest);
+    EXPECT_EQ(light_distance_band_of(infinity).index, LightDistanceBand::highest);
+    EXPECT_EQ(light_distance_band_of(0).index, 0);
+    EXPECT_EQ(light_distance_band_of(-0.0F).index, 0);
+    EXPECT_EQ(light_distance_band_of(-std::numeric_limits<float>::denorm_min()).index, -1);
+    for (int index = LightDistanceBand::lowest; index <= LightDistanceBand::highest; ++index) {
+        const auto lower_m = static_cast<float>(LightDistanceBand{index}.lower_m());
+        const auto upper_m = static_cast<float>(LightDistanceBand{index}.upper_m());
+        EXPECT_EQ(light_distance_band_of(lower_m).index, index);
+        EXPECT_EQ(light_distance_band_of(std::nextafter(upper_m, -infinity)).index, index);
+        EXPECT_EQ(upper_m, LightDistanceBand{index + 1}.lower_m());
     }
 }
 

@@ -241,7 +241,7 @@ TEST(CriticalBiases, MultipliesSlopeAndTangentInFloat32)
     EXPECT_EQ(result[0], critical_bias({0.5F, 0.25F, 0.1F * 0.3F}));
 }
 
-TEST(CriticalBiases, AreInfiniteWhereThePolicyDecides)
+TEST(CriticalBiases, AreInfiniteWhereTheBorderDecides)
 {
     const auto border = layers_of({{2.0F, std::nanf(""), 0, 1}});
     EXPECT_EQ(critical_biases(border, {.outside = scene::Outside::lit})[0], -infinity);

@@ -46,7 +46,7 @@ TEST(DecidingSamples, TakeTheMedianTap)
     EXPECT_EQ(pcf.deciding(receiver, {2.5F, 2.5F}), Pcf::depth(2, 2));
 }
 
-TEST(DecidingSamples, CountTapsOutsideByThePolicy)
+TEST(DecidingSamples, CountTapsOutsideByTheBorderMode)
 {
     Pcf pcf;
     // Around (0, 0) four taps are inside: 1, 2, 5, 6 of 32; five are outside and decide.
@@ -77,7 +77,7 @@ TEST(DecidingSamples, ReachIntoTheMapFromOutside)
     EXPECT_EQ(pcf.deciding(receiver, {2.5F, -0.5F}), 4.0F / 32.0F);
 }
 
-TEST(DecidingSamples, LeaveTheWholeReceiverToThePolicyBeyondFar)
+TEST(DecidingSamples, LeaveTheWholeReceiverToTheBorderModeBeyondFar)
 {
     Pcf pcf;
     const float nan = std::nanf("");

@@ -128,7 +128,7 @@ std::string quad_with_camera(int distance_m, bool is_lit)
     }
     gltf.nodes = fmt::format(
         R"([{{"name":"quad","mesh":0}},{{"camera":0,"translation":[0.5,0.5,{}]}},)"
-        R"({{"name":"lamp"{}}}])",
+        R"({{"name":"light"{}}}])",
         distance_m, is_lit ? R"(,"extensions":{"KHR_lights_punctual":{"light":0}})" : "");
     gltf.roots = "[0,1,2]";
     return gltf.text();

@@ -72,7 +72,7 @@ TEST(ShadowSigns, FindACrossingAboveThePointForBothLightsAndBothWindings)
         EXPECT_EQ(contact(receiver_at(0.125, 0), turned, light), Contact::cross);
         EXPECT_EQ(contact(receiver_at(3, 0), roof, light), Contact::none);
     }
-    // Beyond the lamp nothing blocks.
+    // Beyond the light nothing blocks.
     EXPECT_EQ(contact(receiver_at(0.125, 0), roof, positional({0, 0.5, 0}, {0, -1, 0}, 0.5)),
               Contact::none);
 }

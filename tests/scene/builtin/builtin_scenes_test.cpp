@@ -1,5 +1,6 @@
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
+#include "scene/view/view.hpp"
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>

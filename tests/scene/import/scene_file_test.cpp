@@ -306,7 +306,7 @@ QuadGltf gltf_with_lights(std::string_view lights, std::string_view nodes, std::
 std::string light_node(int light, std::string_view more = "")
 {
     return fmt::format(
-        R"({{"name":"lamp{}",{}"extensions":{{"KHR_lights_punctual":{{"light":{}}}}}}})", light,
+        R"({{"name":"light{}",{}"extensions":{{"KHR_lights_punctual":{{"light":{}}}}}}})", light,
         more, light);
 }
 

@@ -64,7 +64,7 @@ TEST(JobFile, ReadsTheExample)
     EXPECT_EQ(read.sweep.axes[0].values.size(), 31U);
     ASSERT_EQ(read.cases.size(), 2U);
     EXPECT_EQ(read_job(path, {}, "noon").job.light->direction, Vec3d(0, -1, 0.1));
-    const Job positional = read_job(path, {}, "lamp").job;
+    const Job positional = read_job(path, {}, "spot").job;
     EXPECT_EQ(positional.light->type, LightType::spot);
     EXPECT_FALSE(positional.bias.constant_m);
 }

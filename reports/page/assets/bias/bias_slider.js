@@ -25,10 +25,11 @@ function biasGoals(image) {
 function biasLengths(image, bias) {
   const { frustum } = image;
   if (frustum.projection === "perspective") {
-    const zetaM = image.medianDistanceM;
-    const lengthM = biasLengthM(frustum, bias, zetaM);
-    const texels = readable(lengthM / texelWidthM(frustum, zetaM));
-    return `${readable(lengthM)} m or ${texels} texels at ${readable(zetaM)} m from the light, the pixels’ median distance`;
+    const lightDistanceM = image.medianDistanceM;
+    const lengthM = biasLengthM(frustum, bias, lightDistanceM);
+    const texels = readable(lengthM / texelWidthM(frustum, lightDistanceM));
+    const distance = `${readable(lightDistanceM)} m from the light, the pixels’ median distance`;
+    return `${readable(lengthM)} m or ${texels} texels at ${distance}`;
   }
   const lengthM = biasLengthM(frustum, bias, 0);
   return `${readable(lengthM)} m along the light, ${readable(lengthM / texelWidthM(frustum, 0))} texels`;

@@ -3,23 +3,23 @@
 /**
  * @param {object} frustum  as in the page's data
  * @param {number} bias  depth units
- * @param {number} zetaM  distance from the light's camera plane [m]
+ * @param {number} lightDistanceM  distance from the light's camera plane [m]
  * @return {number}  how far the bias moves a receiver towards the light [m]
  */
-function biasLengthM(frustum, bias, zetaM) {
+function biasLengthM(frustum, bias, lightDistanceM) {
   if (!Number.isFinite(bias)) {
     return bias;
   }
   if (frustum.projection !== "perspective") {
     return bias * frustum.range_m;
   }
-  const relative = frustum.inverse_range_per_m * bias * zetaM;
-  return relative <= -1 ? -Infinity : (relative * zetaM) / (1 + relative);
+  const relative = frustum.inverse_range_per_m * bias * lightDistanceM;
+  return relative <= -1 ? -Infinity : (relative * lightDistanceM) / (1 + relative);
 }
 
-/** @return {number}  world width of a texel at zetaM [m] */
-function texelWidthM(frustum, zetaM) {
-  return frustum.projection === "perspective" ? frustum.texel_m * zetaM : frustum.texel_m;
+/** @return {number}  world width of a texel at lightDistanceM [m] */
+function texelWidthM(frustum, lightDistanceM) {
+  return frustum.projection === "perspective" ? frustum.texel_m * lightDistanceM : frustum.texel_m;
 }
 
 /**
@@ -39,18 +39,18 @@ function neededBias(pixelClass, critical) {
  * Needed and allowed biases of every pixel.
  * @param {Uint8Array} classes  (pixels)
  * @param {Float32Array} criticals  (pixels)
- * @param {Float32Array} zetas  distances from the light's camera plane (pixels) [m]
+ * @param {Float32Array} lightDistancesM  distances from the light's camera plane (pixels) [m]
  * @param {object} frustum
  * @return {{metres: Float32Array, texels: Float32Array}}  (pixels); NaN where nothing is scored
  */
-function neededBiases(classes, criticals, zetas, frustum) {
+function neededBiases(classes, criticals, lightDistancesM, frustum) {
   const metres = new Float32Array(classes.length).fill(NaN);
   const texels = new Float32Array(classes.length).fill(NaN);
   for (let i = 0; i < classes.length; ++i) {
     if (isScored(classes[i])) {
-      const lengthM = biasLengthM(frustum, neededBias(classes[i], criticals[i]), zetas[i]);
+      const lengthM = biasLengthM(frustum, neededBias(classes[i], criticals[i]), lightDistancesM[i]);
       metres[i] = lengthM;
-      texels[i] = lengthM / texelWidthM(frustum, zetas[i]);
+      texels[i] = lengthM / texelWidthM(frustum, lightDistancesM[i]);
     }
   }
   return { metres, texels };

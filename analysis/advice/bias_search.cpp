@@ -1,0 +1,340 @@
+#include "analysis/advice/bias_search.hpp"
+
+#include "analysis/bias/bias_units.hpp"
+#include "analysis/bias/tried_biases.hpp"
+#include "analysis/lookup/deciding_samples.hpp"
+#include "scene/error.hpp"
+#include "scene/infinity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace gnomon::analysis {
+
+namespace {
+
+constexpr float largest_bias = std::numeric_limits<float>::max();
+
+/// A bias that a lookup takes: no subnormal one, none infinite.
+float as_bias(double bias)
+{
+    if (bias >= double{largest_bias}) {
+        return largest_bias;
+    }
+    const auto rounded = static_cast<float>(bias);
+    return std::isnormal(rounded) ? rounded : 0.0F;
+}
+
+std::optional<BiasInterval> common(const BiasInterval& a, const BiasInterval& b)
+{
+    const BiasInterval both{std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+    return both.lo <= both.hi ? std::optional{both} : std::nullopt;
+}
+
+/// Merges ascending lists.
+std::vector<float> merged(std::vector<float> a, const std::vector<float>& b)
+{
+    const auto middle = static_cast<std::ptrdiff_t>(a.size());
+    a.insert(a.end(), b.begin(), b.end());
+    std::inplace_merge(a.begin(), a.begin() + middle, a.end());
+    return a;
+}
+
+bool is_same_map(const scene::Job& a, const scene::View& view_a, const scene::Job& b,
+                 const scene::View& view_b)
+{
+    return view_a.frustum.light_clip_from_world == view_b.frustum.light_clip_from_world &&
+           view_a.frustum.reversed == view_b.frustum.reversed &&
+           view_a.frustum.clip_range == view_b.frustum.clip_range &&
+           a.shadow_map.resolution_texels == b.shadow_map.resolution_texels &&
+           a.shadow_map.depth_format == b.shadow_map.depth_format &&
+           a.shadow_map.cull == b.shadow_map.cull;
+}
+
+/// Neighbouring biases with which all outcomes meet the limits, as intervals.
+std::vector<BiasInterval> meeting_runs(std::span<const float> biases,
+                                       const std::vector<bool>& meets_at)
+{
+    std::vector<BiasInterval> runs;
+    for (std::size_t i = 0; i < biases.size(); ++i) {
+        if (meets_at[i] && i > 0 && meets_at[i - 1]) {
+            runs.back().hi = biases[i];
+        } else if (meets_at[i]) {
+            runs.push_back({biases[i], biases[i]});
+        }
+    }
+    return runs;
+}
+
+} // namespace
+
+BiasSearch::BiasSearch(const scene::SceneFile& file, const Renderers& renderers, bool in_metres)
+    : file_{file},
+      renderers_{renderers},
+      in_metres_{in_metres}
+{
+}
+
+bool BiasSearch::has_fractions() const
+{
+    return scene::promises(views_.front().job.lookup.filter).has_fractions();
+}
+
+void BiasSearch::draw(std::size_t view) const
+{
+    if (drawn_ == view) {
+        return;
+    }
+    const SearchedView& now = views_[view];
+    renderers_.draw_receivers(now.view);
+    if (!drawn_ || !is_same_map(views_[*drawn_].job, views_[*drawn_].view, now.job, now.view)) {
+        renderers_.draw_shadow_map(now.job, now.view);
+    }
+    drawn_ = view;
+}
+
+void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
+{
+    SearchedView& added = views_.emplace_back();
+    added.job = job;
+    added.job.bias = {.normal_texels = job.bias.normal_texels};
+    if (views_.size() == 1) {
+        told_like_ = job.bias;
+    }
+    added.view = scene::resolve_view(added.job, file_.scene, file_.defaults);
+    added.set_constant = scene::resolve_bias(job.bias, added.view.frustum).constant;
+    added.judged = &judged;
+    const bool is_directional = added.view.frustum.projection == scene::Projection::orthographic;
+    if (views_.size() == 1 && in_metres_ && is_directional && !told_like_.constant_m) {
+        told_like_.constant_m = 0; // carried from light to light as a length
+    }
+    draw(views_.size() - 1);
+    scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);
+    if (!has_fractions()) {
+        const auto texels = lookup.texels;
+        added.deciding =
+            deciding_samples(std::move(lookup), texels, {}, lookup_rule(added.job, added.view));
+        return;
+    }
+    if (!renderers_.make_exact_light) {
+        throw scene::InputError("lookup.filter: only the exact truth tells the borders that a "
+                                "filter softens from errors; leave out --truth float");
+    }
+    auto receivers = std::make_shared<JudgedReceivers>(judged.receivers, judged.truth,
+                                                       ReceiverUse{false, false});
+    auto exact = std::make_shared<ExactLightCache>(file_.scene, std::move(receivers), added.job,
+                                                   added.view, renderers_);
+    added.answers = std::make_unique<LookupAnswers>(
+        std::move(exact), observe_lookup(added.job, added.view, std::move(lookup), renderers_));
+}
+
+float BiasSearch::carried(std::size_t to, float bias) const
+{
+    if (!shares_metres() || to == 0 || !(bias > 0)) {
+        return bias;
+    }
+    const SearchedView& own = views_.front();
+    const double length_m =
+        bias_length_m(own.view.frustum, double{bias}, own.judged->median_light_distance_m);
+    return as_bias(bias_of_length(views_[to].view.frustum, length_m,
+                                  views_[to].judged->median_light_distance_m));
+}
+
+float BiasSearch::carried_back(std::size_t from, float bias) const
+{
+    if (!shares_metres() || from == 0 || !(bias > 0) || std::isinf(bias)) {
+        return bias;
+    }
+    const SearchedView& own = views_.front();
+    const double length_m = bias_length_m(views_[from].view.frustum, double{bias},
+                                          views_[from].judged->median_light_distance_m);
+    return as_bias(bias_of_length(own.view.frustum, length_m, own.judged->median_light_distance_m));
+}
+
+std::vector<BiasCurve> BiasSearch::curves(float slope) const
+{
+    std::vector<BiasCurve> all;
+    for (const SearchedView& view : views_) {
+        LookupRule rule = lookup_rule(view.job, view.view);
+        rule.slope = slope;
+        all.emplace_back(critical_biases(view.deciding, rule), view.judged->truth.pixel_class);
+    }
+    return all;
+}
+
+BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
+                                         const TuneLimits& limits) const
+{
+    std::vector<float> lit;
+    std::vector<float> blocked;
+    std::optional<BiasInterval> allowed = BiasInterval{0.0F, scene::infinity};
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const auto back = [&](std::vector<float> criticals) {
+            std::ranges::transform(criticals, criticals.begin(),
+                                   [&](float critical) { return carried_back(i, critical); });
+            return criticals;
+        };
+        lit = merged(std::move(lit), back(curves[i].lit()));
+        blocked = merged(std::move(blocked), back(curves[i].blocked()));
+        const auto here = biases_within(curves[i], limits);
+        allowed = here && allowed
+                      ? common(*allowed, {carried_back(i, here->lo), carried_back(i, here->hi)})
+                      : std::nullopt;
+    }
+    Valley found{find_valley(error_pieces(lit, blocked)), {}};
+    if (allowed) {
+        found.allowed.push_back(*allowed);
+    }
+    return found;
+}
+
+std::vector<float> BiasSearch::fraction_biases(float slope) const
+{
+    if (!scene::promises(views_.front().job.lookup.filter).has_formula()) {
+        return coarse_biases();
+    }
+    const std::vector<float> biases = tried_biases();
+    std::vector<ErrorAmounts> sums(biases.size());
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        std::vector<float> here;
+        for (const float bias : biases) {
+            here.push_back(carried(view, bias));
+        }
+        const auto amounts = views_[view].answers->amounts_at(slope, here);
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            sums[i] += amounts[i];
+        }
+    }
+    const auto around = around_least(biases, sums);
+    return {around.begin(), around.end()};
+}
+
+ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float slope) const
+{
+    draw(view);
+    const SearchedView& searched = views_[view];
+    scene::View biased = searched.view;
+    biased.bias.constant = constant;
+    biased.bias.slope = slope;
+    const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
+    const int taps = scene::promises(searched.job.lookup.filter).equal_taps();
+    const Metrics metrics = analysis::measure(searched.judged->truth, own, taps);
+    const CauseAmounts amounts = searched.answers == nullptr
+                                     ? CauseAmounts{}
+                                     : searched.answers->causes_of(own, constant, slope).amounts;
+    return {constant, metrics, amounts.shadow_softening, amounts.light_softening};
+}
+
+std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
+                                                 std::span<const float> biases) const
+{
+    std::vector<float> here;
+    for (const float bias : biases) {
+        here.push_back(carried(view, bias));
+    }
+    std::vector<ViewOutcome> outcomes;
+    if (!scene::promises(views_[view].job.lookup.filter).has_formula()) {
+        for (const float bias : here) {
+            outcomes.push_back(measured_by_gl(view, bias, slope));
+        }
+        return outcomes;
+    }
+    for (const MeasuredBias& at : views_[view].answers->measure_biases(slope, here)) {
+        outcomes.push_back({at.bias, at.metrics, at.softening.shadow, at.softening.light});
+    }
+    return outcomes;
+}
+
+BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, float slope) const
+{
+    const std::vector<float> biases = fraction_biases(slope);
+    std::vector<ErrorPiece> pieces;
+    for (const float bias : biases) {
+        pieces.push_back({bias, bias, 0});
+    }
+    std::vector<bool> meets_at(biases.size(), true);
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        const auto outcomes = outcomes_in(view, slope, biases);
+        for (std::size_t i = 0; i < biases.size(); ++i) {
+            pieces[i].error += outcomes[i].error_amount();
+            meets_at[i] = meets_at[i] && meets(outcomes[i], limits);
+        }
+    }
+    if (pieces.back().hi >= 1) {
+        pieces.back().hi = scene::infinity; // from there on everything is lit
+    }
+    return {find_valley(pieces), meeting_runs(biases, meets_at)};
+}
+
+float BiasSearch::middle_of(const Valley& found) const
+{
+    return found.valley
+               ? allowed_bias(*found.valley, found.allowed).value_or(found.valley->middle())
+               : 0;
+}
+
+PastedBias BiasSearch::pasted_of(const Valley& found) const
+{
+    const float middle = middle_of(found);
+    BiasInterval within = found.valley ? found.valley->run : BiasInterval{};
+    for (const BiasInterval& allowed : found.allowed) {
+        if (allowed.lo <= middle && middle <= allowed.hi) {
+            within = common(within, allowed).value_or(allowed);
+        }
+    }
+    return pasted_bias(middle, within, told_like_, own_view().frustum);
+}
+
+FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const
+{
+    const bool is_soft = has_fractions();
+    const std::vector<BiasCurve> of_views = is_soft ? std::vector<BiasCurve>{} : curves(slope);
+    const Valley valley =
+        is_soft ? valley_of_fractions(limits, slope) : valley_of(of_views, limits);
+    FoundBias found{valley.valley ? valley.valley->run : BiasInterval{},
+                    middle_of(valley),
+                    pasted_of(valley),
+                    {},
+                    true};
+    const std::array<float, 1> constant{found.pasted.bias};
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        if (is_soft) {
+            found.outcomes.push_back(outcomes_in(view, slope, constant).front());
+        } else {
+            const float here = carried(view, constant.front());
+            const ErrorCounts errors = of_views[view].at(here);
+            found.outcomes.push_back(
+                {here,
+                 make_metrics(views_[view].judged->pixels,
+                              {errors.false_shadow, errors.false_lit,
+                               sum_amounts(of_views[view], std::array{here}).front()}),
+                 0, 0});
+        }
+        found.meets_limits = found.meets_limits && meets(found.outcomes.back(), limits);
+    }
+    return found;
+}
+
+std::vector<ViewOutcome> BiasSearch::measure_as_set(float slope) const
+{
+    std::vector<ViewOutcome> outcomes;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        outcomes.push_back(measured_by_gl(view, views_[view].set_constant, slope));
+    }
+    return outcomes;
+}
+
+std::vector<ViewOutcome> BiasSearch::measure(float constant, float slope) const
+{
+    std::vector<ViewOutcome> outcomes;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        outcomes.push_back(measured_by_gl(view, carried(view, constant), slope));
+    }
+    return outcomes;
+}
+
+} // namespace gnomon::analysis

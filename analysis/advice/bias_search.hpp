@@ -1,0 +1,108 @@
+#pragma once
+
+#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/tune_limits.hpp"
+#include "analysis/advice/view_outcome.hpp"
+#include "analysis/answers/lookup_answers.hpp"
+#include "analysis/bias/bias_valley.hpp"
+#include "analysis/bias/pasted_bias.hpp"
+#include "scene/pixel_layers.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// The constant bias that is recommended for some views, with one slope.
+struct FoundBias {
+    BiasInterval run;  ///< the valley's, in the job's own view; hi infinite: nothing limits it
+    float middle = 0;  ///< the recommended bias of the job's own view
+    PastedBias pasted; ///< one of the valley with few digits, as a job file has it
+    std::vector<ViewOutcome> outcomes; ///< with the pasted one, by view
+    bool meets_limits = false;         ///< in every view
+
+    /// In the job's own view [depth units].
+    [[nodiscard]] float constant() const { return outcomes.front().constant; }
+};
+
+/// Finds constant biases for one shadow map, filter and normal offset over several views: one
+/// lookup in each answers for all slopes and biases. Views of one light share the bias in depth
+/// units; under different lights they share its length in metres, at each one's median receiver.
+class BiasSearch {
+public:
+    /// All arguments, and the views added, must outlive the search.
+    /// @param in_metres  Whether the views' lights differ.
+    BiasSearch(const scene::SceneFile& file, const Renderers& renderers, bool in_metres);
+
+    /// Draws the view's receivers and map with these settings, and looks them up.
+    /// @param job  With the view's camera and light; its constant bias is that of `measure_as_set`,
+    ///             its slope is not looked at.
+    /// @throws scene::InputError  where verdicts can be fractions and the renderers have no exact
+    ///                            light, which tells softened borders from errors.
+    void add_view(const scene::Job& job, const JudgedView& judged);
+    [[nodiscard]] std::size_t view_count() const { return views_.size(); }
+    [[nodiscard]] const scene::View& own_view() const { return views_.front().view; }
+
+    /// The recommended constant bias, within the limits where they can be met: with few digits, if
+    /// such a one will do. Where each verdict is one comparison, limits that are not met then
+    /// cannot be met with any constant bias, but for what carrying it in metres rounds.
+    /// Source: docs/bias_curve.md#what-is-recommended.
+    [[nodiscard]] FoundBias find(const TuneLimits& limits, float slope) const;
+
+    /// What GL itself gives in each view, in the order in which they were added, with the constant
+    /// bias that its job sets, and a slope.
+    [[nodiscard]] std::vector<ViewOutcome> measure_as_set(float slope) const;
+    /// What GL itself gives in each view, in the same order, with a constant bias and slope.
+    /// @param constant  In the first view; carried to the others.
+    [[nodiscard]] std::vector<ViewOutcome> measure(float constant, float slope) const;
+
+private:
+    struct SearchedView {
+        scene::Job job;
+        scene::View view;
+        float set_constant = 0; ///< of its job [depth units]
+        const JudgedView* judged = nullptr;
+        scene::LookupLayers deciding;           ///< empty where verdicts are fractions
+        std::unique_ptr<LookupAnswers> answers; ///< there alone
+    };
+    /// A valley of all views, and the biases that meet the limits in each of them, in the units of
+    /// the first.
+    struct Valley {
+        std::optional<BiasValley> valley;
+        std::vector<BiasInterval> allowed; ///< ascending; empty: the limits cannot be met
+    };
+
+    /// Draws what a lookup of the view needs, where it is not what was drawn last.
+    void draw(std::size_t view) const;
+    [[nodiscard]] bool has_fractions() const;
+    [[nodiscard]] std::vector<BiasCurve> curves(float slope) const;
+    [[nodiscard]] Valley valley_of(const std::vector<BiasCurve>& curves,
+                                   const TuneLimits& limits) const;
+    [[nodiscard]] Valley valley_of_fractions(const TuneLimits& limits, float slope) const;
+    /// The biases of the first view that curves of fractions are asked about.
+    [[nodiscard]] std::vector<float> fraction_biases(float slope) const;
+    /// What each of them gives in a view.
+    [[nodiscard]] std::vector<ViewOutcome> outcomes_in(std::size_t view, float slope,
+                                                       std::span<const float> biases) const;
+    [[nodiscard]] ViewOutcome measured_by_gl(std::size_t view, float constant, float slope) const;
+    /// The bias to take of a valley, in the first view, and the same with few digits.
+    [[nodiscard]] float middle_of(const Valley& found) const;
+    [[nodiscard]] PastedBias pasted_of(const Valley& found) const;
+    /// Whether views share the bias's length, and not its depth units.
+    [[nodiscard]] bool shares_metres() const { return in_metres_ || told_like_.constant_m; }
+    /// A bias of the first view in another, and back.
+    [[nodiscard]] float carried(std::size_t to, float bias) const;
+    [[nodiscard]] float carried_back(std::size_t from, float bias) const;
+
+    const scene::SceneFile& file_;
+    const Renderers& renderers_;
+    bool in_metres_;
+    scene::BiasSettings told_like_; ///< the unit that a job's biases are told in
+    std::vector<SearchedView> views_;
+    mutable std::optional<std::size_t> drawn_; ///< whose receivers and map GL has
+};
+
+} // namespace gnomon::analysis

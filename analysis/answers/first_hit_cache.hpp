@@ -1,0 +1,56 @@
+#pragma once
+
+#include "scene/job/job.hpp"
+#include "scene/light/exact_light.hpp"
+#include "scene/light/frustum.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What one light saw first through the texels of its maps, for maps that differ in the near plane
+/// alone.
+class FirstHitCache {
+public:
+    /// @param most_texels  that it remembers, of all maps together: 8 bytes each.
+    explicit FirstHitCache(std::size_t most_texels) : room_{most_texels} {}
+
+    /// The map whose texels are asked for, and the light that sees through them.
+    struct Map {
+        const scene::ExactLight& light;
+        const scene::LightFrustum& frustum; ///< the light's
+        int resolution_texels = 0;
+        scene::Cull cull = scene::Cull::none; ///< the light's
+    };
+
+    /// The texels' first hits, placed, in their order; as a rule without tracing where the same
+    /// texels were asked for with a nearer near plane.
+    [[nodiscard]] std::vector<scene::TexelHit> first_hits(const Map& map,
+                                                          std::span<const scene::Texel> texels);
+
+private:
+    /// Coordinates as 16 bits each: a map has at most 16384 texels along a side.
+    using Packed = std::uint32_t;
+
+    struct Seen {
+        int resolution_texels = 0;
+        scene::Cull cull = scene::Cull::none;
+        scene::LightFrustum frustum;
+        std::vector<Packed> texels;
+        std::vector<std::uint32_t> triangles; ///< by texel
+    };
+
+    static Packed packed(const scene::Texel& texel);
+    [[nodiscard]] static bool is_of(const Seen& seen, std::span<const scene::Texel> texels);
+    [[nodiscard]] Seen* find(const Map& map);
+    void remember(const Map& map, std::span<const scene::Texel> texels,
+                  std::span<const scene::TexelHit> hits);
+
+    std::size_t room_; ///< texels for which there is room
+    std::vector<Seen> seen_;
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace gnomon::analysis {
+
+/// A thread that does pieces of work in order, and takes only so many on: what they hold stays
+/// bounded.
+class BackgroundWorker {
+public:
+    /// @param most_pieces  that it holds, the one that is being done included; >= 1.
+    explicit BackgroundWorker(std::size_t most_pieces) : most_pieces_{most_pieces}
+    {
+        thread_ = std::thread{[this] { work(); }};
+    }
+    BackgroundWorker(const BackgroundWorker&) = delete;
+    BackgroundWorker& operator=(const BackgroundWorker&) = delete;
+    ~BackgroundWorker()
+    {
+        {
+            const std::lock_guard lock{mutex_};
+            ends_ = true;
+        }
+        changed_.notify_all();
+        thread_.join();
+    }
+
+    /// Waits for room, and hands the piece over.
+    /// Throws what an earlier piece threw; those after it were dropped, and no more are taken on.
+    void add(std::function<void()> piece)
+    {
+        std::unique_lock lock{mutex_};
+        changed_.wait(
+            lock, [&] { return waiting_.size() + (is_busy_ ? 1 : 0) < most_pieces_ || error_; });
+        rethrow();
+        waiting_.push_back(std::move(piece));
+        changed_.notify_all();
+    }
+
+    /// Waits until everything is done. Throws as `add` does.
+    void finish()
+    {
+        std::unique_lock lock{mutex_};
+        changed_.wait(lock, [&] { return (waiting_.empty() && !is_busy_) || error_; });
+        rethrow();
+    }
+
+private:
+    void rethrow()
+    {
+        if (error_) {
+            std::rethrow_exception(error_);
+        }
+    }
+
+    void work()
+    {
+        std::unique_lock lock{mutex_};
+        while (true) {
+            changed_.wait(lock, [&] { return !waiting_.empty() || ends_; });
+            if (waiting_.empty()) {
+                return;
+            }
+            const std::function<void()> piece = std::move(waiting_.front());
+            waiting_.pop_front();
+            is_busy_ = true;
+            changed_.notify_all();
+            lock.unlock();
+            std::exception_ptr error;
+            try {
+                piece();
+            } catch (...) {
+                error = std::current_exception();
+            }
+            lock.lock();
+            is_busy_ = false;
+            if (error) {
+                error_ = error;
+                waiting_.clear();
+            }
+            changed_.notify_all();
+        }
+    }
+
+    std::size_t most_pieces_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::function<void()>> waiting_;
+    std::exception_ptr error_;
+    bool is_busy_ = false;
+    bool ends_ = false;
+    std::thread thread_;
+};
+
+} // namespace gnomon::analysis

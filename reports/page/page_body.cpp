@@ -1,0 +1,361 @@
+#include "reports/page/page_body.hpp"
+
+#include "reports/page/page_html.hpp"
+#include "reports/words/text.hpp"
+#include "store/run/run_commands.hpp"
+#include "store/run/run_status.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr std::size_t most_objects = 40;
+
+/// A cell of numbers, which a reader compares down a column.
+std::string number_cell(std::string_view text)
+{
+    return fmt::format("<td class=\"number\">{}</td>", escaped(text));
+}
+
+std::string row_heading(std::string_view text)
+{
+    return fmt::format("<th scope=\"row\"><bdi>{}</bdi></th>", escaped(text));
+}
+
+std::string table_head(std::string_view caption, std::initializer_list<std::string_view> columns)
+{
+    std::string html = fmt::format(
+        "<div class=\"scroll\"><table><caption>{}</caption>\n<thead><tr>", escaped(caption));
+    bool is_first = true;
+    for (const std::string_view column : columns) {
+        html += fmt::format("<th scope=\"col\"{}>{}</th>", is_first ? "" : " class=\"number\"",
+                            escaped(column));
+        is_first = false;
+    }
+    return html + "</tr></thead>\n<tbody>\n";
+}
+
+constexpr std::string_view table_end = "</tbody></table></div>\n";
+
+std::string count_cells(const OverviewRow& overview)
+{
+    const store::ResultRow& row = overview.result;
+    return number_cell(percent(row.number("error_rate"))) + number_cell(overview.mean_error) +
+           number_cell(grouped(row.count("false_shadow"))) +
+           number_cell(percent(row.number("false_shadow_rate"))) +
+           number_cell(grouped(row.count("false_lit"))) +
+           number_cell(percent(row.number("false_lit_rate")));
+}
+
+/// "" for one configuration, else its settings.
+std::string row_name(const OverviewRow& row)
+{
+    return row.settings.empty() ? "this shadow map" : row.settings;
+}
+
+std::string headline_table(const RunOverview& overview)
+{
+    std::string html = table_head(overview.rows.size() > 1 ? "Lowest error rates, and the highest"
+                                                           : "Errors among the scored pixels",
+                                  {"configuration", "error rate", "mean error", "false shadow",
+                                   "of lit", "false lit", "of blocked"});
+    for (const OverviewRow& row : overview.rows) {
+        const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
+        html += fmt::format("<tr{}>{}{}</tr>\n", is_highest ? " class=\"highest\"" : "",
+                            row_heading((is_highest ? "highest: " : "") + row_name(row)),
+                            count_cells(row));
+    }
+    return html + std::string{table_end};
+}
+
+std::string limit_text(const store::ResultRow& row, std::string_view column)
+{
+    const std::optional<double> limit = row.number(column);
+    return limit ? fmt::format("{:.6g}", *limit) : std::string{"none"};
+}
+
+/// What the recommended bias is in other units; empty where none is.
+std::string recommended_text(const store::ResultRow& row)
+{
+    const auto metres = row.number("bias_curve.recommended.bias_m");
+    const auto texels = row.number("bias_curve.recommended.bias_texels");
+    const auto views = row.number("bias_curve.recommended.views");
+    if (!metres || !texels || !views) {
+        return {};
+    }
+    return fmt::format("<p>The recommended bias is {:.3g} m along the light’s axis, {:.3g} texels, "
+                       "at the median receiver; it is based on {}.</p>\n",
+                       *metres, *texels, counted(static_cast<std::uint64_t>(*views), "view"));
+}
+
+/// What the bias curve says of the headline configuration.
+std::string bias_table(const store::ResultRow& row)
+{
+    if (row.text("bias_source") != "curve") {
+        return {};
+    }
+    std::string html = table_head("Constant biases, in depth units", {"bias", "value"});
+    for (const auto& [name, column] :
+         {std::pair{"recommended", "bias_curve.recommended.bias"},
+          {"nearly as good, from", "bias_curve.recommended.low"},
+          {"nearly as good, to", "bias_curve.recommended.high"},
+          {"fewest errors, from", "bias_curve.best_interval.lo"},
+          {"fewest errors, to", "bias_curve.best_interval.hi"},
+          {"smallest without acne", "bias_curve.acne_free"},
+          {"largest without peter-panning", "bias_curve.panning_free"},
+          {"largest that adds no new false light", "bias_curve.panning_free_beyond_zero"}}) {
+        html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
+    }
+    html += table_end;
+    html += recommended_text(row);
+    return html + fmt::format("<p>At the best bias, {} pixels are wrong.</p>\n",
+                              grouped(row.count("bias_curve.best_errors")));
+}
+
+/// Why configurations could not be computed.
+std::string failures_table(const RunOverview& overview)
+{
+    if (overview.failed.empty()) {
+        return {};
+    }
+    std::string html =
+        "<div class=\"scroll\"><table><caption>Configurations that failed</caption>\n"
+        "<thead><tr><th scope=\"col\">configuration</th><th scope=\"col\">why</th>"
+        "</tr></thead>\n<tbody>\n";
+    for (const OverviewRow& row : overview.failed) {
+        html += fmt::format("<tr>{}<td><bdi>{}</bdi></td></tr>\n", row_heading(row_name(row)),
+                            escaped(row.result.text("message")));
+    }
+    html += table_end;
+    if (overview.failed_count > overview.failed.size()) {
+        html += fmt::format("<p>{} more failed: <code>gnomon status --all</code> lists them.</p>\n",
+                            grouped(overview.failed_count - overview.failed.size()));
+    }
+    return html;
+}
+
+/// What was found in the scenes' files.
+std::string notes_list(const RunOverview& overview)
+{
+    if (overview.notes.empty()) {
+        return {};
+    }
+    std::string html = "<p id=\"notes-heading\">Notes on the scene:</p>\n"
+                       "<ul aria-labelledby=\"notes-heading\">\n";
+    for (const std::string& note : overview.notes) {
+        html += fmt::format("<li><bdi>{}</bdi></li>\n", escaped(note));
+    }
+    return html + "</ul>\n";
+}
+
+std::string verdict_section(const RunOverview& overview)
+{
+    std::string html = "<section id=\"verdict\" aria-labelledby=\"verdict-heading\">\n"
+                       "<h2 id=\"verdict-heading\">Verdict</h2>\n";
+    for (const std::string& sentence : overview.sentences) {
+        html += fmt::format("<p><bdi>{}</bdi></p>\n", escaped(sentence));
+    }
+    html += notes_list(overview);
+    if (overview.headline) {
+        html += headline_table(overview) + bias_table(overview.headline->result);
+    }
+    return html + failures_table(overview) + "</section>\n";
+}
+
+std::string figures_section(const ReportOptions& options, std::span<const std::string> pictures)
+{
+    std::string html = "<section id=\"figures\" aria-labelledby=\"figures-heading\">\n"
+                       "<h2 id=\"figures-heading\">Figures</h2>\n";
+    if (!options.no_figures.empty()) {
+        html += fmt::format("<p>There are none: {}</p>\n", escaped(options.no_figures));
+    } else if (pictures.empty()) {
+        html += "<p>There are none: nothing was measured that a figure could show.</p>\n";
+    }
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const ReportFigure& figure = options.figures[i];
+        html += fmt::format("<figure><img src=\"{}\" alt=\"{}\" loading=\"lazy\">"
+                            "<figcaption><strong>{}</strong> {}</figcaption></figure>\n",
+                            pictures[i], escaped(figure.alt), escaped(figure.title),
+                            escaped(figure.caption));
+    }
+    return html + "</section>\n";
+}
+
+/// An empty section that scripts fill.
+std::string script_section(std::string_view id, std::string_view heading)
+{
+    return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-heading\" hidden>\n"
+                       "<h2 id=\"{0}-heading\">{1}</h2>\n</section>\n",
+                       id, heading);
+}
+
+std::uint64_t member(const store::Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+std::optional<double> rate(const store::Json& object, const char* name)
+{
+    const auto found = object.find(name);
+    return found != object.end() && found->is_number() ? std::optional{found->get<double>()}
+                                                       : std::nullopt;
+}
+
+std::string objects_table(const store::Json& detail)
+{
+    std::vector<const store::Json*> objects;
+    if (detail.is_object() && detail.contains("by_object") && detail["by_object"].is_array()) {
+        for (const store::Json& object : detail["by_object"]) {
+            if (object.is_object() && member(object, "lit") + member(object, "blocked") > 0) {
+                objects.push_back(&object);
+            }
+        }
+    }
+    if (objects.empty()) {
+        return "<p>Errors by object are not known: the layers of this configuration were not "
+               "kept.</p>\n";
+    }
+    const auto wrong = [](const store::Json* object) {
+        return member(*object, "false_shadow") + member(*object, "false_lit");
+    };
+    std::stable_sort(
+        objects.begin(), objects.end(),
+        [&](const store::Json* a, const store::Json* b) { return wrong(a) > wrong(b); });
+    std::string html =
+        table_head("By object, most errors first",
+                   {"object", "false shadow", "of lit", "false lit", "of blocked", "mean error"});
+    for (std::size_t i = 0; i < std::min(objects.size(), most_objects); ++i) {
+        const store::Json& object = *objects[i];
+        const auto name = object.find("object");
+        html += "<tr>" +
+                row_heading(name != object.end() && name->is_string() ? name->get<std::string>()
+                                                                      : std::string{}) +
+                number_cell(grouped(member(object, "false_shadow"))) +
+                number_cell(percent(rate(object, "false_shadow_rate"))) +
+                number_cell(grouped(member(object, "false_lit"))) +
+                number_cell(percent(rate(object, "false_lit_rate"))) +
+                number_cell(percent(rate(object, "mean_abs_error"))) + "</tr>\n";
+    }
+    html += table_end;
+    if (objects.size() > most_objects) {
+        html += fmt::format("<p>{} more objects are in the page’s data.</p>\n",
+                            grouped(objects.size() - most_objects));
+    }
+    return html;
+}
+
+std::string counts_table(std::string_view caption, const store::ResultRow& row,
+                         const std::vector<KindColumns>& columns)
+{
+    const std::uint64_t all = row.count("false_shadow") + row.count("false_lit");
+    const bool with_amounts = has_amounts(row);
+    std::string html = with_amounts
+                           ? table_head(caption, {"name", "pixels", "of wrong", "amount [px]"})
+                           : table_head(caption, {"name", "pixels", "of wrong"});
+    for (const auto& [count_column, amount_column, name] : columns) {
+        const std::uint64_t count = row.count(count_column);
+        html +=
+            "<tr>" + row_heading(name) + number_cell(grouped(count)) +
+            number_cell(all == 0 ? std::string{"-"}
+                                 : percent(static_cast<double>(count) / static_cast<double>(all))) +
+            (with_amounts ? number_cell(grouped_amount(row.number(amount_column).value_or(0)))
+                          : std::string{}) +
+            "</tr>\n";
+    }
+    return html + std::string{table_end};
+}
+
+std::string objects_section(const RunOverview& overview)
+{
+    if (!overview.headline) {
+        return script_section("objects", "By cause and by object");
+    }
+    const OverviewRow& row = *overview.headline;
+    return fmt::format("<section id=\"objects\" aria-labelledby=\"objects-heading\">\n"
+                       "<h2 id=\"objects-heading\">By cause and by object</h2>\n"
+                       "<p id=\"objects-of\">For <bdi>{}</bdi>.</p>\n",
+                       escaped(row_name(row))) +
+           counts_table("By cause", row.result, cause_columns()) +
+           counts_table("By name", row.result, label_columns()) + objects_table(overview.detail) +
+           "</section>\n";
+}
+
+std::string definition(std::string_view term, std::string_view text)
+{
+    return fmt::format("<dt>{}</dt><dd><bdi>{}</bdi></dd>\n", escaped(term), escaped(text));
+}
+
+std::string environment_section(const store::RunReader& run, const RunOverview& overview)
+{
+    const store::RunDescription& description = run.description();
+    const analysis::Environment& environment = description.environment;
+    std::string html =
+        "<section id=\"environment\" aria-labelledby=\"environment-heading\">\n"
+        "<h2 id=\"environment-heading\">Environment, and how to repeat it</h2>\n<dl>\n";
+    html += definition(environment.is_of_gl() ? "GL" : "renderer", environment.gl_renderer) +
+            (environment.is_of_gl() ? definition("GL version", environment.gl_version) : "") +
+            definition("ray tracer", environment.embree) +
+            definition("gnomon", environment.gnomon) + "</dl>\n";
+    html += fmt::format("<p>The whole run:</p>\n<pre><code>{} --out RUN\ngnomon report RUN</code>"
+                        "</pre>\n",
+                        escaped(store::run_command(description)));
+    if (overview.headline) {
+        const std::string command = store::compare_command(description, overview.headline->result);
+        html += command.empty()
+                    ? std::string{}
+                    : fmt::format("<p>One configuration{}:</p>\n<pre><code>{}</code>"
+                                  "</pre>\n<h3>Its job settings</h3>\n<dl class=\"job\">\n",
+                                  overview.rows.size() > 1 ? " (the best)" : "", escaped(command));
+        for (const auto& [key, value] : store::job_settings(overview.headline->result)) {
+            html += definition(key, value);
+        }
+        html += "</dl>\n";
+    }
+    return html + "</section>\n";
+}
+
+std::string header(const store::RunReader& run, const RunOverview& overview)
+{
+    const analysis::Environment& environment = run.description().environment;
+    const store::PlanOutcome& outcome = run.outcome();
+    const std::uint64_t all = outcome.done + outcome.failed + outcome.planned;
+    const std::string part =
+        outcome.done == all ? std::string{} : fmt::format("{} of ", grouped(outcome.done));
+    return fmt::format("<header>\n<p class=\"kind\">Shadow-map accuracy</p>\n<h1><bdi>{}</bdi></h1>"
+                       "\n<p>{}{} compared with exact shadow rays, pixel by pixel; {}, gnomon {}."
+                       "</p>\n</header>\n",
+                       escaped(overview.scene.empty() ? "several scenes" : overview.scene), part,
+                       counted(all, "shadow-map configuration"), escaped(environment.gl_renderer),
+                       escaped(environment.gnomon));
+}
+
+} // namespace
+
+std::string page_body(const store::RunReader& run, const RunOverview& overview,
+                      const ReportOptions& options, std::span<const std::string> pictures)
+{
+    return "<body>\n<a class=\"skip\" href=\"#verdict\">To the verdict</a>\n" +
+           header(run, overview) + "<main>\n" + verdict_section(overview) +
+           script_section("remedies", "What would help") +
+           script_section("inspector", "Pixel by pixel") + figures_section(options, pictures) +
+           script_section("distance", "By distance from the light") +
+           script_section("slope", "By the receiver's slope") +
+           script_section("sweep", "All configurations") + objects_section(overview) +
+           environment_section(run, overview) +
+           "<noscript><p>With JavaScript, this page also shows every pixel, every bias and every "
+           "configuration.</p></noscript>\n</main>\n";
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "scene/image.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/vec.hpp"
+
+#include <cstdint>
+
+namespace gnomon::scene {
+
+/// A case's image (docs/evaluate.md): what another renderer says of each pixel. Images that the
+/// case does not have are empty; the others are of one size.
+struct CaseLayers {
+    Image<float> mask; ///< 1 lit, 0 shadowed, between for filtered lookups; 0 without a position
+    Image<Vec3f> position; ///< P [the renderer's units]; NaN where nothing is to be judged
+    Image<Vec3f> normal;   ///< on the side that is seen, of any length; zero or NaN: not known
+    Image<std::uint32_t> object_number; ///< the renderer's
+    Image<float> z_light;               ///< r, before any bias
+    Image<float> z_map;                 ///< d; NaN where the border mode decided
+    Image<Vec2f> texels;                ///< as `LookupLayers::texels`
+    Image<float> tan_theta;             ///< as `LookupSample::tan_theta`
+    LookupLayers unmoved;    ///< the lookup at the receiver itself without any bias; may be empty
+    Image<float> map_depths; ///< the shadow map, top left first
+
+    [[nodiscard]] ImageSize size() const { return position.size(); }
+};
+
+} // namespace gnomon::scene

@@ -1,0 +1,230 @@
+#include "scene/job/setting_layers.hpp"
+
+#include "scene/error.hpp"
+#include "scene/one_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+namespace gnomon::scene {
+namespace {
+
+/// Setting `key` in an upper layer, to `word` if there is one, drops other keys of lower layers.
+struct Replacement {
+    std::string_view key;
+    std::string_view word;
+    std::array<std::string_view, 2> drops;
+};
+
+constexpr std::array<Replacement, 11> replacements{{
+    {"scene.builtin", "", {"scene.file"}},
+    {"scene.file", "", {"scene.builtin"}},
+    {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
+    {"camera.orthographic_height", "", {"camera.vertical_fov_deg"}},
+    {"light.type", "directional", {"light.cone_deg", "shadow_map.fov_deg"}},
+    {"light.type", "spot", {"light.direction", "shadow_map.half_extent"}},
+    {"light.target", "", {"light.direction"}},
+    {"shadow_map.fit", "scene", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
+    {"shadow_map.fit", "camera", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
+    {"bias.constant", "", {"bias.constant_m"}},
+    {"bias.constant_m", "", {"bias.constant"}},
+}};
+
+bool is_parameter(std::string_view key)
+{
+    return key.starts_with("scene.") && std::count(key.begin(), key.end(), '.') == 2;
+}
+
+/// Another scene leaves behind the parameters of the one below.
+void drop_parameters(Settings& settings, const Setting& choice)
+{
+    const auto* builtin = std::get_if<std::string>(&choice.value);
+    const std::string kept =
+        choice.spec->key.name == "scene.builtin" ? parameter_prefix(*builtin) : "";
+    std::erase_if(settings, [&](const auto& entry) {
+        return is_parameter(entry.first) && (kept.empty() || !entry.first.starts_with(kept));
+    });
+}
+
+void drop_replaced(Settings& settings, const Setting& setting)
+{
+    const std::string& key = setting.spec->key.name;
+    const auto* word = std::get_if<std::string>(&setting.value);
+    for (const Replacement& replacement : replacements) {
+        if (key == replacement.key &&
+            (replacement.word.empty() || (word != nullptr && *word == replacement.word))) {
+            for (const std::string_view dropped : replacement.drops) {
+                settings.erase(std::string{dropped});
+            }
+        }
+    }
+    if (key == "scene.builtin" || key == "scene.file") {
+        drop_parameters(settings, setting);
+    }
+    // Position and target are one statement, a point of view; position alone is where the
+    // directional light's camera stands, and stays.
+    if (key == "light.direction" && settings.erase("light.target") != 0) {
+        settings.erase("light.position");
+    }
+}
+
+/// Names of the tables that hold keys.
+std::vector<std::string> table_names()
+{
+    std::set<std::string> names;
+    for (const KeySpec& spec : key_specs()) {
+        for (auto dot = spec.key.name.find('.'); dot != std::string::npos;
+             dot = spec.key.name.find('.', dot + 1)) {
+            names.insert(spec.key.name.substr(0, dot));
+        }
+    }
+    return {names.begin(), names.end()};
+}
+
+[[noreturn]] void throw_unknown(const std::string& name, const TomlNode& node,
+                                const KeyPlace& place, const std::vector<std::string>& siblings)
+{
+    if (!std::holds_alternative<TomlTable>(node.value)) {
+        throw InputError(fmt::format("{}unknown key {}; the nearest is {}", place.text(),
+                                     toml_excerpt({name}), nearest_key(name, siblings)));
+    }
+    std::vector<std::string> names = table_names();
+    names.insert(names.end(), siblings.begin(), siblings.end());
+    const bool is_misplaced = std::find(names.begin(), names.end(), key_leaf(name)) != names.end();
+    throw InputError(
+        fmt::format("{}unknown table {}; the nearest is {}", place.text(), toml_excerpt({name}),
+                    nearest_word(is_misplaced ? key_leaf(name) : std::string_view{name}, names)));
+}
+
+/// What stays the same while tables are visited.
+struct Visit {
+    const std::string& file;
+    const std::vector<std::string>& siblings;
+    const KeyVisitor& visitor;
+};
+
+void visit_table(const TomlTable& table, const std::string& prefix, const Visit& visit)
+{
+    for (const TomlMember& member : table) {
+        const KeyPlace place{visit.file, member.line};
+        const std::string name = prefix + member.key;
+        const auto* nested = std::get_if<TomlTable>(&member.node.value);
+        if (const KeySpec* spec = find_key(name)) {
+            visit.visitor(*spec, member.node, place);
+        } else if (!is_key_table(name)) {
+            throw_unknown(name, member.node, place, visit.siblings);
+        } else if (nested != nullptr) {
+            visit_table(*nested, name + ".", visit);
+        } else {
+            throw InputError(fmt::format("{}{} = {}: must be a table, [{}]", place.text(), name,
+                                         toml_excerpt(member.node), name));
+        }
+    }
+}
+
+/// The value of `--set key=value`: TOML, or else a bare word that stands for a string.
+TomlNode override_value(const std::string& value, const std::string& label)
+{
+    if (auto node = parse_toml_value(value)) {
+        return std::move(*node);
+    }
+    if (value.empty() || std::string_view{"[{\"'"}.find(value.front()) != std::string_view::npos) {
+        throw InputError(label + ": not a TOML value (a number, a word, \"a text\", [a, list])");
+    }
+    return {value};
+}
+
+} // namespace
+
+std::string KeyPlace::text() const
+{
+    return fmt::format("{}:{}: ", file, line);
+}
+
+std::string nearest_key(std::string_view name, std::vector<std::string> candidates)
+{
+    for (const KeySpec& spec : key_specs()) {
+        if (key_leaf(spec.key.name) == key_leaf(name)) {
+            return spec.key.name;
+        }
+        candidates.push_back(spec.key.name);
+    }
+    return nearest_word(name, candidates);
+}
+
+Setting make_setting(const KeySpec& spec, const TomlNode& node, std::string label)
+{
+    auto value = read_value(spec.domain, node);
+    if (!value) {
+        throw InputError(fmt::format("{}: {}", label, refusal_text(spec.domain, node)));
+    }
+    return {&spec, std::move(*value), std::move(label)};
+}
+
+void for_each_key(const TomlTable& table, const std::string& file,
+                  const std::vector<std::string>& siblings, const KeyVisitor& visit)
+{
+    visit_table(table, "", {file, siblings, visit});
+}
+
+Layer layer_from_table(const TomlTable& table, const std::string& file, const std::string& heading,
+                       const std::vector<std::string>& siblings)
+{
+    Layer layer;
+    std::set<std::string_view> seen;
+    for_each_key(table, file, siblings,
+                 [&](const KeySpec& spec, const TomlNode& node, const KeyPlace& place) {
+                     const std::string label = fmt::format("{}{}{} = {}", place.text(), heading,
+                                                           spec.key.name, toml_excerpt(node));
+                     if (!seen.insert(spec.key.name).second) {
+                         throw InputError(label + ": the key is given twice; keep one");
+                     }
+                     layer.push_back(make_setting(spec, node, label));
+                 });
+    return layer;
+}
+
+Layer layer_from_overrides(const std::vector<Override>& overrides)
+{
+    Layer layer;
+    for (const Override& given : overrides) {
+        const std::string label = one_line(fmt::format("--set {}={}", given.key, given.value));
+        const KeySpec* spec = find_key(given.key);
+        if (spec == nullptr) {
+            throw InputError(
+                fmt::format("{}: unknown key; the nearest is {}", label, nearest_key(given.key)));
+        }
+        std::erase_if(layer, [&](const Setting& earlier) { return earlier.spec == spec; });
+        layer.push_back(make_setting(*spec, override_value(given.value, label), label));
+    }
+    return layer;
+}
+
+Layer layer_from_job(const Job& job, std::string_view builtin)
+{
+    Layer layer;
+    for (const KeySpec& spec : key_specs()) {
+        if (auto value = spec.get(job)) {
+            std::string label =
+                fmt::format("built-in \"{}\": {} = {}", builtin, spec.key.name, to_toml(*value));
+            layer.push_back({&spec, std::move(*value), std::move(label)});
+        }
+    }
+    return layer;
+}
+
+void lay_over(Settings& settings, const Layer& layer)
+{
+    for (const Setting& setting : layer) {
+        drop_replaced(settings, setting);
+    }
+    for (const Setting& setting : layer) {
+        settings.insert_or_assign(setting.spec->key.name, setting);
+    }
+}
+
+} // namespace gnomon::scene

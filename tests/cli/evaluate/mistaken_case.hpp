@@ -1,0 +1,67 @@
+#pragma once
+
+#include "case_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::testing {
+
+/// Scenes with flat ground, with round things, with things in mirrored places, and without a plane.
+inline const std::vector<std::string> mistaken_scenes{"sphere-plane", "yard", "terrain"};
+
+/// A scene's case, as it was written; made once.
+inline CaseFolder& case_of(const std::string& scene)
+{
+    static std::map<std::string, std::unique_ptr<CaseFolder>> cases;
+    auto& folder = cases[scene];
+    if (folder == nullptr) {
+        folder = std::make_unique<CaseFolder>(
+            scene, std::vector<std::string>{"--set", "lookup.filter=nearest"});
+    }
+    folder->restore();
+    return *folder;
+}
+
+/// Makes the mistake in each scene: --check says so with exit status 1, evaluating refuses with 2.
+inline void expect_named(const std::function<void(CaseFolder&)>& make_mistake,
+                         const std::string& sentence)
+{
+    for (const std::string& scene : mistaken_scenes) {
+        CaseFolder& folder = case_of(scene);
+        folder.keep_level_0();
+        make_mistake(folder);
+        folder.write();
+        const Ending checked = folder.evaluate({"--check"});
+        EXPECT_EQ(checked.exit_code, 1) << scene << "\n" << checked.out << checked.err;
+        EXPECT_THAT(checked.out, ::testing::HasSubstr(sentence)) << scene;
+        if (scene == mistaken_scenes.front()) {
+            expect_refused(folder.evaluate(), 2, sentence);
+        }
+    }
+}
+
+inline void change_each(scene::Image<float>& image, const std::function<float(float)>& change)
+{
+    std::transform(image.begin(), image.end(), image.data(), change);
+}
+
+inline void flip_rows(scene::Image<float>& image)
+{
+    const auto [width, height] = image.size();
+    for (int y = 0; y < height / 2; ++y) {
+        for (int x = 0; x < width; ++x) {
+            std::swap(image(x, y), image(x, height - 1 - y));
+        }
+    }
+}
+
+} // namespace gnomon::testing

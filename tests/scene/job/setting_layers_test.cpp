@@ -1,0 +1,261 @@
+// What replaces what, and what excludes what: built-in defaults, file, case, overrides.
+
+#include "job_fixture.hpp"
+
+namespace gnomon::scene::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Defaults that these tests build on: `wall` has a directional light by its direction and a bias in
+// metres, `sphere-plane` a spot and planes at 0.5 and 10, `yard` a directional light by position
+// and target and a fixed fit.
+const std::string wall_job = "scene.builtin = \"wall\"\n";
+const std::string sphere_plane = "scene.builtin = \"sphere-plane\"\n";
+const std::string yard = "scene.builtin = \"yard\"\n";
+const std::string model = "scene.file = \"model.obj\"\n";
+
+TEST(SettingLayers, BuiltInsDefaultsLieBeneathTheFilesKeys)
+{
+    const Job job = job_of(sphere_plane + "image.width = 99\n").job;
+    EXPECT_EQ(job.image.width_px, 99);
+    EXPECT_EQ(job.light->type, LightType::spot);
+    EXPECT_EQ(job.shadow_map.resolution_texels, 512);
+}
+
+TEST(SettingLayers, OverridesLieAboveCasesAndCasesAboveTheFile)
+{
+    const std::string text = wall_job +
+                             "image = {width = 10, height = 10}\nshadow_map.resolution = 10\n"
+                             "[[case]]\nname = \"a\"\nimage.width = 20\nimage.height = 20\n";
+    const Job job = job_of(text, {{"image.width", "30"}}, "a").job;
+    EXPECT_EQ(job.image.width_px, 30);
+    EXPECT_EQ(job.image.height_px, 20);
+    EXPECT_EQ(job.shadow_map.resolution_texels, 10);
+}
+
+TEST(SettingLayers, BuiltInsParametersChangeItsDefaults)
+{
+    const Job job = job_of(sphere_plane + "[scene.sphere-plane]\nlight = \"orthographic\"\n").job;
+    EXPECT_EQ(job.light->type, LightType::directional);
+    EXPECT_EQ(std::get<std::string>(job.scene.parameters.at("light")), "orthographic");
+}
+
+TEST(SettingLayers, KeepEveryBuiltInsOwnJobAsItIs)
+{
+    for (const char* name : {"wall", "sphere-plane", "yard"}) {
+        const auto keys = resolved_keys(builtin_job(name).job);
+        std::string text;
+        for (const auto& [key, value] : keys) {
+            text += key + " = " + value + "\n";
+        }
+        EXPECT_EQ(resolved_keys(job_of(text).job), keys) << text;
+    }
+}
+
+TEST(SettingLayers, PartialCameraTakesTheDefaultsForTheRest)
+{
+    const Job job = job_of(model + "camera.eye = [9, 9, 9]\n").job;
+    ASSERT_TRUE(job.camera);
+    EXPECT_EQ(job.camera->eye, Vec3d(9, 9, 9));
+    EXPECT_EQ(job.camera->target, Vec3d(0, 0.5, 0));
+    EXPECT_EQ(job.camera->vertical_fov_deg, 45);
+}
+
+TEST(SettingLayers, PartialCameraKeepsTheBuiltInsRest)
+{
+    const Job built_in = builtin_job("wall").job;
+    const Job job = job_of(wall_job + "camera.eye = [9, 9, 9]\n").job;
+    EXPECT_EQ(job.camera->eye, Vec3d(9, 9, 9));
+    EXPECT_EQ(job.camera->target, built_in.camera->target);
+}
+
+TEST(SettingLayers, OrthographicHeightReplacesAPerspectiveAndBack)
+{
+    const Job job = job_of(wall_job + "camera.orthographic_height = 3\n").job;
+    EXPECT_EQ(job.camera->projection, Projection::orthographic);
+    EXPECT_EQ(job.camera->orthographic_height_m, 3);
+    const Job back =
+        job_of(wall_job + "camera.orthographic_height = 3\n", {{"camera.vertical_fov_deg", "30"}})
+            .job;
+    EXPECT_EQ(back.camera->projection, Projection::perspective);
+    EXPECT_EQ(back.camera->vertical_fov_deg, 30);
+}
+
+TEST(SettingLayers, BiasInDepthUnitsReplacesABiasInMetresAndBack)
+{
+    const Job depth_units = job_of(wall_job + "bias.constant = 0.5\n").job;
+    EXPECT_FALSE(depth_units.bias.constant_m);
+    EXPECT_EQ(depth_units.bias.constant, 0.5);
+    const Job metres = job_of(yard + "bias.constant_m = 0.5\n").job;
+    EXPECT_EQ(metres.bias.constant_m, 0.5);
+}
+
+TEST(SettingLayers, DirectionalLightReplacesASpotsConeAndPointOfView)
+{
+    const Job job =
+        job_of(sphere_plane + "[light]\ntype = \"directional\"\ndirection = [0, -1, 0]\n").job;
+    EXPECT_EQ(job.light->type, LightType::directional);
+    EXPECT_EQ(job.light->direction, Vec3d(0, -1, 0));
+    EXPECT_FALSE(job.light->position);
+    EXPECT_FALSE(job.light->target);
+    EXPECT_FALSE(keys_of(job).contains("light.cone_deg"));
+}
+
+TEST(SettingLayers, DirectionalLightWithNoDirectionKeepsThePointOfViewOfASpot)
+{
+    const Job spot = builtin_job("sphere-plane").job;
+    const Job job = job_of(sphere_plane + "light.type = \"directional\"\n").job;
+    EXPECT_FALSE(job.light->direction);
+    EXPECT_EQ(job.light->position, spot.light->position);
+    EXPECT_EQ(job.light->target, spot.light->target);
+}
+
+TEST(SettingLayers, SpotReplacesADirectionAndAnExtent)
+{
+    const std::string light =
+        "[light]\ntype = \"spot\"\nposition = [0, 9, 0]\ntarget = [0, 0, 0]\n";
+    EXPECT_FALSE(job_of(wall_job + "bias.constant = 0\n" + light).job.light->direction);
+    const Job job = job_of(yard + light).job;
+    EXPECT_EQ(job.shadow_map.frustum.fit, Fit::fixed);
+    EXPECT_FALSE(keys_of(job).contains("shadow_map.half_extent"));
+}
+
+TEST(SettingLayers, DirectionAloneOverASpotIsRefusedWithBothRemedies)
+{
+    EXPECT_EQ(refusal(sphere_plane + "light.direction = [0, -1, 0]\n"),
+              "job.toml:2: light.direction = [0, -1, 0]: the light is a spot (built-in "
+              "\"sphere-plane\": light.type = \"spot\"), which takes light.position and "
+              "light.target; for a directional light also set light.type = \"directional\"");
+}
+
+TEST(SettingLayers, TargetReplacesADirectionFromBelow)
+{
+    const Job job = job_of(wall_job + "light.position = [1, 5, 0]\nlight.target = [0, 0, 0]\n").job;
+    EXPECT_FALSE(job.light->direction);
+    EXPECT_EQ(job.light->target, Vec3d(0, 0, 0));
+    // Position alone says where the directional light's camera stands.
+    const Job moved = job_of(wall_job + "light.position = [1, 5, 0]\n").job;
+    EXPECT_TRUE(moved.light->direction);
+    EXPECT_EQ(moved.light->position, Vec3d(1, 5, 0));
+}
+
+TEST(SettingLayers, ADirectionalLightThatSaysNothingPointsTheDefaultWay)
+{
+    EXPECT_EQ(job_of(model + "light.type = \"directional\"\n").job.light->direction,
+              Vec3d(-0.4, -1, -0.3));
+}
+
+TEST(SettingLayers, AnotherFitReplacesTheFixedExtent)
+{
+    const Job job = job_of(yard + "shadow_map.fit = \"scene\"\n").job;
+    EXPECT_EQ(job.shadow_map.frustum.fit, Fit::scene);
+    EXPECT_EQ(builtin_job("yard").job.shadow_map.frustum.fit, Fit::fixed);
+}
+
+TEST(SettingLayers, AnotherSceneLeavesTheParametersOfTheFormer)
+{
+    const std::string thick = wall_job + "scene.wall.thickness_m = 0.5\n";
+    const auto thickness = [](const Job& job) {
+        return std::get<double>(job.scene.parameters.at("thickness_m"));
+    };
+    EXPECT_EQ(thickness(job_of(thick).job), 0.5);
+    EXPECT_EQ(thickness(job_of(thick, {{"scene.builtin", "wall"}}).job), 0.5);
+    EXPECT_EQ(job_of(thick, {{"scene.builtin", "yard"}}).job.scene.builtin, "yard");
+    const Job file = job_of(thick, {{"scene.file", "\"model.obj\""}}).job;
+    EXPECT_EQ(file.scene.builtin, "");
+    EXPECT_TRUE(file.scene.parameters.empty());
+    EXPECT_FALSE(file.camera); // the wall's own camera went with it
+}
+
+TEST(SettingLayers, LastOverrideOfAKeyCounts)
+{
+    EXPECT_EQ(builtin_job("wall", {{"image.width", "1"}, {"image.width", "2"}}).job.image.width_px,
+              2);
+}
+
+TEST(SettingLayers, RefuseTwoKeysThatExcludeEachOther)
+{
+    EXPECT_EQ(refusal(wall_job + model),
+              "job.toml:2: scene.file = \"model.obj\": scene.builtin excludes it (job.toml:1: "
+              "scene.builtin = \"wall\"); keep one of the two");
+    EXPECT_THAT(refusal(wall_job + "[camera]\nvertical_fov_deg = 40\northographic_height = 4\n"),
+                StartsWith("job.toml:4: camera.orthographic_height = 4: camera.vertical_fov_deg "
+                           "excludes it"));
+    EXPECT_THAT(refusal(wall_job + "bias = {constant = 0, constant_m = 1}\n"),
+                HasSubstr("bias.constant excludes it"));
+    EXPECT_THAT(refusal(wall_job + "light.position = [0, 1, 0]\nlight.target = [0, 0, 0]\n"
+                                   "light.direction = [0, -1, 0]\n"),
+                StartsWith("job.toml:3: light.target = [0, 0, 0]: light.direction excludes it"));
+}
+
+TEST(SettingLayers, RefuseKeysOfTheOtherLight)
+{
+    EXPECT_THAT(refusal(wall_job + "light.cone_deg = 30\n"),
+                HasSubstr("light.cone_deg = 30: only a spot has a cone"));
+    EXPECT_THAT(refusal(model + "light.type = \"spot\"\nlight.position = [0, 1, 0]\n"),
+                AllOf(HasSubstr("a spot needs light.position and light.target"),
+                      HasSubstr("light.target is missing")));
+    EXPECT_THAT(refusal(model + "light.target = [0, 0, 0]\n"), HasSubstr("needs light.position"));
+    EXPECT_THAT(refusal(sphere_plane + "bias.constant_m = 0.1\n"),
+                HasSubstr("a spot's depth is not linear in metres; use bias.constant"));
+    EXPECT_THAT(refusal(model + "light.type = \"point\"\n"),
+                HasSubstr("light.type = \"point\": point lights are for `evaluate` only, for now"));
+}
+
+TEST(SettingLayers, RefuseAnExtentThatTheFitDoesNotUse)
+{
+    EXPECT_THAT(refusal(wall_job + "shadow_map.half_extent = 3\n"),
+                HasSubstr("only for shadow_map.fit = \"fixed\""));
+    const std::string fixed = "shadow_map.fit = \"fixed\"\n";
+    EXPECT_THAT(refusal(wall_job + fixed + "shadow_map.fov_deg = 30\n"),
+                HasSubstr("a directional light's map takes shadow_map.half_extent"));
+    EXPECT_THAT(refusal(sphere_plane + fixed + "shadow_map.half_extent = 3\n"),
+                HasSubstr("a spot's map takes shadow_map.fov_deg"));
+}
+
+TEST(SettingLayers, RefuseNearThatIsNotBeforeFar)
+{
+    EXPECT_EQ(refusal(wall_job + "[shadow_map]\nnear = 5\nfar = 5\n"),
+              "job.toml:3: shadow_map.near = 5: must be less than shadow_map.far (job.toml:4: "
+              "shadow_map.far = 5)");
+    EXPECT_THAT(refusal(sphere_plane + "shadow_map.near = 11\n"), // over the built-in's far
+                HasSubstr("shadow_map.near = 11: must be less than shadow_map.far (built-in "));
+    EXPECT_THAT(refusal(sphere_plane + "shadow_map.near = 0\n"),
+                HasSubstr("shadow_map.near = 0: must be above 0 for a spot"));
+    EXPECT_THAT(refusal(sphere_plane + "shadow_map.near = \"auto\"\nshadow_map.far = -1\n"),
+                HasSubstr("shadow_map.far = -1: must be above 0 for a spot"));
+    EXPECT_EQ(job_of(wall_job + "shadow_map.near = -5\nshadow_map.far = 0\n")
+                  .job.shadow_map.frustum.near_m,
+              -5);
+}
+
+TEST(SettingLayers, RefuseImagesThatAreTooLargeAltogether)
+{
+    EXPECT_EQ(job_of(wall_job + "image = {width = 16384, height = 8192}\n").job.image.height_px,
+              8192);
+    EXPECT_THAT(refusal(wall_job + "image = {width = 16384, height = 8193}\n"),
+                HasSubstr("is 134234112 pixels; must be at most 134217728"));
+    EXPECT_THAT(refusal(wall_job + "image = {width = 20000, height = 20000}\n"),
+                HasSubstr("image.width = 20000: must be an integer from 1 to 16384"));
+}
+
+TEST(SettingLayers, RefuseParametersOfASceneThatIsNotShown)
+{
+    EXPECT_EQ(refusal(yard + "scene.wall.thickness_m = 1\n"),
+              "job.toml:2: scene.wall.thickness_m = 1: the parameter of a scene that this job does "
+              "not show; remove it, or set scene.builtin = \"wall\"");
+    EXPECT_THAT(refusal(model + "scene.wall.thickness_m = 1\n"), HasSubstr("does not show"));
+}
+
+TEST(SettingLayers, RefuseAJobWithoutAScene)
+{
+    EXPECT_EQ(refusal("image.width = 3\n"), "job.toml: no scene: set scene.builtin (`gnomon "
+                                            "scenes` lists them) or scene.file");
+    EXPECT_THAT(refusal(""), StartsWith("job.toml: no scene"));
+}
+
+} // namespace
+} // namespace gnomon::scene::test
