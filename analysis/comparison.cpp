@@ -75,8 +75,8 @@ SceneSummary summarise_scene(const scene::SceneSettings& settings,
     return summary;
 }
 
-void measure_comparison(Comparison& comparison, const Renderers& renderers, float profile_bias,
-                        MapAfterDiagnosis map)
+void measure_comparison(Comparison& comparison, const Renderers& renderers,
+                        const DiagnosisRequest& request)
 {
     const scene::View& view = comparison.view;
     require_size("receivers", comparison.receivers.triangle, view.image);
@@ -86,11 +86,10 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers, floa
     const int taps = scene::promises(comparison.job.lookup.filter).equal_taps();
     comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
     if (renderers.make_exact_light) {
-        comparison.diagnosis =
-            diagnose(comparison.job, view,
-                     {*comparison.triangles, comparison.receivers, comparison.truth,
-                      comparison.lookup, profile_bias, taps, map},
-                     renderers);
+        comparison.diagnosis = diagnose(comparison.job, view,
+                                        {*comparison.triangles, comparison.receivers,
+                                         comparison.truth, comparison.lookup, taps},
+                                        request, renderers);
         if (const auto& biases = comparison.diagnosis->biases) {
             comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
                                             biases->critical_bias, view.bias.constant);
@@ -170,7 +169,7 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
         timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
 
     timed(seconds.analysis, [&] {
-        measure_comparison(result, renderers, view.bias.constant, MapAfterDiagnosis::given_back);
+        measure_comparison(result, renderers, {view.bias.constant, MapAfterDiagnosis::given_back});
     });
     if (result.diagnosis) {
         result.precision_kinds =

@@ -98,10 +98,9 @@ struct Comparison {
 
 /// Fills in metrics and, where the renderers can answer for it, the diagnosis of a comparison whose
 /// other members are known, and holds its verdicts to the bias curve.
-/// @param profile_bias, map  As `ComparedLayers` has them.
 /// @throws std::invalid_argument  if its layers are not of the image's size.
-void measure_comparison(Comparison& comparison, const Renderers& renderers, float profile_bias,
-                        MapAfterDiagnosis map = MapAfterDiagnosis::kept);
+void measure_comparison(Comparison& comparison, const Renderers& renderers,
+                        const DiagnosisRequest& request);
 
 /// Runs GL's lookup again with biases that put the comparison's critical biases to the test, its
 /// own and the best one among them.

@@ -10,19 +10,19 @@
 namespace gnomon::analysis {
 
 Diagnosis diagnose(const scene::Job& job, const scene::View& view, const ComparedLayers& layers,
-                   const Renderers& renderers)
+                   const DiagnosisRequest& request, const Renderers& renderers)
 {
     auto receivers = std::make_shared<JudgedReceivers>(
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
     ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
-    if (layers.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map &&
+    if (request.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map &&
         scene::promises(job.lookup.filter).has_formula()) {
         renderers.forget_shadow_map();
     }
     LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
                                                             job, view, renderers),
                           std::move(lookup)};
-    return std::move(answers).diagnose(layers.lookup, layers.profile_bias, layers.verdict_taps);
+    return std::move(answers).diagnose(layers.lookup, request, layers.verdict_taps);
 }
 
 } // namespace gnomon::analysis

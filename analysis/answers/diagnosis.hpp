@@ -39,23 +39,36 @@ enum class MapAfterDiagnosis : std::uint8_t {
     given_back,
 };
 
+/// What every constant bias does to a lookup.
+struct KnownCurve {
+    CurveResult curve;
+    BiasAnswers biases;
+};
+
+/// What is asked of a diagnosis beside the job.
+struct DiagnosisRequest {
+    /// Beside its own bias, which errors by distance are asked of the curve (`CurveQuestion`).
+    float profile_bias = 0;
+    MapAfterDiagnosis map = MapAfterDiagnosis::kept;
+    /// Of the same lookup with another constant bias, not to be found again; nullptr: not known.
+    const KnownCurve* known = nullptr;
+};
+
 /// What a comparison found.
 struct ComparedLayers {
     const scene::TriangleScene& triangles;
     const scene::ReceiverLayers& receivers;
     const scene::TruthLayers& truth;
     const scene::LookupLayers& lookup;
-    /// Beside its own bias, which errors by distance are asked of the curve (`CurveQuestion`).
-    float profile_bias = 0;
     /// What the verdicts are multiples of, as `AmountSum` has it; 0: another renderer's, any
     /// fractions.
     int verdict_taps = 0;
-    MapAfterDiagnosis map = MapAfterDiagnosis::kept;
 };
 
 /// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and
 /// `make_exact_light`, which must still answer for the job's receivers and map.
 [[nodiscard]] Diagnosis diagnose(const scene::Job& job, const scene::View& view,
-                                 const ComparedLayers& layers, const Renderers& renderers);
+                                 const ComparedLayers& layers, const DiagnosisRequest& request,
+                                 const Renderers& renderers);
 
 } // namespace gnomon::analysis

@@ -308,7 +308,19 @@ std::vector<ErrorAmounts> LookupAnswers::amounts_at(float slope,
                       : sum_amounts(BiasCurve{critical_biases(slope), classes()}, biases);
 }
 
-Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_bias,
+KnownCurve LookupAnswers::find_curve(float profile_bias)
+{
+    const SlopeInputs inputs = curves();
+    SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
+    CurveResult described = describe(curve, profile_bias);
+    BiasAnswers answers =
+        answer_biases({lookup_.job, lookup_.view, inputs, exact_->light_distance_m(),
+                       exact_->representative_light_distance_m().value_or(0)},
+                      std::move(curve), described.recommended);
+    return {std::move(described), std::move(answers)};
+}
+
+Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const DiagnosisRequest& request,
                                   int verdict_taps) &&
 {
     Diagnosis diagnosis;
@@ -316,18 +328,18 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, float profile_
     diagnosis.causes = std::move(found.causes);
     diagnosis.peter_panning = found.peter_panning;
     diagnosis.cells = std::move(found.cells);
-    if (has_curve()) {
+    const bool finds_curve = has_curve() && request.known == nullptr;
+    if (finds_curve) {
         require_lit_causes(0, 0); // as curves() asks, while what the rays saw is still known
     }
     exact_->forget_texels(); // what follows takes the most memory
-    if (has_curve()) {
-        const SlopeInputs inputs = curves();
-        SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
-        diagnosis.curve = describe(curve, profile_bias);
-        diagnosis.biases =
-            answer_biases({lookup_.job, lookup_.view, inputs, exact_->light_distance_m(),
-                           exact_->representative_light_distance_m().value_or(0)},
-                          std::move(curve), diagnosis.curve.recommended);
+    if (finds_curve) {
+        KnownCurve curve = find_curve(request.profile_bias);
+        diagnosis.curve = std::move(curve.curve);
+        diagnosis.biases = std::move(curve.biases);
+    } else if (request.known != nullptr) {
+        diagnosis.curve = request.known->curve;
+        diagnosis.biases = request.known->biases;
     }
     diagnosis.light_distance_m = exact_->light_distance_m();
     diagnosis.map_error_m = map_error_m_;

@@ -97,10 +97,9 @@ public:
     /// Why the pixels of the same lookup with the job's bias are wrong, and what other biases would
     /// do. Uses this object up: ask nothing more of it.
     /// @param own           verdicts of the job's bias.
-    /// @param profile_bias  as in `CurveQuestion`.
     /// @param verdict_taps  as in `ComparedLayers`.
-    [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own, float profile_bias,
-                                     int verdict_taps) &&;
+    [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own,
+                                     const DiagnosisRequest& request, int verdict_taps) &&;
 
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;
@@ -193,6 +192,8 @@ private:
         Gaps peter_panning;
         std::vector<ErrorCell> cells;
     };
+    /// The curve, and what follows from it.
+    [[nodiscard]] KnownCurve find_curve(float profile_bias);
     /// Causes and gaps of the lookup's verdicts with these biases.
     [[nodiscard]] Explained explain(const scene::LookupLayers& own, float constant, float slope);
     /// Errors by distance, angle and object, at the job's bias.

@@ -139,7 +139,7 @@ std::optional<BiasLengths> LookupAnswers::bias_lengths(const SlopeCurve& curve) 
         return std::nullopt;
     }
     return BiasLengths{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
-                     *light_distance_m};
+                       *light_distance_m};
 }
 
 std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)

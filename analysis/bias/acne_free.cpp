@@ -218,22 +218,25 @@ private:
         constexpr std::uint64_t fine = 1U << 20U;
         return inputs_.weighs_taps ? fine : inputs_.taps->taps_each();
     }
-    /// Calls `visit(tap, units)` for those of the pixel's own taps that weigh anything.
+    /// Calls `visit(tap, units)` for those of the pixel's own taps, with what each weighs.
     template <typename Visit>
     void visit_weights(std::size_t pixel, const TapSet& own, const Visit& visit) const
     {
-        std::array<double, scene::most_taps> weights; // filled as far as it is read
-        if (inputs_.weighs_taps) {
-            inputs_.taps->weights(pixel, weights);
+        const std::size_t taps = inputs_.taps->taps_each();
+        if (!inputs_.weighs_taps) {
+            for (std::size_t t = 0; t < taps; ++t) {
+                if (own[t]) {
+                    visit(t, std::uint64_t{1});
+                }
+            }
+            return;
         }
-        for (std::size_t t = 0; t < inputs_.taps->taps_each(); ++t) {
-            const auto units = [&] {
-                return inputs_.weighs_taps
-                           ? std::llrint(weights[t] * static_cast<double>(units_each()))
-                           : 1;
-            };
+        std::array<double, scene::most_taps> weights{};
+        inputs_.taps->weights(pixel, weights);
+        for (std::size_t t = 0; t < taps; ++t) {
             if (own[t]) {
-                visit(t, static_cast<std::uint64_t>(units()));
+                visit(t, static_cast<std::uint64_t>(
+                             std::llrint(weights[t] * static_cast<double>(units_each()))));
             }
         }
     }

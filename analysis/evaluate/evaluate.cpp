@@ -148,8 +148,8 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
     comparison.diagnosis =
         diagnose(comparison.job, comparison.view,
                  {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup,
-                  comparison.view.bias.constant, taps_of_mask(subject, comparison.job)},
-                 recorded_renderers(subject, truth));
+                  taps_of_mask(subject, comparison.job)},
+                 {comparison.view.bias.constant}, recorded_renderers(subject, truth));
     if (const auto& biases = comparison.diagnosis->biases) {
         evaluation.contradicted_pixels = count_contradicted(comparison, *biases);
     }

@@ -330,8 +330,29 @@ private:
         comparison.truth = subject->truth;
         comparison.lookup = renderers().look_up(comparison.job, comparison.view);
         measure_comparison(comparison, renderers(),
-                           own_constant_bias(task_.job, comparison.view.frustum));
+                           {own_constant_bias(task_.job, comparison.view.frustum),
+                            MapAfterDiagnosis::kept, known_curve(row)});
+        remember_curve(row, comparison);
         return comparison;
+    }
+
+    /// What names a curve, and the unit in which it recommends a bias.
+    [[nodiscard]] std::pair<std::string, bool> curve_name(const SweepTask::Row& row) const
+    {
+        return {task_.id, row.bias.constant_m.has_value()};
+    }
+    [[nodiscard]] const KnownCurve* known_curve(const SweepTask::Row& row) const
+    {
+        return known_ && known_->first == curve_name(row) ? &known_->second : nullptr;
+    }
+    /// Of a curve that GL was asked for, which takes long.
+    void remember_curve(const SweepTask::Row& row, const Comparison& comparison)
+    {
+        if (known_curve(row) == nullptr && comparison.diagnosis && comparison.diagnosis->biases &&
+            !scene::promises(task_.job.lookup.filter).has_formula()) {
+            known_.emplace(curve_name(row),
+                           KnownCurve{comparison.diagnosis->curve, *comparison.diagnosis->biases});
+        }
     }
 
     const SweepPlan& plan_;
@@ -346,6 +367,8 @@ private:
     StageResult<bool> map_;
     ExactLightCaches caches_; ///< the lanes'
     StageResult<LookupStage> lookup_;
+    /// The curve of the comparison before, by `curve_name`; empty where it is found at once.
+    std::optional<std::pair<std::pair<std::string, bool>, KnownCurve>> known_;
     std::string verified_; ///< the curve that was verified last, of those compared bias by bias
     std::vector<std::unique_ptr<BackgroundWorker>> lanes_; ///< last: they work on the others
 };
