@@ -8,8 +8,8 @@ namespace gnomon::analysis::test {
 
 /// The textbook lesson's frustum: near 4, far 50.
 inline scene::DepthRange
-seed_range(scene::Projection projection = scene::Projection::perspective, bool reversed = false,
-           scene::ClipRange clip_range = scene::ClipRange::minus_one_to_one)
+lesson_range(scene::Projection projection = scene::Projection::perspective, bool reversed = false,
+             scene::ClipRange clip_range = scene::ClipRange::minus_one_to_one)
 {
     return {projection, 4, 50, reversed, clip_range};
 }
@@ -23,7 +23,7 @@ inline std::vector<DepthMapping> all_mappings()
         for (const bool reversed : {false, true}) {
             for (const auto clip_range :
                  {scene::ClipRange::minus_one_to_one, scene::ClipRange::zero_to_one}) {
-                mappings.emplace_back(seed_range(projection, reversed, clip_range));
+                mappings.emplace_back(lesson_range(projection, reversed, clip_range));
             }
         }
     }

@@ -38,7 +38,7 @@ DepthFormat format_of(const std::string& name)
 }
 
 /// The textbook lesson's frustum.
-MeasuredPlaneSettings seed_planes(int count)
+MeasuredPlaneSettings lesson_planes(int count)
 {
     MeasuredPlaneSettings settings;
     settings.range = {Projection::perspective, 4, 50, false, {}};
@@ -74,7 +74,7 @@ TEST(DepthMeasurement, OfD16IsTheSawtooth)
 {
     GNOMON_REQUIRE_GL();
     constexpr int count = 1 << 16;
-    const MeasuredDepthError error = measured(seed_planes(count), "d16");
+    const MeasuredDepthError error = measured(lesson_planes(count), "d16");
     EXPECT_EQ(error.missing, 0U);
     ASSERT_EQ(error.rows.size(), std::size_t{count});
     // In the format's bound: one of the two nearest codes of the plane that GL drew.
@@ -95,7 +95,7 @@ TEST(DepthMeasurement, OfD16IsZeroAtTheDistancesOfItsCodes)
 {
     GNOMON_REQUIRE_GL();
     // The last metre has 44 codes of 8.8 mm: at 2^18 samples, a code every 50 or so.
-    MeasuredPlaneSettings settings = seed_planes(1 << 18);
+    MeasuredPlaneSettings settings = lesson_planes(1 << 18);
     const MeasuredDepthError error = measured(settings, "d16");
     const DepthMapping mapping{settings.range};
     const DepthCoding coding = DepthCoding::unorm(16);
@@ -123,7 +123,8 @@ TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
     for (const std::string& format : supported_formats()) {
         for (const double tilt_deg : {0.0, 60.0}) {
             for (const double offset_m : {0.0, 100.0}) {
-                MeasuredPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 14);
+                MeasuredPlaneSettings settings =
+                    lesson_planes(runs_full_tests() ? 1 << 18 : 1 << 14);
                 settings.tilt_rad = glm::radians(tilt_deg);
                 settings.offset_m = offset_m;
                 const MeasuredDepthError error = measured(settings, format);
@@ -158,7 +159,7 @@ TEST(DepthMeasurement, LeavesTheDriverModelNowhereNearTheEndsOfDepth)
     GNOMON_REQUIRE_GL();
     for (const scene::DepthRange& range : ranges_near_the_ends_of_depth()) {
         for (const std::string& format : supported_formats()) {
-            MeasuredPlaneSettings settings = seed_planes(runs_full_tests() ? 1 << 18 : 1 << 12);
+            MeasuredPlaneSettings settings = lesson_planes(runs_full_tests() ? 1 << 18 : 1 << 12);
             settings.range = range;
             const MeasuredDepthError error = measured(settings, format);
             const auto where =
@@ -199,7 +200,7 @@ TEST(DepthMeasurement, Of32BitsOnLlvmpipeIsADoubledSignedInteger)
     }
     std::size_t below_gl = 0;
     for (const scene::DepthRange& range : ranges_near_the_ends_of_depth()) {
-        MeasuredPlaneSettings settings = seed_planes(1 << 12);
+        MeasuredPlaneSettings settings = lesson_planes(1 << 12);
         settings.range = range;
         const scene::MeasuredPlanes planes = scene::make_measured_planes(settings);
         RasterPlanes raster{*tests::shared_context(), planes};
@@ -250,7 +251,7 @@ TEST(DepthMeasurement, WorksReversedAndInEitherClipRange)
         for (const bool reversed : {false, true}) {
             for (const auto clip : {ClipRange::minus_one_to_one, ClipRange::zero_to_one}) {
                 for (const char* format : {"d16", "d32f", "u12"}) {
-                    MeasuredPlaneSettings settings = seed_planes(1 << 12);
+                    MeasuredPlaneSettings settings = lesson_planes(1 << 12);
                     settings.range = {projection, 4, 50, reversed, clip};
                     const MeasuredDepthError error = measured(settings, format);
                     const auto where = fmt::format(
@@ -269,7 +270,7 @@ TEST(DepthMeasurement, WorksReversedAndInEitherClipRange)
 TEST(DepthMeasurement, OfReversedFloatStaysBelowFarTimesTwoToMinus26AndTheTransformsError)
 {
     GNOMON_REQUIRE_GL();
-    MeasuredPlaneSettings settings = seed_planes(1 << 18);
+    MeasuredPlaneSettings settings = lesson_planes(1 << 18);
     settings.range = {Projection::perspective, 4, 50, true, ClipRange::zero_to_one};
     const MeasuredDepthError error = measured(settings, "d32f");
     for (const DepthErrorRow& row : error.rows) {
@@ -291,7 +292,7 @@ TEST(DepthMeasurement, OfReversedFloatStaysBelowFarTimesTwoToMinus26AndTheTransf
 TEST(DepthMeasurement, OfAnOrthographicD16SpreadsEvenlyOverACode)
 {
     GNOMON_REQUIRE_GL();
-    MeasuredPlaneSettings settings = seed_planes(1 << 16);
+    MeasuredPlaneSettings settings = lesson_planes(1 << 16);
     settings.range.projection = Projection::orthographic;
     const MeasuredDepthError error = measured(settings, "d16");
     const double step_m = 46.0 / 65535;
@@ -330,7 +331,7 @@ TEST(DepthMeasurement, AnswersOfThePlanHold)
 TEST(LongDepthMeasurement, HoldsAMillionPlanesInOneDraw)
 {
     GNOMON_REQUIRE_GL();
-    const MeasuredDepthError error = measured(seed_planes(1 << 20), "d24");
+    const MeasuredDepthError error = measured(lesson_planes(1 << 20), "d24");
     EXPECT_EQ(error.rows.size() + error.missing, std::size_t{1 << 20});
     EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U);
 }

@@ -25,7 +25,7 @@ scene::LightFrustum directional()
     return frustum;
 }
 
-/// The seed case of depth precision: n = 4, f = 50.
+/// The case of the lesson on depth precision: n = 4, f = 50.
 scene::LightFrustum spot(bool reversed = false)
 {
     scene::LightFrustum frustum;

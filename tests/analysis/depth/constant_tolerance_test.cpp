@@ -18,12 +18,12 @@ namespace {
 
 using scene::Projection;
 using test::all_mappings;
-using test::seed_range;
+using test::lesson_range;
 
 TEST(ConstantTolerance, HoldsUpToWhereTheLessonsEnvelopeIsAsLarge)
 {
     // A = 0.23/m, Δ = ½/(2^32 − 1): AΔζ² = 1e-8 m at 19.3255 m, less T/2 = 5e-9 m.
-    const DepthMapping mapping{seed_range()};
+    const DepthMapping mapping{lesson_range()};
     const double expected_m = std::sqrt(1e-8 * 2 * (0x1p32 - 1) / 0.23);
     const auto tolerance = constant_tolerance(mapping, DepthCoding::unorm(32), 1e-8);
     EXPECT_EQ(tolerance.tolerance_m, 1e-8);
@@ -46,7 +46,7 @@ TEST(ConstantTolerance, IsTooSmallFromNearOnOrNowhere)
 
 TEST(ConstantTolerance, OfAnOrthographicProjectionIsAllOrNothing)
 {
-    const DepthMapping mapping{seed_range(Projection::orthographic)};
+    const DepthMapping mapping{lesson_range(Projection::orthographic)};
     const DepthCoding coding = DepthCoding::unorm(16);
     const double envelope_m = error_envelope_m(mapping, coding, 20);
     EXPECT_FALSE(constant_tolerance(mapping, coding, 1.0001 * envelope_m).exceeded_from_m);
@@ -91,7 +91,7 @@ TEST(ConstantTolerance, IsTheFirstDistanceThatTheEnvelopeExceeds)
 
 TEST(ToleranceRows, ShowSingleCodesAtBothEndsAndWhereTheToleranceBeginsToBeTooSmall)
 {
-    const DepthMapping mapping{seed_range()};
+    const DepthMapping mapping{lesson_range()};
     const DepthCoding coding = DepthCoding::unorm(32);
     const auto tolerance = constant_tolerance(mapping, coding, 1e-8);
     const auto rows = tolerance_rows(mapping, coding, 64, tolerance);

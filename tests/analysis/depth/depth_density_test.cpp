@@ -14,7 +14,7 @@ namespace {
 
 using scene::ClipRange;
 using scene::Projection;
-using test::seed_range;
+using test::lesson_range;
 
 const DepthMapping tenth_to_ten_thousand{{Projection::perspective, 0.1, 10000, false, {}}};
 const DepthCoding d24 = DepthCoding::unorm(24);
@@ -38,7 +38,7 @@ TEST(CodeDensity, IsTheInverseOfTheStep)
 
 TEST(CodeDensity, OfAnOrthographicProjectionIsConstant)
 {
-    const DepthMapping mapping{seed_range(Projection::orthographic)};
+    const DepthMapping mapping{lesson_range(Projection::orthographic)};
     const DepthCoding coding = DepthCoding::unorm(16);
     for (const double light_distance_m : {4.0, 27.0, 50.0}) {
         EXPECT_DOUBLE_EQ(codes_per_metre(mapping, coding, light_distance_m), 65535 / 46.0);
@@ -83,7 +83,8 @@ TEST(LargestCodeStep, OfFloatsIsNowhereExceededAndAttained)
         EXPECT_GE(swept_m, largest_m * (1 - 1e-4));
     }
     // Reversed 2u·f/4, within the binade of d: ζ = 29.1 m at d = 2^-4.
-    const DepthMapping reversed{seed_range(Projection::perspective, true, ClipRange::zero_to_one)};
+    const DepthMapping reversed{
+        lesson_range(Projection::perspective, true, ClipRange::zero_to_one)};
     EXPECT_NEAR(largest_code_step_m(reversed, coding), 2 * 7.2509e-7, 1e-10);
     EXPECT_NEAR(coarsest_depth(reversed, coding).light_distance_m, 1 / (0.02 + 0.23 / 16), 1e-12);
 }
@@ -93,7 +94,7 @@ TEST(FloatLimit, IsWhereHalfOfTheDepthsEnd)
     const double expected_m = 2 * 4.0 * 50 / 54; // 2fn/(f + n), 7.41
     for (const bool reversed : {false, true}) {
         const DepthMapping mapping{
-            seed_range(Projection::perspective, reversed, ClipRange::zero_to_one)};
+            lesson_range(Projection::perspective, reversed, ClipRange::zero_to_one)};
         EXPECT_DOUBLE_EQ(float_limit_m(mapping), expected_m);
         const double finer_m = reversed ? expected_m * 1.001 : expected_m / 1.001;
         const double equal_m = reversed ? expected_m / 1.001 : expected_m * 1.001;
@@ -104,12 +105,12 @@ TEST(FloatLimit, IsWhereHalfOfTheDepthsEnd)
                         code_step_m(mapping, d24, equal_m),
                     1, 1e-7);
     }
-    EXPECT_DOUBLE_EQ(float_limit_m(DepthMapping{seed_range(Projection::orthographic)}), 27);
+    EXPECT_DOUBLE_EQ(float_limit_m(DepthMapping{lesson_range(Projection::orthographic)}), 27);
 }
 
 TEST(FloatLimit, RejectsWidthsThatNeverReachAFloat)
 {
-    const DepthMapping mapping{seed_range()};
+    const DepthMapping mapping{lesson_range()};
     EXPECT_THROW((void)float_limit_m(mapping, 23), std::domain_error);
     EXPECT_THROW((void)float_limit_m(mapping, 33), std::domain_error);
 }

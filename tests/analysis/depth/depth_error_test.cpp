@@ -15,7 +15,7 @@ namespace {
 using scene::ClipRange;
 using scene::Projection;
 using test::all_mappings;
-using test::seed_range;
+using test::lesson_range;
 
 /// LargestError of the table for near 4, far 50: error half a code about near, envelope at far,
 /// largest.
@@ -38,7 +38,7 @@ double half_digit(double value, int digits)
 
 TEST(LargestDepthError, OfTheLessonIsTheTablesForEveryWidth)
 {
-    const DepthMapping mapping{seed_range()};
+    const DepthMapping mapping{lesson_range()};
     for (const LargestError& row : table) {
         const DepthCoding coding = DepthCoding::unorm(row.bits);
         const int digits = row.bits == 8 ? 6 : row.bits == 32 ? 4 : 5;
@@ -75,11 +75,12 @@ TEST(LargestDepthError, IsTheSameReversedAndInEitherClipRange)
     for (int bits = 8; bits <= 32; ++bits) {
         for (const auto projection : {Projection::perspective, Projection::orthographic}) {
             const DepthCoding coding = DepthCoding::unorm(bits);
-            const double expected_m = largest_error_m(DepthMapping{seed_range(projection)}, coding);
+            const double expected_m =
+                largest_error_m(DepthMapping{lesson_range(projection)}, coding);
             for (const bool reversed : {false, true}) {
                 for (const auto range : {ClipRange::minus_one_to_one, ClipRange::zero_to_one}) {
                     EXPECT_DOUBLE_EQ(
-                        largest_error_m(DepthMapping{seed_range(projection, reversed, range)},
+                        largest_error_m(DepthMapping{lesson_range(projection, reversed, range)},
                                         coding),
                         expected_m);
                 }
@@ -117,7 +118,7 @@ TEST(Sawtooth, OfTheLessonSweptDenselyReachesTheTablesLargestError)
 {
     constexpr int samples = 4'000'000;
     constexpr double swept_m[] = {1.10259, 0.070104, 4.3836e-3};
-    const DepthMapping mapping{seed_range()};
+    const DepthMapping mapping{lesson_range()};
     for (int row = 0; row < 3; ++row) {
         const DepthCoding coding = DepthCoding::unorm(8 + 4 * row);
         double largest_m = 0;
@@ -151,7 +152,7 @@ TEST(Sawtooth, IsZeroAtTheDistancesOfItsCodes)
 
 TEST(Sawtooth, OfAnOrthographicProjectionIsTheSameEverywhere)
 {
-    const DepthMapping mapping{seed_range(Projection::orthographic)};
+    const DepthMapping mapping{lesson_range(Projection::orthographic)};
     const DepthCoding coding = DepthCoding::unorm(16);
     const double half_step_m = 0.5 * 46 / 65535;
     for (const double light_distance_m : {4.0, 20.0, 50.0}) {
@@ -164,7 +165,7 @@ TEST(FloatDepth, StaysBelowTheSmoothEnvelope)
 {
     for (const auto projection : {Projection::perspective, Projection::orthographic}) {
         for (const bool reversed : {false, true}) {
-            const DepthMapping mapping{seed_range(projection, reversed, ClipRange::zero_to_one)};
+            const DepthMapping mapping{lesson_range(projection, reversed, ClipRange::zero_to_one)};
             for (int i = 0; i <= 10000; ++i) {
                 const double light_distance_m = 4 + 46.0 * i / 10000;
                 // The smooth bound is first order: AΔζ is at most 50·0.23·2^-24.
@@ -180,7 +181,7 @@ TEST(FloatDepth, StaysBelowTheSmoothEnvelope)
 
 TEST(FloatDepth, ReversedErrsByAtMostFarTimesTwoToMinus26)
 {
-    const DepthMapping mapping{seed_range(Projection::perspective, true, ClipRange::zero_to_one)};
+    const DepthMapping mapping{lesson_range(Projection::perspective, true, ClipRange::zero_to_one)};
     // u·f/4 = 7.45e-7 at ζ = f/2.
     EXPECT_NEAR(smooth_float_envelope_m(mapping, 25), 7.4506e-7, 5e-12);
     double largest_m = 0;
@@ -198,7 +199,7 @@ TEST(FloatDepth, ReversedErrsByAtMostFarTimesTwoToMinus26)
 
 TEST(FloatDepth, ReversedThroughMinusOneToOneKeepsAnAbsoluteError)
 {
-    const DepthMapping mapping{seed_range(Projection::perspective, true)};
+    const DepthMapping mapping{lesson_range(Projection::perspective, true)};
     double largest_m = 0;
     for (int i = 0; i <= 1'000'000; ++i) {
         const double light_distance_m = 4 + 46e-6 * i;

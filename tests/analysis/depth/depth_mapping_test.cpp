@@ -16,7 +16,7 @@ namespace {
 using scene::ClipRange;
 using scene::Projection;
 using test::all_mappings;
-using test::seed_range;
+using test::lesson_range;
 
 TEST(DepthMapping, RunsFromNearToFar)
 {
@@ -132,7 +132,7 @@ TEST(DepthMapping, ErrorOfAStoredDepthIsTheDifferenceOfItsDistances)
 TEST(DepthMapping, OfTheLessonIsItsFormula)
 {
     // z_ndc = c2 + c1/ζ with c1 = 2nf/(n − f), c2 = (f + n)/(f − n), the textbook lesson's.
-    const DepthMapping mapping{seed_range()};
+    const DepthMapping mapping{lesson_range()};
     const double c1 = 2 * 4.0 * 50 / (4.0 - 50);
     const double c2 = 54.0 / 46;
     for (const double light_distance_m : {4.0, 5.0, 10.0, 25.0, 49.0}) {
@@ -174,7 +174,7 @@ TEST(DepthMapping, ErrorOfADepthIsExact)
 
 TEST(DepthMapping, HasNoDistanceForDepthsBehindInfinity)
 {
-    const DepthMapping mapping{seed_range()};
+    const DepthMapping mapping{lesson_range()};
     // 1/ζ = 1/n − Ad is 0 at d = 1/(nA).
     EXPECT_TRUE(std::isinf(mapping.light_distance_error_m(50, 0.1)));
 }

@@ -160,7 +160,7 @@ TEST(TransformError, OfReversedDepthInZeroToOneIsNotMagnified)
 
 TEST(TransformError, OfTheLessonAtFarIsAboutFourHalfStepsOfD24)
 {
-    const DepthMapping mapping{test::seed_range()};
+    const DepthMapping mapping{test::lesson_range()};
     // 3(f + 3n)/(f − n) = 4.04 half-steps of D24 from the projection alone; z_ndc's division adds
     // one, the viewport one, and γ5·S the rest.
     const double half_step_m = 1.7136e-5;
