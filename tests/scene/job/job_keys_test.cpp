@@ -16,6 +16,7 @@ namespace gnomon::scene::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// What a key accepts and refuses, in TOML; `context` are keys that it needs beside it.
 struct KeyCases {
@@ -234,6 +235,36 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
                                    key.name.starts_with("image.") || key.name.starts_with("light.");
         EXPECT_EQ((key.stages & only(Stage::truth)) != 0, changes_truth) << key.name;
     }
+}
+
+TEST(JobKeys, HaveTheUnitThatTheirDescriptionNames)
+{
+    const auto key = [](std::string_view name) { return find_key(name)->key; };
+    EXPECT_EQ(key("camera.eye").unit, "m");
+    EXPECT_EQ(key("image.width").unit, "px");
+    EXPECT_EQ(key("shadow_map.resolution").unit, "texels");
+    EXPECT_EQ(key("bias.constant").unit, "depth units");
+    EXPECT_EQ(key("bias.constant").description,
+              "constant bias, depth units; or constant_m instead");
+    EXPECT_EQ(key("bias.normal_texels").unit, "texel widths");
+    EXPECT_EQ(key("scene.wall.thickness_m").unit, "m");
+    EXPECT_EQ(key("lookup.filter").unit, "");
+    for (const JobKey& each : job_keys()) {
+        EXPECT_THAT(each.description, HasSubstr(each.unit)) << each.name;
+        EXPECT_THAT(each.description, Not(HasSubstr("{unit}"))) << each.name;
+        for (const std::string unit : {"m", "deg", "px"}) {
+            const bool is_named = each.description.find("[" + unit + "]") != std::string::npos;
+            EXPECT_EQ(is_named, each.unit == unit) << each.name;
+        }
+    }
+}
+
+TEST(JobKeys, SpellTheirStages)
+{
+    EXPECT_TRUE(stage_names(0).empty());
+    EXPECT_EQ(stage_names(only(Stage::scene)), std::vector<std::string_view>{"scene"});
+    EXPECT_EQ(stage_names(0x3F), (std::vector<std::string_view>{"scene", "truth", "receivers",
+                                                                "shadow_map", "lookup", "bias"}));
 }
 
 RC_GTEST_PROP(JobKeys, PrintNumbersThatReadBackAsTheSameBits, ())
