@@ -5,6 +5,7 @@
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/map_errors.hpp"
 #include "analysis/pixel_runs.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +27,7 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
         unbiased.bias = {};
         lookup.unbiased = renderers.look_up(job, unbiased);
     }
-    if (!scene::promises(job.lookup.filter).has_one_tap()) {
+    if (!methods::filter_promises(job.lookup.filter).has_one_tap()) {
         lookup.map_depths = renderers.read_map_depths();
     }
     return lookup;
@@ -48,7 +49,7 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
 
 scene::LookupLayers LookupAnswers::make_deciding() const
 {
-    return scene::promises(rule_.filter).equal_taps() > 1
+    return methods::filter_promises(rule_.filter).equal_taps() > 1
                ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
                                   lookup_.map_depths, rule_)
                : scene::LookupLayers{};

@@ -1,6 +1,7 @@
 #include "analysis/bias/bias_reruns.hpp"
 
 #include "analysis/metrics/metrics.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <cmath>
 
@@ -23,7 +24,7 @@ std::vector<BiasRerun> rerun_biases(const scene::Job& job, const scene::View& vi
     for (const float bias : rerun_list()) {
         biased.bias.constant = bias;
         const Metrics metrics = measure(truth, renderers.look_up(job, biased),
-                                        scene::promises(job.lookup.filter).equal_taps());
+                                        methods::filter_promises(job.lookup.filter).equal_taps());
         reruns.push_back({bias,
                           {metrics.false_shadow, metrics.false_lit},
                           metrics.false_shadow_rate,

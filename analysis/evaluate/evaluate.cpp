@@ -6,6 +6,7 @@
 #include "analysis/evaluate/surface_check.hpp"
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
@@ -174,7 +175,7 @@ int taps_of_mask(const Case& subject)
     if (!subject.file.says("lookup.filter")) {
         return 0;
     }
-    const int taps = scene::promises(job_of(subject).lookup.filter).equal_taps();
+    const int taps = methods::filter_promises(job_of(subject).lookup.filter).equal_taps();
     const bool are_multiples = std::ranges::all_of(subject.layers.mask, [&](float lit) {
         const double share = double{lit} * taps;
         return std::isnan(lit) || std::abs(share - std::nearbyint(share)) <= rounding;
@@ -262,7 +263,7 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
 {
     const scene::CaseLayers& layers = subject.layers;
     const bool has_one_tap = subject.file.says("lookup.filter") &&
-                             scene::promises(comparison.job.lookup.filter).has_one_tap();
+                             methods::filter_promises(comparison.job.lookup.filter).has_one_tap();
     const bool is_unmoved =
         subject.file.says("bias.normal_texels") && comparison.job.bias.normal_texels == 0;
     std::vector<std::string> missing;

@@ -6,6 +6,7 @@
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/lookup_stage.hpp"
 #include "analysis/sweep/stage_result.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
@@ -187,7 +188,7 @@ private:
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
     void make_room_for_depths()
     {
-        if (!scene::promises(task_.job.lookup.filter).has_one_tap() &&
+        if (!methods::filter_promises(task_.job.lookup.filter).has_one_tap() &&
             task_.job.shadow_map.resolution_texels > 4096) {
             lookup_ = {};
             finish_lanes();
@@ -223,7 +224,7 @@ private:
     /// Whether every bias is looked up and compared by itself.
     [[nodiscard]] bool is_compared() const
     {
-        return hooks_.keep_pixels || !scene::promises(task_.job.lookup.filter).has_curve();
+        return hooks_.keep_pixels || !methods::filter_promises(task_.job.lookup.filter).has_curve();
     }
 
     void answer(std::size_t slot)

@@ -165,7 +165,7 @@ std::vector<KeySpec> lookup_and_bias_keys()
     return {word_key<Filter>(
                 make_key("lookup.filter", "how the map is filtered", "\"nearest\"",
                          only(Stage::lookup)),
-                static_cast<int>(filters().size()), filter_name,
+                static_cast<int>(filter_count), filter_name,
                 [](auto& job) -> auto& { return job.lookup.filter; }),
             word_key<Outside>(
                 make_key("lookup.outside", "the verdict beyond the map's edge or its far plane",

@@ -304,13 +304,16 @@ TEST(DepthFormat, NamesAndFormatsAreInverse)
     }
 }
 
-TEST(Filter, HasTheWidthThatItsNameSays)
+TEST(Filter, HasANameForEachEnumeratorAndNoMore)
 {
-    EXPECT_EQ(filter_width_texels(Filter::nearest), 1);
-    EXPECT_EQ(filter_width_texels(Filter::linear), 2);
-    EXPECT_EQ(filter_width_texels(Filter::hardware), 2);
-    EXPECT_EQ(filter_width_texels(Filter::pcf3), 3);
-    EXPECT_EQ(filter_width_texels(Filter::pcf9), 9);
+    EXPECT_EQ(filter_count, 7U);
+    EXPECT_EQ(filter_name(Filter::nearest), "nearest");
+    EXPECT_EQ(filter_name(Filter::pcf9), "pcf9");
+    std::set<std::string_view> seen;
+    for (std::size_t i = 0; i < filter_count; ++i) {
+        EXPECT_TRUE(seen.insert(filter_name(static_cast<Filter>(i))).second) << i;
+    }
+    EXPECT_EQ(filter_name(static_cast<Filter>(filter_count)), "");
 }
 
 TEST(NearestWord, NeedsTheFewestEdits)
