@@ -1,6 +1,7 @@
 #include "analysis/comparison.hpp"
 
 #include "analysis/causes/float_map.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
 
@@ -83,7 +84,7 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers,
     require_size("lookup", comparison.lookup.samples, view.image);
     require_size("truth", comparison.truth.pixel_class, view.image);
     require_size("witness", comparison.truth.witness, view.image);
-    const int taps = scene::promises(comparison.job.lookup.filter).equal_taps();
+    const int taps = methods::filter_promises(comparison.job.lookup.filter).equal_taps();
     comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
     if (renderers.make_exact_light) {
         comparison.diagnosis = diagnose(comparison.job, view,

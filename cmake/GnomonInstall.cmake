@@ -1,7 +1,7 @@
 # Installs the libraries with their headers, the program, and what find_package(gnomon) reads.
 include(CMakePackageConfigHelpers)
 
-set(gnomon_layers scene raster_gl reference_rt analysis store reports)
+set(gnomon_layers scene methods raster_gl reference_rt analysis store reports)
 set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 
 list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
@@ -13,7 +13,7 @@ foreach(header certificate/certificate.hpp light/exact_light.hpp rounded/rounded
   install(FILES reference_rt/${header}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/reference_rt/${folder})
 endforeach()
-foreach(layer scene raster_gl analysis store reports)
+foreach(layer scene methods raster_gl analysis store reports)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon
           FILES_MATCHING PATTERN "*.hpp" PATTERN shaders EXCLUDE)
 endforeach()

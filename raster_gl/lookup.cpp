@@ -1,5 +1,6 @@
 #include "raster_gl/lookup.hpp"
 
+#include "methods/depth/filters.hpp"
 #include "raster_gl/readback.hpp"
 
 #include <fmt/format.h>
@@ -14,15 +15,15 @@ namespace {
 using scene::Outside;
 
 /// Whether GL interpolates depths, and the shader compares.
-bool is_of_mean_depth(const scene::FilterPromises& promised)
+bool is_of_mean_depth(const methods::FilterPromises& promised)
 {
-    return promised.compares == scene::FilterPromises::Compares::mean_depth;
+    return promised.compares == methods::Compares::mean_depth;
 }
 
 /// Whether GL compares and interpolates.
-bool is_by_gl(const scene::FilterPromises& promised)
+bool is_by_gl(const methods::FilterPromises& promised)
 {
-    return promised.weights == scene::FilterPromises::Weights::bilinear_of_gl;
+    return promised.weights == methods::Weights::bilinear_of_gl;
 }
 
 const char* flag(bool on)
@@ -72,7 +73,7 @@ const Program& LookupPass::program(const Variant& variant)
     if (found != programs_.end()) {
         return found->second;
     }
-    const scene::FilterPromises& promised = scene::promises(variant.filter);
+    const methods::FilterPromises& promised = methods::filter_promises(variant.filter);
     const Definitions definitions{
         // What GL interpolates is one fetch.
         {"FILTER_TAPS", std::to_string(promised.interpolates() ? 1 : promised.width_texels)},
@@ -106,7 +107,7 @@ void LookupPass::allocate(scene::ImageSize size)
 
 void LookupPass::bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const
 {
-    const scene::FilterPromises& promised = scene::promises(settings.filter);
+    const methods::FilterPromises& promised = methods::filter_promises(settings.filter);
     set_sampler(map_sampler_, is_of_mean_depth(promised) ? GL_LINEAR : GL_NEAREST, settings.outside,
                 map.reversed);
     set_sampler(compare_sampler_, GL_LINEAR, settings.outside, map.reversed);

@@ -4,6 +4,7 @@
 #include "analysis/advice/map_cost.hpp"
 #include "analysis/advice/variants.hpp"
 #include "analysis/bias/bias_units.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/error.hpp"
 
 #include <stdexcept>
@@ -77,10 +78,11 @@ private:
     void add(const Variant& variant, std::vector<std::string> keys,
              const std::vector<ViewOutcome>& outcomes, const std::optional<BiasLength>& bias)
     {
-        comparison_.advice.push_back(
-            {std::move(keys), own_outcome(outcomes.front()), outcomes.front().metrics.error_rate,
-             map_bytes(variant.job.shadow_map), tap_count(variant.job.lookup.filter),
-             MeasuredBy::rerun, bias, outcomes, step_change(variant.job)});
+        comparison_.advice.push_back({std::move(keys), own_outcome(outcomes.front()),
+                                      outcomes.front().metrics.error_rate,
+                                      methods::map_bytes(variant.job.shadow_map),
+                                      methods::tap_count(variant.job.lookup.filter),
+                                      MeasuredBy::rerun, bias, outcomes, step_change(variant.job)});
     }
 
     void keep_views(const std::vector<ViewOutcome>& now)

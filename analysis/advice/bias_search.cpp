@@ -3,6 +3,7 @@
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/bias/tried_biases.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
 
@@ -81,7 +82,7 @@ BiasSearch::BiasSearch(const scene::SceneFile& file, const Renderers& renderers,
 
 bool BiasSearch::has_fractions() const
 {
-    return scene::promises(views_.front().job.lookup.filter).has_fractions();
+    return methods::filter_promises(views_.front().job.lookup.filter).has_fractions();
 }
 
 void BiasSearch::draw(std::size_t view) const
@@ -194,7 +195,7 @@ BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
 
 std::vector<float> BiasSearch::fraction_biases(float slope) const
 {
-    if (!scene::promises(views_.front().job.lookup.filter).has_formula()) {
+    if (!methods::filter_promises(views_.front().job.lookup.filter).has_formula()) {
         return coarse_biases();
     }
     const std::vector<float> biases = tried_biases();
@@ -221,7 +222,7 @@ ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float s
     biased.bias.constant = constant;
     biased.bias.slope = slope;
     const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
-    const int taps = scene::promises(searched.job.lookup.filter).equal_taps();
+    const int taps = methods::filter_promises(searched.job.lookup.filter).equal_taps();
     const Metrics metrics = analysis::measure(searched.judged->truth, own, taps);
     const CauseAmounts amounts = searched.answers == nullptr
                                      ? CauseAmounts{}
@@ -237,7 +238,7 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
         here.push_back(carried(view, bias));
     }
     std::vector<ViewOutcome> outcomes;
-    if (!scene::promises(views_[view].job.lookup.filter).has_formula()) {
+    if (!methods::filter_promises(views_[view].job.lookup.filter).has_formula()) {
         for (const float bias : here) {
             outcomes.push_back(measured_by_gl(view, bias, slope));
         }

@@ -1,7 +1,7 @@
 #include "analysis/advice/remedies.hpp"
 
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/metrics/ratio.hpp"
+#include "methods/depth/depth_map.hpp"
 
 #include <fmt/format.h>
 
@@ -23,8 +23,8 @@ Remedy bias_remedy(const Comparison& comparison, std::vector<std::string> keys,
     return {std::move(keys),
             outcome,
             ratio(outcome.errors.total(), comparison.metrics.pixels.scored()),
-            map_bytes(comparison.job.shadow_map),
-            tap_count(comparison.job.lookup.filter),
+            methods::map_bytes(comparison.job.shadow_map),
+            methods::tap_count(comparison.job.lookup.filter),
             measured_by};
 }
 

@@ -3,6 +3,7 @@
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/answers/judged_receivers.hpp"
 #include "analysis/answers/lookup_answers.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <memory>
 #include <utility>
@@ -16,7 +17,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
     ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
     if (request.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map &&
-        scene::promises(job.lookup.filter).has_formula()) {
+        methods::filter_promises(job.lookup.filter).has_formula()) {
         renderers.forget_shadow_map();
     }
     LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),

@@ -2,6 +2,7 @@
 
 #include "analysis/causes/blocked_causes.hpp"
 #include "analysis/causes/lit_causes.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
       light_distance_m_{receivers_->light_distance_m(view_.frustum, geometry_)},
       distances_{receivers_->distances(view_.frustum, geometry_)},
       remembers_causes_{receivers_->use().by_many_maps &&
-                        scene::promises(job.lookup.filter).has_one_tap()},
+                        methods::filter_promises(job.lookup.filter).has_one_tap()},
       causes_{size_if(remembers_causes_)},
       pixel_gaps_{size_if(receivers_->use().by_many_maps), unknown_gap}
 {

@@ -5,6 +5,7 @@
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/map_errors.hpp"
 #include "analysis/pixel_runs.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,7 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                               scene::LookupLayers layers, const Renderers& renderers)
 {
     ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}};
-    const scene::FilterPromises& promised = scene::promises(job.lookup.filter);
+    const methods::FilterPromises& promised = methods::filter_promises(job.lookup.filter);
     if (!can_derive_unbiased(job, view)) {
         scene::View unbiased = view;
         unbiased.bias = {};
@@ -72,7 +73,7 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
 
 scene::LookupLayers LookupAnswers::make_deciding() const
 {
-    return scene::promises(rule_.filter).equal_taps() > 1
+    return methods::filter_promises(rule_.filter).equal_taps() > 1
                ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
                                   lookup_.map_depths, rule_)
                : scene::LookupLayers{};

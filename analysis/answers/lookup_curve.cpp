@@ -5,6 +5,7 @@
 #include "analysis/bias/bias_valley.hpp"
 #include "analysis/bias/tried_biases.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ CurveResult LookupAnswers::describe_map() const
     CurveResult result;
     result.near_m = lookup_.view.frustum.near_m;
     result.far_m = lookup_.view.frustum.far_m;
-    result.map_bytes = map_bytes(lookup_.job.shadow_map);
+    result.map_bytes = methods::map_bytes(lookup_.job.shadow_map);
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/pixel_runs.hpp"
 #include "analysis/radix_sort.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ public:
     [[nodiscard]] float of(std::size_t pixel, std::span<const float> criticals) const
     {
         const TapSet& own = inputs_.causes.filters[pixel].own;
-        std::array<double, scene::most_taps> weights; // filled as far as it is read
+        std::array<double, methods::most_taps> weights; // filled as far as it is read
         inputs_.taps->weights(pixel, weights);
         const float wrong_until = first_end(pixel, criticals);
         ShadowingTaps shadowing;
@@ -43,7 +44,7 @@ public:
         if (label_of_lit(Cause::resolution, shadowing) == Label::acne) {
             return wrong_until; // as a rule
         }
-        std::array<std::size_t, scene::most_taps> order; // of the taps, the last one lit first
+        std::array<std::size_t, methods::most_taps> order; // of the taps, the last one lit first
         const auto taps = std::span{order}.first(criticals.size());
         for (std::size_t t = 0; t < taps.size(); ++t) {
             taps[t] = t;
@@ -72,7 +73,7 @@ private:
         if (!inputs_.has_fractions || inputs_.weighs_taps) {
             return inputs_.critical_bias[pixel];
         }
-        std::array<float, scene::most_taps> copy{};
+        std::array<float, methods::most_taps> copy{};
         const auto last = std::ranges::copy(criticals, copy.begin()).out;
         const auto middle =
             copy.begin() + static_cast<std::ptrdiff_t>(deciding_rank(criticals.size()));
@@ -231,7 +232,7 @@ private:
             }
             return;
         }
-        std::array<double, scene::most_taps> weights{};
+        std::array<double, methods::most_taps> weights{};
         inputs_.taps->weights(pixel, weights);
         for (std::size_t t = 0; t < taps; ++t) {
             if (own[t]) {

@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_index.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "scene/filter.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -88,7 +88,7 @@ std::vector<ErrorAmounts> sum_amounts(const scene::Image<PixelClass>& classes,
     const BiasIndex index{biases};
     const auto is_scored = [&](std::size_t pixel) { return scene::is_scored(classes[pixel]); };
     const auto count = [&](std::size_t begin, std::size_t end, AmountChanges& sum) {
-        std::array<std::size_t, scene::most_taps> changes; // filled as far as it is read
+        std::array<std::size_t, methods::most_taps> changes; // filled as far as it is read
         taps.visit(begin, end, is_scored, [&](std::size_t pixel, std::span<const float> criticals) {
             const std::span lit_from = std::span{changes}.first(criticals.size());
             std::ranges::transform(criticals, lit_from.begin(),

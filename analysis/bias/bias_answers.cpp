@@ -1,4 +1,5 @@
 #include "analysis/bias/bias_answers.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <cmath>
 #include <utility>
@@ -23,7 +24,7 @@ std::optional<Recommendation> recommended(const BiasQuestion& question, const Sl
 {
     const bool can_leave_less =
         own && static_cast<double>(curve.best.errors.total()) < own->pasted_outcome.error_amount();
-    if (!can_leave_less || scene::promises(question.job.lookup.filter).has_fractions()) {
+    if (!can_leave_less || methods::filter_promises(question.job.lookup.filter).has_fractions()) {
         return std::nullopt;
     }
     return recommend_by_count(curve.curve,

@@ -1,6 +1,7 @@
 #include "analysis/bias/slope_curves.hpp"
 
 #include "analysis/bias/bias_units.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ namespace gnomon::analysis {
 double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
                            scene::Filter filter, double light_distance_m)
 {
-    return scene::filter_width_texels(filter) *
+    return methods::filter_promises(filter).width_texels *
            frustum.texel_width_m(light_distance_m, resolution_texels) *
            depth_per_metre(frustum, light_distance_m);
 }

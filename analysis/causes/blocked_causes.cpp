@@ -4,6 +4,7 @@
 #include "analysis/causes/self_shadowing.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "analysis/metrics/amounts.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <span>
@@ -32,7 +33,7 @@ public:
           cache_{cache},
           rule_{inputs.rule()},
           footprint_{inputs.lookup, inputs.resolution_texels},
-          is_mean_depth_{inputs.promises().compares == scene::FilterPromises::Compares::mean_depth}
+          is_mean_depth_{inputs.promises().compares == methods::Compares::mean_depth}
     {
     }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/pixel_layers.hpp"
@@ -25,9 +26,9 @@ struct CauseInputs {
     /// Whether biases below 0 are asked about, with which taps shadow that do not without bias.
     bool asks_below_zero = false;
 
-    [[nodiscard]] const scene::FilterPromises& promises() const
+    [[nodiscard]] const methods::FilterPromises& promises() const
     {
-        return scene::promises(lookup.filter);
+        return methods::filter_promises(lookup.filter);
     }
     /// Without any bias.
     [[nodiscard]] LookupRule rule() const { return {lookup.filter, lookup.outside, reversed, 0}; }

@@ -5,7 +5,7 @@
 #include "analysis/causes/pixel_causes.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "analysis/metrics/amounts.hpp"
-#include "scene/filter.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ public:
     }
 
     /// Amounts of a whole pixel: of equal taps their number, else fine enough for any fraction.
-    [[nodiscard]] static std::int64_t units_of(const scene::FilterPromises& promises)
+    [[nodiscard]] static std::int64_t units_of(const methods::FilterPromises& promises)
     {
         constexpr std::int64_t any_fraction = std::int64_t{1} << 32U;
         return promises.equal_taps() > 0 ? promises.equal_taps() : any_fraction;
@@ -137,7 +137,7 @@ private:
     {
         const PixelCause& why = inputs_.causes.pixels[pixel];
         const FilterCause& filter = inputs_.causes.filters[pixel];
-        std::array<TapChange, scene::most_taps> changes; // filled as far as it is read
+        std::array<TapChange, methods::most_taps> changes; // filled as far as it is read
         const std::span<TapChange> taps =
             tap_changes(pixel, criticals, filter.own, std::span{changes});
         const VerdictChange until = lit_until(pixel, taps);
@@ -204,7 +204,7 @@ private:
     void visit_blocked(std::size_t pixel, std::span<const float> criticals, const Pass& pass) const
     {
         const PixelCause& why = inputs_.causes.pixels[pixel];
-        std::array<TapChange, scene::most_taps> changes; // filled as far as it is read
+        std::array<TapChange, methods::most_taps> changes; // filled as far as it is read
         const std::span<TapChange> taps = tap_changes(pixel, criticals, {}, std::span{changes});
         const VerdictChange from = blocked_from(pixel, taps);
         std::size_t lit_taps = 0;
@@ -237,7 +237,7 @@ private:
                                                    const TapSet& own,
                                                    std::span<TapChange> changes) const
     {
-        std::array<double, scene::most_taps> weights; // filled as far as it is read
+        std::array<double, methods::most_taps> weights; // filled as far as it is read
         if (promises_.interpolates()) {
             inputs_.taps->weights(pixel, weights);
         }
@@ -317,7 +317,7 @@ private:
     const BiasRowInputs& inputs_;
     std::span<const float> biases_;
     BiasIndex index_;
-    const scene::FilterPromises& promises_;
+    const methods::FilterPromises& promises_;
     std::int64_t units_;
 };
 

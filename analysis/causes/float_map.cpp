@@ -2,6 +2,7 @@
 
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/lookup/footprint.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 
@@ -35,7 +36,7 @@ FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
                         const scene::LookupLayers& lookup, std::span<const std::size_t> pixels,
                         const Renderers& renderers)
 {
-    const scene::FilterPromises& promised = scene::promises(job.lookup.filter);
+    const methods::FilterPromises& promised = methods::filter_promises(job.lookup.filter);
     if (can_derive_unbiased(job, view) && !promised.interpolates()) {
         // Where the receivers are in the map does not depend on its format.
         return {{}, renderers.read_float_depths(job, view, rows_of(job, lookup, pixels))};

@@ -4,6 +4,7 @@
 #include "analysis/causes/self_shadowing.hpp"
 #include "analysis/metrics/amounts.hpp"
 #include "analysis/pixel_runs.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <span>
 #include <vector>
@@ -125,7 +126,7 @@ private:
     {
         // What is remembered of a single tap must not depend on what is stored.
         const bool asks_all = inputs_.asks_below_zero || inputs_.promises().has_one_tap();
-        const TapSet all = TapSet{}.set() >> (scene::most_taps - inputs_.promises().tap_count());
+        const TapSet all = TapSet{}.set() >> (methods::most_taps - inputs_.promises().tap_count());
         auto asked = asks_all ? std::vector<TapSet>(lookups.size(), all)
                               : shadowing_taps(inputs_, inputs_.job, lookups);
         auto own = own_taps(inputs_.light, lookups, asked);

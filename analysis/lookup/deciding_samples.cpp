@@ -2,6 +2,7 @@
 
 #include "analysis/lookup/stored_taps.hpp"
 #include "analysis/pixel_runs.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ constexpr float no_depth = std::numeric_limits<float>::quiet_NaN();
 /// The median of the taps' depths; NaN where the border mode decides.
 float deciding_depth(const StoredTaps& taps, const scene::LookupSample& sample, Vec2f texel)
 {
-    std::array<float, scene::most_taps> depths; // filled as far as it is read
+    std::array<float, methods::most_taps> depths; // filled as far as it is read
     const std::span<float> read = taps.gather(sample, texel, depths);
     if (read.empty()) {
         return no_depth;
@@ -55,7 +56,7 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& 
 scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Image<Vec2f>& texels,
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
-    const scene::FilterPromises& promised = scene::promises(rule.filter);
+    const methods::FilterPromises& promised = methods::filter_promises(rule.filter);
     if (!promised.has_formula()) {
         throw std::invalid_argument("deciding_samples: rule: the filter hardware has the driver's "
                                     "weights and no deciding tap");
@@ -76,7 +77,8 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
 
 bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
 {
-    return scene::promises(job.lookup.filter).has_formula() && view.bias.normal_texels == 0;
+    return methods::filter_promises(job.lookup.filter).has_formula() &&
+           view.bias.normal_texels == 0;
 }
 
 } // namespace gnomon::analysis

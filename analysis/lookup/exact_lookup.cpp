@@ -1,6 +1,7 @@
 #include "analysis/lookup/exact_lookup.hpp"
 
 #include "analysis/metrics/amounts.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/infinity.hpp"
 
 #include <tbb/parallel_for.h>
@@ -42,8 +43,8 @@ public:
         if (lookups_.size() == 0) {
             return {};
         }
-        const scene::FilterPromises& promised = rule_.promises();
-        if (promised.compares == scene::FilterPromises::Compares::mean_depth) {
+        const methods::FilterPromises& promised = rule_.promises();
+        if (promised.compares == methods::Compares::mean_depth) {
             return interpolated();
         }
         if (promised.interpolates()) {

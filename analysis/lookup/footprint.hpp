@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/depth/filters.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/vec.hpp"
@@ -20,15 +21,15 @@ struct Tap {
 };
 
 /// Some of a lookup's taps, in the order of its footprint.
-using TapSet = std::bitset<scene::most_taps>;
+using TapSet = std::bitset<methods::most_taps>;
 
 /// Which texels a filter reads around a point of the map, exactly as the lookup does.
 class Footprint {
 public:
     Footprint(const scene::LookupSettings& settings, int resolution_texels)
-        : interpolates_{scene::promises(settings.filter).interpolates()},
+        : interpolates_{methods::filter_promises(settings.filter).interpolates()},
           clamps_{settings.outside == scene::Outside::clamp},
-          width_{scene::filter_width_texels(settings.filter)},
+          width_{methods::filter_promises(settings.filter).width_texels},
           resolution_{resolution_texels}
     {
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/lookup/footprint.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/infinity.hpp"
 #include "scene/job/job.hpp"
 #include "scene/view/view.hpp"
@@ -18,7 +19,10 @@ struct LookupRule {
     bool reversed = false;
     float slope = 0; ///< depth units per unit of tan θ
 
-    [[nodiscard]] const scene::FilterPromises& promises() const { return scene::promises(filter); }
+    [[nodiscard]] const methods::FilterPromises& promises() const
+    {
+        return methods::filter_promises(filter);
+    }
 
     /// The comparison of a receiver's depth with a map's.
     ///

@@ -3,7 +3,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/stored_taps.hpp"
-#include "scene/filter.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_layers.hpp"
 
@@ -73,7 +73,7 @@ private:
     void fill(std::size_t pixel, std::size_t at, ComparisonBlock& block) const
     {
         const scene::LookupSample& sample = lookup_.samples[pixel];
-        std::array<float, scene::most_taps> depths; // filled as far as it is read
+        std::array<float, methods::most_taps> depths; // filled as far as it is read
         const auto read = taps_.gather(sample, lookup_.texels[pixel], depths);
         const float slope_term = rule_.slope * sample.tan_theta;
         for (std::size_t t = 0; t < taps_each_; ++t) {

@@ -6,6 +6,7 @@
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/lookup_stage.hpp"
 #include "analysis/sweep/stage_result.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
@@ -187,7 +188,7 @@ private:
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
     void make_room_for_depths()
     {
-        if (!scene::promises(task_.job.lookup.filter).has_one_tap() &&
+        if (!methods::filter_promises(task_.job.lookup.filter).has_one_tap() &&
             task_.job.shadow_map.resolution_texels > 4096) {
             lookup_ = {};
             finish_lanes();
@@ -223,13 +224,14 @@ private:
     /// Whether every bias is looked up and compared by itself.
     [[nodiscard]] bool is_compared() const
     {
-        return hooks_.keep_pixels || !scene::promises(task_.job.lookup.filter).has_curve();
+        return hooks_.keep_pixels || !methods::filter_promises(task_.job.lookup.filter).has_curve();
     }
 
     /// Whether GL is asked again for what a curve says, or to verify it.
     [[nodiscard]] bool asks_gl() const
     {
-        return hooks_.verifies_biases || !scene::promises(task_.job.lookup.filter).has_formula();
+        return hooks_.verifies_biases ||
+               !methods::filter_promises(task_.job.lookup.filter).has_formula();
     }
 
     void answer(std::size_t slot)
@@ -349,7 +351,7 @@ private:
     void remember_curve(const SweepTask::Row& row, const Comparison& comparison)
     {
         if (known_curve(row) == nullptr && comparison.diagnosis && comparison.diagnosis->biases &&
-            !scene::promises(task_.job.lookup.filter).has_formula()) {
+            !methods::filter_promises(task_.job.lookup.filter).has_formula()) {
             known_.emplace(curve_name(row),
                            KnownCurve{comparison.diagnosis->curve, *comparison.diagnosis->biases});
         }

@@ -1,5 +1,6 @@
 #include "analysis/sweep/stage_keys.hpp"
 
+#include "methods/depth/filters.hpp"
 #include "scene/job/file.hpp"
 
 #include <map>
@@ -99,7 +100,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
 
 StageKeys stage_keys(const scene::Job& job)
 {
-    return keys_of(job, !scene::promises(job.lookup.filter).has_curve());
+    return keys_of(job, !methods::filter_promises(job.lookup.filter).has_curve());
 }
 
 StageKeys stage_keys_with_bias(const scene::Job& job)

@@ -1,6 +1,7 @@
 #include "analysis/sweep/sweep_curves.hpp"
 
 #include "analysis/sweep/configuration_id.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys.hpp"
@@ -21,14 +22,14 @@ namespace {
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
                      const JobParameters& parameters)
 {
-    const bool has_curve = scene::promises(job.lookup.filter).has_curve();
+    const bool has_curve = methods::filter_promises(job.lookup.filter).has_curve();
     return configuration_id(version, scene_name, parameters, !has_curve);
 }
 
 /// The constant bias that a job has but for the sweep's axes.
 std::string job_bias_text(const scene::BiasSettings& own, scene::Filter filter)
 {
-    if (!scene::promises(filter).has_curve()) {
+    if (!methods::filter_promises(filter).has_curve()) {
         return {};
     }
     return own.constant_m ? fmt::format("{} m", *own.constant_m) : fmt::format("{}", own.constant);
@@ -77,7 +78,7 @@ void SweepCurves::add_curve_group(std::vector<std::uint64_t> ordinals)
         refusals_.push_back({std::move(ordinals), error.what()});
         return;
     }
-    if (!keeps_every_bias_ && scene::promises(job.lookup.filter).has_curve()) {
+    if (!keeps_every_bias_ && methods::filter_promises(job.lookup.filter).has_curve()) {
         add_request(job, std::move(ordinals));
         return;
     }

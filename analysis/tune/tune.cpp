@@ -1,7 +1,8 @@
 #include "analysis/tune/tune.hpp"
 
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/tune/tune_space.hpp"
+#include "methods/depth/depth_map.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -107,8 +108,8 @@ private:
     void try_sizes(std::span<const MapSize> sizes)
     {
         for (const Filter filter : tuned_filters(job_)) {
-            const int taps = tap_count(filter);
-            if (is_done() && tap_count(result_.best().filter) < taps) {
+            const int taps = methods::tap_count(filter);
+            if (is_done() && methods::tap_count(result_.best().filter) < taps) {
                 return;
             }
             if (is_costly(filter)) {
@@ -135,7 +136,7 @@ private:
             const TunedSetting* best = nullptr;
             for (const TunedSetting& setting : result_.considered) {
                 const bool is_of_size = setting.map.resolution_texels == size.resolution_texels &&
-                                        map_bytes(setting.map) == size.bytes();
+                                        methods::map_bytes(setting.map) == size.bytes();
                 if (is_of_size && !is_costly(setting.filter) &&
                     (best == nullptr || is_better(setting, *best))) {
                     best = &setting;
@@ -146,7 +147,10 @@ private:
     }
 
     /// Each setting of such a filter costs as much as a hundred others.
-    static bool is_costly(Filter filter) { return scene::promises(filter).has_fractions(); }
+    static bool is_costly(Filter filter)
+    {
+        return methods::filter_promises(filter).has_fractions();
+    }
     [[nodiscard]] bool is_far_from_limits(const TunedSetting& setting) const
     {
         return times_above(setting.bias.outcomes.front(), limits_) > hopeless_factor;
@@ -264,8 +268,9 @@ bool is_better(const TunedSetting& a, const TunedSetting& b)
         return a.meets_limits();
     }
     const auto cost = [](const TunedSetting& setting) {
-        return setting.meets_limits() ? std::pair{map_bytes(setting.map), tap_count(setting.filter)}
-                                      : std::pair{std::uint64_t{0}, 0};
+        return setting.meets_limits()
+                   ? std::pair{methods::map_bytes(setting.map), methods::tap_count(setting.filter)}
+                   : std::pair{std::uint64_t{0}, 0};
     };
     const auto order = [&](const TunedSetting& setting) {
         // What fails was not looked at in all views: the job's own tells them apart.
@@ -274,8 +279,8 @@ bool is_better(const TunedSetting& a, const TunedSetting& b)
         return std::tuple{cost(setting),
                           pooled.error_rate().value_or(0),
                           pooled.metrics.error_rate.value_or(0),
-                          map_bytes(setting.map),
-                          tap_count(setting.filter),
+                          methods::map_bytes(setting.map),
+                          methods::tap_count(setting.filter),
                           -setting.bias.run.width()};
     };
     return order(a) < order(b);

@@ -1,7 +1,8 @@
 #include "analysis/tune/tune_space.hpp"
 
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/bias/slope_curves.hpp"
+#include "methods/depth/depth_map.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ std::uint64_t MapSize::bytes() const
     scene::ShadowMapSettings map;
     map.resolution_texels = resolution_texels;
     map.depth_format = format;
-    return map_bytes(map);
+    return methods::map_bytes(map);
 }
 
 std::vector<MapSize> map_sizes(const Job& job, const TuneLimits& limits)
@@ -103,14 +104,14 @@ std::vector<Filter> tuned_filters(const Job& job)
     if (std::ranges::find(filters, job.lookup.filter) == filters.end()) {
         filters.push_back(job.lookup.filter);
     }
-    std::ranges::stable_sort(filters, {}, &tap_count);
+    std::ranges::stable_sort(filters, {}, &methods::tap_count);
     return filters;
 }
 
 std::vector<double> normal_offsets(const Job& job, Filter filter)
 {
     std::set<double> tried{0.0, 1.0, job.bias.normal_texels};
-    if (!scene::promises(filter).has_fractions()) {
+    if (!methods::filter_promises(filter).has_fractions()) {
         tried.insert(2.0);
     }
     return {tried.begin(), tried.end()};
@@ -125,7 +126,7 @@ std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrus
     std::set<double> tried{0.0, job.bias.slope};
     for (const float slope : default_slopes(depth)) {
         const bool is_the_unit = slope == static_cast<float>(depth);
-        if (!scene::promises(filter).has_fractions() || is_the_unit) {
+        if (!methods::filter_promises(filter).has_fractions() || is_the_unit) {
             // Printed with few digits, and then exactly what is recommended.
             tried.insert(std::stod(fmt::format("{:.4g}", slope)));
         }

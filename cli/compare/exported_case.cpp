@@ -3,6 +3,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "cli/compare/kept_pixels.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/view/view.hpp"
 #include "store/case/case_write.hpp"
 
@@ -18,7 +19,7 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
                              {},
                              {}};
     renderers.draw_shadow_map(job, comparison.view);
-    if (!scene::promises(job.lookup.filter).has_one_tap()) {
+    if (!methods::filter_promises(job.lookup.filter).has_one_tap()) {
         extras.map_depths = renderers.read_map_depths();
     }
     if (!analysis::can_derive_unbiased(job, comparison.view)) {

@@ -1,6 +1,6 @@
 #include "cli/compare/origin_remedy.hpp"
 
-#include "analysis/advice/map_cost.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/moved_scene.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +28,8 @@ void advise_origin(analysis::Comparison& comparison, const ComparisonSession& se
           there.metrics.amounts,
           there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0},
          there.metrics.error_rate,
-         analysis::map_bytes(comparison.job.shadow_map),
-         analysis::tap_count(comparison.job.lookup.filter),
+         methods::map_bytes(comparison.job.shadow_map),
+         methods::tap_count(comparison.job.lookup.filter),
          analysis::MeasuredBy::rerun});
 }
 

@@ -1,12 +1,12 @@
 #include "cli/tune/tune_command.hpp"
 
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/tune/tune.hpp"
 #include "cli/compare/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/advice_options.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "reports/tables/tune_report.hpp"
 #include "scene/error.hpp"
 
@@ -59,7 +59,7 @@ public:
 
     void tell(const analysis::TunedSetting& setting)
     {
-        const std::uint64_t bytes = analysis::map_bytes(setting.map);
+        const std::uint64_t bytes = methods::map_bytes(setting.map);
         const bool is_new = bytes != bytes_;
         bytes_ = bytes;
         if (!options_.quiet && (options_.verbose || is_new)) {

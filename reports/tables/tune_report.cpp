@@ -1,7 +1,7 @@
 #include "reports/tables/tune_report.hpp"
 
 #include "analysis/advice/fit_setting.hpp"
-#include "analysis/advice/map_cost.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/tables/graphics_api_states.hpp"
 #include "reports/words/findings.hpp"
@@ -49,8 +49,8 @@ store::Json setting_json(const TunedSetting& setting)
         {"bias.constant", setting.bias.constant()},
         {"bias.slope", setting.slope},
         {"bias.normal_texels", setting.normal_texels},
-        {"map_bytes", analysis::map_bytes(setting.map)},
-        {"taps", analysis::tap_count(setting.filter)}};
+        {"map_bytes", methods::map_bytes(setting.map)},
+        {"taps", methods::tap_count(setting.filter)}};
     json.update(outcome_json(setting.pooled()));
     json["best_interval"] = {run.lo,
                              std::isfinite(run.hi) ? store::Json(run.hi) : store::Json(nullptr)};
@@ -110,7 +110,7 @@ std::string table_line(const TunedSetting& setting)
                        map_name(setting), scene::fit_name(setting.map.frustum.fit),
                        range(setting.map.frustum), scene::cull_name(setting.map.cull),
                        scene::filter_name(setting.filter),
-                       mebibytes(analysis::map_bytes(setting.map)), setting.bias.constant(),
+                       mebibytes(methods::map_bytes(setting.map)), setting.bias.constant(),
                        setting.slope, setting.normal_texels, percent(pooled.shadow_rate()),
                        percent(pooled.light_rate()), setting.meets_limits() ? "met" : "-");
 }

@@ -1,7 +1,7 @@
 #include "reports/words/remedy_words.hpp"
 
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/metrics/ratio.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -92,7 +92,7 @@ std::string remedy_sentence(const analysis::Comparison& comparison, const analys
         fmt::format("{} leaves {} of the surface wrong, in place of {}", remedy_keys(remedy),
                     of_surface(comparison, remedy.outcome.error_amount()),
                     of_surface(comparison, analysis::error_amount(comparison)));
-    if (remedy.map_bytes != analysis::map_bytes(comparison.job.shadow_map)) {
+    if (remedy.map_bytes != methods::map_bytes(comparison.job.shadow_map)) {
         text += fmt::format(", with a map of {}", mebibytes(remedy.map_bytes));
     }
     return text + price_words(comparison, remedy) + step_words(remedy) + "." +

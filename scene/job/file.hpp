@@ -23,10 +23,14 @@ enum class Stage : std::uint8_t {
 };
 using Stages = std::uint8_t;
 
+/// Each of the stages as results and documents spell it, in their order: "shadow_map".
+[[nodiscard]] std::vector<std::string_view> stage_names(Stages stages);
+
 /// One key of the job file.
 struct JobKey {
     std::string name;         ///< "shadow_map.resolution"
     std::string description;  ///< one line, with unit
+    std::string unit;         ///< "m", "depth units"; empty: none
     std::string default_text; ///< as written in TOML, e.g. "1024" or "\"d24\""
     std::string range_text;   ///< e.g. "an integer from 1 to 16384"
     Stages stages = 0;        ///< the first stages that must be redone when it changes

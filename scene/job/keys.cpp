@@ -9,6 +9,25 @@
 namespace gnomon::scene {
 namespace {
 
+std::string_view stage_name(Stage stage)
+{
+    switch (stage) {
+    case Stage::scene:
+        return "scene";
+    case Stage::truth:
+        return "truth";
+    case Stage::receivers:
+        return "receivers";
+    case Stage::shadow_map:
+        return "shadow_map";
+    case Stage::lookup:
+        return "lookup";
+    case Stage::bias:
+        return "bias";
+    }
+    return {};
+}
+
 constexpr Stages only_scene = static_cast<Stages>(Stage::scene);
 
 /// The camera moves the map too, through fit = "camera".
@@ -98,10 +117,10 @@ SceneParameter scene_parameter(const JobValue& value)
 
 KeySpec parameter_key(const BuiltinScene& scene, const BuiltinParameter& parameter)
 {
-    const std::string unit = parameter.unit.empty() ? "" : fmt::format(" [{}]", parameter.unit);
     return {.key = make_key(parameter_prefix(scene.name) + parameter.name,
-                            parameter.description + unit,
-                            to_toml(job_value(parameter, parameter.default_value)), only_scene),
+                            parameter.description + (parameter.unit.empty() ? "" : " [{unit}]"),
+                            to_toml(job_value(parameter, parameter.default_value)), only_scene,
+                            parameter.unit),
             .domain = parameter_domain(parameter),
             .set =
                 [name = parameter.name](Job& job, const JobValue& value) {
@@ -172,25 +191,25 @@ KeySpec projection_key(JobKey key, RealDomain domain, Projection projection,
 
 std::vector<KeySpec> camera_keys()
 {
-    return {camera_vector_key(
-                make_key("camera.eye", "where the camera stands [m]", "[0, 2, 6]", camera_stages),
-                true, &CameraSettings::eye),
-            camera_vector_key(make_key("camera.target", "the point in the image's middle [m]",
-                                       "[0, 0.5, 0]", camera_stages),
+    return {camera_vector_key(make_key("camera.eye", "where the camera stands [{unit}]",
+                                       "[0, 2, 6]", camera_stages, "m"),
+                              true, &CameraSettings::eye),
+            camera_vector_key(make_key("camera.target", "the point in the image's middle [{unit}]",
+                                       "[0, 0.5, 0]", camera_stages, "m"),
                               true, &CameraSettings::target),
             camera_vector_key(make_key("camera.up", "the way that is up in the image", "[0, 1, 0]",
                                        camera_stages),
                               false, &CameraSettings::up),
             projection_key(make_key("camera.vertical_fov_deg",
                                     "perspective: the image's opening angle from top to bottom "
-                                    "[deg]",
-                                    "45", camera_stages),
+                                    "[{unit}]",
+                                    "45", camera_stages, "deg"),
                            opening_angle_deg, Projection::perspective,
                            &CameraSettings::vertical_fov_deg),
             projection_key(make_key("camera.orthographic_height",
                                     "orthographic, in place of vertical_fov_deg: the image's "
-                                    "height in the world [m]",
-                                    "4", camera_stages),
+                                    "height in the world [{unit}]",
+                                    "4", camera_stages, "m"),
                            RealDomain{.lower = 1e-6, .upper = farthest_m}, Projection::orthographic,
                            &CameraSettings::orthographic_height_m)};
 }
@@ -198,11 +217,11 @@ std::vector<KeySpec> camera_keys()
 std::vector<KeySpec> image_keys()
 {
     return {member_key<std::int64_t>(
-                make_key("image.width", "columns [px]", "1280", camera_stages),
+                make_key("image.width", "columns [{unit}]", "1280", camera_stages, "px"),
                 IntegerDomain{1, largest_side},
                 [](auto& job) -> auto& { return job.image.width_px; }),
             member_key<std::int64_t>(
-                make_key("image.height", "rows [px]", "720", camera_stages),
+                make_key("image.height", "rows [{unit}]", "720", camera_stages, "px"),
                 IntegerDomain{1, largest_side},
                 [](auto& job) -> auto& { return job.image.height_px; })};
 }
@@ -252,8 +271,8 @@ KeySpec light_vector_key(JobKey key, bool zero_allowed, std::optional<Vec3d> Lig
 
 KeySpec cone_key()
 {
-    return {.key = make_key("light.cone_deg", "spot: the cone's full opening angle [deg]", "60",
-                            light_stages),
+    return {.key = make_key("light.cone_deg", "spot: the cone's full opening angle [{unit}]", "60",
+                            light_stages, "deg"),
             .domain = opening_angle_deg,
             .set = [](Job& job,
                       const JobValue& value) { light_of(job).cone_deg = std::get<double>(value); },
@@ -268,21 +287,22 @@ KeySpec cone_key()
 
 std::vector<KeySpec> light_keys()
 {
-    return {light_type_key(),
-            light_vector_key(make_key("light.direction", "directional: the way the light travels",
-                                      "[-0.4, -1, -0.3]", light_stages),
-                             false, &LightSettings::direction, {}),
-            light_vector_key(make_key("light.position",
-                                      "spot: where it stands [m]; directional: where its camera "
-                                      "stands",
-                                      "", light_stages),
-                             true, &LightSettings::position, "[4, 6, 4]"),
-            light_vector_key(make_key("light.target",
-                                      "spot: the point it looks at [m]; directional: with "
-                                      "position, in place of direction",
-                                      "", light_stages),
-                             true, &LightSettings::target, "[0, 0, 0]"),
-            cone_key()};
+    return {
+        light_type_key(),
+        light_vector_key(make_key("light.direction", "directional: the way the light travels",
+                                  "[-0.4, -1, -0.3]", light_stages),
+                         false, &LightSettings::direction, {}),
+        light_vector_key(make_key("light.position",
+                                  "spot: where it stands [{unit}]; directional: where its camera "
+                                  "stands",
+                                  "", light_stages, "m"),
+                         true, &LightSettings::position, "[4, 6, 4]"),
+        light_vector_key(make_key("light.target",
+                                  "spot: the point it looks at [{unit}]; directional: with "
+                                  "position, in place of direction",
+                                  "", light_stages, "m"),
+                         true, &LightSettings::target, "[0, 0, 0]"),
+        cone_key()};
 }
 
 std::vector<KeySpec> all_key_specs()
@@ -300,9 +320,26 @@ std::vector<KeySpec> all_key_specs()
 
 } // namespace
 
-JobKey make_key(std::string name, std::string description, std::string default_text, Stages stages)
+JobKey make_key(std::string name, std::string description, std::string default_text, Stages stages,
+                std::string unit)
 {
-    return {std::move(name), std::move(description), std::move(default_text), {}, stages};
+    constexpr std::string_view place = "{unit}";
+    if (const auto found = description.find(place); found != std::string::npos) {
+        description.replace(found, place.size(), unit);
+    }
+    return {std::move(name), std::move(description), std::move(unit), std::move(default_text), {},
+            stages};
+}
+
+std::vector<std::string_view> stage_names(Stages stages)
+{
+    std::vector<std::string_view> names;
+    for (unsigned bit = 1; bit <= static_cast<unsigned>(Stage::bias); bit <<= 1U) {
+        if ((stages & bit) != 0) {
+            names.push_back(stage_name(static_cast<Stage>(bit)));
+        }
+    }
+    return names;
 }
 
 const std::vector<KeySpec>& key_specs()

@@ -61,8 +61,9 @@ struct KeySpec {
 }
 
 /// A key whose range text is still to be filled in from its domain.
+/// @param description  With `{unit}` where its unit shall stand.
 [[nodiscard]] JobKey make_key(std::string name, std::string description, std::string default_text,
-                              Stages stages);
+                              Stages stages, std::string unit = {});
 
 /// A value that a job has; made in place, so that no temporary variant needs moving.
 template <typename Value>

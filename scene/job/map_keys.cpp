@@ -41,7 +41,7 @@ KeySpec depth_format_key()
 KeySpec plane_key(std::string name, std::string description,
                   std::optional<double> FrustumSettings::*plane)
 {
-    return {.key = make_key(std::move(name), std::move(description), "\"auto\"", light_matrix),
+    return {.key = make_key(std::move(name), std::move(description), "\"auto\"", light_matrix, "m"),
             .domain = RealDomain{.lower = -farthest_m, .upper = farthest_m, .or_auto = true},
             .set =
                 [plane](Job& job, const JobValue& value) {
@@ -60,8 +60,8 @@ KeySpec half_extent_key()
 {
     KeySpec spec = member_key<double>(
         make_key("shadow_map.half_extent",
-                 "half the side of the map's square [m]; fit = \"fixed\", directional light", "20",
-                 light_matrix),
+                 "half the side of the map's square [{unit}]; fit = \"fixed\", directional light",
+                 "20", light_matrix, "m"),
         RealDomain{.lower = 1e-6, .upper = farthest_m},
         [](auto& job) -> auto& { return job.shadow_map.frustum.half_extent_m; });
     spec.get = [](const Job& job) -> std::optional<JobValue> {
@@ -77,9 +77,9 @@ KeySpec half_extent_key()
 KeySpec fov_key()
 {
     return {.key = make_key("shadow_map.fov_deg",
-                            "full opening angle of the map [deg]; fit = \"fixed\", spot; left "
+                            "full opening angle of the map [{unit}]; fit = \"fixed\", spot; left "
                             "out: the light's cone",
-                            "", light_matrix),
+                            "", light_matrix, "deg"),
             .domain = opening_angle_deg,
             .set =
                 [](Job& job, const JobValue& value) {
@@ -107,13 +107,19 @@ std::vector<KeySpec> frustum_keys()
             half_extent_key(),
             fov_key(),
             member_key<double>(
-                make_key("shadow_map.roll_deg", "turns the texel grid about the light's axis [deg]",
-                         "0", light_matrix),
+                make_key("shadow_map.roll_deg",
+                         "turns the texel grid about the light's axis "
+                         "[{unit}]",
+                         "0", light_matrix, "deg"),
                 RealDomain{.lower = -360, .upper = 360},
                 [](auto& job) -> auto& { return job.shadow_map.frustum.roll_deg; }),
-            plane_key("shadow_map.near", "near plane [m], by distance from the light's camera",
+            plane_key("shadow_map.near",
+                      "near plane [{unit}], by distance from the light's "
+                      "camera",
                       &FrustumSettings::near_m),
-            plane_key("shadow_map.far", "far plane [m], by distance from the light's camera",
+            plane_key("shadow_map.far",
+                      "far plane [{unit}], by distance from the light's "
+                      "camera",
                       &FrustumSettings::far_m)};
 }
 
@@ -129,8 +135,8 @@ KeySpec bias_key(JobKey key, double largest, Access access)
 KeySpec constant_key()
 {
     KeySpec spec = bias_key(
-        make_key("bias.constant", "constant bias, depth units; or constant_m instead", "0",
-                 only(Stage::bias)),
+        make_key("bias.constant", "constant bias, {unit}; or constant_m instead", "0",
+                 only(Stage::bias), "depth units"),
         1, [](auto& job) -> auto& { return job.bias.constant; });
     spec.get = [](const Job& job) {
         return job.bias.constant_m ? std::nullopt : held(job.bias.constant);
@@ -141,9 +147,9 @@ KeySpec constant_key()
 KeySpec constant_m_key()
 {
     return {.key = make_key("bias.constant_m",
-                            "constant bias [m] along a directional light's axis, in place of "
+                            "constant bias [{unit}] along a directional light's axis, in place of "
                             "constant",
-                            "", only(Stage::bias)),
+                            "", only(Stage::bias), "m"),
             .domain = RealDomain{.lower = -farthest_m, .upper = farthest_m, .normal_float = true},
             .set = [](Job& job,
                       const JobValue& value) { job.bias.constant_m = std::get<double>(value); },
@@ -159,7 +165,7 @@ std::vector<KeySpec> lookup_and_bias_keys()
     return {word_key<Filter>(
                 make_key("lookup.filter", "how the map is filtered", "\"nearest\"",
                          only(Stage::lookup)),
-                static_cast<int>(filters().size()), filter_name,
+                static_cast<int>(filter_count), filter_name,
                 [](auto& job) -> auto& { return job.lookup.filter; }),
             word_key<Outside>(
                 make_key("lookup.outside", "the verdict beyond the map's edge or its far plane",
@@ -169,14 +175,15 @@ std::vector<KeySpec> lookup_and_bias_keys()
             constant_m_key(),
             bias_key(
                 make_key("bias.slope",
-                         "slope bias, depth units per unit of the tangent between the "
+                         "slope bias, {unit} between the "
                          "geometric normal and the light",
-                         "0", only(Stage::bias)),
+                         "0", only(Stage::bias), "depth units per unit of the tangent"),
                 steepest, [](auto& job) -> auto& { return job.bias.slope; }),
             bias_key(
                 make_key("bias.normal_texels",
-                         "moves the lookup along the geometric normal [texel widths]", "0",
-                         only(Stage::lookup)),
+                         "moves the lookup along the geometric normal "
+                         "[{unit}]",
+                         "0", only(Stage::lookup), "texel widths"),
                 steepest, [](auto& job) -> auto& { return job.bias.normal_texels; })};
 }
 
@@ -186,8 +193,8 @@ std::vector<KeySpec> map_key_specs()
 {
     std::vector<KeySpec> specs;
     specs.push_back(member_key<std::int64_t>(
-        make_key("shadow_map.resolution", "texels along each side of the map", "1024",
-                 only(Stage::shadow_map)),
+        make_key("shadow_map.resolution", "{unit} along each side of the map", "1024",
+                 only(Stage::shadow_map), "texels"),
         IntegerDomain{1, largest_side},
         [](auto& job) -> auto& { return job.shadow_map.resolution_texels; }));
     specs.push_back(depth_format_key());

@@ -5,6 +5,7 @@
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "gl_case.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
 
@@ -120,7 +121,7 @@ analysis::Renderers lookups_of(GlCase& c, const scene::Image<scene::PixelClass>&
         c.look_up();
         auto lookup = c.lookup_pass.read();
         amounts[view.bias.constant] =
-            amounts_of(lookup, classes, scene::promises(job.lookup.filter).equal_taps());
+            amounts_of(lookup, classes, methods::filter_promises(job.lookup.filter).equal_taps());
         return lookup;
     };
     return renderers;

@@ -1,6 +1,7 @@
 #include "analysis/lookup/tap_criticals.hpp"
 #include "closed_form.hpp"
 #include "compared.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/filter.hpp"
 
 #include <algorithm>
@@ -88,7 +89,7 @@ public:
         scene::View biased = result_.view;
         biased.bias = {.constant = static_cast<float>(bias)};
         const auto lookup = compared_.renderers().look_up(result_.job, biased);
-        const int taps = scene::promises(result_.job.lookup.filter).equal_taps();
+        const int taps = methods::filter_promises(result_.job.lookup.filter).equal_taps();
         return analysis::measure(result_.truth, lookup, taps).shadow_amount_rate.value();
     }
 
@@ -104,7 +105,7 @@ void expect_amounts(const Compared& compared, const analysis::Comparison& result
     const AmountAt amount_at{compared, result};
     const Shares shares = shares_of(setting);
     const double across =
-        scene::filter_width_texels(filter) * 2 * half / (shares.larger + shares.smaller);
+        methods::filter_promises(filter).width_texels * 2 * half / (shares.larger + shares.smaller);
     for (const double beta : {0.0, 0.1, 0.25, 0.4, 0.6}) {
         EXPECT_NEAR(amount_at(beta * across), mean_amount(shares, beta), phase_sampling)
             << "β = " << beta;
@@ -146,7 +147,7 @@ void expect_closed_forms(const TiltedPlaneSetting& setting, const Compared& comp
         SCOPED_TRACE(scene::filter_name(filter));
         const auto result = compared(job_of(setting, filter, 0));
         ASSERT_GE(result.metrics.pixels.of(scene::PixelClass::lit), 500000U);
-        expect_ends(result, setting, scene::filter_width_texels(filter));
+        expect_ends(result, setting, methods::filter_promises(filter).width_texels);
         expect_tap_criticals(compared, result);
         expect_amounts(compared, result, setting, filter);
     }

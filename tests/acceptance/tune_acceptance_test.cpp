@@ -1,6 +1,7 @@
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/tune/tune.hpp"
 #include "compared.hpp"
+#include "methods/depth/depth_map.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/builtin/scenes.hpp"
 
 #include <fmt/format.h>
@@ -73,7 +74,7 @@ TEST(Tune, KnowsWhatAFilterSoftensOnPurpose)
     for (const analysis::TunedSetting& setting : result.considered) {
         const analysis::ViewOutcome& outcome = setting.bias.outcomes.front();
         const double soft = outcome.shadow_softening + outcome.light_softening;
-        EXPECT_TRUE(soft == 0 || scene::promises(setting.filter).has_fractions());
+        EXPECT_TRUE(soft == 0 || methods::filter_promises(setting.filter).has_fractions());
         softening += soft;
     }
     EXPECT_GT(softening, 0);
@@ -111,9 +112,9 @@ TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
     ASSERT_TRUE(result.meets_limits());
     EXPECT_EQ(result.best().filter, scene::Filter::nearest) << "the fewest taps";
     EXPECT_EQ(result.best().map.resolution_texels, 256);
-    EXPECT_EQ(analysis::map_bytes(result.best().map), 256U * 256 * 2);
+    EXPECT_EQ(methods::map_bytes(result.best().map), 256U * 256 * 2);
     for (const analysis::TunedSetting& setting : result.considered) {
-        EXPECT_EQ(analysis::map_bytes(setting.map), analysis::map_bytes(result.best().map));
+        EXPECT_EQ(methods::map_bytes(setting.map), methods::map_bytes(result.best().map));
         EXPECT_GE(setting.pooled().error_rate(), result.best().pooled().error_rate());
     }
 }
@@ -184,7 +185,7 @@ TEST(LongTune, PlacesNearAndFarBeforeItSpendsBytes)
     const Compared compared{std::move(bunny.file)};
     const auto result = tuned(job, compared, {});
     ASSERT_TRUE(result.meets_limits());
-    EXPECT_LE(analysis::map_bytes(result.best().map), std::uint64_t{32} << 20);
+    EXPECT_LE(methods::map_bytes(result.best().map), std::uint64_t{32} << 20);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 #include "fake_light.hpp"
+#include "methods/depth/filters.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/infinity.hpp"
@@ -156,8 +157,8 @@ private:
         [[nodiscard]] float verdict(const scene::LookupSample& sample, scene::Vec2f texel) const
         {
             const float bias = view_.bias.constant + view_.bias.slope * sample.tan_theta;
-            const int radius = scene::filter_width_texels(job_.lookup.filter) / 2;
-            const bool is_pcf = scene::promises(job_.lookup.filter).equal_taps() > 1;
+            const int radius = methods::filter_promises(job_.lookup.filter).width_texels / 2;
+            const bool is_pcf = methods::filter_promises(job_.lookup.filter).equal_taps() > 1;
             if (!is_pcf) {
                 return tap(sample.receiver_depth, sample.map_depth, bias);
             }
@@ -167,7 +168,8 @@ private:
                     sum += tap(sample.receiver_depth, depth_at(texel, x, y), bias);
                 }
             }
-            return sum / static_cast<float>(scene::promises(job_.lookup.filter).equal_taps());
+            return sum /
+                   static_cast<float>(methods::filter_promises(job_.lookup.filter).equal_taps());
         }
 
         const SweepWorld& world_;

@@ -63,6 +63,7 @@ TEST(Leaks, AreNotInTheCommandsThatOnlyPrint)
 {
     const TemporaryFolder folder;
     expect_no_leak({"scenes", "--json"});
+    expect_no_leak({"methods", "--json"});
     expect_no_leak({"init"});
     expect_no_leak({"completion", "bash"});
     expect_no_leak({"capture-kit", (folder.path() / "kit").string()});

@@ -136,6 +136,8 @@ std::vector<std::vector<std::string>> commands_that_print()
             small_comparison({"--json"}),
             {"scenes"},
             {"scenes", "--json"},
+            {"methods"},
+            {"methods", "--json"},
             {"init"},
             {"doctor"},
             {"depth", "--samples", "16", "--csv"},

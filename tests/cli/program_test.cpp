@@ -20,7 +20,8 @@ using Json = nlohmann::json;
 
 TEST(Program, AnswersHelpAndVersion)
 {
-    for (const char* const command : {"compare", "scenes", "init", "doctor", "completion"}) {
+    for (const char* const command :
+         {"compare", "scenes", "methods", "init", "doctor", "completion"}) {
         const Ending ending = gnomon({command, "--help"});
         expect_done(ending);
         EXPECT_THAT(ending.out, HasSubstr("Usage: gnomon " + std::string{command}));
@@ -137,6 +138,36 @@ TEST(Scenes, ListsEveryBuiltinWithItsParameters)
     }
 }
 
+TEST(Methods, ListsFiltersBiasTermsAndKeysThatAJobTakes)
+{
+    const Ending ending = gnomon({"methods", "--json"});
+    expect_done(ending);
+    const Json json = Json::parse(ending.out);
+    ASSERT_EQ(json.size(), 1U);
+    EXPECT_EQ(json[0].at("name"), "depth");
+    std::set<std::string> filters;
+    for (const Json& filter : json[0].at("filters")) {
+        filters.insert(filter.at("name"));
+    }
+    EXPECT_EQ(filters, (std::set<std::string>{"nearest", "linear", "hardware", "pcf3", "pcf5",
+                                              "pcf7", "pcf9"}));
+    const std::string job = gnomon({"init"}).out;
+    for (const Json& key : json[0].at("keys")) {
+        const std::string name = key.at("name");
+        EXPECT_THAT(job, HasSubstr(name.substr(name.find('.') + 1) + " = ")) << name;
+    }
+    const Ending table = gnomon({"methods"});
+    expect_done(table);
+    for (const std::string& filter : filters) {
+        EXPECT_THAT(table.out, HasSubstr("\n  " + filter + " "));
+    }
+}
+
+TEST(Methods, RejectsAName)
+{
+    expect_refused(gnomon({"methods", "depth"}), 2, "depth");
+}
+
 TEST(Doctor, NamesWhatItFinds)
 {
     const Ending ending = gnomon({"doctor", "--json"});
@@ -244,7 +275,7 @@ TEST(Completion, OffersCommandsOptionsAndNamesInBash)
     using Words = std::set<std::string>;
     EXPECT_EQ(completions(script, "gnomon comp"), (Words{"compare", "completion"}));
     EXPECT_THAT(completions(script, "gnomon ''"),
-                IsSupersetOf({"compare", "doctor", "init", "scenes", "completion"}));
+                IsSupersetOf({"compare", "doctor", "init", "scenes", "methods", "completion"}));
     EXPECT_EQ(completions(script, "gnomon compare --builtin sphere-"),
               (Words{"sphere-cube", "sphere-field", "sphere-plane"}));
     EXPECT_THAT(completions(script, "gnomon compare --"),

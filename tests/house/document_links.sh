@@ -34,7 +34,7 @@ mapfile -t sources < <(find . \( -name build -o -name out -o -name .git \) -prun
     -o -name '*.py' \) -printf '%P\n')
 while IFS=: read -r where target; do
     check "$where" "$target"
-done < <(grep -oHE 'docs/[a-z_]+\.md(#[a-z0-9-]+)?' "${sources[@]}")
+done < <(grep -oHE 'docs/[a-z_/]+\.md(#[a-z0-9-]+)?' "${sources[@]}")
 
 mapfile -t pages < <(find . \( -name build -o -name out -o -name .git \) -prune -o -type f \
     -name '*.md' -printf '%P\n')
@@ -46,7 +46,7 @@ while IFS=: read -r where target; do
 done < <(grep -oHE '\]\([^) ]+\)' "${pages[@]}")
 
 # Sources that a page names, with their ending or without, are there.
-rooms='scene|raster_gl|reference_rt|analysis|store|reports|cli|tests'
+rooms='scene|methods|raster_gl|reference_rt|analysis|store|reports|cli|tests'
 while IFS=: read -r where source; do
     if [ ! -e "$source" ] && ! compgen -G "$source.*" >/dev/null; then
         printf '%s: %s does not exist\n' "$where" "$source" >&2

@@ -28,6 +28,7 @@ expect "" "[a](docs/formulas.md#driver-bound-b) [b](#read-me) [c](https://exampl
 expect "README.md: docs/lost.md does not exist" "[a](docs/lost.md)" ""
 expect "README.md: docs/formulas.md has no heading #lost" "[a](docs/formulas.md#lost)" ""
 expect "scene/job/job.hpp: docs/lost.md does not exist" "[a](#read-me)" "docs/lost.md"
+expect "scene/job/job.hpp: docs/methods/lost.md does not exist" "[a](#read-me)" "docs/methods/lost.md"
 expect "scene/job/job.hpp: docs/formulas.md has no heading #lost" "[a](#read-me)" \
     "docs/formulas.md#lost"
 expect "README.md: scene/lost does not exist" '`scene/lost`' ""

@@ -1,6 +1,8 @@
 #include "example_comparison.hpp"
 
+#include "methods/list.hpp"
 #include "reports/json/comparison_json.hpp"
+#include "reports/json/methods_json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -55,6 +57,33 @@ TEST(JsonSchemaDocument, NamesTheMembersOfItsObjects)
             EXPECT_TRUE(is_named(text, name)) << object << "." << name;
         }
     }
+}
+
+/// Calls `visit` with the name of each member, at any depth.
+template <typename Visit>
+void for_each_member(const Json& json, const Visit& visit)
+{
+    for (const auto& [name, value] : json.items()) {
+        if (json.is_object()) {
+            visit(name);
+        }
+        if (value.is_structured()) {
+            for_each_member(value, visit);
+        }
+    }
+}
+
+TEST(JsonSchemaDocument, NamesTheMembersOfMethods)
+{
+    std::string text = document_text(schema_document);
+    text.erase(0, text.find("\n## Methods\n"));
+    const Json json = Json::parse(methods_json(methods::methods()));
+    int members = 0;
+    for_each_member(json, [&](const std::string& name) {
+        EXPECT_TRUE(is_named(text, name)) << name << " is not in " << schema_document;
+        ++members;
+    });
+    EXPECT_GT(members, 100);
 }
 
 TEST(JsonSchemaDocument, IsNotTakenToNameWhatItDoesNot)

@@ -1,13 +1,14 @@
 # The layer rule: what each folder may include. Run as cmake -DROOT=<checkout> -P layer_check.cmake.
 cmake_minimum_required(VERSION 3.25)
 
-set(layers scene raster_gl reference_rt analysis store reports cli)
+set(layers scene methods raster_gl reference_rt analysis store reports cli)
 set(scene_may_include scene)
-set(raster_gl_may_include raster_gl scene)
+set(methods_may_include methods scene)
+set(raster_gl_may_include raster_gl methods scene)
 set(reference_rt_may_include reference_rt scene)
-set(analysis_may_include analysis scene)
-set(store_may_include store analysis scene)
-set(reports_may_include reports store analysis scene)
+set(analysis_may_include analysis methods scene)
+set(store_may_include store analysis methods scene)
+set(reports_may_include reports store analysis methods scene)
 set(cli_may_include ${layers})
 
 # Libraries that belong to one layer, by the start of their headers' names.

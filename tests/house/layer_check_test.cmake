@@ -33,6 +33,16 @@ expect("the truth must not know the measurement" reference_rt/truth.cpp
        "#include \"raster_gl/lookup.hpp\"\n" "truth.cpp: reference_rt may not include raster_gl")
 expect("the measurement must not know the truth" raster_gl/lookup.cpp
        "#include \"reference_rt/truth.hpp\"\n" "raster_gl may not include reference_rt")
+expect("the measurement reads how a map decides" raster_gl/lookup.cpp
+       "#include \"methods/depth/filters.hpp\"\n" PASSES)
+expect("analysis reads how a map decides" analysis/metrics/metrics.cpp
+       "#include \"methods/depth/filters.hpp\"\n" PASSES)
+expect("the truth must not know how a map decides" reference_rt/truth.cpp
+       "#include \"methods/depth/filters.hpp\"\n" "reference_rt may not include methods")
+expect("a method describes, and measures nothing" methods/depth/filters.cpp
+       "#include \"raster_gl/lookup.hpp\"\n" "methods may not include raster_gl")
+expect("a method calls no GL" methods/depth/filters.cpp
+       "#include <epoxy/gl.h>\n" "only raster_gl may include <epoxy/gl.h>")
 expect("the ground floor knows nobody" scene/job/job.cpp
        "#include \"analysis/metrics/metrics.hpp\"\n" "scene may not include analysis")
 expect("analysis knows no renderer" analysis/metrics/metrics.cpp

@@ -1,5 +1,7 @@
 #include "gl_case.hpp"
 
+#include "methods/depth/filters.hpp"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
@@ -27,7 +29,7 @@ public:
         : c_{c},
           map_{map},
           resolution_{c.map->resolution_texels},
-          half_{scene::filter_width_texels(c.job.lookup.filter) / 2}
+          half_{methods::filter_promises(c.job.lookup.filter).width_texels / 2}
     {
     }
 

@@ -1,6 +1,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "lookup_layers.hpp"
+#include "methods/depth/filters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -100,7 +101,7 @@ int count_lit_taps(const Pcf& pcf, scene::Vec2f texel, float r, float bias)
         const float d = pcf.map(std::clamp(x, 0, 3), 3 - std::clamp(y, 0, 3));
         return pcf.rule.reversed ? r + bias >= d : r - bias <= d;
     };
-    const int radius = scene::filter_width_texels(pcf.rule.filter) / 2;
+    const int radius = methods::filter_promises(pcf.rule.filter).width_texels / 2;
     int lit = 0;
     for (int y = -radius; y <= radius; ++y) {
         for (int x = -radius; x <= radius; ++x) {
@@ -133,7 +134,7 @@ TEST(DecidingSamples, AgreeWithCountingLitTaps)
         const auto decided =
             deciding_samples(layers_of({{r, 0.5F, 0, 0}}), texels, pcf.map, pcf.rule);
         const float critical = critical_biases(decided, pcf.rule)[0];
-        const int width = scene::filter_width_texels(pcf.rule.filter);
+        const int width = methods::filter_promises(pcf.rule.filter).width_texels;
         const int lit = count_lit_taps(pcf, texel, r, bias);
         ASSERT_EQ(scene::is_lit(static_cast<float>(lit) / static_cast<float>(width * width)),
                   critical <= bias)

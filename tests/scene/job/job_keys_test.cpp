@@ -16,6 +16,7 @@ namespace gnomon::scene::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// What a key accepts and refuses, in TOML; `context` are keys that it needs beside it.
 struct KeyCases {
@@ -236,6 +237,36 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
     }
 }
 
+TEST(JobKeys, HaveTheUnitThatTheirDescriptionNames)
+{
+    const auto key = [](std::string_view name) { return find_key(name)->key; };
+    EXPECT_EQ(key("camera.eye").unit, "m");
+    EXPECT_EQ(key("image.width").unit, "px");
+    EXPECT_EQ(key("shadow_map.resolution").unit, "texels");
+    EXPECT_EQ(key("bias.constant").unit, "depth units");
+    EXPECT_EQ(key("bias.constant").description,
+              "constant bias, depth units; or constant_m instead");
+    EXPECT_EQ(key("bias.normal_texels").unit, "texel widths");
+    EXPECT_EQ(key("scene.wall.thickness_m").unit, "m");
+    EXPECT_EQ(key("lookup.filter").unit, "");
+    for (const JobKey& each : job_keys()) {
+        EXPECT_THAT(each.description, HasSubstr(each.unit)) << each.name;
+        EXPECT_THAT(each.description, Not(HasSubstr("{unit}"))) << each.name;
+        for (const std::string unit : {"m", "deg", "px"}) {
+            const bool is_named = each.description.find("[" + unit + "]") != std::string::npos;
+            EXPECT_EQ(is_named, each.unit == unit) << each.name;
+        }
+    }
+}
+
+TEST(JobKeys, SpellTheirStages)
+{
+    EXPECT_TRUE(stage_names(0).empty());
+    EXPECT_EQ(stage_names(only(Stage::scene)), std::vector<std::string_view>{"scene"});
+    EXPECT_EQ(stage_names(0x3F), (std::vector<std::string_view>{"scene", "truth", "receivers",
+                                                                "shadow_map", "lookup", "bias"}));
+}
+
 RC_GTEST_PROP(JobKeys, PrintNumbersThatReadBackAsTheSameBits, ())
 {
     const auto number = *rc::gen::arbitrary<double>();
@@ -273,13 +304,16 @@ TEST(DepthFormat, NamesAndFormatsAreInverse)
     }
 }
 
-TEST(Filter, HasTheWidthThatItsNameSays)
+TEST(Filter, HasANameForEachEnumeratorAndNoMore)
 {
-    EXPECT_EQ(filter_width_texels(Filter::nearest), 1);
-    EXPECT_EQ(filter_width_texels(Filter::linear), 2);
-    EXPECT_EQ(filter_width_texels(Filter::hardware), 2);
-    EXPECT_EQ(filter_width_texels(Filter::pcf3), 3);
-    EXPECT_EQ(filter_width_texels(Filter::pcf9), 9);
+    EXPECT_EQ(filter_count, 7U);
+    EXPECT_EQ(filter_name(Filter::nearest), "nearest");
+    EXPECT_EQ(filter_name(Filter::pcf9), "pcf9");
+    std::set<std::string_view> seen;
+    for (std::size_t i = 0; i < filter_count; ++i) {
+        EXPECT_TRUE(seen.insert(filter_name(static_cast<Filter>(i))).second) << i;
+    }
+    EXPECT_EQ(filter_name(static_cast<Filter>(filter_count)), "");
 }
 
 TEST(NearestWord, NeedsTheFewestEdits)

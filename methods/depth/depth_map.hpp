@@ -1,10 +1,13 @@
 #pragma once
 
-#include "scene/job/job.hpp"
+#include "methods/method.hpp"
 
 #include <cstdint>
 
-namespace gnomon::analysis {
+namespace gnomon::methods {
+
+/// The method "depth": a map of depths as seen from the light, compared with the receiver's.
+[[nodiscard]] Method depth_map();
 
 /// Memory that a map takes [bytes]; u-formats as if GL had them.
 [[nodiscard]] std::uint64_t map_bytes(const scene::ShadowMapSettings& map);
@@ -12,4 +15,4 @@ namespace gnomon::analysis {
 /// Texels that a lookup reads; what GL's own filters read in one call counts, too.
 [[nodiscard]] int tap_count(scene::Filter filter);
 
-} // namespace gnomon::analysis
+} // namespace gnomon::methods

@@ -1,10 +1,7 @@
-#include "cli/program/simple_commands.hpp"
+#include "cli/program/init_command.hpp"
 
 #include "cli/output_files.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reports/json/scenes_json.hpp"
-#include "reports/tables/scenes_table.hpp"
-#include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
 #include "store/output_file.hpp"
 #include "store/output_name.hpp"
@@ -27,21 +24,6 @@ void init(const std::string& path, bool force)
 }
 
 } // namespace
-
-void add_scenes_command(CLI::App& program)
-{
-    auto json = std::make_shared<bool>(false);
-    CLI::App* command =
-        program.add_subcommand("scenes", "List the built-in scenes and their parameters");
-    command->add_flag("--json", *json, "Print them as JSON");
-    command->footer("Examples:\n"
-                    "  gnomon scenes\n"
-                    "  gnomon compare --builtin wall --set scene.wall.thickness_m=0.1");
-    command->callback([json] {
-        print(*json ? reports::scenes_json(scene::builtin_scenes())
-                    : reports::scenes_table(scene::builtin_scenes()));
-    });
-}
 
 void add_init_command(CLI::App& program)
 {

@@ -7,7 +7,4 @@ namespace gnomon::cli {
 /// `gnomon scenes`: lists the built-in scenes and their parameters.
 void add_scenes_command(CLI::App& program);
 
-/// `gnomon init [FILE]`: writes a commented job file.
-void add_init_command(CLI::App& program);
-
 } // namespace gnomon::cli

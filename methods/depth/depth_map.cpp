@@ -1,0 +1,58 @@
+#include "methods/depth/depth_map.hpp"
+
+#include "methods/depth/bias_terms.hpp"
+#include "methods/depth/filters.hpp"
+
+#include <array>
+
+namespace gnomon::methods {
+namespace {
+
+constexpr auto depth_sources = std::to_array<Source>({
+    {"L. Williams", 1978, "Casting curved shadows on curved surfaces", {}},
+    {"W. T. Reeves, D. H. Salesin, R. L. Cook", 1987,
+     "Rendering antialiased shadows with depth maps", "means of comparisons (pcf)"},
+});
+constexpr auto depth_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
+
+Promises depth_promises(const scene::Job& job)
+{
+    const FilterPromises& filter = filter_promises(job.lookup.filter);
+    return {filter.has_fractions() ? Verdict::fraction : Verdict::binary, filter.compares,
+            filter.rises, filter.curve, true};
+}
+
+/// Bytes of a texel: a whole number of GL's smallest formats; u-formats as if GL had them.
+std::uint64_t texel_bytes(scene::DepthFormat format)
+{
+    return format.bits <= 16 ? 2 : 4;
+}
+
+} // namespace
+
+Method depth_map()
+{
+    return {.name = "depth",
+            .sentence = "draws the depth of what the light sees first, and compares the receiver's "
+                        "depth with it",
+            .sources = depth_sources,
+            .page = "docs/methods/depth.md",
+            .key_tables = depth_tables,
+            .filters = filters(),
+            .bias_terms = bias_terms(),
+            .promises = depth_promises,
+            .map_bytes = map_bytes};
+}
+
+std::uint64_t map_bytes(const scene::ShadowMapSettings& map)
+{
+    const auto side = static_cast<std::uint64_t>(map.resolution_texels);
+    return side * side * texel_bytes(map.depth_format);
+}
+
+int tap_count(scene::Filter filter)
+{
+    return static_cast<int>(filter_promises(filter).tap_count());
+}
+
+} // namespace gnomon::methods

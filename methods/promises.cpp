@@ -1,0 +1,55 @@
+#include "methods/promises.hpp"
+
+namespace gnomon::methods {
+
+std::string_view name(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::binary:
+        return "binary";
+    case Verdict::fraction:
+        return "fraction";
+    }
+    return {};
+}
+
+std::string_view name(Compares compares)
+{
+    switch (compares) {
+    case Compares::each_tap:
+        return "each_tap";
+    case Compares::mean_depth:
+        return "mean_depth";
+    case Compares::none:
+        return "none";
+    }
+    return {};
+}
+
+std::string_view name(Rise rise)
+{
+    switch (rise) {
+    case Rise::exactly:
+        return "exactly";
+    case Rise::up_to_rounding:
+        return "up_to_rounding";
+    case Rise::no:
+        return "no";
+    }
+    return {};
+}
+
+std::string_view name(Curve curve)
+{
+    switch (curve) {
+    case Curve::by_formula:
+        return "by_formula";
+    case Curve::by_bisection:
+        return "by_bisection";
+    case Curve::none:
+        return "none";
+    }
+    return {};
+}
+
+} // namespace gnomon::methods

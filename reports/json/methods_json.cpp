@@ -1,0 +1,97 @@
+#include "reports/json/methods_json.hpp"
+
+#include "store/json_values.hpp"
+
+namespace gnomon::reports {
+
+namespace {
+
+store::Json source_array(std::span<const methods::Source> sources)
+{
+    store::Json json = store::Json::array();
+    for (const methods::Source& source : sources) {
+        json.push_back({{"authors", source.authors},
+                        {"year", source.year},
+                        {"title", source.title},
+                        {"about", source.about}});
+    }
+    return json;
+}
+
+store::Json key_array(const methods::Method& method)
+{
+    store::Json json = store::Json::array();
+    for (const scene::JobKey& key : methods::keys_of(method)) {
+        // A default stands in TOML's syntax, which for numbers, booleans and words is JSON's, too.
+        json.push_back(
+            {{"name", key.name},
+             {"description", key.description},
+             {"unit", key.unit},
+             {"default", key.default_text.empty() ? store::Json(nullptr)
+                                                  : store::Json::parse(key.default_text)},
+             {"allowed", key.range_text},
+             {"stages", scene::stage_names(key.stages)}});
+    }
+    return json;
+}
+
+store::Json promises_object(const methods::Promises& promises)
+{
+    const bool falls = promises.rises.how == methods::Rise::up_to_rounding;
+    return {{"verdict", methods::name(promises.verdict)},
+            {"compares", methods::name(promises.compares)},
+            {"rises", methods::name(promises.rises.how)},
+            {"largest_fall", falls ? store::Json(promises.rises.largest_fall) : nullptr},
+            {"curve", methods::name(promises.curve)},
+            {"has_map", promises.has_map}};
+}
+
+store::Json filter_array(const methods::Method& method)
+{
+    store::Json json = store::Json::array();
+    for (const methods::FilterPromises& filter : method.filters) {
+        json.push_back(
+            {{"name", scene::filter_name(filter.filter)},
+             {"sentence", filter.sentence},
+             {"width_texels", filter.width_texels},
+             {"promises", promises_object(methods::promises_with(method, filter.filter))}});
+    }
+    return json;
+}
+
+store::Json bias_term_array(const methods::Method& method)
+{
+    store::Json json = store::Json::array();
+    for (const methods::BiasTerm& term : method.bias_terms) {
+        store::Json keys = store::Json::array();
+        for (const scene::JobKey& key : methods::keys_of(term)) {
+            keys.push_back({{"name", key.name}, {"unit", key.unit}});
+        }
+        json.push_back({{"name", term.name},
+                        {"sentence", term.sentence},
+                        {"acts", methods::name(term.place)},
+                        {"stages", scene::stage_names(methods::stages_of(term))},
+                        {"keys", std::move(keys)}});
+    }
+    return json;
+}
+
+} // namespace
+
+std::string methods_json(std::span<const methods::Method> methods)
+{
+    store::Json json = store::Json::array();
+    for (const methods::Method& method : methods) {
+        json.push_back({{"name", method.name},
+                        {"sentence", method.sentence},
+                        {"sources", source_array(method.sources)},
+                        {"page", method.page},
+                        {"promises", promises_object(method.promises(scene::Job{}))},
+                        {"filters", filter_array(method)},
+                        {"bias_terms", bias_term_array(method)},
+                        {"keys", key_array(method)}});
+    }
+    return json.dump(2) + "\n";
+}
+
+} // namespace gnomon::reports

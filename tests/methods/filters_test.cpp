@@ -1,0 +1,98 @@
+#include "methods/depth/filters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+namespace gnomon::methods {
+namespace {
+
+using scene::Filter;
+
+constexpr Rises exactly{Rise::exactly, 0};
+
+struct ExpectedFilter {
+    Filter filter;
+    int width_texels;
+    Compares compares;
+    Weights weights;
+    Curve curve;
+    bool has_fractions;
+    bool interpolates;
+    bool returns_deciding_depth;
+    int equal_taps;
+};
+
+constexpr ExpectedFilter expected_filters[]{
+    {Filter::nearest, 1, Compares::each_tap, Weights::equal, Curve::by_formula, false, false, true,
+     1},
+    {Filter::linear, 2, Compares::mean_depth, Weights::bilinear, Curve::by_formula, false, true,
+     true, 1},
+    {Filter::hardware, 2, Compares::each_tap, Weights::bilinear_of_gl, Curve::by_bisection, true,
+     true, false, 0},
+    {Filter::pcf3, 3, Compares::each_tap, Weights::equal, Curve::by_formula, true, false, false, 9},
+    {Filter::pcf5, 5, Compares::each_tap, Weights::equal, Curve::by_formula, true, false, false,
+     25},
+    {Filter::pcf7, 7, Compares::each_tap, Weights::equal, Curve::by_formula, true, false, false,
+     49},
+    {Filter::pcf9, 9, Compares::each_tap, Weights::equal, Curve::by_formula, true, false, false,
+     81},
+};
+
+TEST(FilterPromises, AreThoseOfTheTable)
+{
+    ASSERT_EQ(filters().size(), std::size(expected_filters));
+    for (const ExpectedFilter& expected : expected_filters) {
+        SCOPED_TRACE(scene::filter_name(expected.filter));
+        const FilterPromises& promised = filter_promises(expected.filter);
+        EXPECT_EQ(promised.width_texels, expected.width_texels);
+        EXPECT_EQ(promised.compares, expected.compares);
+        EXPECT_EQ(promised.weights, expected.weights);
+        EXPECT_EQ(promised.rises, exactly);
+        EXPECT_EQ(promised.curve, expected.curve);
+        EXPECT_TRUE(promised.has_curve());
+        EXPECT_EQ(promised.has_formula(), expected.curve == Curve::by_formula);
+        EXPECT_EQ(promised.has_fractions(), expected.has_fractions);
+        EXPECT_EQ(promised.interpolates(), expected.interpolates);
+        EXPECT_EQ(promised.returns_deciding_depth(), expected.returns_deciding_depth);
+        EXPECT_EQ(promised.equal_taps(), expected.equal_taps);
+    }
+}
+
+TEST(FilterPromises, CountTheTapsOfASquare)
+{
+    std::size_t most = 0;
+    for (const FilterPromises& promised : filters()) {
+        const auto width = static_cast<std::size_t>(promised.width_texels);
+        EXPECT_EQ(promised.tap_count(), width * width);
+        EXPECT_EQ(promised.has_one_tap(), width == 1);
+        most = std::max(most, promised.tap_count());
+    }
+    EXPECT_EQ(most, most_taps);
+}
+
+TEST(FilterPromises, AreInTheOrderOfTheEnumeratorsAndHaveASentenceEach)
+{
+    ASSERT_EQ(filters().size(), scene::filter_count);
+    std::set<std::string_view> sentences;
+    for (std::size_t i = 0; i < filters().size(); ++i) {
+        const auto filter = static_cast<Filter>(i);
+        EXPECT_EQ(filters()[i].filter, filter);
+        EXPECT_EQ(&filter_promises(filter), &filters()[i]);
+        EXPECT_TRUE(sentences.insert(filters()[i].sentence).second) << filters()[i].sentence;
+        EXPECT_FALSE(filters()[i].sentence.empty());
+    }
+}
+
+TEST(FilterPromises, RejectWhatIsNoFilter)
+{
+    EXPECT_THROW((void)filter_promises(static_cast<Filter>(scene::filter_count)),
+                 std::out_of_range);
+}
+
+} // namespace
+} // namespace gnomon::methods
