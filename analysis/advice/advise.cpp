@@ -1,7 +1,6 @@
 #include "analysis/advice/advise.hpp"
 
 #include "analysis/advice/bias_search.hpp"
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/advice/variants.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "methods/depth/depth_map.hpp"

@@ -1,6 +1,5 @@
 // What the bias curve of a lookup says: its shape, what it recommends, and a sweep's rows of it.
 
-#include "analysis/advice/map_cost.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/bias/bias_valley.hpp"
 #include "analysis/bias/tried_biases.hpp"
