@@ -83,6 +83,7 @@ const Program& LookupPass::program(const Variant& variant)
         {"OUTSIDE_VERDICT", variant.outside == Outside::shadowed ? "0.0" : "1.0"},
         {"REVERSED", flag(variant.reversed)},
         {"SPOT", flag(variant.spot)},
+        {"POSITION_OF_PIXEL", flag(variant.position == scene::LookupPosition::pixel)},
         {"BISECTS", flag(variant.bisects)},
     };
     Program made = make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr});
@@ -161,8 +162,8 @@ void LookupPass::draw(const GpuScene& scene, const ReceiverBuffer& receivers, co
         throw std::invalid_argument("LookupPass: only reversed depth looks up in [0, 1]");
     }
     const bool spot = view.light.type == scene::LightType::spot;
-    const Program& lookup =
-        program({settings.filter, settings.outside, map.reversed, spot, bisects});
+    const Program& lookup = program(
+        {settings.filter, settings.outside, map.reversed, spot, settings.position, bisects});
     const double texel_width_m = view.frustum.texel_width_m(1.0, map.resolution_texels);
     set_uniform(lookup, "light_clip_from_world", view.frustum.light_clip_from_world);
     set_uniform(lookup, "light", light_uniform(view.light));

@@ -49,6 +49,7 @@ private:
         scene::Outside outside = scene::Outside::lit;
         bool reversed = false;
         bool spot = false;
+        scene::LookupPosition position = scene::LookupPosition::vertex;
         bool bisects = false; ///< finds critical biases
 
         auto operator<=>(const Variant&) const = default;

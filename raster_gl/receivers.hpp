@@ -21,7 +21,8 @@ struct ReceiverBuffer {
     scene::ImageSize size{0, 0};
 };
 
-/// Draws the receivers from the camera. Depends on camera, image size and light matrix only.
+/// Draws the receivers from the camera. Depends on camera and image size only, `light_clip` on the
+/// light's matrix too.
 class ReceiverPass {
 public:
     explicit ReceiverPass(const Context& context);

@@ -86,10 +86,12 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.light = keys.scene + parts.light;
     keys.truth = keys.light + parts.camera;
     keys.frustum = (follows_camera ? keys.truth : keys.light) + parts.frustum;
-    keys.receivers = keys.truth + parts.frustum;
+    const std::string placed = keys.truth + parts.frustum;
+    const bool is_of_pixel = job.lookup.position == scene::LookupPosition::pixel;
+    keys.receivers = is_of_pixel ? keys.truth : placed; // world positions serve every light matrix
     keys.texels = keys.frustum + parts.map;
     keys.map = keys.texels + parts.format;
-    keys.exact = keys.receivers + parts.map + parts.lookup;
+    keys.exact = placed + parts.map + parts.lookup;
     keys.lookup = keys.exact + parts.format;
     keys.lookup += looks_up_every_bias ? bias : std::string{};
     keys.curve = keys.lookup + parts.slope;

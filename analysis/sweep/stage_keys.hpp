@@ -11,11 +11,12 @@ namespace gnomon::analysis {
 /// files share nothing, for what cameras and lights they bring along is not known.
 struct StageKeys {
     std::string scene;
-    std::string light;     ///< scene and light
-    std::string truth;     ///< scene, light, camera and image
-    std::string frustum;   ///< the light's matrix: with fit = "camera" also camera and image
-    std::string receivers; ///< camera, image and the light's matrix
-    std::string texels;    ///< the map but for its depth format
+    std::string light;   ///< scene and light
+    std::string truth;   ///< scene, light, camera and image
+    std::string frustum; ///< the light's matrix: with fit = "camera" also camera and image
+    std::string
+        receivers;      ///< camera, image and, with lookup.position = "vertex", the light's matrix
+    std::string texels; ///< the map but for its depth format
     std::string map;
     std::string exact; ///< what exact rays say of a lookup: everything but the depth format
     std::string lookup;

@@ -1,6 +1,6 @@
 // The shadow test of one pixel. FILTER_TAPS (1, 3, 5, 7, 9), FILTER_LINEAR, FILTER_HARDWARE,
-// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT and BISECTS are defined by the program that
-// compiles this.
+// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL and BISECTS are defined by the
+// program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
@@ -165,7 +165,12 @@ void main()
     if (triangle == 0xFFFFFFFFu) {
         return;
     }
+#if POSITION_OF_PIXEL
+    vec3 position = texelFetch(receiver_world_position, pixel, 0).xyz;
+    precise vec4 clip = light_clip_from_world * vec4(position, 1.0);
+#else
     vec4 clip = texelFetch(receiver_light_clip, pixel, 0);
+#endif
     vec3 n = texelFetch(normals, int(triangle)).xyz;
 #if SPOT
     vec3 to_light = normalize(light - texelFetch(receiver_world_position, pixel, 0).xyz);

@@ -17,6 +17,7 @@ constexpr std::array<std::pair<std::string_view, DepthFormat>, 4> gl_depth_forma
      {"d32f", {DepthFormat::Kind::d32f, 32}}}};
 
 constexpr std::array<std::string_view, 3> outside_names{"lit", "shadowed", "clamp"};
+constexpr std::array<std::string_view, 2> position_names{"vertex", "pixel"};
 constexpr std::array<std::string_view, 3> cull_names{"none", "front", "back"};
 constexpr std::array<std::string_view, 3> fit_names{"scene", "camera", "fixed"};
 
@@ -45,6 +46,11 @@ std::string depth_format_name(DepthFormat format)
         }
     }
     return fmt::format("u{}", format.bits);
+}
+
+std::string_view lookup_position_name(LookupPosition position)
+{
+    return position_names.at(static_cast<std::size_t>(position));
 }
 
 std::string_view outside_name(Outside outside)

@@ -45,7 +45,14 @@ struct DepthFormat {
 enum class Cull : std::uint8_t { none, front, back };
 enum class Outside : std::uint8_t { lit, shadowed, clamp };
 
+/// Where the light's clip position of a receiver is computed.
+enum class LookupPosition : std::uint8_t {
+    vertex, ///< at the vertices; interpolated, as shadow-map lessons do
+    pixel,  ///< at the pixel, from the interpolated world position, as engines do
+};
+
 [[nodiscard]] std::string_view outside_name(Outside outside);
+[[nodiscard]] std::string_view lookup_position_name(LookupPosition position);
 [[nodiscard]] std::string_view cull_name(Cull cull);
 [[nodiscard]] std::string_view fit_name(Fit fit);
 
@@ -59,6 +66,7 @@ struct ShadowMapSettings {
 struct LookupSettings {
     Filter filter = Filter::nearest;
     Outside outside = Outside::lit;
+    LookupPosition position = LookupPosition::vertex;
 };
 
 struct BiasSettings {

@@ -171,6 +171,12 @@ std::vector<KeySpec> lookup_and_bias_keys()
                 make_key("lookup.outside", "the verdict beyond the map's edge or its far plane",
                          "\"lit\"", only(Stage::lookup)),
                 3, outside_name, [](auto& job) -> auto& { return job.lookup.outside; }),
+            word_key<LookupPosition>(
+                make_key("lookup.position",
+                         "where a receiver's light clip position is computed: at the vertices, and "
+                         "interpolated, or at each pixel from its world position",
+                         "\"vertex\"", only(Stage::lookup)),
+                2, lookup_position_name, [](auto& job) -> auto& { return job.lookup.position; }),
             constant_key(),
             constant_m_key(),
             bias_key(

@@ -39,24 +39,25 @@ struct Setting {
 
 const std::vector<Setting>& settings()
 {
-    static const std::vector<Setting> all{{"sphere-plane", {{"lookup.outside", "clamp"}}},
-                                          {"terrain",
-                                           {{"shadow_map.reversed", "true"},
-                                            {"lookup.outside", "lit"},
-                                            {"bias.normal_texels", "1.5"}}},
-                                          {"two-distances",
-                                           {{"shadow_map.fit", "fixed"},
-                                            {"shadow_map.fov_deg", "30"},
-                                            {"lookup.outside", "shadowed"}},
-                                           true},
-                                          {"columns",
-                                           {{"shadow_map.fit", "fixed"},
-                                            {"shadow_map.half_extent", "3"},
-                                            {"shadow_map.reversed", "true"},
-                                            {"lookup.outside", "lit"}},
-                                           true},
-                                          {"yard", {{"lookup.outside", "shadowed"}}},
-                                          {"wall", {{"lookup.outside", "lit"}}}};
+    static const std::vector<Setting> all{
+        {"sphere-plane", {{"lookup.outside", "clamp"}}},
+        {"terrain",
+         {{"shadow_map.reversed", "true"},
+          {"lookup.outside", "lit"},
+          {"bias.normal_texels", "1.5"}}},
+        {"two-distances",
+         {{"shadow_map.fit", "fixed"},
+          {"shadow_map.fov_deg", "30"},
+          {"lookup.outside", "shadowed"}},
+         true},
+        {"columns",
+         {{"shadow_map.fit", "fixed"},
+          {"shadow_map.half_extent", "3"},
+          {"shadow_map.reversed", "true"},
+          {"lookup.outside", "lit"}},
+         true},
+        {"yard", {{"lookup.outside", "shadowed"}, {"lookup.position", "pixel"}}},
+        {"wall", {{"lookup.outside", "lit"}}}};
     return all;
 }
 

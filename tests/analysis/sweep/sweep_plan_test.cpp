@@ -101,6 +101,21 @@ TEST(StageKeys, FollowTheCameraWhereTheMapDoes)
     EXPECT_THAT(changed_by({"bias.constant", "0.5"}, fit), IsEmpty());
 }
 
+TEST(StageKeys, DrawReceiversOnceForAllLightMatricesWhereThePixelPlacesThem)
+{
+    const std::vector<scene::Override> of_pixel{{"lookup.position", "pixel"}};
+    EXPECT_THAT(changed_by({"shadow_map.roll_deg", "5"}),
+                ElementsAre("frustum", "receivers", "map", "lookup", "curve"));
+    EXPECT_THAT(changed_by({"shadow_map.roll_deg", "5"}, of_pixel),
+                ElementsAre("frustum", "map", "lookup", "curve"));
+    EXPECT_THAT(changed_by({"camera.eye", "[1, 2, 9]"}, of_pixel),
+                ElementsAre("truth", "receivers", "lookup", "curve"));
+    const StageKeys one = stage_keys(job_with({{"lookup.position", "pixel"}}));
+    const StageKeys rolled =
+        stage_keys(job_with({{"lookup.position", "pixel"}, {"shadow_map.roll_deg", "5"}}));
+    EXPECT_NE(one.exact, rolled.exact) << "what exact rays say follows the matrix";
+}
+
 TEST(StageKeys, LookEveryBiasUpToKeepPixelsAlone)
 {
     const std::vector<scene::Override> hardware{{"lookup.filter", "hardware"}};
