@@ -17,6 +17,13 @@ enum class Weights : std::uint8_t {
                    ///< own
 };
 
+/// How GL is to sample the map.
+enum class Sampling : std::uint8_t {
+    fetched,      ///< texel by texel
+    interpolated, ///< depths, bilinearly
+    compared,     ///< comparisons of 2 × 2 texels, bilinearly
+};
+
 /// What a filter promises of its lookups. Ask this, not which filter it is.
 struct FilterPromises {
     scene::Filter filter = scene::Filter::nearest;
@@ -25,6 +32,14 @@ struct FilterPromises {
     Weights weights = Weights::equal;
     Rises rises;
     Curve curve = Curve::by_formula;
+    Sampling sampling = Sampling::fetched;
+    /// Its piece of the lookup's shader: a name for `glsl_source`. It defines
+    ///
+    ///     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
+    ///
+    /// the verdict in [0, 1], and d, the depth looked up; raster_gl/shaders/lookup_map.glsl is what
+    /// it may call, and TAPS_ACROSS is `width_texels`.
+    std::string_view glsl;
     std::string_view sentence; ///< what it computes
 
     [[nodiscard]] constexpr std::size_t tap_count() const

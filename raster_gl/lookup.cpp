@@ -1,6 +1,7 @@
 #include "raster_gl/lookup.hpp"
 
 #include "methods/depth/filters.hpp"
+#include "methods/glsl.hpp"
 #include "raster_gl/readback.hpp"
 
 #include <fmt/format.h>
@@ -12,18 +13,14 @@
 namespace gnomon::raster_gl {
 namespace {
 
+using methods::Sampling;
 using scene::Outside;
 
-/// Whether GL interpolates depths, and the shader compares.
-bool is_of_mean_depth(const methods::FilterPromises& promised)
+/// What comes before the shadow test itself: what a lookup may read, and the filter's piece.
+std::string lookup_pieces(const methods::FilterPromises& promised)
 {
-    return promised.compares == methods::Compares::mean_depth;
-}
-
-/// Whether GL compares and interpolates.
-bool is_by_gl(const methods::FilterPromises& promised)
-{
-    return promised.weights == methods::Weights::bilinear_of_gl;
+    return fmt::format("{}{}", shader_source("lookup_map.glsl"),
+                       methods::glsl_source(promised.glsl));
 }
 
 const char* flag(bool on)
@@ -75,10 +72,8 @@ const Program& LookupPass::program(const Variant& variant)
     }
     const methods::FilterPromises& promised = methods::filter_promises(variant.filter);
     const Definitions definitions{
-        // What GL interpolates is one fetch.
-        {"FILTER_TAPS", std::to_string(promised.interpolates() ? 1 : promised.width_texels)},
-        {"FILTER_LINEAR", flag(is_of_mean_depth(promised))},
-        {"FILTER_HARDWARE", flag(is_by_gl(promised))},
+        {"TAPS_ACROSS", std::to_string(promised.width_texels)},
+        {"INTERPOLATES", flag(promised.interpolates())},
         {"OUTSIDE_CLAMP", flag(variant.outside == Outside::clamp)},
         {"OUTSIDE_VERDICT", variant.outside == Outside::shadowed ? "0.0" : "1.0"},
         {"REVERSED", flag(variant.reversed)},
@@ -86,7 +81,8 @@ const Program& LookupPass::program(const Variant& variant)
         {"POSITION_OF_PIXEL", flag(variant.position == scene::LookupPosition::pixel)},
         {"BISECTS", flag(variant.bisects)},
     };
-    Program made = make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr});
+    Program made = make_program(
+        {"fullscreen.vert", "lookup.frag", definitions, nullptr, lookup_pieces(promised)});
     return programs_.emplace(variant, std::move(made)).first->second;
 }
 
@@ -109,8 +105,8 @@ void LookupPass::allocate(scene::ImageSize size)
 void LookupPass::bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const
 {
     const methods::FilterPromises& promised = methods::filter_promises(settings.filter);
-    set_sampler(map_sampler_, is_of_mean_depth(promised) ? GL_LINEAR : GL_NEAREST, settings.outside,
-                map.reversed);
+    set_sampler(map_sampler_, promised.sampling == Sampling::interpolated ? GL_LINEAR : GL_NEAREST,
+                settings.outside, map.reversed);
     set_sampler(compare_sampler_, GL_LINEAR, settings.outside, map.reversed);
     glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_MODE,
                         GL_COMPARE_REF_TO_TEXTURE);
@@ -118,7 +114,7 @@ void LookupPass::bind_map(const ShadowMap& map, const scene::LookupSettings& set
                         map.reversed ? GL_GEQUAL : GL_LEQUAL);
     glBindTextureUnit(3, map.depth.name());
     glBindSampler(3, map_sampler_.name());
-    if (is_by_gl(promised)) {
+    if (promised.sampling == Sampling::compared) {
         glBindTextureUnit(4, map.depth.name());
         glBindSampler(4, compare_sampler_.name());
     }

@@ -18,9 +18,10 @@ std::string first_line(const Log& log)
     return text.substr(0, text.find('\n'));
 }
 
-Shader compile(GLenum stage, std::string_view name, const std::string& preamble)
+/// @param before  text that comes before the shader's.
+Shader compile(GLenum stage, std::string_view name, const std::string& before)
 {
-    const std::string source = fmt::format("{}{}", preamble, shader_source(name));
+    const std::string source = fmt::format("{}{}", before, shader_source(name));
     Shader shader{glCreateShader(stage)};
     const char* text = source.c_str();
     glShaderSource(shader.name(), 1, &text, nullptr);
@@ -56,7 +57,7 @@ Program make_program(const ProgramParts& parts)
     glAttachShader(program.name(), vertex.name());
     Shader fragment;
     if (!parts.fragment.empty()) {
-        fragment = compile(GL_FRAGMENT_SHADER, parts.fragment, preamble);
+        fragment = compile(GL_FRAGMENT_SHADER, parts.fragment, preamble + parts.before_fragment);
         glAttachShader(program.name(), fragment.name());
     }
     if (parts.feedback_varying != nullptr) {

@@ -24,6 +24,7 @@ struct ProgramParts {
     std::string_view fragment; ///< empty: none, for depth-only passes and transform feedback
     Definitions definitions;
     const char* feedback_varying = nullptr; ///< captured by transform feedback, e.g. "gl_Position"
+    std::string before_fragment = {};       ///< text that comes before the fragment shader's
 };
 
 /// Compiles and links.

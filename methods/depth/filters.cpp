@@ -12,19 +12,21 @@ constexpr Rises always{Rise::exactly, 0};
 
 constexpr auto filter_table = std::to_array<FilterPromises>({
     {Filter::nearest, 1, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     "compares with the texel that holds the receiver"},
+     Sampling::fetched, "taps.glsl", "compares with the texel that holds the receiver"},
     {Filter::linear, 2, Compares::mean_depth, Weights::bilinear, always, Curve::by_formula,
+     Sampling::interpolated, "interpolated_depth.glsl",
      "interpolates the depths of 2 × 2 texels, and compares once"},
     {Filter::hardware, 2, Compares::each_tap, Weights::bilinear_of_gl, always, Curve::by_bisection,
+     Sampling::compared, "compared_by_gl.glsl",
      "GL's own filter: compares with 2 × 2 texels, and interpolates the answers"},
     {Filter::pcf3, 3, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     "the mean of the comparisons with 3 × 3 texels"},
+     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 3 × 3 texels"},
     {Filter::pcf5, 5, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     "the mean of the comparisons with 5 × 5 texels"},
+     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 5 × 5 texels"},
     {Filter::pcf7, 7, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     "the mean of the comparisons with 7 × 7 texels"},
+     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 7 × 7 texels"},
     {Filter::pcf9, 9, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     "the mean of the comparisons with 9 × 9 texels"},
+     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 9 × 9 texels"},
 });
 
 /// Whether the row of each filter stands where its enumerator counts.

@@ -1,25 +1,10 @@
-// The shadow test of one pixel. FILTER_TAPS (1, 3, 5, 7, 9), FILTER_LINEAR, FILTER_HARDWARE,
-// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL and BISECTS are defined by the
-// program that compiles this.
+// The shadow test of one pixel, after lookup_map.glsl and the filter's piece, which gives
 //
-// Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
-// without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
-// Where they cannot (FILTER_HARDWARE), BISECTS finds the smallest bias with which the very same
-// verdict is at least one half: it rises with the bias.
-layout(binding = 0) uniform usampler2D receiver_triangle;
-layout(binding = 1) uniform sampler2D receiver_light_clip;
-layout(binding = 2) uniform sampler2D receiver_world_position;
-layout(binding = 3) uniform sampler2D map;              // nearest, or linear for FILTER_LINEAR
-layout(binding = 4) uniform sampler2DShadow map_compare; // FILTER_HARDWARE
-layout(binding = 5) uniform samplerBuffer normals;       // unit, by triangle
-
-uniform mat4 light_clip_from_world;
-uniform vec3 light; // SPOT: its position, else the unit vector towards it
-uniform float bias_constant;
-uniform float bias_slope;
-uniform float normal_offset; // in metres at ζ = 1 for SPOT, else in metres
-uniform float resolution;    // in texels
-
+//     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
+//
+// INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL and BISECTS are
+// defined by the program that compiles this. Where no formula tells of other biases, BISECTS finds
+// the smallest bias with which the very same verdict is at least one half: it rises with the bias.
 #if BISECTS
 layout(location = 0) out float critical_out; // −∞: lit with every bias; +∞: with none
 #else
@@ -27,74 +12,11 @@ layout(location = 0) out vec4 sample_out; // r, d, tan θ, verdict
 layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lower left
 #endif
 
-const float not_a_depth = uintBitsToFloat(0x7FC00000u);
-
-bool is_lit(float r, float b, float d)
-{
-#if REVERSED
-    precise float biased = r + b;
-    return biased >= d;
-#else
-    precise float biased = r - b;
-    return biased <= d;
-#endif
-}
-
-bool is_inside(vec2 texel)
-{
-    return all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(resolution)));
-}
-
-// Depth of the texel whose integer coordinates are `texel`; false where the border mode decides.
-bool fetch_depth(vec2 texel, out float d)
-{
-#if OUTSIDE_CLAMP
-    texel = clamp(texel, vec2(0.0), vec2(resolution - 1.0));
-#else
-    if (!is_inside(texel)) {
-        d = not_a_depth;
-        return false;
-    }
-#endif
-    d = texelFetch(map, ivec2(texel), 0).r;
-    return true;
-}
-
 // Is the whole 2 × 2 footprint of a linear lookup beyond the map?
 bool footprint_is_outside(vec2 texel)
 {
     vec2 first = floor(texel - 0.5);
     return any(lessThan(first, vec2(-1.0))) || any(greaterThanEqual(first, vec2(resolution)));
-}
-
-// The verdict with the whole bias, in [0, 1].
-// @param d  the depth looked up: the centre tap's; of FILTER_LINEAR the interpolated one.
-float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
-{
-#if FILTER_LINEAR
-    d = textureLod(map, uv, 0.0).r;
-    return is_lit(r, bias, d) ? 1.0 : 0.0;
-#elif FILTER_HARDWARE
-    fetch_depth(floor(texel), d);
-#if REVERSED
-    precise float reference = r + bias;
-#else
-    precise float reference = r - bias;
-#endif
-    return textureLod(map_compare, vec3(uv, reference), 0.0);
-#else
-    vec2 centre = floor(texel);
-    fetch_depth(centre, d);
-    float lit_taps = 0.0;
-    for (int y = -FILTER_TAPS / 2; y <= FILTER_TAPS / 2; ++y) {
-        for (int x = -FILTER_TAPS / 2; x <= FILTER_TAPS / 2; ++x) {
-            float tap;
-            bool fetched = fetch_depth(centre + vec2(x, y), tap);
-            lit_taps += fetched ? (is_lit(r, bias, tap) ? 1.0 : 0.0) : OUTSIDE_VERDICT;
-        }
-    }
-    return lit_taps / float(FILTER_TAPS * FILTER_TAPS);
-#endif
 }
 
 #if BISECTS
@@ -208,7 +130,7 @@ void main()
         write_border(r, tan_theta);
         return;
     }
-#if FILTER_LINEAR || FILTER_HARDWARE
+#if INTERPOLATES
     if (footprint_is_outside(texel)) {
         write_border(r, tan_theta);
         return;

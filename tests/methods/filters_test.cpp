@@ -1,4 +1,5 @@
 #include "methods/depth/filters.hpp"
+#include "methods/glsl.hpp"
 
 #include <gtest/gtest.h>
 
@@ -92,6 +93,18 @@ TEST(FilterPromises, RejectWhatIsNoFilter)
 {
     EXPECT_THROW((void)filter_promises(static_cast<Filter>(scene::filter_count)),
                  std::out_of_range);
+}
+
+TEST(FilterPromises, NameAPieceOfGlslThatGivesTheVerdict)
+{
+    for (const FilterPromises& promised : filters()) {
+        EXPECT_NE(
+            glsl_source(promised.glsl)
+                .find("float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)"),
+            std::string_view::npos)
+            << scene::filter_name(promised.filter);
+    }
+    EXPECT_THROW((void)glsl_source("none.glsl"), std::invalid_argument);
 }
 
 } // namespace

@@ -61,7 +61,7 @@ TEST(Program, ReportsABadDefinitionInOneLine)
 {
     GNOMON_REQUIRE_GL();
     try {
-        (void)make_program({"fullscreen.vert", "lookup.frag", {{"FILTER_TAPS", "("}}, nullptr});
+        (void)make_program({"fullscreen.vert", "map_depths.frag", {{"main", "("}}, nullptr});
         FAIL() << "it compiled";
     } catch (const scene::EnvironmentError& error) {
         EXPECT_EQ(std::string{error.what()}.find('\n'), std::string::npos);
