@@ -80,6 +80,11 @@ BiasSearch::BiasSearch(const scene::SceneFile& file, const Renderers& renderers,
 {
 }
 
+bool BiasSearch::has_formula() const
+{
+    return methods::filter_promises(views_.front().job.lookup.filter).has_formula();
+}
+
 bool BiasSearch::has_fractions() const
 {
     return methods::filter_promises(views_.front().job.lookup.filter).has_fractions();
@@ -195,23 +200,43 @@ BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
 
 std::vector<float> BiasSearch::fraction_biases(float slope) const
 {
-    if (!methods::filter_promises(views_.front().job.lookup.filter).has_formula()) {
-        return coarse_biases();
+    if (!has_formula()) { // each bias costs a lookup
+        const std::vector<float> coarse = coarse_biases();
+        return fine_biases_around_least(coarse, pooled_amounts(slope, coarse));
     }
     const std::vector<float> biases = tried_biases();
+    const auto around = around_least(biases, pooled_amounts(slope, biases));
+    return {around.begin(), around.end()};
+}
+
+std::vector<float> BiasSearch::carried(std::size_t to, std::span<const float> biases) const
+{
+    std::vector<float> here;
+    for (const float bias : biases) {
+        here.push_back(carried(to, bias));
+    }
+    return here;
+}
+
+std::vector<ErrorAmounts> BiasSearch::pooled_amounts(float slope,
+                                                     std::span<const float> biases) const
+{
     std::vector<ErrorAmounts> sums(biases.size());
     for (std::size_t view = 0; view < views_.size(); ++view) {
-        std::vector<float> here;
-        for (const float bias : biases) {
-            here.push_back(carried(view, bias));
-        }
-        const auto amounts = views_[view].answers->amounts_at(slope, here);
+        draw_if_asked(view);
+        const auto amounts = views_[view].answers->amounts_at(slope, carried(view, biases));
         for (std::size_t i = 0; i < sums.size(); ++i) {
             sums[i] += amounts[i];
         }
     }
-    const auto around = around_least(biases, sums);
-    return {around.begin(), around.end()};
+    return sums;
+}
+
+void BiasSearch::draw_if_asked(std::size_t view) const
+{
+    if (!has_formula()) {
+        draw(view);
+    }
 }
 
 ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float slope) const
@@ -233,18 +258,10 @@ ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float s
 std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
                                                  std::span<const float> biases) const
 {
-    std::vector<float> here;
-    for (const float bias : biases) {
-        here.push_back(carried(view, bias));
-    }
+    draw_if_asked(view);
     std::vector<ViewOutcome> outcomes;
-    if (!methods::filter_promises(views_[view].job.lookup.filter).has_formula()) {
-        for (const float bias : here) {
-            outcomes.push_back(measured_by_gl(view, bias, slope));
-        }
-        return outcomes;
-    }
-    for (const MeasuredBias& at : views_[view].answers->measure_biases(slope, here)) {
+    for (const MeasuredBias& at :
+         views_[view].answers->measure_biases(slope, carried(view, biases))) {
         outcomes.push_back({at.bias, at.metrics, at.softening.shadow, at.softening.light});
     }
     return outcomes;

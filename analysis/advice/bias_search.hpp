@@ -77,13 +77,20 @@ private:
 
     /// Draws what a lookup of the view needs, where it is not what was drawn last.
     void draw(std::size_t view) const;
+    /// The same where GL is asked for what each bias does.
+    void draw_if_asked(std::size_t view) const;
     [[nodiscard]] bool has_fractions() const;
+    /// Whether every constant bias follows from one lookup of each view.
+    [[nodiscard]] bool has_formula() const;
     [[nodiscard]] std::vector<BiasCurve> curves(float slope) const;
     [[nodiscard]] Valley valley_of(const std::vector<BiasCurve>& curves,
                                    const TuneLimits& limits) const;
     [[nodiscard]] Valley valley_of_fractions(const TuneLimits& limits, float slope) const;
     /// The biases of the first view that curves of fractions are asked about.
     [[nodiscard]] std::vector<float> fraction_biases(float slope) const;
+    /// The amounts of error of all views together, at each of the first view's biases.
+    [[nodiscard]] std::vector<ErrorAmounts> pooled_amounts(float slope,
+                                                           std::span<const float> biases) const;
     /// What each of them gives in a view.
     [[nodiscard]] std::vector<ViewOutcome> outcomes_in(std::size_t view, float slope,
                                                        std::span<const float> biases) const;
@@ -95,6 +102,7 @@ private:
     [[nodiscard]] bool shares_metres() const { return in_metres_ || told_like_.constant_m; }
     /// A bias of the first view in another, and back.
     [[nodiscard]] float carried(std::size_t to, float bias) const;
+    [[nodiscard]] std::vector<float> carried(std::size_t to, std::span<const float> biases) const;
     [[nodiscard]] float carried_back(std::size_t from, float bias) const;
 
     const scene::SceneFile& file_;
