@@ -1,8 +1,8 @@
 #include "analysis/advice/bias_search.hpp"
 
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/bias/tried_biases.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/recommendation/tried_biases.hpp"
 #include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"

@@ -4,8 +4,8 @@
 #include "analysis/advice/tune_limits.hpp"
 #include "analysis/advice/view_outcome.hpp"
 #include "analysis/answers/lookup_answers.hpp"
-#include "analysis/bias/bias_valley.hpp"
-#include "analysis/bias/pasted_bias.hpp"
+#include "analysis/recommendation/bias_valley.hpp"
+#include "analysis/recommendation/pasted_bias.hpp"
 #include "scene/pixel_layers.hpp"
 
 #include <cstddef>

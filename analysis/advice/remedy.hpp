@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/advice/view_outcome.hpp"
-#include "analysis/bias/recommendation.hpp"
+#include "analysis/recommendation/recommendation.hpp"
 
 #include <array>
 #include <cstddef>

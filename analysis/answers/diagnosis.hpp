@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/bias/bias_answers.hpp"
+#include "analysis/answers/bias_answers.hpp"
 #include "analysis/bias/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"

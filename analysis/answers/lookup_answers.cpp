@@ -1,6 +1,6 @@
 #include "analysis/answers/lookup_answers.hpp"
 
-#include "analysis/bias/bias_answers.hpp"
+#include "analysis/answers/bias_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/map_errors.hpp"

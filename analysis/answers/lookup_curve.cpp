@@ -1,9 +1,9 @@
 // What the bias curve of a lookup says: its shape, what it recommends, and a sweep's rows of it.
 
 #include "analysis/answers/lookup_answers.hpp"
-#include "analysis/bias/bias_valley.hpp"
-#include "analysis/bias/tried_biases.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
+#include "analysis/recommendation/bias_valley.hpp"
+#include "analysis/recommendation/tried_biases.hpp"
 #include "methods/depth/depth_map.hpp"
 #include "scene/infinity.hpp"
 

@@ -1,7 +1,7 @@
 // What GL's own lookups with other biases say, where no formula tells.
 
 #include "analysis/answers/lookup_answers.hpp"
-#include "analysis/bias/tried_biases.hpp"
+#include "analysis/recommendation/tried_biases.hpp"
 
 #include <algorithm>
 #include <utility>

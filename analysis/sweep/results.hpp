@@ -3,12 +3,12 @@
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/bias/bias_limits.hpp"
 #include "analysis/bias/bias_verification.hpp"
-#include "analysis/bias/recommendation.hpp"
 #include "analysis/causes/cause.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/gaps.hpp"
 #include "analysis/metrics/metrics.hpp"
+#include "analysis/recommendation/recommendation.hpp"
 
 #include <cstdint>
 #include <optional>

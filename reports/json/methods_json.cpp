@@ -1,5 +1,6 @@
 #include "reports/json/methods_json.hpp"
 
+#include "scene/job/stage_names.hpp"
 #include "store/json_values.hpp"
 
 namespace gnomon::reports {

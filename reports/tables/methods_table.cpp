@@ -1,6 +1,7 @@
 #include "reports/tables/methods_table.hpp"
 
 #include "reports/words/text.hpp"
+#include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

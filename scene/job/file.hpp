@@ -23,9 +23,6 @@ enum class Stage : std::uint8_t {
 };
 using Stages = std::uint8_t;
 
-/// Each of the stages as results and documents spell it, in their order: "shadow_map".
-[[nodiscard]] std::vector<std::string_view> stage_names(Stages stages);
-
 /// One key of the job file.
 struct JobKey {
     std::string name;         ///< "shadow_map.resolution"

@@ -9,25 +9,6 @@
 namespace gnomon::scene {
 namespace {
 
-std::string_view stage_name(Stage stage)
-{
-    switch (stage) {
-    case Stage::scene:
-        return "scene";
-    case Stage::truth:
-        return "truth";
-    case Stage::receivers:
-        return "receivers";
-    case Stage::shadow_map:
-        return "shadow_map";
-    case Stage::lookup:
-        return "lookup";
-    case Stage::bias:
-        return "bias";
-    }
-    return {};
-}
-
 constexpr Stages only_scene = static_cast<Stages>(Stage::scene);
 
 /// The camera moves the map too, through fit = "camera".
@@ -329,17 +310,6 @@ JobKey make_key(std::string name, std::string description, std::string default_t
     }
     return {std::move(name), std::move(description), std::move(unit), std::move(default_text), {},
             stages};
-}
-
-std::vector<std::string_view> stage_names(Stages stages)
-{
-    std::vector<std::string_view> names;
-    for (unsigned bit = 1; bit <= static_cast<unsigned>(Stage::bias); bit <<= 1U) {
-        if ((stages & bit) != 0) {
-            names.push_back(stage_name(static_cast<Stage>(bit)));
-        }
-    }
-    return names;
 }
 
 const std::vector<KeySpec>& key_specs()

@@ -4,6 +4,7 @@
 #include "methods/depth/bias_terms.hpp"
 #include "methods/depth/depth_map.hpp"
 #include "methods/depth/filters.hpp"
+#include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

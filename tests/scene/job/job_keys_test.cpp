@@ -4,6 +4,7 @@
 
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/keys.hpp"
+#include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>
 #include <rapidcheck/gtest.h>

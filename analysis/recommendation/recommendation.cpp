@@ -1,7 +1,7 @@
-#include "analysis/bias/recommendation.hpp"
+#include "analysis/recommendation/recommendation.hpp"
 
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/bias/bias_valley.hpp"
+#include "analysis/recommendation/bias_valley.hpp"
 
 namespace gnomon::analysis {
 

@@ -1,4 +1,4 @@
-#include "analysis/bias/bias_valley.hpp"
+#include "analysis/recommendation/bias_valley.hpp"
 
 #include "analysis/bias/bias_order.hpp"
 #include "scene/infinity.hpp"

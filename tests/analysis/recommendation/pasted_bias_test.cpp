@@ -1,4 +1,4 @@
-#include "analysis/bias/pasted_bias.hpp"
+#include "analysis/recommendation/pasted_bias.hpp"
 
 #include <gtest/gtest.h>
 

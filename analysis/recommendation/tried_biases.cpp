@@ -1,4 +1,4 @@
-#include "analysis/bias/tried_biases.hpp"
+#include "analysis/recommendation/tried_biases.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "analysis/bias/bias_answers.hpp"
+#include "analysis/answers/bias_answers.hpp"
 #include "methods/depth/filters.hpp"
 
 #include <cmath>

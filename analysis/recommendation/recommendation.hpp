@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/bias/bias_curve.hpp"
-#include "analysis/bias/pasted_bias.hpp"
 #include "analysis/metrics/amounts.hpp"
+#include "analysis/recommendation/pasted_bias.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
 
