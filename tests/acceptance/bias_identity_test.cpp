@@ -242,7 +242,7 @@ TEST_P(Bisection, FindsWhatTheFormulaSays)
             std::size_t finite = 0;
             for (std::size_t i = 0; i < found.pixel_count(); ++i) {
                 ASSERT_EQ(found[i], formula[i]) << "pixel " << i;
-                finite += std::isfinite(found[i]) && found[i] != 0 ? 1 : 0;
+                finite += std::isfinite(found[i]) && found[i] != 0 ? 1U : 0U;
             }
             EXPECT_GT(finite, 1000U);
         }

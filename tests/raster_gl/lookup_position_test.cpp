@@ -125,7 +125,7 @@ TEST(LookupPosition, OfTheVertexIsInterpolated)
     std::size_t different = 0;
     for (std::size_t i = 0; i < of_pixels.texels.pixel_count(); ++i) {
         const float r = of_pixels.samples[i].receiver_depth;
-        different += r != of_vertices.samples[i].receiver_depth ? 1 : 0;
+        different += r != of_vertices.samples[i].receiver_depth ? 1U : 0U;
         ASSERT_NEAR(r, of_vertices.samples[i].receiver_depth, 1e-4) << i;
     }
     EXPECT_GT(different, 0U);

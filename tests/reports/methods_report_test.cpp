@@ -18,6 +18,7 @@ using methods::Compares;
 using methods::Curve;
 using methods::FilterPromises;
 using methods::Rise;
+using methods::Sampling;
 using methods::Verdict;
 using methods::Weights;
 using scene::Filter;
@@ -27,9 +28,24 @@ constexpr std::array<std::string_view, 1> bias_key{"bias.normal_texels"};
 constexpr std::array<std::string_view, 1> lookup_table{"lookup"};
 constexpr auto made_up_sources = std::to_array<methods::Source>(
     {{"A. Author", 1999, "A title", {}}, {"B. Author", 2001, "Means", "filters"}});
-constexpr auto made_up_filters = std::to_array<FilterPromises>(
-    {{Filter::nearest, 1, Compares::each_tap, Weights::equal, {}, Curve::by_formula, "one texel"},
-     {Filter::pcf3, 3, Compares::each_tap, Weights::equal, {}, Curve::by_formula, "nine texels"}});
+constexpr auto made_up_filters = std::to_array<FilterPromises>({{Filter::nearest,
+                                                                 1,
+                                                                 Compares::each_tap,
+                                                                 Weights::equal,
+                                                                 {},
+                                                                 Curve::by_formula,
+                                                                 Sampling::fetched,
+                                                                 "taps.glsl",
+                                                                 "one texel"},
+                                                                {Filter::pcf3,
+                                                                 3,
+                                                                 Compares::each_tap,
+                                                                 Weights::equal,
+                                                                 {},
+                                                                 Curve::by_formula,
+                                                                 Sampling::fetched,
+                                                                 "taps.glsl",
+                                                                 "nine texels"}});
 constexpr auto made_up_terms = std::to_array<methods::BiasTerm>(
     {{"offset", bias_key, methods::BiasPlace::lookup_position, "moves P"}});
 
