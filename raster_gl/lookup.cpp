@@ -19,7 +19,8 @@ using scene::Outside;
 /// What comes before the shadow test itself: what a lookup may read, and the filter's piece.
 std::string lookup_pieces(const methods::FilterPromises& promised)
 {
-    return fmt::format("{}{}", shader_source("lookup_map.glsl"),
+    // A driver's log then counts each piece's lines: 1 the map's, 2 the filter's, 0 the shader's.
+    return fmt::format("#line 1 1\n{}#line 1 2\n{}#line 1 0\n", shader_source("lookup_map.glsl"),
                        methods::glsl_source(promised.glsl));
 }
 

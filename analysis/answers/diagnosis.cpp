@@ -16,14 +16,20 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     auto receivers = std::make_shared<JudgedReceivers>(
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
     ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
-    if (request.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map &&
-        methods::filter_promises(job.lookup.filter).has_formula()) {
-        renderers.forget_shadow_map();
+    const bool gives_map_back =
+        request.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map;
+    const bool asks_map = lookup.reruns.has_value();
+    if (gives_map_back && !asks_map) {
+        renderers.forget_shadow_map(); // before what takes the most memory
     }
     LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
                                                             job, view, renderers),
                           std::move(lookup)};
-    return std::move(answers).diagnose(layers.lookup, request, layers.verdict_taps);
+    Diagnosis found = std::move(answers).diagnose(layers.lookup, request, layers.verdict_taps);
+    if (gives_map_back && asks_map) {
+        renderers.forget_shadow_map();
+    }
+    return found;
 }
 
 } // namespace gnomon::analysis

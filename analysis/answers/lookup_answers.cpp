@@ -7,11 +7,14 @@
 #include "analysis/pixel_runs.hpp"
 #include "methods/depth/filters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -218,6 +221,11 @@ std::vector<ErrorAmounts> LookupAnswers::amounts(const SlopeCurve& curve,
 
 scene::Image<float> LookupAnswers::critical_biases(float slope) const
 {
+    if (!has_curve()) {
+        throw std::invalid_argument(fmt::format(
+            "critical_biases: the renderers find none, and the filter {} has no formula",
+            scene::filter_name(rule_.filter)));
+    }
     return lookup_.reruns ? lookup_.reruns->find_critical_biases(slope)
                           : analysis::critical_biases(deciding(), rule_with(slope));
 }
@@ -333,11 +341,14 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const Diagnosi
     if (finds_curve) {
         require_lit_causes(0, 0); // as curves() asks, while what the rays saw is still known
     }
-    exact_->forget_texels(); // what follows takes the most memory
+    if (!lookup_.reruns) {
+        exact_->forget_texels(); // what follows takes the most memory, and asks no more of them
+    }
     if (finds_curve) {
         KnownCurve curve = find_curve(request.profile_bias);
         diagnosis.curve = std::move(curve.curve);
         diagnosis.biases = std::move(curve.biases);
+        diagnosis.curve.verification = contradictions_;
     } else if (request.known != nullptr) {
         diagnosis.curve = request.known->curve;
         diagnosis.biases = request.known->biases;

@@ -82,6 +82,7 @@ public:
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question);
     /// The critical bias of each pixel: −∞ if every bias is lit, +∞ if none is, 0 without a
     /// receiver. For its argument see `CurveQuestion`.
+    /// @throws std::invalid_argument  if there is no curve.
     [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
     /// What is measured with each of several constant biases, of one slope.
     /// @param biases  Ascending, 0 or normal.
@@ -132,8 +133,10 @@ private:
     [[nodiscard]] std::vector<ConfigurationResult> rows(const SlopeCurve& curve,
                                                         std::span<const float> biases);
     /// The same, each from GL's own lookup.
-    [[nodiscard]] std::vector<ConfigurationResult> rerun_rows(float slope,
+    [[nodiscard]] std::vector<ConfigurationResult> rerun_rows(const SlopeCurve& curve,
                                                               std::span<const float> biases);
+    /// GL's own lookup, held to the curve: what it has otherwise is kept in `contradictions_`.
+    [[nodiscard]] scene::LookupLayers look_up_again(const SlopeCurve& curve, float bias);
     /// The rule with another slope.
     [[nodiscard]] LookupRule rule_with(float slope) const;
     /// Whether verdicts are made of several comparisons, so that amounts are not counts.
@@ -156,8 +159,8 @@ private:
     [[nodiscard]] std::vector<std::vector<ErrorBin>> profiles(const SlopeCurve& curve,
                                                               std::span<const float> biases) const;
     /// The same, each from GL's own lookup.
-    [[nodiscard]] std::vector<std::vector<ErrorBin>>
-    rerun_profiles(const SlopeCurve& curve, std::span<const float> biases) const;
+    [[nodiscard]] std::vector<std::vector<ErrorBin>> rerun_profiles(const SlopeCurve& curve,
+                                                                    std::span<const float> biases);
     /// What is measured with each of several constant biases.
     /// @param biases  Ascending, 0 or normal.
     [[nodiscard]] std::vector<MeasuredBias> measure(const SlopeCurve& curve,
@@ -207,6 +210,7 @@ private:
     bool knows_lit_below_zero_ = false;
     scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel was found
     scene::Image<float> map_error_m_;
+    std::optional<BiasVerification> contradictions_; ///< reruns that are not the curve's
 };
 
 } // namespace gnomon::analysis

@@ -51,7 +51,7 @@ std::vector<ConfigurationResult> LookupAnswers::rows(const SlopeCurve& curve,
         return {};
     }
     if (lookup_.reruns) {
-        return rerun_rows(curve.slope, biases);
+        return rerun_rows(curve, biases);
     }
     require_lit_causes(biases.front(), curve.slope);
     const TapCriticals taps_of_slope = taps(curve.slope);
@@ -219,6 +219,7 @@ FinishedCurve LookupAnswers::answer(const CurveQuestion& question)
     finished.curve.id = question.id;
     const std::vector<float> biases = ascending_biases(question);
     const std::vector<ConfigurationResult> results = rows(curve, biases);
+    finished.curve.verification = contradictions_;
     for (const CurveQuestion::Row& row : question.rows) {
         const auto found = std::lower_bound(biases.begin(), biases.end(), row.bias);
         finished.rows.push_back(

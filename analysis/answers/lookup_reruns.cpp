@@ -4,6 +4,7 @@
 #include "analysis/recommendation/tried_biases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -35,13 +36,24 @@ std::vector<ErrorAmounts> LookupAnswers::rerun_amounts(float slope,
     return amounts;
 }
 
-std::vector<ConfigurationResult> LookupAnswers::rerun_rows(float slope,
+scene::LookupLayers LookupAnswers::look_up_again(const SlopeCurve& curve, float bias)
+{
+    scene::LookupLayers own = lookup_.reruns->look_up(bias, curve.slope);
+    const BiasVerification::Rerun held =
+        hold_to_curve(own, exact_->receivers().receivers().triangle, curve.critical_bias, bias);
+    if (held.differences > 0) {
+        add_reruns(contradictions_, {{held}});
+    }
+    return own;
+}
+
+std::vector<ConfigurationResult> LookupAnswers::rerun_rows(const SlopeCurve& curve,
                                                            std::span<const float> biases)
 {
     std::vector<ConfigurationResult> rows;
     for (const float bias : biases) {
-        const scene::LookupLayers own = lookup_.reruns->look_up(bias, slope);
-        Explained found = explain(own, bias, slope);
+        const scene::LookupLayers own = look_up_again(curve, bias);
+        Explained found = explain(own, bias, curve.slope);
         rows.push_back(
             {analysis::measure(exact_->receivers().truth(), own, rule_.promises().equal_taps()),
              found.causes.counts, found.causes.amounts, found.peter_panning,
@@ -50,12 +62,12 @@ std::vector<ConfigurationResult> LookupAnswers::rerun_rows(float slope,
     return rows;
 }
 
-std::vector<std::vector<ErrorBin>>
-LookupAnswers::rerun_profiles(const SlopeCurve& curve, std::span<const float> biases) const
+std::vector<std::vector<ErrorBin>> LookupAnswers::rerun_profiles(const SlopeCurve& curve,
+                                                                 std::span<const float> biases)
 {
     std::vector<std::vector<ErrorBin>> profiles;
     for (const float bias : biases) {
-        const scene::LookupLayers own = lookup_.reruns->look_up(bias, curve.slope);
+        const scene::LookupLayers own = look_up_again(curve, bias);
         profiles.push_back(
             errors_by_bin(exact_->distances(), {classes(), own, curve.critical_bias, map_error_m_,
                                                 rule_.promises().equal_taps()}));
@@ -82,6 +94,10 @@ void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
     }
     for (const MeasuredBias& at : around) {
         add(at.bias, at.metrics.amounts);
+    }
+    if (const float lowest = sample_biases(curve.curve).front(); lowest < 0) {
+        const std::array<float, 1> below{lowest}; // from there on down nothing changes
+        add(lowest, rerun_amounts(curve.slope, below).front());
     }
     std::ranges::sort(result.points, {}, &CurveSample::bias);
     result.amounts_are_sampled = true;

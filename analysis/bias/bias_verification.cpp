@@ -81,6 +81,16 @@ std::uint64_t BiasVerification::differences() const
         [](std::uint64_t sum, const Rerun& rerun) { return sum + rerun.differences; });
 }
 
+void add_reruns(std::optional<BiasVerification>& known, BiasVerification more)
+{
+    if (!known) {
+        known = std::move(more);
+        return;
+    }
+    known->reruns.insert(known->reruns.end(), more.reruns.begin(), more.reruns.end());
+    std::ranges::stable_sort(known->reruns, {}, &Rerun::bias);
+}
+
 std::vector<float> biases_to_verify(const scene::Image<float>& criticals,
                                     const scene::Image<std::uint32_t>& triangles,
                                     std::span<const float> wanted)

@@ -7,6 +7,7 @@
 #include "scene/view/view.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct BiasVerification {
     [[nodiscard]] std::uint64_t verdicts() const;
     [[nodiscard]] std::uint64_t differences() const;
 };
+
+/// Adds lookups to what is known, if anything is.
+void add_reruns(std::optional<BiasVerification>& known, BiasVerification more);
 
 /// Constant biases that put critical biases to the test: those that matter anyway, and at, just
 /// below and just above five critical biases, the smallest, the largest and three evenly spaced

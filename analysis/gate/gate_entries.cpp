@@ -2,6 +2,7 @@
 
 #include "analysis/causes/cause.hpp"
 #include "analysis/gate/gate_metrics.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -25,6 +26,19 @@ int compared_values(const std::string& a, const std::string& b)
         return a_number ? -1 : 1;
     }
     return a.compare(b);
+}
+
+/// What a job means that does not have the key, as one from before there was such a key; empty
+/// without a default.
+std::optional<std::string> default_of(const std::string& key)
+{
+    const scene::KeySpec* const spec = scene::find_key(key);
+    if (spec == nullptr || spec->key.default_text.empty()) {
+        return std::nullopt;
+    }
+    const std::string& text = spec->key.default_text;
+    const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+    return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
 } // namespace
@@ -111,7 +125,7 @@ std::vector<ParameterChange> changed_parameters(const GateEntry& before, const G
 {
     const auto value = [](const GateEntry& entry, const std::string& key) {
         const auto found = entry.parameters.find(key);
-        return found == entry.parameters.end() ? std::nullopt : std::optional{found->second};
+        return found == entry.parameters.end() ? default_of(key) : std::optional{found->second};
     };
     const auto hash = value(now, "scene_hash");
     const bool is_same_scene = hash && hash == value(before, "scene_hash");

@@ -58,8 +58,9 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
 {
     const methods::FilterPromises& promised = methods::filter_promises(rule.filter);
     if (!promised.has_formula()) {
-        throw std::invalid_argument("deciding_samples: rule: the filter hardware has the driver's "
-                                    "weights and no deciding tap");
+        throw std::invalid_argument(
+            fmt::format("deciding_samples: rule: the filter {} has no formula, and no deciding tap",
+                        scene::filter_name(rule.filter)));
     }
     if (promised.returns_deciding_depth()) {
         return lookup;

@@ -19,7 +19,7 @@ namespace gnomon::analysis {
 /// @param texels      uv · resolution of each lookup, origin at the map's lower left.
 /// @param map_depths  The map's depths as shaders see them, top left first, square.
 ///                    Neither is read unless the filter is pcfK.
-/// @throws std::invalid_argument  for `hardware`, whose weights are the driver's own; if the images
+/// @throws std::invalid_argument  for a filter without a formula; if the images
 ///                                differ in size; if the map is not square.
 /// Source: raster_gl/shaders/lookup.frag; docs/bias_curve.md#critical-bias.
 [[nodiscard]] scene::LookupLayers deciding_samples(scene::LookupLayers lookup,

@@ -36,7 +36,7 @@ std::vector<float> coarse_biases()
 std::vector<float> fine_biases_around_least(std::span<const float> coarse,
                                             std::span<const ErrorAmounts> amounts)
 {
-    constexpr std::ptrdiff_t steps = 2;
+    constexpr std::ptrdiff_t steps = 3;
     const std::ptrdiff_t least =
         std::ranges::min_element(amounts, {}, &ErrorAmounts::total) - amounts.begin();
     const std::ptrdiff_t first = std::max(least - steps, std::ptrdiff_t{0});

@@ -14,7 +14,7 @@ namespace gnomon::analysis {
 /// 1e-6 to 1.
 [[nodiscard]] std::vector<float> coarse_biases();
 
-/// At most 64 biases around the least amount of error: `tried_biases` and coarse ones within two
+/// At most 64 biases around the least amount of error: `tried_biases` and coarse ones within three
 /// steps of it.
 /// @param coarse   `coarse_biases`.
 /// @param amounts  of each of them.

@@ -51,6 +51,9 @@ double estimate_seconds(const SweepStep& step, const CurveRequest& request)
     case StepKind::look_up:
         return pixels * 40e-9;
     case StepKind::answer:
+        if (request.asks_gl) { // one bisection, some 90 lookups with their errors, and the rows'
+            return pixels * (350e-9 + (90 + static_cast<double>(request.ordinals.size())) * 50e-9);
+        }
         return pixels * 400e-9 + static_cast<double>(request.ordinals.size()) * 30e-6;
     }
     return 0;

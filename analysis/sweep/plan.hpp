@@ -15,6 +15,7 @@ struct CurveRequest {
     std::vector<std::uint64_t> ordinals; ///< of the configurations, ascending
     std::uint64_t pixels = 0;            ///< of the image
     std::uint64_t texels = 0;            ///< of the map
+    bool asks_gl = false;                ///< of every bias it is asked about
 };
 
 /// One piece of a sweep's work. Each names a curve, whose job says with what settings.
@@ -57,9 +58,9 @@ struct SweepPlan {
 };
 
 /// Orders the work so that scenes, lights and cameras change least, then the light's matrix, then
-/// the map: one truth per scene, camera and light; one receiver pass per camera and light matrix;
-/// one shadow map per map setting, as long as no more than `slots` cameras share it (else one per
-/// `slots` of them).
+/// the map: one truth per scene, camera and light; one receiver pass per camera and what receivers
+/// depend on; one shadow map per map setting, as long as no more than `slots` cameras share it
+/// (else one per `slots` of them).
 /// @param slots  cameras whose receivers and truth fit in memory together; >= 1.
 /// @throws std::invalid_argument  if `slots` is 0.
 [[nodiscard]] SweepPlan make_plan(std::span<const CurveRequest> requests, std::size_t slots);

@@ -34,7 +34,7 @@ struct Configuration {
     std::string scene_hash;  ///< `scene::content_hash`; empty where the scene could not be read
     std::uint32_t shard = 1; ///< which part of a divided sweep computes it, from 1
     /// The constant bias that the job has but for the sweep's axes, as text: which errors by
-    /// distance are asked of its curve. Empty for `hardware`, whose every bias is by itself.
+    /// distance are asked of its curve. Empty without a curve.
     std::string job_bias;
     /// The job with every key written out, as `scene::resolved_keys` gives it.
     std::vector<std::pair<std::string, std::string>> parameters;

@@ -13,6 +13,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -290,9 +292,11 @@ private:
         const scene::Image<float> criticals = work.critical_biases(question.slope);
         const auto& triangles = require_result(receivers_[slot])->triangle;
         select(slot);
-        curve.verification = verify_biases(
-            task_.job, stage_view(), triangles, criticals,
-            biases_to_verify(criticals, triangles, wanted_biases(question, curve)), renderers());
+        add_reruns(
+            curve.verification,
+            verify_biases(task_.job, stage_view(), triangles, criticals,
+                          biases_to_verify(criticals, triangles, wanted_biases(question, curve)),
+                          renderers()));
     }
 
     void answer_by_comparison(std::size_t slot, const SweepTask::Row& row)
@@ -308,10 +312,12 @@ private:
         }
         FinishedCurve finished = finish_compared(comparison, task_.id, row.ordinal);
         if (comparison.held && comparison.held->differences > 0) {
-            finished.curve.verification = BiasVerification{{*comparison.held}};
+            add_reruns(finished.curve.verification, {{*comparison.held}});
         }
         if (hooks_.verifies_biases && verified_ != task_.id) {
-            finished.curve.verification = verify_comparison(comparison, renderers());
+            if (auto verification = verify_comparison(comparison, renderers())) {
+                add_reruns(finished.curve.verification, std::move(*verification));
+            }
             verified_ = task_.id;
         }
         sink_.finished(std::move(finished));
@@ -331,28 +337,26 @@ private:
         comparison.receivers = subject->receivers;
         comparison.truth = subject->truth;
         comparison.lookup = renderers().look_up(comparison.job, comparison.view);
-        measure_comparison(comparison, renderers(),
-                           {own_constant_bias(task_.job, comparison.view.frustum),
-                            MapAfterDiagnosis::kept, known_curve(row)});
-        remember_curve(row, comparison);
+        const float own_bias = own_constant_bias(task_.job, comparison.view.frustum);
+        const CurveName name{task_.id, slot, row.bias.constant_m.has_value(), own_bias};
+        const KnownCurve* const known = known_ && known_->first == name ? &known_->second : nullptr;
+        measure_comparison(comparison, renderers(), {own_bias, MapAfterDiagnosis::kept, known});
+        if (known == nullptr) {
+            remember_curve(name, comparison);
+        }
         return comparison;
     }
 
-    /// What names a curve, and the unit in which it recommends a bias.
-    [[nodiscard]] std::pair<std::string, bool> curve_name(const SweepTask::Row& row) const
-    {
-        return {task_.id, row.bias.constant_m.has_value()};
-    }
-    [[nodiscard]] const KnownCurve* known_curve(const SweepTask::Row& row) const
-    {
-        return known_ && known_->first == curve_name(row) ? &known_->second : nullptr;
-    }
+    /// What a curve's answer depends on, beside the lookup: its id, the camera's slot, whether it
+    /// recommends a bias in metres, and the job's own bias, of which it has errors by distance.
+    using CurveName = std::tuple<std::string, std::size_t, bool, float>;
+
     /// Of a curve that GL was asked for, which takes long.
-    void remember_curve(const SweepTask::Row& row, const Comparison& comparison)
+    void remember_curve(const CurveName& name, const Comparison& comparison)
     {
-        if (known_curve(row) == nullptr && comparison.diagnosis && comparison.diagnosis->biases &&
+        if (comparison.diagnosis && comparison.diagnosis->biases &&
             !methods::filter_promises(task_.job.lookup.filter).has_formula()) {
-            known_.emplace(curve_name(row),
+            known_.emplace(name,
                            KnownCurve{comparison.diagnosis->curve, *comparison.diagnosis->biases});
         }
     }
@@ -369,8 +373,8 @@ private:
     StageResult<bool> map_;
     ExactLightCaches caches_; ///< the lanes'
     StageResult<LookupStage> lookup_;
-    /// The curve of the comparison before, by `curve_name`; empty where it is found at once.
-    std::optional<std::pair<std::pair<std::string, bool>, KnownCurve>> known_;
+    /// The curve of the comparison before; empty where it is found at once.
+    std::optional<std::pair<CurveName, KnownCurve>> known_;
     std::string verified_; ///< the curve that was verified last, of those compared bias by bias
     std::vector<std::unique_ptr<BackgroundWorker>> lanes_; ///< last: they work on the others
 };

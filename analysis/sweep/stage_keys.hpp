@@ -20,7 +20,7 @@ struct StageKeys {
     std::string map;
     std::string exact; ///< what exact rays say of a lookup: everything but the depth format
     std::string lookup;
-    std::string curve; ///< everything but the constant bias; for `hardware` that too
+    std::string curve; ///< everything but the constant bias; without a curve that too
 };
 
 [[nodiscard]] StageKeys stage_keys(const scene::Job& job);

@@ -18,7 +18,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// The name of the job's bias curve; `hardware` has none, and each of its biases is by itself.
+/// The name of the job's bias curve; without one each bias is by itself.
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
                      const JobParameters& parameters)
 {
@@ -92,7 +92,8 @@ void SweepCurves::add_request(const scene::Job& job, std::vector<std::uint64_t> 
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
     requests_.push_back({keeps_every_bias_ ? stage_keys_with_bias(job) : stage_keys(job),
-                         std::move(ordinals), job.image.pixel_count(), side * side});
+                         std::move(ordinals), job.image.pixel_count(), side * side,
+                         !methods::filter_promises(job.lookup.filter).has_formula()});
 }
 
 scene::Job SweepCurves::job(std::size_t request) const

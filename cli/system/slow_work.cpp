@@ -91,6 +91,8 @@ analysis::Renderers announced(analysis::Renderers renderers, SlowWork& work)
         announced_stage(std::move(renderers.draw_shadow_map), work, "drawing the shadow map");
     renderers.look_up =
         announced_stage(std::move(renderers.look_up), work, "looking the shadows up");
+    renderers.find_critical_biases = announced_stage(std::move(renderers.find_critical_biases),
+                                                     work, "finding the bias curve by bisection");
     renderers.find_truth =
         announced_stage(std::move(renderers.find_truth), work, "tracing the true shadows");
     renderers.make_exact_light = announced_stage(std::move(renderers.make_exact_light), work,

@@ -32,7 +32,8 @@ enum class HeatMap : std::uint8_t {
 /// A picture of one quantity with its legend. Large images are scaled down, each pixel of the
 /// picture then showing the value of the largest size beneath it.
 /// @throws scene::EnvironmentError  naming the package, if the font is missing.
-/// @throws scene::InputError        if the comparison does not know it (`hardware` has no biases).
+/// @throws scene::InputError        if the comparison does not know it (no bias curve, no needed
+/// biases).
 [[nodiscard]] store::RgbImage
 draw_heat_map(const analysis::Comparison& comparison, HeatMap kind,
               const std::filesystem::path& font_folder = default_font_folder);

@@ -16,7 +16,7 @@ namespace gnomon::scene {
 enum class Stage : std::uint8_t {
     scene = 1 << 0,      ///< triangles
     truth = 1 << 1,      ///< classes
-    receivers = 1 << 2,  ///< camera pass with light clip coordinates
+    receivers = 1 << 2,  ///< camera pass; with lookup.position = "vertex" light clip coordinates
     shadow_map = 1 << 3, ///< the map
     lookup = 1 << 4,     ///< r, d
     bias = 1 << 5,       ///< verdicts only: answered by the bias curve

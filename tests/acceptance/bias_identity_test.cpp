@@ -17,6 +17,7 @@
 #include <random>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 /// Every bias is known at once: GL's own lookup, run again with another bias, gives the verdict
@@ -229,9 +230,9 @@ TEST_P(Bisection, FindsWhatTheFormulaSays)
     const Setting& setting = settings()[GetParam()];
     GlCase c{setting.builtin, keys_of(setting, "d16", "nearest", "0")};
     for (const char* filter : {"nearest", "linear", "pcf3"}) {
-        for (const char* slope : {"0", "0.002"}) {
-            SCOPED_TRACE(fmt::format("{} {} slope {}", setting.builtin, filter, slope));
-            c.set(keys_of(setting, "d24", filter, slope));
+        for (const auto& [format, slope] : {std::pair{"d24", "0"}, {"d32f", "0.002"}}) {
+            SCOPED_TRACE(fmt::format("{} {} {} slope {}", setting.builtin, filter, format, slope));
+            c.set(keys_of(setting, format, filter, slope));
             c.draw_all();
             const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
             const auto lookup = c.lookup_pass.read();

@@ -247,10 +247,24 @@ TEST(GateSuspects, AreTheChangedParametersAndTheCauseThatGrewMost)
         {{"bias.slope", "1"}, {"shadow_map.depth_format", "d16"}, {"shadow_map.far", "9"}});
     EXPECT_EQ(changed_parameters(before, now),
               (std::vector<ParameterChange>{{"shadow_map.depth_format", "d24", "d16"},
-                                            {"shadow_map.far", std::nullopt, "9"},
-                                            {"shadow_map.near", "0.1", std::nullopt}}));
+                                            {"shadow_map.far", "auto", "9"},
+                                            {"shadow_map.near", "0.1", "auto"}}));
     EXPECT_EQ(dominant_cause(before, now), (DominantCause{"precision", 20}));
     EXPECT_EQ(dominant_cause(now, now), std::nullopt);
+}
+
+TEST(GateSuspects, AKeyThatIsNewHadItsDefault)
+{
+    const GateEntry before = gate_entry("1", {}, {{"lookup.filter", "pcf3"}});
+    const auto with = [](const char* position) {
+        return gate_entry("1", {}, {{"lookup.filter", "pcf3"}, {"lookup.position", position}});
+    };
+    EXPECT_TRUE(changed_parameters(before, with("vertex")).empty());
+    EXPECT_EQ(changed_parameters(before, with("pixel")),
+              (std::vector<ParameterChange>{{"lookup.position", "vertex", "pixel"}}));
+    const GateEntry placed =
+        gate_entry("1", {}, {{"lookup.filter", "pcf3"}, {"camera.eye", "[1, 2, 3]"}});
+    EXPECT_EQ(changed_parameters(before, placed).size(), 1U) << "a camera has no default";
 }
 
 TEST(GateSuspects, APathCountsOnlyForAnotherScene)

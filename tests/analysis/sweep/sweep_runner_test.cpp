@@ -135,10 +135,30 @@ TEST(SweepRunner, SamplesTheAmountsOfACurveByBisection)
     EXPECT_TRUE(curve.bounds.has_value());
     EXPECT_TRUE(curve.amounts_are_sampled);
     EXPECT_GE(curve.points.size(), 26U);
-    EXPECT_LE(curve.points.size(), 26U + 64U);
+    EXPECT_LE(curve.points.size(), 27U + 64U);
     EXPECT_EQ(curve.by_distance.size(), 2U);
     EXPECT_EQ(sweep.done.size(), 2U);
     expect_compared(sweep);
+}
+
+TEST(SweepRunner, KeepsTheErrorsByDistanceOfEachCasesOwnBias)
+{
+    const std::vector<scene::CaseLayer> cases{case_of("small", {{"bias.constant", "0.125"}}),
+                                              case_of("large", {{"bias.constant", "0.25"}})};
+    for (const bool keeps_pixels : {false, true}) {
+        FakeSweep sweep{{}, {{"lookup.filter", "hardware"}}, cases};
+        if (keeps_pixels) {
+            sweep.keep_pixels();
+        }
+        std::vector<float> biases;
+        const auto record = sweep.hooks.record;
+        sweep.hooks.record = [&](FinishedCurve&& finished) {
+            biases.push_back(finished.curve.by_distance.front().bias);
+            record(std::move(finished));
+        };
+        sweep.run();
+        EXPECT_EQ(biases, (std::vector<float>{0.125F, 0.25F})) << "keeps pixels: " << keeps_pixels;
+    }
 }
 
 TEST(SweepRunner, BisectsWhileGlHasTheLookupsMapAndReceivers)

@@ -121,6 +121,22 @@ TEST(SweepVerification, IsMadeUnaskedWhereALookupIsNotTheCurves)
     EXPECT_EQ(contradicted, std::vector<float>{0.125F});
 }
 
+TEST(SweepVerification, IsMadeUnaskedOfEachLookupOfACurveByBisection)
+{
+    FakeSweep sweep{{"lookup.filter=hardware", "bias.constant=0,0.125"}, small_map};
+    const Renderers renderers = forgetful_renderers(sweep.world, 0.1F);
+    sweep.hooks.open_scene = [&](const scene::Job&) {
+        return OpenScene{&sweep.world.file(), &renderers};
+    };
+    sweep.run();
+    ASSERT_EQ(sweep.curves.size(), 1U);
+    const auto& verification = sweep.curves.begin()->second.verification;
+    ASSERT_TRUE(verification);
+    EXPECT_GT(verification->differences(), 0U);
+    EXPECT_TRUE(std::ranges::all_of(verification->reruns,
+                                    [](const auto& rerun) { return rerun.bias > 0.1F; }));
+}
+
 TEST(Compare, HoldsItsLookupToTheCurve)
 {
     const FakeSweep sweep{{"lookup.filter=nearest,pcf3,hardware", "bias.constant=0,0.125"},

@@ -12,8 +12,8 @@ class CurveAmounts {
   }
 
   /**
-   * Linear between two stored biases, of which few pixels change from one to the next; beyond them as at the
-   * last one.
+   * Linear between two stored biases: of one to the next few pixels change, or where each costs a lookup, they are
+   * close around the least amount; beyond them as at the last one.
    * @return {{shadow: number, light: number, isStored: boolean}}  isStored: at that bias itself
    */
   at(bias) {
