@@ -57,6 +57,28 @@ TEST(AcneFreeBias, EqualsHalfATexelsSlopePlusTheFormatsRounding)
     }
 }
 
+TEST(AcneFreeBias, OfHardwareIsATexelsSlopeTapByTapAndHalfOfItByCount)
+{
+    GNOMON_REQUIRE_GL();
+    const TiltedPlaneSetting setting{45, 512, "d32f", 0};
+    scene::Job job = tilted_plane_job(setting, 0);
+    job.lookup.filter = scene::Filter::hardware;
+    const Compared compared{job};
+    const auto result = compared(job);
+    const analysis::BiasLimits& strict = result.diagnosis->biases->bounds.strict;
+    // A point at the share u between two texels' centres is shadowed by the nearer to the light as
+    // long as the bias is below u times a texel's slope, with the weight 1 − u: more than one half
+    // where u is below one half.
+    const double half = half_texel_slope(setting, result.view.frustum);
+    // Few pixels lie at the very end of their texel: 2 %, as above.
+    EXPECT_NEAR(double{strict.acne_free}, 2 * half, 0.02 * 2 * half);
+    EXPECT_NEAR(double{strict.acne_free_count}, half, 0.02 * half);
+    // The amount of acne at bias 0 is ∫ (1 − u) du: one half of the pixels. An allowance of 1 %
+    // leaves the last of it, (1 − b/2h)² / 2 = 0.01.
+    const analysis::BiasLimits& hundredth = result.diagnosis->biases->bounds.allowances[2];
+    EXPECT_NEAR(double{hundredth.acne_free}, 2 * half * (1 - std::sqrt(0.02)), 0.02 * 2 * half);
+}
+
 TEST(LongAcneFreeBias, EqualsTheClosedFormForAnglesResolutionsAndFormats)
 {
     GNOMON_REQUIRE_GL();
