@@ -71,6 +71,12 @@ def _curve(run, rows, row, name):
     )
 
 
+def is_sampled(curve):
+    """Whether GL looked each point up (docs/bias_curve.md#bisection): then the curve is not stored between them."""
+    ladder = (1e-6 * 10.0 ** (numpy.arange(25) / 4)).astype(numpy.float32)
+    return bool(numpy.isin(ladder, curve.bias.astype(numpy.float32)).all())
+
+
 def threshold(curve):
     """Below this size a bias is drawn on a linear scale: a power of ten."""
     marked = numpy.abs([curve.job_bias, *curve.best, curve.acne_free, curve.panning_free])
@@ -102,11 +108,12 @@ def draw(tables):
 
 
 def _draw(axes, curve):
+    between = "default" if is_sampled(curve) else "steps-post"
     for rate, colour, label in (
         (curve.false_shadow_rate, style.FALSE_SHADOW, "false shadow, per lit pixel"),
         (curve.false_lit_rate, style.FALSE_LIT, "false lit, per blocked pixel"),
     ):
-        axes.plot(curve.bias, 100 * rate, color=colour, label=label, drawstyle="steps-post")
+        axes.plot(curve.bias, 100 * rate, color=colour, label=label, drawstyle=between)
     axes.axvspan(*curve.best, color=style.GREEN, alpha=0.35, linewidth=2, zorder=1,
                  label="fewest errors")
     for bias, line, colour, label in (

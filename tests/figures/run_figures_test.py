@@ -151,6 +151,17 @@ class BiasCurve(unittest.TestCase):
             self.assertIn("0", texts)
             self.assertTrue(style.fit(axes, axes.get_xticks(), texts), texts)
 
+    def test_joins_the_points_of_a_sampled_curve_by_lines(self):
+        (curve,) = bias_curve.read(load("compare")).curves
+        self.assertFalse(bias_curve.is_sampled(curve))
+        biases = numpy.concatenate([[0], 1e-6 * 10.0 ** (numpy.arange(25) / 4)])
+        rates = numpy.linspace(1, 0, len(biases))
+        sampled = dataclasses.replace(curve, bias=biases.astype(numpy.float32).astype(float),
+                                      false_shadow_rate=rates, false_lit_rate=1 - rates)
+        self.assertTrue(bias_curve.is_sampled(sampled))
+        (axes,) = bias_curve.draw(bias_curve.Tables("", [sampled])).axes
+        self.assertEqual({line.get_drawstyle() for line in axes.lines[:2]}, {"default"})
+
     def test_does_not_apply_without_a_curve(self):
         run = load("compare")
         run.results["bias_source"] = "rerun"
