@@ -1,6 +1,7 @@
-// The bias slider: its counts are those of the program at that bias, in 50 places.
+// The bias slider: its counts are those of the program at that bias, in 60 places.
 
 import assert from "node:assert/strict";
+import { join } from "node:path";
 import { after, describe, it } from "node:test";
 import {
   gnomon,
@@ -11,6 +12,7 @@ import {
   sized,
   stagePixels,
   stopBrowser,
+  workFolder,
 } from "./browser.mjs";
 
 const jobs = {
@@ -25,6 +27,7 @@ const jobs = {
     "--set",
     "lookup.filter=pcf5",
   ),
+  "hardware, a spot": sized(64, 48, "--builtin", "sphere-plane", "--set", "lookup.filter=hardware"),
   "nearest, directional, d16": sized(64, 48, "--builtin", "wall", "--set", "shadow_map.depth_format=d16"),
   "nearest, reversed float": sized(
     64,
@@ -137,11 +140,13 @@ describe("The bias slider", () => {
     await page.close();
   });
 
-  it("is not there for the filter hardware, and the page says why", async () => {
+  it("is not there where nothing tells of other biases, and the page says why", async () => {
     const job = sized(64, 48, "--builtin", "sphere-plane", "--set", "lookup.filter=hardware");
-    const page = await openPage(makeReport("hardware", "compare", ...job).page);
+    const folder = join(workFolder, "hardware case");
+    gnomon("compare", ...job, "--export-case", folder);
+    const page = await openPage(makeReport("hardware", "evaluate", folder).page);
     assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
-    assert.ok(await page.getByText("The hardware filter has no critical bias").isVisible());
+    assert.ok(await page.getByText("Nothing tells of this lookup’s other biases").isVisible());
     assert.deepEqual(page.faults, []);
     await page.close();
   });

@@ -117,7 +117,7 @@ TEST(MethodsJson, TakesUnitsDefaultsAndStagesFromTheKeyTable)
     EXPECT_EQ(json[0]["bias_terms"], Json::parse(R"([{"name": "offset", "sentence": "moves P",
         "acts": "lookup_position", "stages": ["lookup"],
         "keys": [{"name": "bias.normal_texels", "unit": "texel widths"}]}])"));
-    ASSERT_EQ(json[0]["keys"].size(), 2U);
+    ASSERT_EQ(json[0]["keys"].size(), 3U);
     EXPECT_EQ(json[0]["keys"][1], Json::parse(R"({"name": "lookup.outside",
         "description": "the verdict beyond the map's edge or its far plane", "unit": "",
         "default": "lit", "allowed": "one of lit, shadowed, clamp", "stages": ["lookup"]})"));
@@ -154,26 +154,28 @@ TEST(MethodsJson, ListsWhatIsNotThereAsEmptyArrays)
 
 TEST(MethodsTable, AlignsFiltersBiasTermsAndKeys)
 {
-    EXPECT_EQ(
-        methods_table(std::vector{made_up()}),
-        "made-up: looks at texels\n"
-        "\n"
-        "  source  A. Author, 1999, A title\n"
-        "  source  B. Author, 2001, Means: filters\n"
-        "  page    made_up.md\n"
-        "\n"
-        "  filter   texels  verdict   compares  rises                  curve\n"
-        "  nearest  1 × 1   binary    each tap  exactly                by formula    "
-        "one texel\n"
-        "  pcf3     3 × 3   fraction  none      up to rounding (0.12)  by bisection  "
-        "nine texels\n"
-        "\n"
-        "  bias term  acts on          stage   keys\n"
-        "  offset     lookup position  lookup  bias.normal_texels [texel widths]  moves P\n"
-        "\n"
-        "  key             default\n"
-        "  lookup.filter   \"nearest\"  how the map is filtered\n"
-        "  lookup.outside  \"lit\"      the verdict beyond the map's edge or its far plane\n");
+    EXPECT_EQ(methods_table(std::vector{made_up()}),
+              "made-up: looks at texels\n"
+              "\n"
+              "  source  A. Author, 1999, A title\n"
+              "  source  B. Author, 2001, Means: filters\n"
+              "  page    made_up.md\n"
+              "\n"
+              "  filter   texels  verdict   compares  rises                  curve\n"
+              "  nearest  1 × 1   binary    each tap  exactly                by formula    "
+              "one texel\n"
+              "  pcf3     3 × 3   fraction  none      up to rounding (0.12)  by bisection  "
+              "nine texels\n"
+              "\n"
+              "  bias term  acts on          stage   keys\n"
+              "  offset     lookup position  lookup  bias.normal_texels [texel widths]  moves P\n"
+              "\n"
+              "  key              default\n"
+              "  lookup.filter    \"nearest\"  how the map is filtered\n"
+              "  lookup.outside   \"lit\"      the verdict beyond the map's edge or its far plane\n"
+              "  lookup.position  \"vertex\"   where a receiver's light clip position is computed: "
+              "at the "
+              "vertices, and interpolated, or at each pixel from its world position\n");
 }
 
 TEST(MethodsTable, LeavesOutWhatAMethodDoesNotHave)

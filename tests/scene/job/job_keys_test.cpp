@@ -106,6 +106,7 @@ const std::map<std::string, KeyCases> key_cases{
       {"\"pcf4\"", "\"pcf11\"", "3"},
       {}}},
     {"lookup.outside", {{"\"lit\"", "\"shadowed\"", "\"clamp\""}, {"\"border\"", "1"}, {}}},
+    {"lookup.position", {{"\"vertex\"", "\"pixel\""}, {"\"texel\"", "0"}, {}}},
     {"bias.constant", biases("1", "1.0000001")},
     {"bias.constant_m", biases("1e+15", "1.1e15")},
     {"bias.slope", biases("1000", "1000.1")},
