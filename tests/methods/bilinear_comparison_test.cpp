@@ -31,13 +31,12 @@ TEST(BilinearComparison, NeverFallsWhenATapIsLit)
 {
     std::mt19937 random{1};
     for (int i = 0; i < 250'000; ++i) {
-        // Fractions of so many bits, half of them near 0, ½ or 1, where an error would show.
-        const unsigned bits = 8 + random() % 16;
+        // Fractions of so many bits, most of them near 0, ½ or 1, where an error would show.
+        const std::uint_fast32_t all = 1U << (8 + random() % 16);
         const auto fraction = [&] {
-            const std::uint32_t all = 1U << bits;
-            const std::uint32_t near = random() % 32;
-            const std::array<std::uint32_t, 4> choices{random() % all, all / 2 - near,
-                                                       all - 1 - near, near};
+            const std::uint_fast32_t near = random() % 32;
+            const std::array<std::uint_fast32_t, 4> choices{random() % all, all / 2 - near,
+                                                            all - 1 - near, near};
             return static_cast<float>(choices.at(random() % 4)) / static_cast<float>(all);
         };
         const float x = fraction();
