@@ -146,7 +146,7 @@ describe("The bias slider", () => {
     gnomon("compare", ...job, "--export-case", folder);
     const page = await openPage(makeReport("hardware", "evaluate", folder).page);
     assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
-    assert.ok(await page.getByText("Nothing tells of this lookup’s other biases").isVisible());
+    assert.ok(await page.getByText("its weights are its renderer’s own").isVisible());
     assert.deepEqual(page.faults, []);
     await page.close();
   });
