@@ -165,6 +165,11 @@ private:
     /// @param biases  Ascending, 0 or normal.
     [[nodiscard]] std::vector<MeasuredBias> measure(const SlopeCurve& curve,
                                                     std::span<const float> biases);
+    /// The same by formula.
+    /// @param amounts_of  of each bias.
+    [[nodiscard]] std::vector<MeasuredBias> measure(const SlopeCurve& curve,
+                                                    std::span<const float> biases,
+                                                    std::span<const ErrorAmounts> amounts_of);
     /// The same, each from GL's own lookup.
     [[nodiscard]] std::vector<MeasuredBias> rerun(float slope, std::span<const float> biases);
     /// Its amounts, without finding causes.

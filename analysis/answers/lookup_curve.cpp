@@ -155,16 +155,23 @@ std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
 std::vector<MeasuredBias> LookupAnswers::around_least_amount(const SlopeCurve& curve)
 {
     const std::vector<float> biases = tried_biases();
-    return measure(curve, around_least(biases, amounts(curve, biases)));
+    const std::vector<ErrorAmounts> amounts_of = amounts(curve, biases);
+    const std::span<const float> around = around_least(biases, amounts_of);
+    const auto first = static_cast<std::size_t>(around.data() - biases.data());
+    return measure(curve, around, std::span{amounts_of}.subspan(first, around.size()));
 }
 
 std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
                                                  std::span<const float> biases)
 {
-    if (lookup_.reruns) {
-        return rerun(curve.slope, biases);
-    }
-    const auto amounts_of = amounts(curve, biases);
+    return lookup_.reruns ? rerun(curve.slope, biases)
+                          : measure(curve, biases, amounts(curve, biases));
+}
+
+std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
+                                                 std::span<const float> biases,
+                                                 std::span<const ErrorAmounts> amounts_of)
+{
     const auto softening = softening_with(curve.slope, curve.critical_bias, biases);
     std::vector<MeasuredBias> measured;
     for (std::size_t i = 0; i < biases.size(); ++i) {
