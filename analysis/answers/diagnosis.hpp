@@ -4,7 +4,7 @@
 #include "analysis/bias/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
-#include "analysis/metrics/gaps.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
 #include "scene/job/job.hpp"

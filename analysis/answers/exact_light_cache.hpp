@@ -4,8 +4,8 @@
 #include "analysis/causes/cause_cache.hpp"
 #include "analysis/causes/cause_inputs.hpp"
 #include "analysis/causes/pixel_causes.hpp"
-#include "analysis/metrics/gaps.hpp"
 #include "analysis/metrics/map_errors.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/metrics/quantiles.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "analysis/renderers.hpp"
@@ -49,7 +49,7 @@ public:
     /// The scored receivers by object and light distance; no cells where they are too many or not
     /// to be counted.
     [[nodiscard]] const CellMap& cells();
-    [[nodiscard]] BlockerGaps& gaps() { return receivers_->gaps(); }
+    [[nodiscard]] BlockerGapCache& gaps() { return receivers_->gaps(); }
     /// The gaps of these blocked pixels, in the order of the pixels.
     [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels);
 

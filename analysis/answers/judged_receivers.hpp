@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/answers/first_hit_cache.hpp"
-#include "analysis/metrics/blocker_gaps.hpp"
+#include "analysis/metrics/blocker_gap_cache.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/metrics.hpp"
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] const ClassCounts& classes() const { return classes_; }
     [[nodiscard]] const ReceiverUse& use() const { return use_; }
 
-    [[nodiscard]] BlockerGaps& gaps() { return gaps_; }
+    [[nodiscard]] BlockerGapCache& gaps() { return gaps_; }
     [[nodiscard]] FirstHitCache& first_hits() { return first_hits_; }
 
     /// Light distance of the scored receivers [m], else NaN. This and what follows from it are
@@ -61,7 +61,7 @@ private:
     const scene::TruthLayers& truth_;
     ReceiverUse use_;
     ClassCounts classes_;
-    BlockerGaps gaps_;
+    BlockerGapCache gaps_;
     FirstHitCache first_hits_;
     std::shared_ptr<const scene::Image<float>> light_distance_m_;
     std::shared_ptr<const Binning> distances_;

@@ -6,7 +6,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "analysis/metrics/amounts.hpp"
-#include "analysis/metrics/gaps.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_layers.hpp"
 

@@ -6,8 +6,8 @@
 #include "analysis/causes/cause.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
-#include "analysis/metrics/gaps.hpp"
 #include "analysis/metrics/metrics.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 
 #include <cstdint>

@@ -12,7 +12,8 @@ constexpr Rises always{Rise::exactly, 0};
 
 constexpr auto filter_table = std::to_array<FilterPromises>({
     {Filter::nearest, 1, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "taps.glsl", "compares with the texel that holds the receiver"},
+     Sampling::fetched, "mean_of_comparisons.glsl",
+     "compares with the texel that holds the receiver"},
     {Filter::linear, 2, Compares::mean_depth, Weights::bilinear, always, Curve::by_formula,
      Sampling::interpolated, "interpolated_depth.glsl",
      "interpolates the depths of 2 × 2 texels, and compares once"},
@@ -20,13 +21,17 @@ constexpr auto filter_table = std::to_array<FilterPromises>({
      Sampling::compared, "compared_by_gl.glsl",
      "GL's own filter: compares with 2 × 2 texels, and interpolates the answers"},
     {Filter::pcf3, 3, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 3 × 3 texels"},
+     Sampling::fetched, "mean_of_comparisons.glsl",
+     "the mean of the comparisons with 3 × 3 texels"},
     {Filter::pcf5, 5, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 5 × 5 texels"},
+     Sampling::fetched, "mean_of_comparisons.glsl",
+     "the mean of the comparisons with 5 × 5 texels"},
     {Filter::pcf7, 7, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 7 × 7 texels"},
+     Sampling::fetched, "mean_of_comparisons.glsl",
+     "the mean of the comparisons with 7 × 7 texels"},
     {Filter::pcf9, 9, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "taps.glsl", "the mean of the comparisons with 9 × 9 texels"},
+     Sampling::fetched, "mean_of_comparisons.glsl",
+     "the mean of the comparisons with 9 × 9 texels"},
 });
 
 /// Whether the row of each filter stands where its enumerator counts.

@@ -35,7 +35,7 @@ constexpr auto made_up_filters = std::to_array<FilterPromises>({{Filter::nearest
                                                                  {},
                                                                  Curve::by_formula,
                                                                  Sampling::fetched,
-                                                                 "taps.glsl",
+                                                                 "mean_of_comparisons.glsl",
                                                                  "one texel"},
                                                                 {Filter::pcf3,
                                                                  3,
@@ -44,7 +44,7 @@ constexpr auto made_up_filters = std::to_array<FilterPromises>({{Filter::nearest
                                                                  {},
                                                                  Curve::by_formula,
                                                                  Sampling::fetched,
-                                                                 "taps.glsl",
+                                                                 "mean_of_comparisons.glsl",
                                                                  "nine texels"}});
 constexpr auto made_up_terms = std::to_array<methods::BiasTerm>(
     {{"offset", bias_key, methods::BiasPlace::lookup_position, "moves P"}});

@@ -1,8 +1,9 @@
-#include "analysis/metrics/gaps.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 
 namespace gnomon::analysis {
 
-std::vector<PixelGap> gaps_of_pixels(const BlockerGaps& gaps, std::span<const std::size_t> pixels,
+std::vector<PixelGap> gaps_of_pixels(const BlockerGapCache& gaps,
+                                     std::span<const std::size_t> pixels,
                                      const ReceiverGeometry& geometry,
                                      const scene::LightFrustum& frustum, int resolution_texels)
 {

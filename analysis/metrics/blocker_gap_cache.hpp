@@ -13,9 +13,9 @@ namespace gnomon::analysis {
 
 /// World distances from blocked receivers to their blockers, found when first asked for. They
 /// depend on scene, camera and light alone: one memory serves all maps.
-class BlockerGaps {
+class BlockerGapCache {
 public:
-    explicit BlockerGaps(scene::ImageSize size);
+    explicit BlockerGapCache(scene::ImageSize size);
 
     /// Finds those of the pixels that are not known yet.
     /// @param pixels  blocked in truth.
@@ -30,7 +30,7 @@ private:
 };
 
 /// Forgives gaps of at most the pixel's own width. The arguments must outlive what is returned.
-[[nodiscard]] ForgiveGaps forgive_footprints(BlockerGaps& gaps, const scene::ExactLight& light,
+[[nodiscard]] ForgiveGaps forgive_footprints(BlockerGapCache& gaps, const scene::ExactLight& light,
                                              const ReceiverGeometry& geometry);
 
 } // namespace gnomon::analysis

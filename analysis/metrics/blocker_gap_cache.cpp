@@ -1,4 +1,4 @@
-#include "analysis/metrics/blocker_gaps.hpp"
+#include "analysis/metrics/blocker_gap_cache.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -6,9 +6,9 @@
 
 namespace gnomon::analysis {
 
-BlockerGaps::BlockerGaps(scene::ImageSize size) : gaps_m_{size, unknown} {}
+BlockerGapCache::BlockerGapCache(scene::ImageSize size) : gaps_m_{size, unknown} {}
 
-void BlockerGaps::find(const scene::ExactLight& light, std::span<const std::size_t> pixels)
+void BlockerGapCache::find(const scene::ExactLight& light, std::span<const std::size_t> pixels)
 {
     std::vector<std::size_t> asked;
     for (const std::size_t pixel : pixels) {
@@ -22,7 +22,7 @@ void BlockerGaps::find(const scene::ExactLight& light, std::span<const std::size
     }
 }
 
-ForgiveGaps forgive_footprints(BlockerGaps& gaps, const scene::ExactLight& light,
+ForgiveGaps forgive_footprints(BlockerGapCache& gaps, const scene::ExactLight& light,
                                const ReceiverGeometry& geometry)
 {
     return [&](std::span<const std::size_t> pixels) {

@@ -1,4 +1,4 @@
-#include "analysis/metrics/gaps.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 
 #include "fake_light.hpp"
 
@@ -44,7 +44,7 @@ TEST(GapsOfPixels, AreInMetresAndInTexelsAtTheReceiver)
     light.blockers[1] = {3, 1.5, 2, 4};
     const Wall wall;
     const std::vector<std::size_t> pixels{0, 1};
-    BlockerGaps known{wall.view.image};
+    BlockerGapCache known{wall.view.image};
     known.find(light, pixels);
     const auto gaps = gaps_of_pixels(known, pixels, wall.geometry(), wall.view.frustum, 16);
     ASSERT_EQ(gaps.size(), 2U);
@@ -56,14 +56,14 @@ TEST(GapsOfPixels, AreInMetresAndInTexelsAtTheReceiver)
     EXPECT_TRUE(gaps_of_pixels(known, {}, wall.geometry(), wall.view.frustum, 16).empty());
 }
 
-TEST(BlockerGaps, AreFoundOnce)
+TEST(BlockerGapCache, AreFoundOnce)
 {
     FakeLight light;
     light.blockers[0] = {3, 0.5, 2, 4};
     light.blockers[1] = {3, 1.5, 2, 4};
     const std::vector<std::size_t> first{0};
     const std::vector<std::size_t> both{0, 1};
-    BlockerGaps known{{2, 1}};
+    BlockerGapCache known{{2, 1}};
     known.find(light, first);
     light.blockers.erase(0); // asked again, the light would throw
     known.find(light, both);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/metrics/blocker_gaps.hpp"
+#include "analysis/metrics/blocker_gap_cache.hpp"
 #include "analysis/metrics/quantiles.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "scene/light/frustum.hpp"
@@ -25,7 +25,7 @@ struct Gaps {
 };
 
 /// @param pixels  blocked in truth; their gaps must be known.
-[[nodiscard]] std::vector<PixelGap> gaps_of_pixels(const BlockerGaps& gaps,
+[[nodiscard]] std::vector<PixelGap> gaps_of_pixels(const BlockerGapCache& gaps,
                                                    std::span<const std::size_t> pixels,
                                                    const ReceiverGeometry& geometry,
                                                    const scene::LightFrustum& frustum,
