@@ -1,4 +1,5 @@
 #include "analysis/answers/bias_answers.hpp"
+
 #include "methods/depth/filters.hpp"
 
 #include <cmath>
@@ -19,8 +20,9 @@ std::vector<float> slopes(const BiasQuestion& question)
 }
 
 /// Nothing where even the slope's best bias leaves no less than `own` does: it is no remedy then.
-std::optional<Recommendation> recommended(const BiasQuestion& question, const SlopeCurve& curve,
-                                          const std::optional<Recommendation>& own)
+std::optional<Recommendation> recommended_with(const BiasQuestion& question,
+                                               const SlopeCurve& curve,
+                                               const std::optional<Recommendation>& own)
 {
     const bool can_leave_less =
         own && static_cast<double>(curve.best.errors.total()) < own->pasted_outcome.error_amount();
@@ -33,18 +35,28 @@ std::optional<Recommendation> recommended(const BiasQuestion& question, const Sl
                               question.job.bias);
 }
 
-void answer_slopes(const BiasQuestion& question, const std::optional<Recommendation>& own,
-                   BiasAnswers& answers)
+struct SlopeAnswers {
+    std::vector<SlopeAnswer> all;
+    std::size_t best = 0; ///< index into them
+};
+
+/// @param own          the curve of the job's own slope, which is not found again.
+/// @param recommended  what it recommends.
+SlopeAnswers answer_slopes(const BiasQuestion& question, const SlopeCurve& own,
+                           const std::optional<Recommendation>& recommended)
 {
+    SlopeAnswers answers;
     for (const float slope : slopes(question)) {
-        const SlopeCurve curve = slope_curve(question.curves, slope);
-        if (answers.slopes.empty() ||
-            is_better(curve.best, answers.slopes[answers.best_slope].best)) {
-            answers.best_slope = answers.slopes.size();
+        const std::optional<SlopeCurve> other =
+            slope == own.slope ? std::nullopt : std::optional{slope_curve(question.curves, slope)};
+        const SlopeCurve& curve = other ? *other : own;
+        if (answers.all.empty() || is_better(curve.best, answers.all[answers.best].best)) {
+            answers.best = answers.all.size();
         }
-        answers.slopes.push_back(
-            {slope, curve.best, curve.bounds, recommended(question, curve, own)});
+        answers.all.push_back(
+            {slope, curve.best, curve.bounds, recommended_with(question, curve, recommended)});
     }
+    return answers;
 }
 
 } // namespace
@@ -52,19 +64,14 @@ void answer_slopes(const BiasQuestion& question, const std::optional<Recommendat
 BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own,
                           const std::optional<Recommendation>& recommended)
 {
+    SlopeAnswers by_slope = answer_slopes(question, own, recommended);
     BiasMap map = map_biases({own.critical_bias, question.curves.classes, question.curves.samples,
                               question.light_distance_m, question.view.frustum,
                               question.job.shadow_map.resolution_texels,
                               question.job.shadow_map.depth_format});
-    BiasAnswers answers{std::move(own.critical_bias),
-                        std::move(own.curve),
-                        own.best,
-                        own.bounds,
-                        std::move(map),
-                        {},
-                        0};
-    answer_slopes(question, recommended, answers);
-    return answers;
+    return {
+        std::move(own.critical_bias), std::move(own.curve), own.best, own.bounds, std::move(map),
+        std::move(by_slope.all),      by_slope.best};
 }
 
 } // namespace gnomon::analysis
