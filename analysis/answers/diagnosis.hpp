@@ -35,7 +35,8 @@ struct Diagnosis {
 /// What becomes of a shadow map when its lookup is diagnosed.
 enum class MapAfterDiagnosis : std::uint8_t {
     kept,
-    /// Its memory, at once where its lookup has a bias curve; else it is asked bias by bias.
+    /// Its memory, as soon as nothing more is asked of it: before the causes where a formula tells
+    /// of other biases, else after the bias curve.
     given_back,
 };
 

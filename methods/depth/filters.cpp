@@ -10,28 +10,27 @@ using scene::Filter;
 
 constexpr Rises always{Rise::exactly, 0};
 
+/// The mean of comparisons with width × width texels, fetched one by one.
+constexpr FilterPromises mean_of_comparisons(Filter filter, int width_texels,
+                                             std::string_view sentence)
+{
+    return {filter,  width_texels,      Compares::each_tap, Weights::equal,
+            always,  Curve::by_formula, Sampling::fetched,  "mean_of_comparisons.glsl",
+            sentence};
+}
+
 constexpr auto filter_table = std::to_array<FilterPromises>({
-    {Filter::nearest, 1, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "mean_of_comparisons.glsl",
-     "compares with the texel that holds the receiver"},
+    mean_of_comparisons(Filter::nearest, 1, "compares with the texel that holds the receiver"),
     {Filter::linear, 2, Compares::mean_depth, Weights::bilinear, always, Curve::by_formula,
      Sampling::interpolated, "interpolated_depth.glsl",
      "interpolates the depths of 2 × 2 texels, and compares once"},
     {Filter::hardware, 2, Compares::each_tap, Weights::bilinear_of_gl, always, Curve::by_bisection,
      Sampling::compared, "compared_by_gl.glsl",
      "GL's own filter: compares with 2 × 2 texels, and interpolates the answers"},
-    {Filter::pcf3, 3, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "mean_of_comparisons.glsl",
-     "the mean of the comparisons with 3 × 3 texels"},
-    {Filter::pcf5, 5, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "mean_of_comparisons.glsl",
-     "the mean of the comparisons with 5 × 5 texels"},
-    {Filter::pcf7, 7, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "mean_of_comparisons.glsl",
-     "the mean of the comparisons with 7 × 7 texels"},
-    {Filter::pcf9, 9, Compares::each_tap, Weights::equal, always, Curve::by_formula,
-     Sampling::fetched, "mean_of_comparisons.glsl",
-     "the mean of the comparisons with 9 × 9 texels"},
+    mean_of_comparisons(Filter::pcf3, 3, "the mean of the comparisons with 3 × 3 texels"),
+    mean_of_comparisons(Filter::pcf5, 5, "the mean of the comparisons with 5 × 5 texels"),
+    mean_of_comparisons(Filter::pcf7, 7, "the mean of the comparisons with 7 × 7 texels"),
+    mean_of_comparisons(Filter::pcf9, 9, "the mean of the comparisons with 9 × 9 texels"),
 });
 
 /// Whether the row of each filter stands where its enumerator counts.

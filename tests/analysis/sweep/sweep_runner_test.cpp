@@ -35,6 +35,19 @@ TEST(SweepRunner, RunsEachStageAsOftenAsPlanned)
     expect_compared(sweep);
 }
 
+TEST(SweepRunner, DrawsReceiversOnceForAllLightMatricesWhereThePixelPlacesThem)
+{
+    FakeSweep sweep{{"shadow_map.near=-2,-1", "shadow_map.resolution=4,8", "bias.slope=0,0.25",
+                     "bias.constant=0,0.125,0.25"},
+                    {{"lookup.position", "pixel"}},
+                    two_cameras};
+    const PlanCounts counts = sweep.run();
+    EXPECT_EQ(counts, (PlanCounts{48, 1, 2, 2, 4, 8, 16}));
+    EXPECT_EQ(sweep.calls("receivers"), 2U);
+    EXPECT_THAT(sweep.failed, IsEmpty());
+    expect_compared(sweep);
+}
+
 TEST(SweepRunner, GivesWhatAComparisonGives)
 {
     for (const char* const reversed : {"false", "true"}) {
@@ -48,7 +61,7 @@ TEST(SweepRunner, GivesWhatAComparisonGives)
     }
 }
 
-TEST(SweepRunner, CountsPartsOnlyWhereTheyAreWanted)
+TEST(SweepRunner, CountsCellsOnlyWhereTheyAreWanted)
 {
     for (const bool is_wanted : {true, false}) {
         FakeSweep sweep{{"bias.constant=0.0625,0"}, {}};
