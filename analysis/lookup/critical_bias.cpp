@@ -26,10 +26,12 @@ constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t smallest_normal_bits = 0x00800000;
 constexpr std::uint32_t sign_bit = 0x80000000;
 
-/// The float below x; NaN for +0.
+/// The float below x; below either zero the negative subnormal.
 float float_below(float x)
 {
-    const auto bits = std::bit_cast<std::uint32_t>(x);
+    // Either zero as −0: a sum is +0 where subnormals are flushed, as in TBB's loops once Embree
+    // has started it.
+    const auto bits = std::bit_cast<std::uint32_t>(-(0.0F - x));
     return std::bit_cast<float>(bits + 2 * (bits >> 31) - 1);
 }
 
