@@ -8,11 +8,6 @@ namespace gnomon::reference_rt {
 
 namespace {
 
-Fraction fraction(double x)
-{
-    return {Dyadic{x}, Dyadic{1}};
-}
-
 /// Limits to [0, 1]: what is known of a number is known of the limited one too.
 Bounded limited(const Bounded& x)
 {
@@ -25,7 +20,9 @@ Wide limited(const Wide& x)
 }
 Fraction limited(const Fraction& x)
 {
-    return x.sign() < 0 ? fraction(0) : (x - fraction(1)).sign() > 0 ? fraction(1) : x;
+    return x.sign() < 0                           ? Fraction::number(0)
+           : (x - Fraction::number(1)).sign() > 0 ? Fraction::number(1)
+                                                  : x;
 }
 
 /// @param one  the number 1
@@ -80,7 +77,7 @@ std::array<Fraction, 4> BilinearWeights::exact() const
         const Dyadic n{static_cast<double>(resolution_)};
         return limited(Fraction{n * x + Dyadic{base(texel)} * w, w + w});
     };
-    return products(fraction(1), along(rows_.x, first_.x), along(rows_.y, first_.y));
+    return products(Fraction::number(1), along(rows_.x, first_.x), along(rows_.y, first_.y));
 }
 
 } // namespace gnomon::reference_rt

@@ -18,8 +18,8 @@ public:
     friend Dyadic operator-(const Dyadic& a, const Dyadic& b);
     friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
 
-    /// numerator / denominator within 2^-52 of its size; 0 where that underflows.
-    /// Precondition: the denominator is not 0, and the quotient below 2^1000.
+    /// numerator / denominator within 2^-52 of its size; within 2^-1022 where that underflows,
+    /// infinite where it overflows. Precondition: the denominator is not 0.
     [[nodiscard]] static double quotient(const Dyadic& numerator, const Dyadic& denominator);
 
 private:

@@ -1,11 +1,11 @@
 #include "reference_rt/light/critical_bias.hpp"
 
+#include "reference_rt/light/float_rounding.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace gnomon::reference_rt {
 
@@ -13,23 +13,11 @@ namespace {
 
 using scene::infinity;
 
-/// What a texel's ray meets; it stays where it is, as the hit refers to its ray and triangle.
-struct TapHit {
-    CameraRay ray;
-    ExactTriangle face;
-    Receiver hit;
+/// Up to the next bias: 0 or a normal float32.
+struct UpToBias {
+    static float of(double x) { return smallest_bias_from(x); }
+    static double boundary(float lower, float /*upper*/) { return static_cast<double>(lower); }
 };
-
-Fraction number(double x)
-{
-    return {Dyadic{x}, Dyadic{1}};
-}
-
-/// As `first_hits` found it.
-Bounded known_depth(const scene::ExactTap& tap)
-{
-    return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
-}
 
 /// What a bias must make up for: r − d, or reversed d − r.
 Bounded directed(const Bounded& excess, bool is_reversed)
@@ -90,52 +78,12 @@ Number mean_excess(const Number& receiver, const std::array<Number, 4>& depths,
 Fraction mean_excess(const Fraction& receiver, const std::array<Fraction, 4>& depths,
                      const std::array<Fraction, 4>& weights)
 {
-    Fraction excess = number(0);
+    Fraction excess = Fraction::number(0);
     for (std::size_t i = 0; i < depths.size(); ++i) {
         const Fraction term = weights[i] * (depths[i] - receiver);
         excess = term.denominator.sign() == 0 || term.sign() != 0 ? excess - term : excess;
     }
     return excess;
-}
-
-/// The bias where the whole interval asks for the same.
-std::optional<float> certain_bias(const Bounded& excess)
-{
-    const float bias = smallest_bias_from(excess.lower());
-    return bias == smallest_bias_from(excess.upper()) ? std::optional{bias} : std::nullopt;
-}
-
-/// The bias where the sum of both parts, within their error, leaves no doubt.
-std::optional<float> certain_bias(const Wide& excess)
-{
-    const Bounded rounded = excess.rounded();
-    const float bias = smallest_bias_from(rounded.lower());
-    const float next = smallest_bias_from(rounded.upper());
-    if (bias == next) {
-        return bias;
-    }
-    if (!(rounded.error <= 0x1p-50 * std::abs(rounded.value))) {
-        return std::nullopt;
-    }
-    // Between two floats there are many doubles: `bias` is the only one within the error.
-    const Bounded beyond = (excess - WideField::number(bias)).rounded();
-    if (beyond.is_certainly_positive()) {
-        return next;
-    }
-    return beyond.is_certainly_negative() ? std::optional{bias} : std::nullopt;
-}
-
-float smallest_bias_of(const Fraction& excess)
-{
-    if (excess.denominator.sign() == 0) {
-        return infinity;
-    }
-    const double x = excess.value();
-    const double reach = 0x1p-51 * std::abs(x);
-    const float bias = smallest_bias_from(x - reach);
-    const float next = smallest_bias_from(x + reach);
-    // Between two floats there are many doubles: `bias` is the only one within the error of x.
-    return bias == next || (excess - number(static_cast<double>(bias))).sign() <= 0 ? bias : next;
 }
 
 } // namespace
@@ -148,33 +96,6 @@ float smallest_bias_from(double x)
     }
     const auto nearest = static_cast<float>(x);
     return static_cast<double>(nearest) < x ? std::nextafter(nearest, infinity) : nearest;
-}
-
-Wide DepthTerm::sharp() const
-{
-    if (hit_ == nullptr) {
-        return {bounded_.value, 0, bounded_.error};
-    }
-    return hit_->is_well_scaled() ? depth_->widely_at(*hit_)
-                                  : Wide{0, 0, std::numeric_limits<double>::infinity()};
-}
-
-Fraction DepthTerm::exact() const
-{
-    return hit_ == nullptr ? number(bounded_.value) : depth_->exactly_at(*hit_);
-}
-
-DepthTerm DepthTerm::clamped() const
-{
-    const Bounded rest = Bounded{1, 0} - bounded_;
-    if (bounded_.is_certainly_positive() && rest.is_certainly_positive()) {
-        return *this;
-    }
-    const Fraction depth = exact();
-    if (depth.sign() < 0) {
-        return DepthTerm{0};
-    }
-    return (depth - number(1)).sign() > 0 ? DepthTerm{1} : *this;
 }
 
 float CriticalBias::find(const DepthTerm& receiver, const scene::ExactTap& tap) const
@@ -192,34 +113,26 @@ template <std::size_t n, typename Weights>
 float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
                          const Weights& weights) const
 {
-    const bool is_reversed = depth_.is_reversed();
-    const auto known = mapped(taps, known_depth);
+    const bool is_reversed = taps_.is_reversed();
+    const auto known = mapped(taps, TapDepths::known);
     const auto bounded = mean_excess(receiver.bounded(), known, weights(InDoubles{}));
-    if (const auto bias = certain_bias(directed(bounded, is_reversed))) {
+    if (const auto bias = certainly_rounded<UpToBias>(directed(bounded, is_reversed))) {
         return *bias;
     }
     std::array<TapHit, n> hits;
     std::array<DepthTerm, n> terms;
-    SignCounts counts;
     for (std::size_t i = 0; i < n; ++i) {
-        if (taps[i].triangle == scene::no_triangle) {
-            terms[i] = DepthTerm{taps[i].depth};
-        } else {
-            TapHit& tap = hits[i];
-            tap.ray = CameraRay{rays_.ray(taps[i].texel)};
-            tap.face = ExactTriangle{taps[i].triangle, corners_of(triangles_, taps[i].triangle)};
-            tap.hit = Receiver{tap.face, tap.ray, counts};
-            terms[i] = DepthTerm{depth_, tap.hit, known[i]};
-        }
+        terms[i] = taps_.term(taps[i], hits[i]);
     }
     const auto sharp_depths = mapped(terms, [](const DepthTerm& term) { return term.sharp(); });
     const auto sharp = mean_excess(receiver.sharp(), sharp_depths, weights(InTwiceDoubles{}));
-    if (const auto bias = certain_bias(directed(sharp, is_reversed))) {
+    if (const auto bias = certainly_rounded<UpToBias>(directed(sharp, is_reversed))) {
         return *bias;
     }
     const auto exact_depths = mapped(terms, [](const DepthTerm& term) { return term.exact(); });
     const auto exact = mean_excess(receiver.exact(), exact_depths, weights(Exactly{}));
-    return smallest_bias_of(directed(exact, is_reversed));
+    return exact.denominator.sign() == 0 ? infinity
+                                         : exactly_rounded<UpToBias>(directed(exact, is_reversed));
 }
 
 } // namespace gnomon::reference_rt

@@ -1,11 +1,8 @@
 #pragma once
 
 #include "reference_rt/exact/bilinear_weights.hpp"
-#include "reference_rt/exact/predicates.hpp"
-#include "reference_rt/light/light_depth.hpp"
-#include "reference_rt/light/texel_rays.hpp"
+#include "reference_rt/light/depth_term.hpp"
 #include "scene/light/exact_light.hpp"
-#include "scene/triangles.hpp"
 
 #include <array>
 #include <cstddef>
@@ -16,44 +13,10 @@ namespace gnomon::reference_rt {
 /// are; +∞ if `x` is larger than all.
 [[nodiscard]] float smallest_bias_from(double x);
 
-/// The depth of a point: bounded, and what makes it exact.
-class DepthTerm {
-public:
-    /// A constant.
-    explicit DepthTerm(double constant = 0) : bounded_{constant, 0} {}
-    /// Of the hit of a ray with a plane, already bounded; both must outlive the term.
-    DepthTerm(const LightDepth& depth, const Receiver& hit, const Bounded& bounded)
-        : bounded_{bounded},
-          depth_{&depth},
-          hit_{&hit}
-    {
-    }
-
-    [[nodiscard]] Bounded bounded() const { return bounded_; }
-    /// Bounded far more closely, at a cost; with an infinite error where the hit is not well
-    /// scaled.
-    [[nodiscard]] Wide sharp() const;
-    [[nodiscard]] Fraction exact() const;
-    /// The same, limited to [0, 1].
-    [[nodiscard]] DepthTerm clamped() const;
-
-private:
-    Bounded bounded_;
-    const LightDepth* depth_ = nullptr;
-    const Receiver* hit_ = nullptr;
-};
-
 /// Finds the smallest bias with which a depth is not in front of a map's, both exact.
 class CriticalBias {
 public:
-    /// All arguments must outlive it.
-    CriticalBias(const scene::TriangleScene& triangles, const TexelRays& rays,
-                 const LightDepth& depth)
-        : triangles_{triangles},
-          rays_{rays},
-          depth_{depth}
-    {
-    }
+    explicit CriticalBias(const TapDepths& taps) : taps_{taps} {}
 
     /// The smallest B with r − B <= d (reversed: r + B >= d), d the depth of the tap; infinite
     /// where the receiver lies in the light's camera plane.
@@ -68,9 +31,7 @@ private:
     [[nodiscard]] float find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
                              const Weights& weights) const;
 
-    const scene::TriangleScene& triangles_;
-    const TexelRays& rays_;
-    const LightDepth& depth_;
+    TapDepths taps_;
 };
 
 } // namespace gnomon::reference_rt

@@ -2,8 +2,10 @@
 
 #include "reference_rt/exact/crossing_depth.hpp"
 #include "reference_rt/light/critical_bias.hpp"
+#include "reference_rt/light/depth_term.hpp"
 #include "reference_rt/light/known_hits.hpp"
 #include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/lit_point.hpp"
 #include "reference_rt/light/self_shadowing.hpp"
 #include "reference_rt/light/texel_first_hits.hpp"
 #include "reference_rt/light/texel_rays.hpp"
@@ -42,62 +44,6 @@ const std::array<ExactTap, 4>& taps_of(const LinearQuery& query)
 {
     return query.taps;
 }
-
-/// P as it stands to the light; made again only as far as it changes.
-class LitPoint {
-public:
-    LitPoint(const SeenPixels& seen, const LightDepth& depth)
-        : seen_{seen},
-          depth_{depth},
-          has_eye_{seen.view.camera.projection == scene::Projection::perspective}
-    {
-    }
-
-    void move_to(std::size_t pixel)
-    {
-        if (pixel == pixel_) {
-            return;
-        }
-        pixel_ = pixel;
-        ray_ = seen_.ray_of(pixel);
-        const bool is_same_face = seen_.receivers[pixel] == face_.triangle;
-        if (!is_same_face) {
-            face_ = seen_.face_of(pixel);
-        }
-        if (!is_same_face || !has_eye_) {
-            nu_ = nu_of(face_, ray_.ray.origin);
-        }
-        SignCounts counts;
-        receiver_ = Receiver{face_, ray_, nu_, counts};
-        has_term_ = false;
-    }
-    [[nodiscard]] const Receiver& receiver() const { return receiver_; }
-    /// Its depth, found when first asked for.
-    [[nodiscard]] const DepthTerm& term()
-    {
-        if (!has_term_) {
-            term_ = receiver_.delta_sign == 0
-                        ? DepthTerm{}
-                        : DepthTerm{depth_, receiver_,
-                                    depth_.closely_at(depth_.plainly_along(ray_.ray),
-                                                      parameter_of(receiver_))};
-            has_term_ = true;
-        }
-        return term_;
-    }
-
-private:
-    const SeenPixels& seen_;
-    const LightDepth& depth_;
-    bool has_eye_;
-    std::size_t pixel_ = static_cast<std::size_t>(-1);
-    ExactTriangle face_;
-    Filtered<8> nu_; ///< of all rays from one eye
-    CameraRay ray_;
-    Receiver receiver_;
-    bool has_term_ = false;
-    DepthTerm term_;
-};
 
 class LightRays final : public scene::ExactLight {
 public:
@@ -283,7 +229,7 @@ private:
     template <typename Query>
     [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
     {
-        const CriticalBias critical{reference_.triangles, rays_, depth_};
+        const CriticalBias critical{TapDepths{reference_.triangles, rays_, depth_}};
         std::vector<float> biases(queries.size());
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
             check(queries[i]);

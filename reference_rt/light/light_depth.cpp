@@ -81,7 +81,7 @@ bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit, const Bo
     }
     const Fraction exact = exactly_at(hit);
     return exact.denominator.sign() > 0 && exact.sign() >= 0 &&
-           (exact - Fraction{Dyadic{1}, Dyadic{1}}).sign() <= 0;
+           (exact - Fraction::number(1)).sign() <= 0;
 }
 
 Bounded LightDepth::closely_at(const ClipLine& line, const Bounded& t) const

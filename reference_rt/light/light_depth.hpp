@@ -24,6 +24,8 @@ struct Fraction {
     Dyadic numerator;
     Dyadic denominator;
 
+    /// Precondition: `x` is finite.
+    [[nodiscard]] static Fraction number(double x) { return {Dyadic{x}, Dyadic{1}}; }
     [[nodiscard]] Sign sign() const { return numerator.sign() * denominator.sign(); }
     /// Within 2^-52 of its size.
     [[nodiscard]] double value() const { return Dyadic::quotient(numerator, denominator); }

@@ -1,0 +1,46 @@
+#include "reference_rt/light/depth_term.hpp"
+
+#include <limits>
+
+namespace gnomon::reference_rt {
+
+Wide DepthTerm::sharp() const
+{
+    if (hit_ == nullptr) {
+        return {bounded_.value, 0, bounded_.error};
+    }
+    return hit_->is_well_scaled() ? depth_->widely_at(*hit_)
+                                  : Wide{0, 0, std::numeric_limits<double>::infinity()};
+}
+
+Fraction DepthTerm::exact() const
+{
+    return hit_ == nullptr ? Fraction::number(bounded_.value) : depth_->exactly_at(*hit_);
+}
+
+DepthTerm DepthTerm::clamped() const
+{
+    const Bounded rest = Bounded{1, 0} - bounded_;
+    if (bounded_.is_certainly_positive() && rest.is_certainly_positive()) {
+        return *this;
+    }
+    const Fraction depth = exact();
+    if (depth.sign() < 0) {
+        return DepthTerm{0};
+    }
+    return (depth - Fraction::number(1)).sign() > 0 ? DepthTerm{1} : *this;
+}
+
+DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
+{
+    if (tap.triangle == scene::no_triangle) {
+        return DepthTerm{tap.depth};
+    }
+    SignCounts counts;
+    hit.ray = CameraRay{rays_.ray(tap.texel)};
+    hit.face = ExactTriangle{tap.triangle, corners_of(triangles_, tap.triangle)};
+    hit.hit = Receiver{hit.face, hit.ray, counts};
+    return DepthTerm{depth_, hit.hit, known(tap)};
+}
+
+} // namespace gnomon::reference_rt

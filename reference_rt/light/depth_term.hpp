@@ -1,0 +1,72 @@
+#pragma once
+
+#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/texel_rays.hpp"
+#include "scene/light/exact_light.hpp"
+#include "scene/triangles.hpp"
+
+namespace gnomon::reference_rt {
+
+/// The depth of a point: bounded, and what makes it exact.
+class DepthTerm {
+public:
+    /// A constant.
+    explicit DepthTerm(double constant = 0) : bounded_{constant, 0} {}
+    /// Of the hit of a ray with a plane, already bounded; both must outlive the term.
+    DepthTerm(const LightDepth& depth, const Receiver& hit, const Bounded& bounded)
+        : bounded_{bounded},
+          depth_{&depth},
+          hit_{&hit}
+    {
+    }
+
+    [[nodiscard]] Bounded bounded() const { return bounded_; }
+    /// Bounded far more closely, at a cost; with an infinite error where the hit is not well
+    /// scaled.
+    [[nodiscard]] Wide sharp() const;
+    [[nodiscard]] Fraction exact() const;
+    /// The same, limited to [0, 1].
+    [[nodiscard]] DepthTerm clamped() const;
+
+private:
+    Bounded bounded_;
+    const LightDepth* depth_ = nullptr;
+    const Receiver* hit_ = nullptr;
+};
+
+/// What a texel's ray meets; it stays where it is, as the hit refers to its ray and triangle.
+struct TapHit {
+    CameraRay ray;
+    ExactTriangle face;
+    Receiver hit;
+};
+
+/// Finds the depths of taps: those of triangles along the rays of texels, or constants.
+class TapDepths {
+public:
+    /// All arguments must outlive it.
+    TapDepths(const scene::TriangleScene& triangles, const TexelRays& rays, const LightDepth& depth)
+        : triangles_{triangles},
+          rays_{rays},
+          depth_{depth}
+    {
+    }
+
+    /// As `first_hits` found it.
+    [[nodiscard]] static Bounded known(const scene::ExactTap& tap)
+    {
+        return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
+    }
+    /// @param hit  to be found again; it must outlive the term.
+    [[nodiscard]] DepthTerm term(const scene::ExactTap& tap, TapHit& hit) const;
+
+    [[nodiscard]] bool is_reversed() const { return depth_.is_reversed(); }
+
+private:
+    const scene::TriangleScene& triangles_;
+    const TexelRays& rays_;
+    const LightDepth& depth_;
+};
+
+} // namespace gnomon::reference_rt

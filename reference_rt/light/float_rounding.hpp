@@ -1,0 +1,79 @@
+#pragma once
+
+#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/contact.hpp"
+#include "reference_rt/exact/wide.hpp"
+#include "reference_rt/light/light_depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+/// How an exact number becomes a float32, decided in the least precision that leaves no doubt.
+///
+/// A rule of rounding is monotone. It says which float32 a double becomes, and from which number on
+/// one float32 gives way to the next: such a boundary is a double, so that the rule says for it,
+/// too, what it becomes.
+namespace gnomon::reference_rt {
+
+/// The float32s between which a number within bounds is rounded: equal, or else neighbours.
+template <typename Rule>
+struct RoundedEnds {
+    explicit RoundedEnds(const Bounded& x) : lower{Rule::of(x.lower())}, upper{Rule::of(x.upper())}
+    {
+    }
+
+    [[nodiscard]] bool are_equal() const { return lower == upper; }
+    [[nodiscard]] double boundary() const { return Rule::boundary(lower, upper); }
+
+    float lower, upper;
+};
+
+/// The float32 where the whole interval becomes the same.
+template <typename Rule>
+[[nodiscard]] std::optional<float> certainly_rounded(const Bounded& x)
+{
+    const RoundedEnds<Rule> ends{x};
+    return ends.are_equal() ? std::optional{ends.lower} : std::nullopt;
+}
+
+/// The float32 where the sum of both parts, within their error, leaves no doubt.
+template <typename Rule>
+[[nodiscard]] std::optional<float> certainly_rounded(const Wide& x)
+{
+    const Bounded rounded = x.rounded();
+    const RoundedEnds<Rule> ends{rounded};
+    if (ends.are_equal()) {
+        return ends.lower;
+    }
+    if (!(rounded.error <= 0x1p-50 * std::abs(rounded.value))) {
+        return std::nullopt;
+    }
+    // Between two boundaries there are many doubles: only one is within the error.
+    const Bounded beyond = (x - WideField::number(ends.boundary())).rounded();
+    if (beyond.is_certainly_positive()) {
+        return ends.upper;
+    }
+    return beyond.is_certainly_negative() ? std::optional{ends.lower} : std::nullopt;
+}
+
+/// The float32 that a quotient becomes. Precondition: its denominator is not 0.
+template <typename Rule>
+[[nodiscard]] float exactly_rounded(const Fraction& x)
+{
+    if (x.sign() == 0) {
+        return Rule::of(0);
+    }
+    // Far beyond all float32s all numbers are alike; the summand pays for underflow.
+    const double value = std::clamp(x.value(), -0x1p1000, 0x1p1000);
+    const RoundedEnds<Rule> ends{Bounded{value, 0x1p-51 * std::abs(value) + 0x1p-1000}};
+    if (ends.are_equal()) {
+        return ends.lower;
+    }
+    // As above: there is no other boundary within the error.
+    const double boundary = ends.boundary();
+    const Sign side = (x - Fraction::number(boundary)).sign();
+    return side == 0 ? Rule::of(boundary) : side > 0 ? ends.upper : ends.lower;
+}
+
+} // namespace gnomon::reference_rt
