@@ -1,5 +1,7 @@
 #include "reference_rt/light/depth_term.hpp"
 
+#include "reference_rt/light/float_rounding.hpp"
+
 #include <limits>
 
 namespace gnomon::reference_rt {
@@ -31,6 +33,19 @@ DepthTerm DepthTerm::clamped() const
     return (depth - Fraction::number(1)).sign() > 0 ? DepthTerm{1} : *this;
 }
 
+float DepthTerm::nearest_float() const
+{
+    if (const auto depth = certainly_rounded<ToNearest>(bounded())) {
+        return *depth;
+    }
+    if (const auto depth = certainly_rounded<ToNearest>(sharp())) {
+        return *depth;
+    }
+    const Fraction depth = exact();
+    return depth.denominator.sign() == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                         : exactly_rounded<ToNearest>(depth);
+}
+
 DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
 {
     if (tap.triangle == scene::no_triangle) {
@@ -41,6 +56,15 @@ DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
     hit.face = ExactTriangle{tap.triangle, corners_of(triangles_, tap.triangle)};
     hit.hit = Receiver{hit.face, hit.ray, counts};
     return DepthTerm{depth_, hit.hit, known(tap)};
+}
+
+float TapDepths::nearest_float(const scene::ExactTap& tap) const
+{
+    if (const auto depth = certainly_rounded<ToNearest>(known(tap))) {
+        return *depth; // as a rule, without finding the hit again
+    }
+    TapHit hit;
+    return term(tap, hit).nearest_float();
 }
 
 } // namespace gnomon::reference_rt

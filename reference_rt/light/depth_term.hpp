@@ -28,6 +28,8 @@ public:
     [[nodiscard]] Fraction exact() const;
     /// The same, limited to [0, 1].
     [[nodiscard]] DepthTerm clamped() const;
+    /// Rounded once to float32 by `ToNearest`; NaN in the light's camera plane.
+    [[nodiscard]] float nearest_float() const;
 
 private:
     Bounded bounded_;
@@ -60,6 +62,8 @@ public:
     }
     /// @param hit  to be found again; it must outlive the term.
     [[nodiscard]] DepthTerm term(const scene::ExactTap& tap, TapHit& hit) const;
+    /// Rounded once to float32 by `ToNearest`.
+    [[nodiscard]] float nearest_float(const scene::ExactTap& tap) const;
 
     [[nodiscard]] bool is_reversed() const { return depth_.is_reversed(); }
 

@@ -96,6 +96,35 @@ public:
         return hits;
     }
 
+    std::vector<float> receiver_depths(std::span<const std::size_t> pixels) const override
+    {
+        seen_.check(pixels, "receiver_depths");
+        std::vector<float> depths(pixels.size());
+        for_each_run_of(pixels, [&](std::size_t i, LitPoint& point) {
+            point.move_to(pixels[i]);
+            depths[i] = point.term().nearest_float();
+        });
+        return depths;
+    }
+
+    std::vector<float> texel_depths(std::span<const Texel> texels) const override
+    {
+        const TexelFirstHits finder{reference_, rays_, depth_, cull_, HitDetail::bounded};
+        const TapDepths taps{reference_.triangles, rays_, depth_};
+        std::vector<float> depths(texels.size());
+        for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
+            std::vector<TexelHit> hits(run.size());
+            finder.find(run, hits);
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                const TexelHit& hit = hits[i];
+                depths[first + i] =
+                    taps.nearest_float({run[i], hit.triangle, hit.depth, hit.depth_error});
+            }
+        });
+        reference_.errors.check("texel_depths");
+        return depths;
+    }
+
     std::vector<float> critical_biases(std::span<const NearestQuery> queries,
                                        bool clamps) const override
     {

@@ -16,6 +16,37 @@
 /// too, what it becomes.
 namespace gnomon::reference_rt {
 
+/// To the nearest float32, ties to even, as IEEE 754 rounds once: what is not below 2^128 − 2^103
+/// becomes infinite. Results that would be subnormal, those of numbers below 2^-126 − 2^-150, are
+/// 0, which is positive: threads in which Embree has set the processor to flush them, and threads
+/// in which it has not, agree.
+struct ToNearest {
+    [[nodiscard]] static float of(double x)
+    {
+        const double size = std::abs(x);
+        if (size < first_normal) {
+            return 0;
+        }
+        // Not converted from below the normal numbers: a thread that flushes has 0 there.
+        return static_cast<float>(size < 0x1p-126 ? std::copysign(0x1p-126, x) : x);
+    }
+    [[nodiscard]] static double boundary(float lower, float upper)
+    {
+        if (lower == 0 || upper == 0) {
+            return std::copysign(first_normal, static_cast<double>(lower + upper));
+        }
+        // Exact for neighbours; beyond the largest float32 the next one would be 2^128.
+        const auto number = [](float x) {
+            return std::clamp(static_cast<double>(x), -0x1p128, 0x1p128);
+        };
+        return (number(lower) + number(upper)) / 2;
+    }
+
+private:
+    /// Half way from the largest subnormal to the smallest normal float32, which is even.
+    static constexpr double first_normal = 0x1p-126 - 0x1p-150;
+};
+
 /// The float32s between which a number within bounds is rounded: equal, or else neighbours.
 template <typename Rule>
 struct RoundedEnds {

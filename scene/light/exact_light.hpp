@@ -107,6 +107,19 @@ public:
     [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
                                                            const KnownHits& known) const = 0;
 
+    /// The exact matrix depth of P of each pixel, rounded once to float32: to nearest, ties to
+    /// even; a result that would be subnormal is 0, which is positive.
+    /// @return  In the order of the pixels, within half an ulp; any number, infinite ones included,
+    ///          as P need not be between near and far; NaN for P in the light's camera plane.
+    [[nodiscard]] virtual std::vector<float>
+    receiver_depths(std::span<const std::size_t> pixels) const = 0;
+
+    /// The depth of the first hit of each texel-centre ray (`first_hits`), rounded alike; without a
+    /// hit the farthest, 1 (reversed: 0).
+    /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
+    /// @return  In the order of the texels; [0, 1], within half an ulp.
+    [[nodiscard]] virtual std::vector<float> texel_depths(std::span<const Texel> texels) const = 0;
+
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
     /// @param clamps  limits r to [0, 1] first, as the border mode `clamp` does.

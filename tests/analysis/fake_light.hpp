@@ -15,7 +15,7 @@ namespace gnomon::analysis {
 class FakeLight final : public scene::ExactLight {
 public:
     std::map<std::pair<int, int>, scene::TexelHit> hits; ///< by (x, y); others see nothing
-    std::map<std::size_t, double> receiver_depths;       ///< by pixel
+    std::map<std::size_t, double> pixel_depths;          ///< by pixel
     std::map<std::size_t, scene::Vec2f> places;          ///< uv·resolution, by pixel
     std::set<std::size_t> crossed;                       ///< pixels
     std::set<std::pair<std::size_t, std::uint32_t>> own; ///< pixel and triangle
@@ -37,6 +37,18 @@ public:
         known_frusta.push_back(known.frustum);
         known_triangles.emplace_back(known.triangles.begin(), known.triangles.end());
         return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
+    }
+
+    [[nodiscard]] std::vector<float>
+    receiver_depths(std::span<const std::size_t> pixels) const override
+    {
+        return answer<float>(pixels, [&](std::size_t p) { return pixel_depths.at(p); });
+    }
+
+    [[nodiscard]] std::vector<float>
+    texel_depths(std::span<const scene::Texel> texels) const override
+    {
+        return answer<float>(texels, [&](const scene::Texel& t) { return hit(t).depth; });
     }
 
     [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::NearestQuery> queries,
@@ -99,7 +111,7 @@ private:
     }
     [[nodiscard]] double receiver(std::size_t pixel, bool clamps) const
     {
-        const double depth = receiver_depths.at(pixel);
+        const double depth = pixel_depths.at(pixel);
         return clamps ? std::clamp(depth, 0.0, 1.0) : depth;
     }
     [[nodiscard]] double depth(const scene::ExactTap& tap) const

@@ -31,7 +31,7 @@ struct OnePixel {
         unbiased.samples = scene::Image<scene::LookupSample>{{1, 1}, {0.5F, 0.5F, 0, 1}};
         unbiased.texels = scene::Image<scene::Vec2f>{{1, 1}, {4.5F, 4.5F}};
         lookup = unbiased;
-        light.receiver_depths[0] = 0.5;
+        light.pixel_depths[0] = 0.5;
         light.places[0] = unbiased.texels[0];
     }
 

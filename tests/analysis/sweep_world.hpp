@@ -316,7 +316,7 @@ private:
         }
         for (std::size_t i = 0; i < view.image.pixel_count(); ++i) {
             const std::string text = fmt::format("p {} {}", camera_text(view), i);
-            light->receiver_depths[i] = double{receiver_depth(view, i)};
+            light->pixel_depths[i] = double{receiver_depth(view, i)};
             light->places[i] = texel_of(job, view, i);
             light->blockers[i] = {1, 0.25 * static_cast<double>(1 + draw(text, 7)), 2.0, 3.0};
             if (draw(text + "crossed", 2) == 0) {

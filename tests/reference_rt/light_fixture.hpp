@@ -4,6 +4,9 @@
 #include "reference_rt/light/exact_light.hpp"
 #include "scene_fixture.hpp"
 
+#include <gtest/gtest.h>
+
+#include <cstdlib>
 #include <random>
 
 namespace gnomon::reference_rt::test {
@@ -150,6 +153,30 @@ inline std::vector<LightCase> light_cases()
         {"spot above", spot({0, 4, 0}, {0, 0, 0}, 90), fixed_frustum(2, 1, 8)},
         {"spot above, reversed", spot({0, 4, 0}, {0, 0, 0}, 90), fixed_frustum(2, 3, 4.5, true)},
         {"oblique spot", spot({1, 3, 2}, {0, 0, 0}, 80), fitted}};
+}
+
+/// Runs `check` for every light over scenes at random and on a lattice.
+template <typename Check>
+void for_each_case(const Check& check)
+{
+    const unsigned seeds = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 40 : 2;
+    for (const LightCase& light : light_cases()) {
+        for (unsigned seed = 1; seed <= seeds; ++seed) {
+            const bool is_lattice = seed % 2 == 0;
+            SCOPED_TRACE(testing::Message() << light.name << ", seed " << seed);
+            check(LitScene{random_sheets(seed, is_lattice), light.light, light.frustum});
+        }
+    }
+}
+
+/// The exact depth of a tap.
+inline Rational tap_depth(const LitScene& lit, const ExactTap& tap)
+{
+    if (tap.triangle == no_triangle) {
+        return Rational{tap.depth};
+    }
+    const scene::Ray ray = lit.texel_ray(tap.texel);
+    return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));
 }
 
 } // namespace gnomon::reference_rt::test

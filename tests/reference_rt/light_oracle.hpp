@@ -6,6 +6,9 @@
 #include "scene/light/exact_light.hpp"
 #include "scene/view/view.hpp"
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <tuple>
@@ -192,6 +195,25 @@ inline float smallest_bias(const Rational& x)
         bias = stepped(bias, -infinity);
     }
     return bias;
+}
+
+/// The float32 nearest to x, of two the even one, found among the neighbours of a float nearby.
+/// Precondition: x is not beyond the largest float32.
+inline float nearest_float(const Rational& x)
+{
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const auto guess = static_cast<float>(x.convert_to<double>());
+    const auto distance = [&](float f) {
+        return Rational{abs(Rational{static_cast<double>(f)} - x)};
+    };
+    const auto is_even = [](float f) { return std::bit_cast<std::uint32_t>(f) % 2 == 0; };
+    float best = guess;
+    for (const float f : {std::nextafter(guess, -infinity), std::nextafter(guess, infinity)}) {
+        if (distance(f) < distance(best) || (distance(f) == distance(best) && is_even(f))) {
+            best = f;
+        }
+    }
+    return best;
 }
 
 } // namespace gnomon::reference_rt::test

@@ -2,26 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 namespace gnomon::reference_rt::test {
 namespace {
 
 constexpr std::array culls{Cull::none, Cull::front, Cull::back};
-
-/// Runs `check` for every light over scenes at random and on a lattice.
-template <typename Check>
-void for_each_case(const Check& check)
-{
-    const unsigned seeds = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 40 : 2;
-    for (const LightCase& light : light_cases()) {
-        for (unsigned seed = 1; seed <= seeds; ++seed) {
-            const bool is_lattice = seed % 2 == 0;
-            SCOPED_TRACE(testing::Message() << light.name << ", seed " << seed);
-            check(LitScene{random_sheets(seed, is_lattice), light.light, light.frustum});
-        }
-    }
-}
 
 TEST(FirstHits, AreThoseOfBruteForceInRationals)
 {
@@ -87,16 +71,6 @@ TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
     });
     EXPECT_GT(crossed, 300);
     EXPECT_GT(pixels_tried - crossed, 300);
-}
-
-/// The exact depth of a tap.
-Rational tap_depth(const LitScene& lit, const ExactTap& tap)
-{
-    if (tap.triangle == no_triangle) {
-        return Rational{tap.depth};
-    }
-    const scene::Ray ray = lit.texel_ray(tap.texel);
-    return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));
 }
 
 /// A tap with what is known of its depth, or without.
