@@ -1,7 +1,7 @@
 #include "analysis/comparison.hpp"
 
 #include "analysis/causes/float_map.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 
 #include <fmt/format.h>
 
@@ -84,7 +84,7 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers,
     require_size("lookup", comparison.lookup.samples, view.image);
     require_size("truth", comparison.truth.pixel_class, view.image);
     require_size("witness", comparison.truth.witness, view.image);
-    const int taps = methods::filter_promises(comparison.job.lookup.filter).equal_taps();
+    const int taps = methods::promises(comparison.job).equal_taps();
     comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
     if (renderers.make_exact_light) {
         comparison.diagnosis = diagnose(comparison.job, view,
@@ -107,7 +107,7 @@ std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
     const BiasAnswers& answers = *comparison.diagnosis->biases;
     const auto& triangles = comparison.receivers.triangle;
     const std::array<float, 2> wanted{comparison.view.bias.constant, answers.best.recommended()};
-    renderers.draw_shadow_map(comparison.job, comparison.view);
+    renderers.draw_map(comparison.job, comparison.view);
     return verify_biases(comparison.job, comparison.view, triangles, answers.critical_bias,
                          biases_to_verify(answers.critical_bias, triangles, wanted), renderers);
 }
@@ -118,6 +118,7 @@ Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
     require_renderers(renderers);
     Comparison comparison;
     comparison.job = job;
+    methods::check(job);
     comparison.view = scene::resolve_view(job, file.scene, file.defaults);
     comparison.scene = std::move(summary);
     comparison.scene.notes =
@@ -139,15 +140,20 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
     if (pixels.empty()) {
         return {};
     }
+    if (!methods::promises(comparison.job).has_exact_causes()) {
+        const FloatLookups floats = look_up_floats(comparison.job, comparison.view, renderers);
+        return find_precision_kinds(comparison.truth, floats.biased, floats.unbiased, pixels);
+    }
     const FloatMap map =
         draw_float_map(comparison.job, comparison.view, comparison.lookup, pixels, renderers);
     const bool derives = map.unbiased.samples.empty();
     const auto light =
         renderers.make_exact_light(comparison.job, comparison.view, comparison.receivers);
-    return find_precision_kinds({comparison.job.lookup, comparison.job.shadow_map.resolution_texels,
-                                 comparison.view.frustum.reversed, comparison.truth,
-                                 comparison.lookup, derives ? comparison.lookup : map.unbiased,
-                                 map.depths, *light},
+    LookupRule rule = lookup_rule(comparison.job, comparison.view);
+    rule.slope = 0;
+    return find_precision_kinds({rule, comparison.job.shadow_map.resolution_texels,
+                                 comparison.truth, comparison.lookup,
+                                 derives ? comparison.lookup : map.unbiased, map.depths, *light},
                                 pixels, comparison.view.bias);
 }
 
@@ -164,7 +170,7 @@ Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Re
     const scene::View& view = result.view;
 
     result.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });
-    timed(seconds.shadow_map, [&] { renderers.draw_shadow_map(job, view); });
+    timed(seconds.shadow_map, [&] { renderers.draw_map(job, view); });
     result.lookup = timed(seconds.lookup, [&] { return renderers.look_up(job, view); });
     result.truth =
         timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });

@@ -6,10 +6,13 @@
 #include "scene/view/view.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::analysis {
 
@@ -25,6 +28,18 @@ struct Environment {
     [[nodiscard]] bool is_of_gl() const { return gl_version != other_renderer; }
 };
 
+/// Depths that exact rays find, rounded once to float32.
+struct ExactDepths {
+    const scene::Image<float>& map;       ///< of texels, as shaders see them, top left first
+    const scene::Image<float>& receivers; ///< of pixels
+};
+
+/// What a prefilter's textures hold.
+enum class FilteredContent : std::uint8_t {
+    of_method, ///< what the method asks for
+    float32,   ///< 32-bit floats in its place
+};
+
 /// The two renderers as callables, one for each stage, so that `analysis` needs neither GL nor
 /// Embree and a sweep can call just the stages whose inputs changed.
 ///
@@ -37,11 +52,21 @@ struct Renderers {
     /// the first until this is called. Empty: there is but one.
     std::function<void(std::size_t slot)> select_receivers;
     std::function<void(const scene::Job&, const scene::View&)> draw_shadow_map;
+    /// Makes of the map drawn last what the job's method looks up. Empty: methods that make nothing
+    /// of it are the only ones.
+    std::function<void(const scene::Job&, FilteredContent)> prefilter_map;
     std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
     /// The smallest constant bias of each pixel with which `look_up` lights it, of the same
     /// receivers and map, with the view's slope and normal offset: found by trying. 0 without a
     /// receiver. Empty: what no formula tells of other biases is not known.
     std::function<scene::Image<float>(const scene::Job&, const scene::View&)> find_critical_biases;
+    /// The same of a map of exact depths, with 32-bit floats whatever the method asks for, and of
+    /// receivers of exact depths, without slope and normal offset: for each of `lit_from` the
+    /// smallest bias with which the verdict is no less. What was drawn and prefiltered last is
+    /// lost. Empty: methods that compare depths are the only ones.
+    std::function<std::vector<scene::Image<float>>(
+        const scene::Job&, const scene::View&, const ExactDepths&, std::span<const float> lit_from)>
+        find_exact_critical_biases;
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
     /// The depths of the map drawn last, as shaders see them, top left first.
     std::function<scene::Image<float>()> read_map_depths;
@@ -55,6 +80,15 @@ struct Renderers {
     std::function<std::unique_ptr<scene::ExactLight>(const scene::Job&, const scene::View&,
                                                      const scene::ReceiverLayers&)>
         make_exact_light;
+
+    /// Draws the job's map, and makes of it what the job's method looks up.
+    void draw_map(const scene::Job& job, const scene::View& view) const
+    {
+        draw_shadow_map(job, view);
+        if (prefilter_map) {
+            prefilter_map(job, FilteredContent::of_method);
+        }
+    }
 
     Environment environment;
     std::string truth_method; ///< the name of the method behind `find_truth`, e.g. "exact"

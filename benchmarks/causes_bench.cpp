@@ -1,5 +1,6 @@
 #include "analysis/causes/blocked_causes.hpp"
 #include "analysis/causes/lit_causes.hpp"
+#include "analysis/lookup/lookup_rule.hpp"
 #include "cli/compare/renderers.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
@@ -53,9 +54,8 @@ void causes_against_truth(benchmark::State& state)
         const scene::Image<float> no_depths;
         const double now_s = seconds_of([&] {
             const auto light = renderers.make_exact_light(job, view, receivers);
-            const analysis::CauseInputs inputs{job.lookup,
+            const analysis::CauseInputs inputs{analysis::lookup_rule(job, view),
                                                job.shadow_map.resolution_texels,
-                                               view.frustum.reversed,
                                                truth,
                                                unbiased,
                                                unbiased,

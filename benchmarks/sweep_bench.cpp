@@ -131,6 +131,11 @@ private:
             subject_.gl->draw_shadow_map(job, view);
             gl_s += seconds_of([&] { subject_.gl->draw_shadow_map(job, view); });
             break;
+        case Kind::prefilter:
+            subject_.gl->prefilter_map(job, analysis::FilteredContent::of_method);
+            gl_s += seconds_of(
+                [&] { subject_.gl->prefilter_map(job, analysis::FilteredContent::of_method); });
+            break;
         case Kind::look_up:
             gl_s += seconds_of(
                 [&] { benchmark::DoNotOptimize(subject_.gl->look_up(job, view).samples.data()); });

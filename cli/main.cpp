@@ -3,6 +3,7 @@
 #include "cli/program/usage_error.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/standard_output.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -52,6 +53,7 @@ int main(int argc, char** argv)
 {
     gnomon::cli::keep_standard_streams();
     gnomon::cli::clean_up_on_signals();
+    gnomon::methods::hand_keys_to_scene();
     try {
         CLI::App program{"Gnomon measures how accurate GL shadow maps are: every pixel's verdict "
                          "against shadow rays."};

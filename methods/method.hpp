@@ -1,12 +1,13 @@
 #pragma once
 
 #include "methods/bias_term.hpp"
-#include "methods/filter_promises.hpp"
+#include "methods/passes.hpp"
 #include "methods/promises.hpp"
+#include "scene/filter.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -21,22 +22,31 @@ struct Source {
     std::string_view about; ///< the part of the method; empty: all of it
 };
 
+/// A value of lookup.filter that a job can choose, and what it computes.
+struct FilterChoice {
+    scene::Filter filter = scene::Filter::nearest;
+    std::string_view sentence;
+};
+
 /// What happens between the light's view of the geometry and a verdict, described.
 struct Method {
     std::string_view name;
     std::string_view sentence; ///< what it does
     std::span<const Source> sources;
     std::string_view page;                        ///< of the documentation, in the checkout
-    std::span<const std::string_view> key_tables; ///< of a job file, that are its own: "bias"
-    std::span<const FilterPromises> filters;      ///< that a job can choose; empty: none
+    std::span<const std::string_view> key_tables; ///< of a job file, that it reads: "bias"
+    std::vector<scene::HandedKey> keys;           ///< its own: "method.…"
+    std::span<const FilterChoice> filters;        ///< that a job can choose; empty: none
     std::span<const BiasTerm> bias_terms;         ///< that a job can set; empty: none
     /// What it promises of the lookups of a job.
     Promises (*promises)(const scene::Job& job) = nullptr;
-    /// Memory that its map takes [bytes]; 0 without a map.
-    std::uint64_t (*map_bytes)(const scene::ShadowMapSettings& map) = nullptr;
+    /// What GL is to do for a job.
+    Passes (*passes)(const scene::Job& job) = nullptr;
+    /// Refuses a job whose settings do not go together, by `scene::InputError`; nullptr: all do.
+    void (*check)(const scene::Job& job) = nullptr;
 };
 
-/// The rows of its keys in the key table, in their order.
+/// The rows of its keys in the key table, in their order: of its tables, and its own.
 [[nodiscard]] std::vector<scene::JobKey> keys_of(const Method& method);
 
 /// What it promises of a job of defaults with this filter.

@@ -52,4 +52,15 @@ std::string_view name(Curve curve)
     return {};
 }
 
+std::string_view name(Reads reads)
+{
+    switch (reads) {
+    case Reads::footprint:
+        return "footprint";
+    case Reads::whole_map:
+        return "whole_map";
+    }
+    return {};
+}
+
 } // namespace gnomon::methods

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace gnomon::methods {
@@ -41,15 +44,87 @@ enum class Curve : std::uint8_t {
     none,         ///< not at all: GL looks up again for each bias that is asked for
 };
 
+/// How much each tap counts.
+enum class Weights : std::uint8_t {
+    equal,
+    bilinear,      ///< by the place between texel centres
+    bilinear_of_gl ///< the same, as a driver rounds it: the map's answers to other biases are GL's
+                   ///< own
+};
+
+/// Which texels a verdict can depend on.
+enum class Reads : std::uint8_t {
+    footprint, ///< those of its footprint alone
+    whole_map, ///< any
+};
+
+/// Weights along the columns, and along the rows, of a square of texels; their sum is 1. They stand
+/// for ever: a table's.
+struct Kernel {
+    std::span<const float> weights; ///< of an odd number; empty: of one texel
+
+    [[nodiscard]] constexpr int width_texels() const
+    {
+        return weights.empty() ? 1 : static_cast<int>(weights.size());
+    }
+    friend bool operator==(const Kernel& a, const Kernel& b)
+    {
+        return std::ranges::equal(a.weights, b.weights);
+    }
+};
+
+/// No footprint has more texels than this: a kernel of 9 × 9, interpolated.
+inline constexpr std::size_t most_taps = 100;
+
 /// What a method promises of the lookups of a job. Ask this, not which method or filter it is.
 struct Promises {
     Verdict verdict = Verdict::binary;
     Compares compares = Compares::each_tap;
     Rises rises;
     Curve curve = Curve::by_formula;
-    bool has_map = true; ///< else nothing is drawn from the light
+    /// The footprint: the square of so many level-0 texels across that are a verdict's taps.
+    int width_texels = 1;
+    Weights weights = Weights::equal;
+    /// What `weights` interpolates: means by this kernel. With `equal` it is empty.
+    Kernel kernel;
+    Reads reads = Reads::footprint;
+    std::uint64_t map_bytes = 0; ///< memory that the map takes; 0 without a map
+    bool has_map = true;         ///< else nothing is drawn from the light
 
     friend bool operator==(const Promises&, const Promises&) = default;
+
+    [[nodiscard]] constexpr std::size_t tap_count() const
+    {
+        const auto width = static_cast<std::size_t>(width_texels);
+        return width * width;
+    }
+    [[nodiscard]] constexpr bool has_one_tap() const { return width_texels == 1; }
+    /// Whether a verdict can lie between 0 and 1.
+    [[nodiscard]] constexpr bool has_fractions() const { return verdict == Verdict::fraction; }
+    /// Whether taps lie around the point looked up, and not about the texel that holds it.
+    [[nodiscard]] constexpr bool interpolates() const { return weights != Weights::equal; }
+    /// Whether the verdict is the share of taps that are lit.
+    [[nodiscard]] constexpr bool is_made_of_taps() const { return compares == Compares::each_tap; }
+    /// Whether causes follow from exact depths, without running the method again.
+    [[nodiscard]] constexpr bool has_exact_causes() const { return compares != Compares::none; }
+    /// Whether each verdict follows from one depth that the lookup returns.
+    [[nodiscard]] constexpr bool returns_deciding_depth() const
+    {
+        return compares == Compares::mean_depth || (is_made_of_taps() && has_one_tap());
+    }
+    /// Whether every constant bias is known.
+    [[nodiscard]] constexpr bool has_curve() const { return curve != Curve::none; }
+    /// Whether every constant bias follows from one lookup.
+    [[nodiscard]] constexpr bool has_formula() const { return curve == Curve::by_formula; }
+    /// Comparisons of equal weight that make a verdict; 0 where weights are not equal, or nothing
+    /// is compared.
+    [[nodiscard]] constexpr int equal_taps() const
+    {
+        if (compares == Compares::mean_depth) {
+            return 1;
+        }
+        return is_made_of_taps() && weights == Weights::equal ? static_cast<int>(tap_count()) : 0;
+    }
 };
 
 /// Each value as results and documents spell it: "each_tap".
@@ -57,5 +132,6 @@ struct Promises {
 [[nodiscard]] std::string_view name(Compares compares);
 [[nodiscard]] std::string_view name(Rise rise);
 [[nodiscard]] std::string_view name(Curve curve);
+[[nodiscard]] std::string_view name(Reads reads);
 
 } // namespace gnomon::methods

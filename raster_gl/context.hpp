@@ -23,6 +23,7 @@ struct GlFacts {
     int max_texture_texels = 0;
     int max_viewport_px = 0;
     int subpixel_bits = 0;
+    float max_anisotropy = 1; ///< 1: the driver has none
 };
 
 /// A headless OpenGL 4.5 core context, current on the thread that made it.

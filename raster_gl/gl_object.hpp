@@ -93,14 +93,14 @@ using Shader = GlObject<destroy_shader>;
     glCreateSamplers(1, &name);
     return Sampler{name};
 }
-/// An immutable 2D texture of one level, sampled at the nearest texel: integer textures with GL's
-/// default filters are incomplete, and then read as 0.
+/// An immutable 2D texture, sampled at the nearest texel of its first level: integer textures with
+/// GL's default filters are incomplete, and then read as 0.
 [[nodiscard]] inline Texture make_texture(GLenum internal_format, int width_texels,
-                                          int height_texels)
+                                          int height_texels, int levels = 1)
 {
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
-    glTextureStorage2D(name, 1, internal_format, width_texels, height_texels);
+    glTextureStorage2D(name, levels, internal_format, width_texels, height_texels);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return Texture{name};

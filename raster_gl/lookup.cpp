@@ -1,8 +1,9 @@
 #include "raster_gl/lookup.hpp"
 
-#include "methods/depth/filters.hpp"
-#include "methods/glsl.hpp"
+#include "methods/list.hpp"
+#include "raster_gl/pieces.hpp"
 #include "raster_gl/readback.hpp"
+#include "scene/error.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -15,14 +16,6 @@ namespace {
 
 using methods::Sampling;
 using scene::Outside;
-
-/// What comes before the shadow test itself: what a lookup may read, and the filter's piece.
-std::string lookup_pieces(const methods::FilterPromises& promised)
-{
-    // A driver's log then counts each piece's lines: 1 the map's, 2 the filter's, 0 the shader's.
-    return fmt::format("#line 1 1\n{}#line 1 2\n{}#line 1 0\n", shader_source("lookup_map.glsl"),
-                       methods::glsl_source(promised.glsl));
-}
 
 const char* flag(bool on)
 {
@@ -54,37 +47,62 @@ void set_sampler(const Sampler& sampler, GLint filter, Outside outside, bool rev
     glSamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, border.data());
 }
 
+void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& context)
+{
+    const float largest = context.facts().max_anisotropy;
+    if (static_cast<float>(anisotropy) > largest) {
+        throw scene::InputError(fmt::format(
+            "an anisotropy of {}: this driver's largest is {:.3g}; lower it", anisotropy, largest));
+    }
+    if (largest > 1) {
+        glSamplerParameterf(sampler.name(), GL_TEXTURE_MAX_ANISOTROPY,
+                            static_cast<float>(anisotropy));
+    }
+}
+
 } // namespace
 
 LookupPass::LookupPass(const Context& context)
     : context_{context},
       no_attributes_{make_vertex_array()},
       map_sampler_{make_sampler()},
-      compare_sampler_{make_sampler()}
+      compare_sampler_{make_sampler()},
+      filtered_sampler_{make_sampler()}
 {
     context.check("preparing the lookup");
 }
 
-const Program& LookupPass::program(const Variant& variant)
+const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
+                                   const scene::View& view, const methods::Passes& passes,
+                                   Computes computes)
 {
-    const auto found = programs_.find(variant);
+    const methods::Promises promised = methods::promises(job);
+    const scene::LookupSettings& settings = job.lookup;
+    Definitions definitions{
+        {"TAPS_ACROSS", std::to_string(promised.width_texels)},
+        {"KERNEL_ACROSS", std::to_string(promised.kernel.width_texels())},
+        {"INTERPOLATES", flag(promised.interpolates())},
+        {"OUTSIDE_CLAMP", flag(settings.outside == Outside::clamp)},
+        {"OUTSIDE_VERDICT", settings.outside == Outside::shadowed ? "0.0" : "1.0"},
+        {"REVERSED", flag(from.map.reversed)},
+        {"SPOT", flag(view.light.type == scene::LightType::spot)},
+        {"POSITION_OF_PIXEL", flag(settings.position == scene::LookupPosition::pixel)},
+        {"BISECTS", flag(computes != Computes::verdict)},
+        {"GRADIENTS", flag(passes.has_gradients())},
+        {"DEPTH_IS_GIVEN", flag(computes == Computes::critical_bias_of_given_depth)},
+    };
+    add_definitions(passes.lookup, definitions);
+    std::string key{passes.lookup.glsl};
+    for (const auto& [name, value] : definitions) {
+        key += fmt::format(" {}={}", name, value);
+    }
+    const auto found = programs_.find(key);
     if (found != programs_.end()) {
         return found->second;
     }
-    const methods::FilterPromises& promised = methods::filter_promises(variant.filter);
-    const Definitions definitions{
-        {"TAPS_ACROSS", std::to_string(promised.width_texels)},
-        {"INTERPOLATES", flag(promised.interpolates())},
-        {"OUTSIDE_CLAMP", flag(variant.outside == Outside::clamp)},
-        {"OUTSIDE_VERDICT", variant.outside == Outside::shadowed ? "0.0" : "1.0"},
-        {"REVERSED", flag(variant.reversed)},
-        {"SPOT", flag(variant.spot)},
-        {"POSITION_OF_PIXEL", flag(variant.position == scene::LookupPosition::pixel)},
-        {"BISECTS", flag(variant.bisects)},
-    };
-    Program made = make_program(
-        {"fullscreen.vert", "lookup.frag", definitions, nullptr, lookup_pieces(promised)});
-    return programs_.emplace(variant, std::move(made)).first->second;
+    Program made = make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr,
+                                 pieces_before_shader("lookup_map.glsl", passes.lookup)});
+    return programs_.emplace(std::move(key), std::move(made)).first->second;
 }
 
 void LookupPass::allocate(scene::ImageSize size)
@@ -103,86 +121,110 @@ void LookupPass::allocate(scene::ImageSize size)
     size_ = size;
 }
 
-void LookupPass::bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const
+void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
+                          Outside outside) const
 {
-    const methods::FilterPromises& promised = methods::filter_promises(settings.filter);
-    set_sampler(map_sampler_, promised.sampling == Sampling::interpolated ? GL_LINEAR : GL_NEAREST,
-                settings.outside, map.reversed);
-    set_sampler(compare_sampler_, GL_LINEAR, settings.outside, map.reversed);
+    const bool has_filtered = !passes.prefilter.empty();
+    if (has_filtered && (from.filtered == nullptr || from.filtered->empty())) {
+        throw std::invalid_argument("LookupPass: the map was not prefiltered");
+    }
+    const bool interpolates = passes.sampling == Sampling::interpolated;
+    const ShadowMap& map = from.map;
+    set_sampler(map_sampler_, interpolates && !has_filtered ? GL_LINEAR : GL_NEAREST, outside,
+                map.reversed);
+    set_sampler(compare_sampler_, GL_LINEAR, outside, map.reversed);
     glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_MODE,
                         GL_COMPARE_REF_TO_TEXTURE);
     glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_FUNC,
                         map.reversed ? GL_GEQUAL : GL_LEQUAL);
     glBindTextureUnit(3, map.depth.name());
     glBindSampler(3, map_sampler_.name());
-    if (promised.sampling == Sampling::compared) {
+    if (passes.sampling == Sampling::compared) {
         glBindTextureUnit(4, map.depth.name());
         glBindSampler(4, compare_sampler_.name());
     }
+    if (has_filtered) {
+        set_sampler(filtered_sampler_, interpolates ? GL_LINEAR : GL_NEAREST, outside,
+                    map.reversed);
+        if (passes.makes_mipmaps) {
+            glSamplerParameteri(filtered_sampler_.name(), GL_TEXTURE_MIN_FILTER,
+                                GL_LINEAR_MIPMAP_LINEAR);
+        }
+        set_anisotropy(filtered_sampler_, passes.anisotropy, context_);
+        glBindTextureUnit(6, from.filtered->name());
+        glBindSampler(6, filtered_sampler_.name());
+    }
 }
 
-void LookupPass::render(const GpuScene& scene, const ReceiverBuffer& receivers,
-                        const ShadowMap& map, const scene::LookupSettings& settings,
-                        const scene::View& view)
+void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view)
 {
     allocate(view.image);
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-    draw(scene, receivers, map, settings, view, false);
+    draw(from, job, view, Computes::verdict, {});
     context_.check("looking up the shadow map");
 }
 
-scene::Image<float> LookupPass::find_critical_biases(const GpuScene& scene,
-                                                     const ReceiverBuffer& receivers,
-                                                     const ShadowMap& map,
-                                                     const scene::LookupSettings& settings,
-                                                     const scene::View& view)
+scene::Image<float> LookupPass::find_critical_biases(const LookedUp& from, const scene::Job& job,
+                                                     const scene::View& view,
+                                                     const Bisection& asked)
 {
     const scene::ImageSize size = view.image;
     const Texture criticals = make_texture(GL_R32F, size.width_px, size.height_px);
     const Framebuffer target = make_framebuffer();
     glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, criticals.name(), 0);
     glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-    draw(scene, receivers, map, settings, view, true);
+    const bool is_given = asked.receiver_depths != nullptr;
+    Texture depths;
+    if (is_given) {
+        depths = upload(*asked.receiver_depths);
+        glBindTextureUnit(7, depths.name());
+    }
+    draw(from, job, view,
+         is_given ? Computes::critical_bias_of_given_depth : Computes::critical_bias,
+         asked.lit_from);
     auto found = read_texture<float>(criticals, size, GL_RED, GL_FLOAT);
     context_.check("finding critical biases");
     return found;
 }
 
-void LookupPass::draw(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
-                      const scene::LookupSettings& settings, const scene::View& view, bool bisects)
+void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
+                      Computes computes, float lit_from)
 {
-    if (!(receivers.size == view.image)) {
+    if (!(from.receivers.size == view.image)) {
         throw std::invalid_argument("LookupPass: receivers are not of the view's size");
     }
     const bool zero_to_one = view.frustum.clip_range == scene::ClipRange::zero_to_one;
     if (zero_to_one != view.frustum.reversed) {
         throw std::invalid_argument("LookupPass: only reversed depth looks up in [0, 1]");
     }
-    const bool spot = view.light.type == scene::LightType::spot;
-    const Program& lookup = program(
-        {settings.filter, settings.outside, map.reversed, spot, settings.position, bisects});
-    const double texel_width_m = view.frustum.texel_width_m(1.0, map.resolution_texels);
+    const methods::Passes passes = methods::passes(job);
+    const Program& lookup = program(from, job, view, passes, computes);
+    const double texel_width_m = view.frustum.texel_width_m(1.0, from.map.resolution_texels);
     set_uniform(lookup, "light_clip_from_world", view.frustum.light_clip_from_world);
     set_uniform(lookup, "light", light_uniform(view.light));
     set_uniform(lookup, "bias_constant", view.bias.constant);
     set_uniform(lookup, "bias_slope", view.bias.slope);
     set_uniform(lookup, "normal_offset",
                 static_cast<float>(double{view.bias.normal_texels} * texel_width_m));
-    set_uniform(lookup, "resolution", static_cast<float>(map.resolution_texels));
+    set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
+    set_uniform(lookup, "lit_from", lit_from);
+    set_uniforms(lookup, passes.lookup);
 
     glViewport(0, 0, view.image.width_px, view.image.height_px);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
-    scene.bind_normals(5);
-    const std::array<GLuint, 3> inputs{receivers.triangle.name(), receivers.light_clip.name(),
-                                       receivers.world_position.name()};
+    from.scene.bind_normals(5);
+    const std::array<GLuint, 3> inputs{from.receivers.triangle.name(),
+                                       from.receivers.light_clip.name(),
+                                       from.receivers.world_position.name()};
     glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
-    bind_map(map, settings);
+    bind_map(from, passes, job.lookup.outside);
     glBindVertexArray(no_attributes_.name());
     glUseProgram(lookup.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glBindSampler(3, 0);
-    glBindSampler(4, 0);
+    for (const GLuint unit : {3U, 4U, 6U}) {
+        glBindSampler(unit, 0);
+    }
     glFinish();
 }
 

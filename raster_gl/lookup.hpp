@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/passes.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
@@ -9,12 +10,28 @@
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
-#include <compare>
+#include <cstdint>
 #include <map>
+#include <string>
 
 namespace gnomon::raster_gl {
 
-/// Looks every receiver up in the shadow map.
+/// What is looked up, and where.
+struct LookedUp {
+    const GpuScene& scene;
+    const ReceiverBuffer& receivers;
+    const ShadowMap& map;
+    const Texture* filtered = nullptr; ///< what a prefilter made of the map; nullptr: nothing
+};
+
+/// What a bisection looks for.
+struct Bisection {
+    float lit_from = 0.5F; ///< the least verdict that is enough
+    /// Of each pixel the receiver's depth, in place of the one that GL computes; nullptr: GL's.
+    const scene::Image<float>* receiver_depths = nullptr;
+};
+
+/// Looks every receiver up in the shadow map, or in what a method made of it.
 ///
 /// The bias is a uniform, and r, d and tan θ are handed out: constant and slope bias can be changed
 /// afterwards without GL.
@@ -24,48 +41,46 @@ public:
 
     /// Draws the lookup; read the result with `read`.
     /// @throws std::invalid_argument  if the receivers are not of the view's size.
-    void render(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
-                const scene::LookupSettings& settings, const scene::View& view);
+    void render(const LookedUp& from, const scene::Job& job, const scene::View& view);
 
     /// What `render` drew last, in images of the view's size, top left first.
     [[nodiscard]] scene::LookupLayers read() const;
 
     /// The smallest constant bias of each pixel with which `render`'s verdict is at least one half,
-    /// with the view's slope and normal offset: found by trying, in one draw, so that it holds
-    /// whatever the driver's arithmetic is, as long as the verdict rises with the bias.
+    /// or what else is asked, with the view's slope and normal offset: found by trying, in one
+    /// draw, so that it holds whatever the driver's arithmetic is, as long as the verdict rises
+    /// with the bias.
     /// @return  0 or a normal float32; −∞ if every bias is lit, +∞ if none is; 0 without a
     ///          receiver. Top left first.
     /// @throws std::invalid_argument  as `render`.
     /// Source: docs/bias_curve.md#bisection.
-    [[nodiscard]] scene::Image<float> find_critical_biases(const GpuScene& scene,
-                                                           const ReceiverBuffer& receivers,
-                                                           const ShadowMap& map,
-                                                           const scene::LookupSettings& settings,
-                                                           const scene::View& view);
+    [[nodiscard]] scene::Image<float> find_critical_biases(const LookedUp& from,
+                                                           const scene::Job& job,
+                                                           const scene::View& view,
+                                                           const Bisection& asked = {});
 
 private:
-    struct Variant {
-        scene::Filter filter = scene::Filter::nearest;
-        scene::Outside outside = scene::Outside::lit;
-        bool reversed = false;
-        bool spot = false;
-        scene::LookupPosition position = scene::LookupPosition::vertex;
-        bool bisects = false; ///< finds critical biases
-
-        auto operator<=>(const Variant&) const = default;
+    /// What is computed of each pixel.
+    enum class Computes : std::uint8_t {
+        verdict,
+        critical_bias,
+        critical_bias_of_given_depth, ///< of receivers whose depths are given
     };
-    const Program& program(const Variant& variant);
+    const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
+                           const methods::Passes& passes, Computes computes);
     void allocate(scene::ImageSize size);
     /// Draws to the bound framebuffer.
-    void draw(const GpuScene& scene, const ReceiverBuffer& receivers, const ShadowMap& map,
-              const scene::LookupSettings& settings, const scene::View& view, bool bisects);
-    void bind_map(const ShadowMap& map, const scene::LookupSettings& settings) const;
+    void draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
+              Computes computes, float lit_from);
+    void bind_map(const LookedUp& from, const methods::Passes& passes,
+                  scene::Outside outside) const;
 
     const Context& context_;
-    std::map<Variant, Program> programs_;
+    std::map<std::string, Program> programs_;
     VertexArray no_attributes_;
     Sampler map_sampler_;
     Sampler compare_sampler_;
+    Sampler filtered_sampler_;
     Framebuffer target_;
     Texture samples_;
     Texture texels_;

@@ -88,6 +88,12 @@ void set_uniform(const Program& program, const char* name, std::uint32_t value)
     glProgramUniform1ui(program.name(), location(program, name), value);
 }
 
+void set_uniform(const Program& program, const char* name, std::span<const float> values)
+{
+    glProgramUniform1fv(program.name(), location(program, name),
+                        static_cast<GLsizei>(values.size()), values.data());
+}
+
 void set_uniform(const Program& program, const char* name, const scene::Vec3f& value)
 {
     glProgramUniform3fv(program.name(), location(program, name), 1, glm::value_ptr(value));

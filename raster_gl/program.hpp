@@ -4,6 +4,7 @@
 #include "scene/vec.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,6 +35,8 @@ struct ProgramParts {
 /// Sets a uniform by name; a uniform that the compiler removed is silently left alone, as GL does.
 void set_uniform(const Program& program, const char* name, float value);
 void set_uniform(const Program& program, const char* name, std::uint32_t value);
+/// A float, or an array of floats.
+void set_uniform(const Program& program, const char* name, std::span<const float> values);
 void set_uniform(const Program& program, const char* name, const scene::Vec3f& value);
 void set_uniform(const Program& program, const char* name, const scene::Mat4f& value);
 

@@ -35,4 +35,15 @@ template <typename Pixel>
     return image;
 }
 
+/// The image as a texture, bit for bit, its lowest row first.
+[[nodiscard]] inline Texture upload(scene::Image<float> image)
+{
+    const scene::ImageSize size = image.size();
+    flip_rows(image);
+    Texture texture = make_texture(GL_R32F, size.width_px, size.height_px);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, size.width_px, size.height_px, GL_RED, GL_FLOAT,
+                        image.data());
+    return texture;
+}
+
 } // namespace gnomon::raster_gl

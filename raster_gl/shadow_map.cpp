@@ -217,6 +217,20 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::Light
     return map_;
 }
 
+const ShadowMap& ShadowMapPass::store(scene::Image<float> depths, bool reversed)
+{
+    scene::ShadowMapSettings settings;
+    settings.resolution_texels = depths.size().width_px;
+    settings.depth_format = {Kind::d32f, 32};
+    allocate(settings);
+    map_.reversed = reversed;
+    flip_rows(depths);
+    glTextureSubImage2D(map_.depth.name(), 0, 0, 0, depths.size().width_px, depths.size().height_px,
+                        GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+    context_.check("storing a shadow map");
+    return map_;
+}
+
 scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map)
 {
     if (map.format.kind == Kind::unorm && map.code.name() == 0) {

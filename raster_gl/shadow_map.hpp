@@ -42,6 +42,9 @@ public:
     /// The same map in these rows alone; what the others hold is not specified.
     const ShadowMap& render(const GpuScene& scene, const scene::LightFrustum& frustum,
                             const scene::ShadowMapSettings& settings, scene::TexelRows rows);
+    /// Stores these depths in place of drawn ones, as d32f.
+    /// @param depths  As shaders shall see them, top left first, square.
+    const ShadowMap& store(scene::Image<float> depths, bool reversed);
     /// Gives the map's memory back; what `render` returned is empty until the next map.
     void forget();
 

@@ -3,7 +3,6 @@
 #include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/variants.hpp"
 #include "analysis/bias/bias_units.hpp"
-#include "methods/depth/depth_map.hpp"
 #include "scene/error.hpp"
 
 #include <stdexcept>
@@ -78,9 +77,7 @@ private:
              const std::vector<ViewOutcome>& outcomes, const std::optional<BiasLength>& bias)
     {
         comparison_.advice.push_back({std::move(keys), own_outcome(outcomes.front()),
-                                      outcomes.front().metrics.error_rate,
-                                      methods::map_bytes(variant.job.shadow_map),
-                                      methods::tap_count(variant.job.lookup.filter),
+                                      outcomes.front().metrics.error_rate, lookup_cost(variant.job),
                                       MeasuredBy::rerun, bias, outcomes, step_change(variant.job)});
     }
 

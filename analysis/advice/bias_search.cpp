@@ -3,7 +3,7 @@
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/recommendation/tried_biases.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
 
@@ -53,7 +53,7 @@ bool is_same_map(const scene::Job& a, const scene::View& view_a, const scene::Jo
            view_a.frustum.clip_range == view_b.frustum.clip_range &&
            a.shadow_map.resolution_texels == b.shadow_map.resolution_texels &&
            a.shadow_map.depth_format == b.shadow_map.depth_format &&
-           a.shadow_map.cull == b.shadow_map.cull;
+           a.shadow_map.cull == b.shadow_map.cull && a.method == b.method;
 }
 
 /// Neighbouring biases with which all outcomes meet the limits, as intervals.
@@ -82,12 +82,12 @@ BiasSearch::BiasSearch(const scene::SceneFile& file, const Renderers& renderers,
 
 bool BiasSearch::has_formula() const
 {
-    return methods::filter_promises(views_.front().job.lookup.filter).has_formula();
+    return methods::promises(views_.front().job).has_formula();
 }
 
 bool BiasSearch::has_fractions() const
 {
-    return methods::filter_promises(views_.front().job.lookup.filter).has_fractions();
+    return methods::promises(views_.front().job).has_fractions();
 }
 
 void BiasSearch::draw(std::size_t view) const
@@ -98,7 +98,7 @@ void BiasSearch::draw(std::size_t view) const
     const SearchedView& now = views_[view];
     renderers_.draw_receivers(now.view);
     if (!drawn_ || !is_same_map(views_[*drawn_].job, views_[*drawn_].view, now.job, now.view)) {
-        renderers_.draw_shadow_map(now.job, now.view);
+        renderers_.draw_map(now.job, now.view);
     }
     drawn_ = view;
 }
@@ -120,7 +120,7 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     }
     draw(views_.size() - 1);
     scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);
-    if (!has_fractions()) {
+    if (!has_fractions() && has_formula()) {
         const auto texels = lookup.texels;
         added.deciding =
             deciding_samples(std::move(lookup), texels, {}, lookup_rule(added.job, added.view));
@@ -247,7 +247,7 @@ ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float s
     biased.bias.constant = constant;
     biased.bias.slope = slope;
     const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
-    const int taps = methods::filter_promises(searched.job.lookup.filter).equal_taps();
+    const int taps = methods::promises(searched.job).equal_taps();
     const Metrics metrics = analysis::measure(searched.judged->truth, own, taps);
     const CauseAmounts amounts = searched.answers == nullptr
                                      ? CauseAmounts{}

@@ -1,7 +1,7 @@
 #include "analysis/advice/remedies.hpp"
 
+#include "analysis/advice/lookup_cost.hpp"
 #include "analysis/metrics/ratio.hpp"
-#include "methods/depth/depth_map.hpp"
 
 #include <fmt/format.h>
 
@@ -20,12 +20,9 @@ constexpr double share_of_most = 0.8;
 Remedy bias_remedy(const Comparison& comparison, std::vector<std::string> keys,
                    const Outcome& outcome, MeasuredBy measured_by)
 {
-    return {std::move(keys),
-            outcome,
+    return {std::move(keys), outcome,
             ratio(outcome.errors.total(), comparison.metrics.pixels.scored()),
-            methods::map_bytes(comparison.job.shadow_map),
-            methods::tap_count(comparison.job.lookup.filter),
-            measured_by};
+            lookup_cost(comparison.job), measured_by};
 }
 
 Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string> keys,
@@ -103,8 +100,8 @@ std::vector<Remedy> ranked_remedies(const Comparison& comparison)
     }
     const auto order = [&](const Remedy& remedy) {
         const bool cures_most = now - left(remedy) >= share_of_most * (now - least);
-        return cures_most ? std::tuple{0, remedy.map_bytes, remedy.taps, left(remedy)}
-                          : std::tuple{1, std::uint64_t{0}, 0, left(remedy)};
+        return cures_most ? std::tuple{0, remedy.cost, left(remedy)}
+                          : std::tuple{1, LookupCost{}, left(remedy)};
     };
     std::ranges::stable_sort(remedies, {}, order);
     return remedies;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/advice/lookup_cost.hpp"
 #include "analysis/advice/view_outcome.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 
@@ -33,8 +34,7 @@ struct Remedy {
         keys; ///< what changes, as the job file writes it: "bias.constant = 0.002"
     Outcome outcome;
     std::optional<double> error_rate; ///< by count; empty: no scored pixel
-    std::uint64_t map_bytes = 0;
-    int taps = 1; ///< texels that a lookup reads
+    LookupCost cost;
     MeasuredBy measured_by = MeasuredBy::rerun;
     std::optional<BiasLength> bias = {}; ///< the constant bias that it sets; empty: it sets none
     std::vector<ViewOutcome> views = {}; ///< in each view, the job's own first; empty: not measured

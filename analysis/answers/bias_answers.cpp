@@ -1,6 +1,6 @@
 #include "analysis/answers/bias_answers.hpp"
 
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 
 #include <cmath>
 #include <utility>
@@ -16,7 +16,8 @@ std::vector<float> slopes(const BiasQuestion& question)
     const scene::LightFrustum& frustum = question.view.frustum;
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
     return default_slopes(depth_per_footprint(frustum, question.job.shadow_map.resolution_texels,
-                                              question.job.lookup.filter, light_distance_m));
+                                              methods::promises(question.job).width_texels,
+                                              light_distance_m));
 }
 
 /// Nothing where even the slope's best bias leaves no less than `own` does: it is no remedy then.
@@ -26,7 +27,7 @@ std::optional<Recommendation> recommended_with(const BiasQuestion& question,
 {
     const bool can_leave_less =
         own && static_cast<double>(curve.best.errors.total()) < own->pasted_outcome.error_amount();
-    if (!can_leave_less || methods::filter_promises(question.job.lookup.filter).has_fractions()) {
+    if (!can_leave_less || methods::promises(question.job).has_fractions()) {
         return std::nullopt;
     }
     return recommend_by_count(curve.curve,

@@ -3,7 +3,7 @@
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/answers/judged_receivers.hpp"
 #include "analysis/answers/lookup_answers.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/promises.hpp"
 
 #include <memory>
 #include <utility>

@@ -2,7 +2,6 @@
 
 #include "analysis/causes/blocked_causes.hpp"
 #include "analysis/causes/lit_causes.hpp"
-#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +21,6 @@ ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
       light_{renderers.make_exact_light(job, view_, receivers_->receivers())},
       light_distance_m_{receivers_->light_distance_m(view_.frustum, geometry_)},
       distances_{receivers_->distances(view_.frustum, geometry_)},
-      remembers_causes_{receivers_->use().by_many_maps &&
-                        methods::filter_promises(job.lookup.filter).has_one_tap()},
-      causes_{size_if(remembers_causes_)},
       pixel_gaps_{size_if(receivers_->use().by_many_maps), unknown_gap}
 {
 }
@@ -57,6 +53,25 @@ const CellMap& ExactLightCache::cells()
     return *cells_;
 }
 
+CauseCache* ExactLightCache::causes_of(const CauseInputs& inputs)
+{
+    const methods::Promises& promises = inputs.rule.promises;
+    const bool remembers =
+        receivers_->use().by_many_maps && promises.has_one_tap() && promises.has_exact_causes();
+    if (remembers && !causes_) {
+        causes_.emplace(view_.image);
+    }
+    return remembers ? &*causes_ : nullptr;
+}
+
+ExactDepths ExactLightCache::exact_depths(const CauseInputs& inputs)
+{
+    if (!exact_depths_) {
+        exact_depths_.emplace(resolution_texels_, view_.image);
+    }
+    return exact_depths_->of(inputs);
+}
+
 CauseInputs ExactLightCache::with_known_hits(CauseInputs inputs)
 {
     inputs.known_hits = &centre_hits(inputs).hits();
@@ -65,14 +80,13 @@ CauseInputs ExactLightCache::with_known_hits(CauseInputs inputs)
 
 void ExactLightCache::find_lit(const CauseInputs& inputs, PixelCauses& causes)
 {
-    find_lit_causes(with_known_hits(inputs), causes, remembers_causes_ ? &causes_ : nullptr);
+    find_lit_causes(with_known_hits(inputs), causes, causes_of(inputs));
 }
 
 void ExactLightCache::find_blocked(const CauseInputs& inputs,
                                    const scene::Image<std::uint8_t>& wanted, PixelCauses& causes)
 {
-    find_blocked_causes(with_known_hits(inputs), wanted, causes,
-                        remembers_causes_ ? &causes_ : nullptr);
+    find_blocked_causes(with_known_hits(inputs), wanted, causes, causes_of(inputs));
 }
 
 const CentreHits& ExactLightCache::centre_hits(const CauseInputs& inputs)

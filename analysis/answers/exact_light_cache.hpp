@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/answers/exact_depths.hpp"
 #include "analysis/answers/judged_receivers.hpp"
 #include "analysis/causes/cause_cache.hpp"
 #include "analysis/causes/cause_inputs.hpp"
@@ -24,7 +25,7 @@
 namespace gnomon::analysis {
 
 /// What exact rays say of the receivers' lookups in maps that differ in nothing but the depth
-/// format: found once, when it is first asked for.
+/// format, and what methods and filters make of them: found once, when it is first asked for.
 class ExactLightCache {
 public:
     /// @param view  of any of the jobs; no bias matters but a normal offset.
@@ -60,6 +61,8 @@ public:
                       PixelCauses& causes);
     /// What the light sees through each scored pixel's centre texel; traced when first asked for.
     [[nodiscard]] const CentreHits& centre_hits(const CauseInputs& inputs);
+    /// What a method that compares no depths is run over.
+    [[nodiscard]] ExactDepths exact_depths(const CauseInputs& inputs);
     /// Lets go of `centre_hits`; they are traced again if they are asked for.
     void forget_texels() { centre_hits_.reset(); }
 
@@ -68,6 +71,9 @@ private:
 
     /// The image's size where `is_kept`, else that of an image without pixels.
     [[nodiscard]] scene::ImageSize size_if(bool is_kept) const;
+    /// What is remembered of lookups like these, or nullptr: only with a single tap what is found
+    /// does not depend on the stored depths.
+    [[nodiscard]] CauseCache* causes_of(const CauseInputs& inputs);
     /// The same, with what is known of texels.
     [[nodiscard]] CauseInputs with_known_hits(CauseInputs inputs);
     [[nodiscard]] std::vector<PixelGap> find_gaps(std::span<const std::size_t> pixels);
@@ -85,10 +91,9 @@ private:
     std::shared_ptr<const Binning> distances_;
     std::shared_ptr<const CellMap> cells_; ///< nullptr until asked for
     std::optional<CentreHits> centre_hits_;
-    /// Only with a single tap what is found does not depend on the stored depths.
-    bool remembers_causes_;
-    CauseCache causes_;
-    scene::Image<PixelGap> pixel_gaps_; ///< or `unknown_gap`; empty: not remembered
+    std::optional<ExactDepthCache> exact_depths_; ///< empty until asked for
+    std::optional<CauseCache> causes_;            ///< likewise
+    scene::Image<PixelGap> pixel_gaps_;           ///< or `unknown_gap`; empty: not remembered
 };
 
 } // namespace gnomon::analysis

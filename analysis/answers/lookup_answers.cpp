@@ -3,9 +3,10 @@
 #include "analysis/answers/bias_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/metrics/amounts.hpp"
 #include "analysis/metrics/map_errors.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +37,18 @@ LookupReruns reruns_of(const scene::Job& job, const scene::View& view, const Ren
             },
             [with, job, &renderers](float slope) {
                 return renderers.find_critical_biases(job, with(0, slope));
-            }};
+            },
+            {}};
+}
+
+/// Draws the job's map again afterwards: other reruns ask for it.
+auto exact_reruns_of(const scene::Job& job, const scene::View& view, const Renderers& renderers)
+{
+    return [job, view, &renderers](const ExactDepths& depths, std::span<const float> lit_from) {
+        auto criticals = renderers.find_exact_critical_biases(job, view, depths, lit_from);
+        renderers.draw_map(job, view);
+        return criticals;
+    };
 }
 
 } // namespace
@@ -45,7 +57,7 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                               scene::LookupLayers layers, const Renderers& renderers)
 {
     ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}};
-    const methods::FilterPromises& promised = methods::filter_promises(job.lookup.filter);
+    const methods::Promises promised = methods::promises(job);
     if (!can_derive_unbiased(job, view)) {
         scene::View unbiased = view;
         unbiased.bias = {};
@@ -56,6 +68,9 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
     }
     if (promised.has_curve() && !promised.has_formula() && renderers.find_critical_biases) {
         lookup.reruns = reruns_of(job, view, renderers);
+        if (!promised.has_exact_causes() && renderers.find_exact_critical_biases) {
+            lookup.reruns->find_exact_critical_biases = exact_reruns_of(job, view, renderers);
+        }
     }
     return lookup;
 }
@@ -71,15 +86,31 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
                                       lookup_.view.frustum, lookup_.job.shadow_map.depth_format)}
 {
     remove_bias();
+    rerun_exactly();
     find_lit_causes(false);
+}
+
+void LookupAnswers::rerun_exactly()
+{
+    if (rule_.promises.has_exact_causes()) {
+        return;
+    }
+    if (!lookup_.reruns || !lookup_.reruns->find_exact_critical_biases) {
+        throw std::invalid_argument(
+            "LookupAnswers: the renderers cannot run the job's method over exact depths");
+    }
+    constexpr float partial{partial_above};
+    const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
+    auto criticals =
+        lookup_.reruns->find_exact_critical_biases(exact_->exact_depths(cause_inputs()), lit_from);
+    exact_reruns_ = {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};
 }
 
 scene::LookupLayers LookupAnswers::make_deciding() const
 {
-    return methods::filter_promises(rule_.filter).equal_taps() > 1
-               ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
-                                  lookup_.map_depths, rule_)
-               : scene::LookupLayers{};
+    return has_taps() ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
+                                         lookup_.map_depths, rule_)
+                      : scene::LookupLayers{};
 }
 
 PixelCauses LookupAnswers::no_causes() const
@@ -99,7 +130,7 @@ void LookupAnswers::remove_bias()
     }
     const std::array<float, 1> no_bias{0.0F};
     const auto lit_taps = count_lit_taps(classes(), taps(0), no_bias).front();
-    const auto all = static_cast<float>(rule_.promises().tap_count());
+    const auto all = static_cast<float>(rule_.promises.tap_count());
     for_each_run(lit_taps.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             lookup_.layers.samples[i].verdict = static_cast<float>(lit_taps[i]) / all;
@@ -161,14 +192,15 @@ CauseInputs LookupAnswers::cause_inputs() const
 {
     const scene::LookupLayers& unbiased =
         lookup_.unbiased.samples.empty() ? lookup_.layers : lookup_.unbiased;
-    return {lookup_.job.lookup,
-            lookup_.job.shadow_map.resolution_texels,
-            lookup_.view.frustum.reversed,
-            exact_->receivers().truth(),
-            lookup_.view.bias.normal_texels == 0 ? unbiased : lookup_.layers,
-            unbiased,
-            lookup_.map_depths,
-            exact_->light()};
+    CauseInputs inputs{rule_with(0),
+                       lookup_.job.shadow_map.resolution_texels,
+                       exact_->receivers().truth(),
+                       lookup_.view.bias.normal_texels == 0 ? unbiased : lookup_.layers,
+                       unbiased,
+                       lookup_.map_depths,
+                       exact_->light()};
+    inputs.exact_reruns = exact_reruns_ ? &*exact_reruns_ : nullptr;
+    return inputs;
 }
 
 SlopeInputs LookupAnswers::curves()
@@ -222,9 +254,8 @@ std::vector<ErrorAmounts> LookupAnswers::amounts(const SlopeCurve& curve,
 scene::Image<float> LookupAnswers::critical_biases(float slope) const
 {
     if (!has_curve()) {
-        throw std::invalid_argument(fmt::format(
-            "critical_biases: the renderers find none, and the filter {} has no formula",
-            scene::filter_name(rule_.filter)));
+        throw std::invalid_argument(
+            "critical_biases: the renderers find none, and the lookup has no formula");
     }
     return lookup_.reruns ? lookup_.reruns->find_critical_biases(slope)
                           : analysis::critical_biases(deciding(), rule_with(slope));
@@ -290,7 +321,7 @@ std::vector<Softening> LookupAnswers::softening_with(float slope,
 std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<const float> biases)
 {
     if (lookup_.reruns) {
-        return rerun(slope, biases);
+        return rerun(slope, biases, lookups_with(slope));
     }
     const scene::Image<float> criticals = critical_biases(slope);
     const BiasCurve curve{criticals, classes()};
@@ -311,7 +342,7 @@ std::vector<ErrorAmounts> LookupAnswers::amounts_at(float slope,
                                                     std::span<const float> biases) const
 {
     if (lookup_.reruns) {
-        return rerun_amounts(slope, biases);
+        return rerun_amounts(biases, lookups_with(slope));
     }
     return has_taps() ? sum_amounts(classes(), taps(slope), biases)
                       : sum_amounts(BiasCurve{critical_biases(slope), classes()}, biases);

@@ -32,6 +32,11 @@ struct LookupReruns {
     std::function<scene::LookupLayers(float constant, float slope)> look_up;
     /// The critical bias of each pixel, with another slope.
     std::function<scene::Image<float>(float slope)> find_critical_biases;
+    /// Those of the method itself run over exact depths (`ExactReruns`): one image for each of
+    /// `lit_from`. Empty where causes are exact.
+    std::function<std::vector<scene::Image<float>>(const ExactDepths&,
+                                                   std::span<const float> lit_from)>
+        find_exact_critical_biases;
 };
 
 /// One GL lookup, and what it was made with.
@@ -75,7 +80,7 @@ public:
     /// Whether every constant bias is known.
     [[nodiscard]] bool has_curve() const
     {
-        return rule_.promises().has_formula() || lookup_.reruns.has_value();
+        return rule_.promises.has_formula() || lookup_.reruns.has_value();
     }
     /// The curve of the question's slope, and a row for each of its biases. Precondition: there is
     /// a curve, as in what follows.
@@ -106,6 +111,8 @@ private:
     [[nodiscard]] CauseInputs cause_inputs() const;
     [[nodiscard]] scene::LookupLayers make_deciding() const;
     [[nodiscard]] PixelCauses no_causes() const;
+    /// Runs the method over exact depths, where it compares none itself.
+    void rerun_exactly();
     /// Makes the lookup one without bias, where it is not moved.
     void remove_bias();
     /// Finds them anew where what is known is of other biases: below 0, or not.
@@ -140,9 +147,9 @@ private:
     /// The rule with another slope.
     [[nodiscard]] LookupRule rule_with(float slope) const;
     /// Whether verdicts are made of several comparisons, so that amounts are not counts.
-    [[nodiscard]] bool has_taps() const { return rule_.promises().equal_taps() > 1; }
+    [[nodiscard]] bool has_taps() const { return rule_.promises.equal_taps() > 1; }
     /// Whether several texels are read.
-    [[nodiscard]] bool has_texels() const { return !rule_.promises().has_one_tap(); }
+    [[nodiscard]] bool has_texels() const { return !rule_.promises.has_one_tap(); }
     [[nodiscard]] TapCriticals taps(float slope) const
     {
         return {lookup_.layers, lookup_.map_depths, rule_with(slope)};
@@ -170,11 +177,18 @@ private:
     [[nodiscard]] std::vector<MeasuredBias> measure(const SlopeCurve& curve,
                                                     std::span<const float> biases,
                                                     std::span<const ErrorAmounts> amounts_of);
+    /// GL's own lookup with a constant bias.
+    using LookUp = std::function<scene::LookupLayers(float bias)>;
     /// The same, each from GL's own lookup.
-    [[nodiscard]] std::vector<MeasuredBias> rerun(float slope, std::span<const float> biases);
+    [[nodiscard]] std::vector<MeasuredBias> rerun(float slope, std::span<const float> biases,
+                                                  const LookUp& look_up);
     /// Its amounts, without finding causes.
-    [[nodiscard]] std::vector<ErrorAmounts> rerun_amounts(float slope,
-                                                          std::span<const float> biases) const;
+    [[nodiscard]] std::vector<ErrorAmounts> rerun_amounts(std::span<const float> biases,
+                                                          const LookUp& look_up) const;
+    /// Lookups of a slope.
+    [[nodiscard]] LookUp lookups_with(float slope) const;
+    /// Those of a curve, which are held to it.
+    [[nodiscard]] LookUp lookups_held_to(const SlopeCurve& curve);
     /// Draws the curve at the biases that GL looks up, and recommends one of them.
     void sample_curve(const SlopeCurve& curve, CurveResult& result);
     /// What is measured with the biases around the least amount of error, ascending.
@@ -212,6 +226,7 @@ private:
     LookupRule rule_;
     scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return
     PixelCauses causes_;
+    std::optional<ExactReruns> exact_reruns_; ///< empty where causes are exact
     bool knows_lit_below_zero_ = false;
     scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel was found
     scene::Image<float> map_error_m_;

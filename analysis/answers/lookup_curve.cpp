@@ -4,7 +4,6 @@
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 #include "analysis/recommendation/tried_biases.hpp"
-#include "methods/depth/depth_map.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>
@@ -81,7 +80,7 @@ CurveResult LookupAnswers::describe_map() const
     CurveResult result;
     result.near_m = lookup_.view.frustum.near_m;
     result.far_m = lookup_.view.frustum.far_m;
-    result.map_bytes = methods::map_bytes(lookup_.job.shadow_map);
+    result.map_bytes = rule_.promises.map_bytes;
     return result;
 }
 
@@ -126,7 +125,7 @@ std::vector<std::vector<ErrorBin>> LookupAnswers::profiles(const SlopeCurve& cur
                                                            std::span<const float> biases) const
 {
     const BreakdownInputs inputs{classes(), deciding(), curve.critical_bias, map_error_m_,
-                                 rule_.promises().equal_taps()};
+                                 rule_.promises.equal_taps()};
     return errors_by_bin(exact_->distances(), inputs, biases,
                          has_taps() ? count_lit_taps(classes(), taps(curve.slope), biases)
                                     : std::vector<scene::Image<std::uint8_t>>{});
@@ -164,7 +163,7 @@ std::vector<MeasuredBias> LookupAnswers::around_least_amount(const SlopeCurve& c
 std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
                                                  std::span<const float> biases)
 {
-    return lookup_.reruns ? rerun(curve.slope, biases)
+    return lookup_.reruns ? rerun(curve.slope, biases, lookups_held_to(curve))
                           : measure(curve, biases, amounts(curve, biases));
 }
 

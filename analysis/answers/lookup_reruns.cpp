@@ -9,28 +9,38 @@
 
 namespace gnomon::analysis {
 
-std::vector<MeasuredBias> LookupAnswers::rerun(float slope, std::span<const float> biases)
+LookupAnswers::LookUp LookupAnswers::lookups_with(float slope) const
+{
+    return [this, slope](float bias) { return lookup_.reruns->look_up(bias, slope); };
+}
+
+LookupAnswers::LookUp LookupAnswers::lookups_held_to(const SlopeCurve& curve)
+{
+    return [this, &curve](float bias) { return look_up_again(curve, bias); };
+}
+
+std::vector<MeasuredBias> LookupAnswers::rerun(float slope, std::span<const float> biases,
+                                               const LookUp& look_up)
 {
     std::vector<MeasuredBias> measured;
     for (const float bias : biases) {
-        const scene::LookupLayers own = lookup_.reruns->look_up(bias, slope);
+        const scene::LookupLayers own = look_up(bias);
         const CauseAmounts amounts = causes_of(own, bias, slope).amounts;
         measured.push_back(
             {bias,
-             analysis::measure(exact_->receivers().truth(), own, rule_.promises().equal_taps()),
+             analysis::measure(exact_->receivers().truth(), own, rule_.promises.equal_taps()),
              {amounts.shadow_softening, amounts.light_softening}});
     }
     return measured;
 }
 
-std::vector<ErrorAmounts> LookupAnswers::rerun_amounts(float slope,
-                                                       std::span<const float> biases) const
+std::vector<ErrorAmounts> LookupAnswers::rerun_amounts(std::span<const float> biases,
+                                                       const LookUp& look_up) const
 {
     std::vector<ErrorAmounts> amounts;
     for (const float bias : biases) {
-        amounts.push_back(analysis::measure(exact_->receivers().truth(),
-                                            lookup_.reruns->look_up(bias, slope),
-                                            rule_.promises().equal_taps())
+        amounts.push_back(analysis::measure(exact_->receivers().truth(), look_up(bias),
+                                            rule_.promises.equal_taps())
                               .amounts);
     }
     return amounts;
@@ -55,7 +65,7 @@ std::vector<ConfigurationResult> LookupAnswers::rerun_rows(const SlopeCurve& cur
         const scene::LookupLayers own = look_up_again(curve, bias);
         Explained found = explain(own, bias, curve.slope);
         rows.push_back(
-            {analysis::measure(exact_->receivers().truth(), own, rule_.promises().equal_taps()),
+            {analysis::measure(exact_->receivers().truth(), own, rule_.promises.equal_taps()),
              found.causes.counts, found.causes.amounts, found.peter_panning,
              std::move(found.cells)});
     }
@@ -70,7 +80,7 @@ std::vector<std::vector<ErrorBin>> LookupAnswers::rerun_profiles(const SlopeCurv
         const scene::LookupLayers own = look_up_again(curve, bias);
         profiles.push_back(
             errors_by_bin(exact_->distances(), {classes(), own, curve.critical_bias, map_error_m_,
-                                                rule_.promises().equal_taps()}));
+                                                rule_.promises.equal_taps()}));
     }
     return profiles;
 }
@@ -78,9 +88,10 @@ std::vector<std::vector<ErrorBin>> LookupAnswers::rerun_profiles(const SlopeCurv
 void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
 {
     const std::vector<float> coarse = coarse_biases();
-    const std::vector<ErrorAmounts> amounts = rerun_amounts(curve.slope, coarse);
+    const LookUp look_up = lookups_held_to(curve);
+    const std::vector<ErrorAmounts> amounts = rerun_amounts(coarse, look_up);
     const std::vector<MeasuredBias> around =
-        rerun(curve.slope, fine_biases_around_least(coarse, amounts));
+        rerun(curve.slope, fine_biases_around_least(coarse, amounts), look_up);
     const auto add = [&](float bias, const ErrorAmounts& at) {
         const ErrorCounts errors = curve.curve.at(bias);
         result.points.push_back({bias,
@@ -97,7 +108,7 @@ void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
     }
     if (const float lowest = sample_biases(curve.curve).front(); lowest < 0) {
         const std::array<float, 1> below{lowest}; // from there on down nothing changes
-        add(lowest, rerun_amounts(curve.slope, below).front());
+        add(lowest, rerun_amounts(below, look_up).front());
     }
     std::ranges::sort(result.points, {}, &CurveSample::bias);
     result.amounts_are_sampled = true;

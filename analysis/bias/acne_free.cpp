@@ -2,7 +2,7 @@
 
 #include "analysis/pixel_runs.hpp"
 #include "analysis/radix_sort.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/promises.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ private:
     /// The bias from which on the pixel is on the right side.
     [[nodiscard]] float first_end(std::size_t pixel, std::span<const float> criticals) const
     {
-        if (!inputs_.has_fractions || inputs_.weighs_taps) {
+        if (!inputs_.adds_taps || inputs_.weighs_taps) {
             return inputs_.critical_bias[pixel];
         }
         std::array<float, methods::most_taps> copy{};
@@ -172,7 +172,7 @@ class AcneOfTaps {
 public:
     explicit AcneOfTaps(const AcneInputs& inputs)
         : inputs_{inputs},
-          largest_{inputs.has_fractions ? inputs.classes.size() : scene::ImageSize{0, 0}, -infinity}
+          largest_{inputs.adds_taps ? inputs.classes.size() : scene::ImageSize{0, 0}, -infinity}
     {
         const AcneTally none{{}, {{KeyHistogram{KeyHistogram::no_prefix}}}};
         tally_ = sum_over_runs(
@@ -267,7 +267,7 @@ private:
         visit_own(
             first, last, [&](std::size_t pixel) { return has_acne(pixel); },
             [&](std::size_t pixel, const TapSet& own, std::span<const float> criticals) {
-                if (inputs_.has_fractions) {
+                if (inputs_.adds_taps) {
                     visit_weights(pixel, own, [&](std::size_t t, std::uint64_t units) {
                         histogram.add(criticals[t], units);
                         largest_[pixel] = std::max(largest_[pixel], criticals[t]);
@@ -340,7 +340,7 @@ std::vector<AcneFree> find_acne_free(const AcneInputs& inputs,
     }
     const AcneOfTaps acne{inputs};
     std::vector<AcneFree> found = smallest_leaving(acne.ends(), allowed_pixels);
-    if (inputs.has_fractions) {
+    if (inputs.adds_taps) {
         const auto by_tap = acne.smallest_leaving(allowed_pixels);
         for (std::size_t i = 0; i < found.size(); ++i) {
             found[i].by_tap = by_tap[i];

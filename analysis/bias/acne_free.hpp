@@ -30,7 +30,7 @@ struct AcneInputs {
     const scene::Image<float>& critical_bias; ///< of each pixel's verdict
     const PixelCauses& causes;
     const TapCriticals* taps = nullptr; ///< nullptr where one texel is read
-    bool has_fractions = false;         ///< else both counts are one
+    bool adds_taps = false;             ///< verdicts are shares of taps; else both are by count
     bool weighs_taps = false;           ///< else all of a pixel's taps weigh the same
 };
 

@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_index.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/promises.hpp"
 
 #include <algorithm>
 #include <array>

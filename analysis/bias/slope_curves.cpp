@@ -1,7 +1,6 @@
 #include "analysis/bias/slope_curves.hpp"
 
 #include "analysis/bias/bias_units.hpp"
-#include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
 
@@ -15,10 +14,9 @@
 namespace gnomon::analysis {
 
 double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
-                           scene::Filter filter, double light_distance_m)
+                           int footprint_texels, double light_distance_m)
 {
-    return methods::filter_promises(filter).width_texels *
-           frustum.texel_width_m(light_distance_m, resolution_texels) *
+    return footprint_texels * frustum.texel_width_m(light_distance_m, resolution_texels) *
            depth_per_metre(frustum, light_distance_m);
 }
 
@@ -53,7 +51,8 @@ SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
     }
     const auto acne_free = [&](std::span<const std::uint64_t> allowed_pixels) {
         return find_acne_free({inputs.classes, criticals, inputs.causes, taps ? &*taps : nullptr,
-                               rule.promises().has_fractions(), rule.promises().interpolates()},
+                               rule.promises.is_made_of_taps() && rule.promises.has_fractions(),
+                               rule.promises.interpolates()},
                               allowed_pixels);
     };
     const BiasBounds bounds =

@@ -11,13 +11,12 @@ namespace gnomon::analysis {
 /// How much a lookup's depth differs across its footprint, per unit of tan θ: the natural unit of a
 /// slope bias.
 ///
-///     footprint · texel width(ζ) · depth per metre(ζ)        footprint: the filter's width in
-///     texels
+///     footprint · texel width(ζ) · depth per metre(ζ)        footprint: its width in texels
 ///
 /// @param light_distance_m  Light distance [m]; matters for a spot, whose texels grow and whose
 /// depth flattens. Source: docs/bias_curve.md#slope.
 [[nodiscard]] double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
-                                         scene::Filter filter, double light_distance_m);
+                                         int footprint_texels, double light_distance_m);
 
 /// Slope factors worth a curve: 0, ¼, ½, 1, 2 and 4 times `per_footprint`.
 ///

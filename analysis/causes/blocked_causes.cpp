@@ -4,7 +4,6 @@
 #include "analysis/causes/self_shadowing.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "analysis/metrics/amounts.hpp"
-#include "methods/depth/filters.hpp"
 
 #include <algorithm>
 #include <span>
@@ -31,9 +30,9 @@ public:
           wanted_{wanted},
           causes_{causes},
           cache_{cache},
-          rule_{inputs.rule()},
-          footprint_{inputs.lookup, inputs.resolution_texels},
-          is_mean_depth_{inputs.promises().compares == methods::Compares::mean_depth}
+          rule_{inputs.rule},
+          footprint_{inputs.footprint()},
+          is_made_of_taps_{inputs.rule.promises.is_made_of_taps()}
     {
     }
 
@@ -77,7 +76,7 @@ private:
                 open.push_back(pixel);
                 continue;
             }
-            if (inputs_.lookup.outside == Outside::lit) {
+            if (rule_.outside == Outside::lit) {
                 set(pixel, Cause::coverage);
             }
             remember(pixel, false);
@@ -106,7 +105,7 @@ private:
     {
         const TracedLookups lookups = trace_lookups(inputs_, inputs_.unbiased, pixels);
         auto asked = shadowing_taps(inputs_, inputs_.unbiased, lookups);
-        for (std::size_t i = 0; i < pixels.size() && is_mean_depth_; ++i) {
+        for (std::size_t i = 0; i < pixels.size() && !is_made_of_taps_; ++i) {
             asked[i].set(footprint_.centre_tap(inputs_.unbiased.texels[pixels[i]]));
         }
         const auto own = own_taps(inputs_.light, lookups, asked);
@@ -130,9 +129,9 @@ private:
     {
         const std::size_t pixel = lookups.pixel(i);
         double lit{inputs_.unbiased.samples[pixel].verdict};
-        if (is_mean_depth_) {
-            const bool is_repaired = lit < 0.5 && !sees_own_at_centre(pixel, own);
-            return {is_repaired, is_repaired};
+        if (!is_made_of_taps_) {
+            const bool accepts = !sees_own_at_centre(pixel, own);
+            return {accepts && lit < 0.5, accepts && lit <= partial_above};
         }
         const auto taps = lookups.taps_of(i);
         double own_weight = 0;
@@ -184,6 +183,7 @@ private:
             }
         }
         explain_by_truth(lookups, open.own, lost, lost_place);
+        find_bleeding(lookups, open.own);
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             remember(lookups.pixel(i), open.own[i].any());
         }
@@ -192,17 +192,23 @@ private:
     [[nodiscard]] std::vector<Repair> repairs_by_v2(const TracedLookups& lookups,
                                                     std::span<const TapSet> own) const
     {
-        const auto half = exact_critical_biases(rule_, lookups, inputs_.light, LitShare::half, own);
+        const auto half = exact_biases(lookups, LitShare::half, own);
         const auto any =
-            inputs_.promises().has_fractions()
-                ? exact_critical_biases(rule_, lookups, inputs_.light, LitShare::any, own)
-                : half;
+            rule_.promises.has_fractions() ? exact_biases(lookups, LitShare::any, own) : half;
         std::vector<Repair> repairs;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
-            const bool accepts = !is_mean_depth_ || !sees_own_at_centre(lookups.pixel(i), own[i]);
+            const bool accepts = is_made_of_taps_ || !sees_own_at_centre(lookups.pixel(i), own[i]);
             repairs.push_back({accepts && half[i] > 0, accepts && any[i] > 0});
         }
         return repairs;
+    }
+
+    [[nodiscard]] std::vector<float> exact_biases(const TracedLookups& lookups, LitShare share,
+                                                  std::span<const TapSet> own) const
+    {
+        return inputs_.exact_reruns == nullptr
+                   ? exact_critical_biases(rule_, lookups, inputs_.light, share, own)
+                   : rerun_biases(*inputs_.exact_reruns, lookups, share);
     }
 
     /// V2n.
@@ -210,7 +216,7 @@ private:
                                                       std::span<const TapSet> own) const
     {
         std::vector<bool> repairs(lookups.size(), false);
-        if (inputs_.promises().has_one_tap()) {
+        if (inputs_.rule.promises.has_one_tap()) {
             return repairs; // V2 asked that
         }
         std::vector<std::size_t> centres;
@@ -224,6 +230,32 @@ private:
         return repairs;
     }
 
+    /// Sets `sees` where the cause is `filter` though every texel of the footprint, compared by
+    /// itself as in V2, shadows: the method's formula alone lets the light through.
+    void find_bleeding(const TracedLookups& lookups, std::span<const TapSet> own)
+    {
+        if (rule_.promises.has_exact_causes()) {
+            return; // where every texel shadows, so do a mean of depths and any weights
+        }
+        std::vector<bool> bleeds(lookups.size());
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            const PixelCause& why = causes_.pixels[lookups.pixel(i)];
+            const bool is_by_filter =
+                why.if_wrong == Cause::filter || why.if_partial == Cause::filter;
+            bleeds[i] = is_by_filter && own[i].none();
+        }
+        for (std::size_t tap = 0; tap < footprint_.tap_count(); ++tap) {
+            const std::vector<std::size_t> of_each(lookups.size(), tap);
+            const auto critical = exact_tap_biases(rule_, lookups, inputs_.light, of_each);
+            for (std::size_t i = 0; i < lookups.size(); ++i) {
+                bleeds[i] = bleeds[i] && critical[i] > 0;
+            }
+        }
+        for (std::size_t i = 0; i < lookups.size(); ++i) {
+            causes_.pixels[lookups.pixel(i)].sees |= bleeds[i];
+        }
+    }
+
     /// V3 and V4.
     /// @param indices  Of the pixels, among the lookups.
     void explain_by_truth(const TracedLookups& lookups, std::span<const TapSet> own,
@@ -233,7 +265,7 @@ private:
         std::vector<std::size_t> between_texels;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const bool is_shadowed = inputs_.is_uncovered(footprint_, pixels[i])
-                                         ? inputs_.lookup.outside == Outside::shadowed
+                                         ? rule_.outside == Outside::shadowed
                                          : crossed[i] != 0;
             if (is_shadowed) {
                 PixelCause& pixel = causes_.pixels[pixels[i]];
@@ -312,7 +344,7 @@ private:
     CauseCache* cache_;
     LookupRule rule_;
     Footprint footprint_;
-    bool is_mean_depth_;
+    bool is_made_of_taps_;
 };
 
 } // namespace

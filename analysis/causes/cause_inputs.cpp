@@ -13,8 +13,12 @@ void require_cause_inputs(const CauseInputs& inputs)
         }
     }
     const scene::ImageSize map{inputs.resolution_texels, inputs.resolution_texels};
-    if (!inputs.promises().has_one_tap() && inputs.map_depths.size() != map) {
+    if (!inputs.rule.promises.has_one_tap() && inputs.map_depths.size() != map) {
         throw std::invalid_argument("causes: map_depths is not of the map's size");
+    }
+    if (!inputs.rule.promises.has_exact_causes() &&
+        (inputs.exact_reruns == nullptr || inputs.exact_reruns->half.size() != size)) {
+        throw std::invalid_argument("causes: the method was not run over exact depths");
     }
 }
 

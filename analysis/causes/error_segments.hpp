@@ -5,7 +5,7 @@
 #include "analysis/causes/pixel_causes.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "analysis/metrics/amounts.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/promises.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,13 +41,13 @@ public:
         : inputs_{inputs},
           biases_{biases},
           index_{biases},
-          promises_{inputs.rule.promises()},
+          promises_{inputs.rule.promises},
           units_{units_of(promises_)}
     {
     }
 
     /// Amounts of a whole pixel: of equal taps their number, else fine enough for any fraction.
-    [[nodiscard]] static std::int64_t units_of(const methods::FilterPromises& promises)
+    [[nodiscard]] static std::int64_t units_of(const methods::Promises& promises)
     {
         constexpr std::int64_t any_fraction = std::int64_t{1} << 32U;
         return promises.equal_taps() > 0 ? promises.equal_taps() : any_fraction;
@@ -193,7 +193,7 @@ private:
         }
         segment.rest = inputs_.verdicts_are_given ? given_units(1 - double{verdict(pixel)})
                                                   : std::llrint(all); // equal taps of weight 1
-        if (is_by_map && all > 0) {
+        if (is_by_map && all > 0 && adds_taps()) {
             segment.acne = std::llrint(static_cast<double>(segment.rest) * (shadowing.own / all));
             segment.rest -= segment.acne;
             segment.rest_label = Label::edge;
@@ -257,7 +257,7 @@ private:
             return {scene::is_lit(v) ? std::size_t{0} : 1,
                     1 - double{v} > partial_above ? std::size_t{1} : 0};
         }
-        if (promises_.has_fractions()) {
+        if (adds_taps()) {
             return {taps[deciding_rank(taps.size())].lit_from, taps.back().lit_from};
         }
         const std::size_t change = index_.first_from(inputs_.critical_bias[pixel]);
@@ -271,7 +271,7 @@ private:
             return {scene::is_lit(v) ? std::size_t{0} : 1,
                     double{v} > partial_above ? std::size_t{0} : 1};
         }
-        if (promises_.has_fractions()) {
+        if (adds_taps()) {
             return {taps[deciding_rank(taps.size())].lit_from, taps.front().lit_from};
         }
         const std::size_t change = index_.first_from(inputs_.critical_bias[pixel]);
@@ -305,6 +305,11 @@ private:
         });
         return static_cast<std::size_t>(first - biases_.begin());
     }
+    /// Whether verdicts are shares of taps, between 0 and 1.
+    [[nodiscard]] bool adds_taps() const
+    {
+        return promises_.has_fractions() && promises_.is_made_of_taps();
+    }
     [[nodiscard]] float verdict(std::size_t pixel) const
     {
         return inputs_.deciding.samples[pixel].verdict;
@@ -317,7 +322,7 @@ private:
     const BiasRowInputs& inputs_;
     std::span<const float> biases_;
     BiasIndex index_;
-    const methods::FilterPromises& promises_;
+    const methods::Promises& promises_;
     std::int64_t units_;
 };
 

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/lookup/footprint.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ scene::TexelRows rows_of(const scene::Job& job, const scene::LookupLayers& looku
                          std::span<const std::size_t> pixels)
 {
     const int resolution = job.shadow_map.resolution_texels;
-    const Footprint footprint{job.lookup, resolution};
+    const Footprint footprint{methods::promises(job), job.lookup.outside, resolution};
     int first = resolution - 1;
     int last = 0;
     for (const std::size_t pixel : pixels) {
@@ -30,27 +30,48 @@ scene::TexelRows rows_of(const scene::Job& job, const scene::LookupLayers& looku
     return {first, last - first + 1};
 }
 
+scene::Job with_floats(scene::Job job)
+{
+    job.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+    return job;
+}
+
+/// At the receiver itself.
+scene::View with_biases(scene::View view, float constant, float slope)
+{
+    view.bias = {constant, slope, 0};
+    return view;
+}
+
 } // namespace
 
 FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
                         const scene::LookupLayers& lookup, std::span<const std::size_t> pixels,
                         const Renderers& renderers)
 {
-    const methods::FilterPromises& promised = methods::filter_promises(job.lookup.filter);
+    const methods::Promises promised = methods::promises(job);
     if (can_derive_unbiased(job, view) && !promised.interpolates()) {
         // Where the receivers are in the map does not depend on its format.
         return {{}, renderers.read_float_depths(job, view, rows_of(job, lookup, pixels))};
     }
-    scene::Job floats = job;
-    floats.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
-    scene::View unbiased = view;
-    unbiased.bias = {};
+    const scene::Job floats = with_floats(job);
+    const scene::View unbiased = with_biases(view, 0, 0);
     renderers.draw_shadow_map(floats, unbiased);
     FloatMap map{renderers.look_up(floats, unbiased), {}};
     if (promised.has_fractions() || promised.has_one_tap()) {
         map.depths = renderers.read_map_depths();
     }
     return map;
+}
+
+FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
+                            const Renderers& renderers)
+{
+    const scene::Job floats = with_floats(job);
+    renderers.draw_shadow_map(floats, view);
+    renderers.prefilter_map(floats, FilteredContent::float32);
+    return {renderers.look_up(floats, with_biases(view, view.bias.constant, view.bias.slope)),
+            renderers.look_up(floats, with_biases(view, 0, 0))};
 }
 
 } // namespace gnomon::analysis

@@ -24,4 +24,15 @@ struct FloatMap {
                                       std::span<const std::size_t> pixels,
                                       const Renderers& renderers);
 
+/// What the job's method says of a map of d32f, with 32-bit floats in what it makes of it: at the
+/// receivers themselves.
+struct FloatLookups {
+    scene::LookupLayers biased; ///< with the job's constant and slope bias
+    scene::LookupLayers unbiased;
+};
+
+/// Draws and looks it up; the map drawn last is lost.
+[[nodiscard]] FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
+                                          const Renderers& renderers);
+
 } // namespace gnomon::analysis

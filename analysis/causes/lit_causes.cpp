@@ -4,7 +4,7 @@
 #include "analysis/causes/self_shadowing.hpp"
 #include "analysis/metrics/amounts.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/promises.hpp"
 
 #include <span>
 #include <vector>
@@ -22,8 +22,8 @@ public:
         : inputs_{inputs},
           causes_{causes},
           cache_{cache},
-          rule_{inputs.rule()},
-          footprint_{inputs.lookup, inputs.resolution_texels}
+          rule_{inputs.rule},
+          footprint_{inputs.footprint()}
     {
     }
 
@@ -80,8 +80,8 @@ private:
                 }
             } else {
                 // V3: nothing crosses the segment, so only the border mode can shadow.
-                const bool is_lit = !inputs_.is_uncovered(footprint_, pixel) ||
-                                    inputs_.lookup.outside == Outside::lit;
+                const bool is_lit =
+                    !inputs_.is_uncovered(footprint_, pixel) || rule_.outside == Outside::lit;
                 set(pixel, is_lit ? Cause::resolution : Cause::coverage);
                 open.push_back(pixel);
             }
@@ -107,7 +107,7 @@ private:
         const bool is_moved = &inputs_.job != &inputs_.unbiased;
         const OwnTaps found =
             is_moved ? find_own(trace_lookups(inputs_, inputs_.job, pixels)) : find_own(unbiased);
-        const auto half = exact_critical_biases(rule_, unbiased, inputs_.light, LitShare::half);
+        const auto half = exact_biases(unbiased, LitShare::half);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             causes_.pixels[pixels[i]].exact_critical_bias = half[i];
             causes_.pixels[pixels[i]].sees = found.own[i][0];
@@ -125,21 +125,30 @@ private:
     [[nodiscard]] OwnTaps find_own(const TracedLookups& lookups) const
     {
         // What is remembered of a single tap must not depend on what is stored.
-        const bool asks_all = inputs_.asks_below_zero || inputs_.promises().has_one_tap();
-        const TapSet all = TapSet{}.set() >> (methods::most_taps - inputs_.promises().tap_count());
+        const bool asks_all = inputs_.asks_below_zero || inputs_.rule.promises.has_one_tap();
+        const TapSet all =
+            TapSet{}.set() >> (methods::most_taps - inputs_.rule.promises.tap_count());
         auto asked = asks_all ? std::vector<TapSet>(lookups.size(), all)
                               : shadowing_taps(inputs_, inputs_.job, lookups);
         auto own = own_taps(inputs_.light, lookups, asked);
         return {std::move(asked), std::move(own)};
     }
 
+    /// V2.
+    [[nodiscard]] std::vector<float> exact_biases(const TracedLookups& lookups,
+                                                  LitShare share) const
+    {
+        return inputs_.exact_reruns == nullptr
+                   ? exact_critical_biases(rule_, lookups, inputs_.light, share)
+                   : rerun_biases(*inputs_.exact_reruns, lookups, share);
+    }
+
     void explain_filter(const TracedLookups& lookups, const OwnTaps& found,
                         std::span<const float> half)
     {
-        const bool has_fractions = inputs_.promises().has_fractions();
-        const auto full = has_fractions
-                              ? exact_critical_biases(rule_, lookups, inputs_.light, LitShare::full)
-                              : std::vector<float>{half.begin(), half.end()};
+        const bool has_fractions = inputs_.rule.promises.has_fractions();
+        const auto full = has_fractions ? exact_biases(lookups, LitShare::full)
+                                        : std::vector<float>{half.begin(), half.end()};
         std::vector<std::size_t> centres;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             centres.push_back(footprint_.centre_tap(inputs_.unbiased.texels[lookups.pixel(i)]));

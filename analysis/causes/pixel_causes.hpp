@@ -19,7 +19,8 @@ struct PixelCause {
     /// The same where it is partial.
     Cause if_partial = Cause::none;
     /// A lit pixel before a single tap: is the surface seen there its self-shadowing surface? A
-    /// blocked pixel of cause `resolution`: does a texel at or around its taps see the blocker?
+    /// blocked pixel of cause `resolution`: does a texel at or around its taps see the blocker? Of
+    /// cause `filter`: does every tap, by itself, shadow it?
     bool sees = false;
     /// A lit pixel: the smallest bias with which exact depths are lit (V2), the slope's part
     /// included.
@@ -79,9 +80,7 @@ struct ShadowingTaps {
     return taps.own > 0 && taps.own >= taps.others ? Label::acne : Label::edge;
 }
 
-/// The label of a blocked pixel that is wrong or partial by this cause. Never `bleed` with the
-/// filters here: where every texel of a footprint shadows, so do their mean depth and any weights,
-/// and V2 repairs.
+/// The label of a blocked pixel that is wrong or partial by this cause.
 /// @param sees  as `PixelCause::sees`.
 [[nodiscard]] inline Label label_of_blocked(Cause cause, bool sees)
 {
@@ -91,7 +90,7 @@ struct ShadowingTaps {
     case Cause::bias:
         return Label::peter_panning;
     case Cause::filter:
-        return Label::edge;
+        return sees ? Label::bleed : Label::edge;
     case Cause::resolution:
         return sees ? Label::edge : Label::leak;
     case Cause::precision:

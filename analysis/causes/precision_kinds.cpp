@@ -12,8 +12,8 @@ class FloatVerdicts {
 public:
     FloatVerdicts(const CauseInputs& floats, const scene::Bias& bias)
         : floats_{floats},
-          footprint_{floats.lookup, floats.resolution_texels},
-          rule_{floats.rule()},
+          footprint_{floats.footprint()},
+          rule_{floats.rule},
           bias_{bias}
     {
     }
@@ -56,7 +56,7 @@ private:
     [[nodiscard]] float compared_depth(std::size_t pixel) const
     {
         const float looked_up = floats_.unbiased.samples[pixel].map_depth;
-        if (!floats_.promises().has_one_tap()) {
+        if (!floats_.rule.promises.has_one_tap()) {
             return looked_up;
         }
         const Tap tap = footprint_.taps(floats_.unbiased.texels[pixel]).front();
@@ -98,7 +98,7 @@ PrecisionKinds find_precision_kinds(const CauseInputs& floats, std::span<const s
     const FloatVerdicts map{floats, bias};
     PrecisionKinds kinds;
     const auto add = [&](bool is_repaired) { ++(is_repaired ? kinds.format : kinds.transform); };
-    if (!floats.promises().has_fractions()) {
+    if (!floats.rule.promises.has_fractions()) {
         for (const std::size_t pixel : pixels) {
             add(map.repairs(pixel));
         }
@@ -112,6 +112,20 @@ PrecisionKinds find_precision_kinds(const CauseInputs& floats, std::span<const s
     const auto own = own_taps(floats.light, lookups, asked);
     for (std::size_t i = 0; i < lookups.size(); ++i) {
         add(map.repairs(lookups.pixel(i), lookups.taps_of(i), own[i]));
+    }
+    return kinds;
+}
+
+PrecisionKinds find_precision_kinds(const scene::TruthLayers& truth,
+                                    const scene::LookupLayers& biased,
+                                    const scene::LookupLayers& unbiased,
+                                    std::span<const std::size_t> pixels)
+{
+    PrecisionKinds kinds;
+    for (const std::size_t pixel : pixels) {
+        const bool is_lit = truth.pixel_class[pixel] == PixelClass::lit;
+        const float verdict = (is_lit ? biased : unbiased).samples[pixel].verdict;
+        ++(scene::is_lit(verdict) == is_lit ? kinds.format : kinds.transform);
     }
     return kinds;
 }

@@ -33,4 +33,11 @@ struct PrecisionKinds {
                                                   std::span<const std::size_t> pixels,
                                                   const scene::Bias& bias);
 
+/// The same of a method that compares no depths.
+/// @param biased, unbiased  its verdicts in that map, at the receivers themselves.
+[[nodiscard]] PrecisionKinds find_precision_kinds(const scene::TruthLayers& truth,
+                                                  const scene::LookupLayers& biased,
+                                                  const scene::LookupLayers& unbiased,
+                                                  std::span<const std::size_t> pixels);
+
 } // namespace gnomon::analysis

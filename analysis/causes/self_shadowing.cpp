@@ -7,7 +7,7 @@ namespace gnomon::analysis {
 TracedLookups trace_lookups(const CauseInputs& inputs, const scene::LookupLayers& layers,
                             std::span<const std::size_t> pixels)
 {
-    const Footprint footprint{inputs.lookup, inputs.resolution_texels};
+    const Footprint footprint = inputs.footprint();
     Lookups lookups{{pixels.begin(), pixels.end()}, {}, footprint.tap_count(), {}};
     lookups.taps.reserve(pixels.size() * lookups.taps_each);
     lookups.first_taps.reserve(pixels.size());
@@ -56,6 +56,19 @@ std::vector<TapSet> own_taps(const scene::ExactLight& light, const TracedLookups
         own[places[q].lookup][places[q].tap] = is_own[q] != 0;
     }
     return own;
+}
+
+std::vector<float> rerun_biases(const ExactReruns& reruns, const TracedLookups& lookups,
+                                LitShare share)
+{
+    const scene::Image<float>& of_share = share == LitShare::any    ? reruns.any
+                                          : share == LitShare::half ? reruns.half
+                                                                    : reruns.full;
+    std::vector<float> biases(lookups.size());
+    for (std::size_t i = 0; i < biases.size(); ++i) {
+        biases[i] = of_share[lookups.pixel(i)];
+    }
+    return biases;
 }
 
 } // namespace gnomon::analysis

@@ -27,4 +27,8 @@ namespace gnomon::analysis {
                                            const TracedLookups& lookups,
                                            std::span<const TapSet> asked);
 
+/// V2 of each lookup, where the method was run over exact depths.
+[[nodiscard]] std::vector<float> rerun_biases(const ExactReruns& reruns,
+                                              const TracedLookups& lookups, LitShare share);
+
 } // namespace gnomon::analysis

@@ -3,7 +3,7 @@
 #include "analysis/evaluate/bias_causes.hpp"
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -73,7 +73,7 @@ int taps_of_mask(const Case& subject, const scene::Job& job)
     if (!subject.file.says("lookup.filter")) {
         return 0;
     }
-    const int taps = methods::filter_promises(job.lookup.filter).equal_taps();
+    const int taps = methods::promises(job).equal_taps();
     const bool are_multiples = std::ranges::all_of(subject.layers.mask, [&](float lit) {
         const double share = double{lit} * taps;
         return std::isnan(lit) || std::abs(share - std::nearbyint(share)) <= rounding;
@@ -160,8 +160,8 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
 void find_some_causes(const Case& subject, const Comparison& comparison, Evaluation& evaluation)
 {
     const scene::CaseLayers& layers = subject.layers;
-    const bool has_one_tap = subject.file.says("lookup.filter") &&
-                             methods::filter_promises(comparison.job.lookup.filter).has_one_tap();
+    const bool has_one_tap =
+        subject.file.says("lookup.filter") && methods::promises(comparison.job).has_one_tap();
     const bool is_unmoved =
         subject.file.says("bias.normal_texels") && comparison.job.bias.normal_texels == 0;
     std::vector<std::string> missing;

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/stored_taps.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 
 #include <fmt/format.h>
 
@@ -56,11 +56,10 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& 
 scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Image<Vec2f>& texels,
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
-    const methods::FilterPromises& promised = methods::filter_promises(rule.filter);
+    const methods::Promises& promised = rule.promises;
     if (!promised.has_formula()) {
         throw std::invalid_argument(
-            fmt::format("deciding_samples: rule: the filter {} has no formula, and no deciding tap",
-                        scene::filter_name(rule.filter)));
+            "deciding_samples: rule: its lookups have no formula, and no deciding tap");
     }
     if (promised.returns_deciding_depth()) {
         return lookup;
@@ -78,8 +77,7 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
 
 bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
 {
-    return methods::filter_promises(job.lookup.filter).has_formula() &&
-           view.bias.normal_texels == 0;
+    return methods::promises(job).has_formula() && view.bias.normal_texels == 0;
 }
 
 } // namespace gnomon::analysis

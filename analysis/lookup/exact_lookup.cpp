@@ -1,7 +1,7 @@
 #include "analysis/lookup/exact_lookup.hpp"
 
 #include "analysis/metrics/amounts.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/promises.hpp"
 #include "scene/infinity.hpp"
 
 #include <tbb/parallel_for.h>
@@ -43,7 +43,7 @@ public:
         if (lookups_.size() == 0) {
             return {};
         }
-        const methods::FilterPromises& promised = rule_.promises();
+        const methods::Promises& promised = rule_.promises;
         if (promised.compares == methods::Compares::mean_depth) {
             return interpolated();
         }
@@ -59,7 +59,7 @@ public:
         std::vector<NearestQuery> queries;
         std::vector<std::size_t> asked;
         for (std::size_t i = 0; i < critical.size(); ++i) {
-            if (lookups_.hits_of(i)[taps[i]] != nullptr || rule_.promises().interpolates()) {
+            if (lookups_.hits_of(i)[taps[i]] != nullptr || rule_.promises.interpolates()) {
                 queries.push_back(query(i, taps[i]));
                 asked.push_back(i);
             }

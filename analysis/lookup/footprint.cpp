@@ -27,12 +27,10 @@ bool is_on_map(const Texel& texel, int resolution)
 
 Texel Footprint::first_tap(const Vec2f& point) const
 {
-    if (interpolates_) {
-        return {texel_coordinate(point.x - 0.5F, resolution_),
-                texel_coordinate(point.y - 0.5F, resolution_)};
-    }
-    return {texel_coordinate(point.x, resolution_) - width_ / 2,
-            texel_coordinate(point.y, resolution_) - width_ / 2};
+    const float shift = interpolates_ ? 0.5F : 0.0F;
+    const int before = kernel_.width_texels() / 2 + (interpolates_ ? 0 : width_ / 2);
+    return {texel_coordinate(point.x - shift, resolution_) - before,
+            texel_coordinate(point.y - shift, resolution_) - before};
 }
 
 std::vector<Tap> Footprint::taps(const Vec2f& point) const
@@ -48,11 +46,25 @@ void Footprint::append_taps(const Vec2f& point, std::vector<Tap>& taps) const
     visit_taps(point, [&](const Tap& tap) { taps.push_back(tap); });
 }
 
-std::array<double, 2> Footprint::weights(float x)
+Footprint::LineWeights Footprint::weights(float x) const
 {
+    LineWeights line{};
+    if (!interpolates_) {
+        return line;
+    }
     const float shifted = x - 0.5F;
     const double upper{shifted - std::floor(shifted)};
-    return {1 - upper, upper};
+    if (kernel_.weights.empty()) {
+        line[0] = 1 - upper;
+        line[1] = upper;
+        return line;
+    }
+    for (std::size_t i = 0; i < kernel_.weights.size(); ++i) {
+        const double weight{kernel_.weights[i]};
+        line[i] += weight * (1 - upper);
+        line[i + 1] += weight * upper;
+    }
+    return line;
 }
 
 Tap Footprint::tap_at(Texel texel, double weight) const

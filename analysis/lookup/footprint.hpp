@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/vec.hpp"
@@ -23,13 +23,14 @@ struct Tap {
 /// Some of a lookup's taps, in the order of its footprint.
 using TapSet = std::bitset<methods::most_taps>;
 
-/// Which texels a filter reads around a point of the map, exactly as the lookup does.
+/// Which texels a lookup reads around a point of the map, exactly as the method does.
 class Footprint {
 public:
-    Footprint(const scene::LookupSettings& settings, int resolution_texels)
-        : interpolates_{methods::filter_promises(settings.filter).interpolates()},
-          clamps_{settings.outside == scene::Outside::clamp},
-          width_{methods::filter_promises(settings.filter).width_texels},
+    Footprint(const methods::Promises& promises, scene::Outside outside, int resolution_texels)
+        : kernel_{promises.kernel},
+          interpolates_{promises.interpolates()},
+          clamps_{outside == scene::Outside::clamp},
+          width_{promises.width_texels},
           resolution_{resolution_texels}
     {
     }
@@ -37,14 +38,14 @@ public:
     /// Calls `visit(tap)` for the taps of a lookup at `uv·resolution`, row by row from the lower
     /// left.
     ///
-    /// nearest and pcf: of weight 1 each. linear and hardware: from fract(uv·resolution − ½) in
-    /// float32, 1 in all.
+    /// Equal weights are 1 each. Those that interpolate are from fract(uv·resolution − ½) in
+    /// float32, and 1 in all; with a kernel, whose means are interpolated, up to its rounding.
     template <typename Visit>
     void visit_taps(const scene::Vec2f& point, const Visit& visit) const
     {
         const scene::Texel first = first_tap(point);
-        const std::array<double, 2> columns = weights(point.x);
-        const std::array<double, 2> rows = weights(point.y);
+        const LineWeights columns = weights(point.x);
+        const LineWeights rows = weights(point.y);
         for (int y = 0; y < width_; ++y) {
             for (int x = 0; x < width_; ++x) {
                 const double weight = interpolates_ ? columns[static_cast<std::size_t>(x)] *
@@ -76,18 +77,24 @@ public:
     /// else empty.
     [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::Vec2f& point) const;
 
-    /// The texels of the map around the taps: nearest, the 8 around one; linear and hardware, the
-    /// 12 around 2×2; pcfK, the 4K + 4 around K×K; fewer at the map's border.
+    /// The texels of the map around the taps: the 4K + 4 around K × K; fewer at the map's border.
     [[nodiscard]] std::vector<scene::Texel> ring(const scene::Vec2f& point) const;
 
     /// True when the point lies on the map.
     [[nodiscard]] bool is_inside(const scene::Vec2f& point) const;
 
 private:
-    /// The parts of two neighbours' centres in a point between them, the lower one's first.
-    [[nodiscard]] static std::array<double, 2> weights(float x);
+    static constexpr std::size_t most_across = 10;
+    static_assert(most_across * most_across == methods::most_taps);
+    /// Weights along a line of taps; as many as there are taps across.
+    using LineWeights = std::array<double, most_across>;
+
+    /// Of the parts that the kernel around the two nearest texels' centres has in a point between
+    /// them; without interpolation they are not read.
+    [[nodiscard]] LineWeights weights(float x) const;
     [[nodiscard]] Tap tap_at(scene::Texel texel, double weight) const;
 
+    methods::Kernel kernel_;
     bool interpolates_;
     bool clamps_;
     int width_;

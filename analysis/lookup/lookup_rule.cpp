@@ -1,5 +1,7 @@
 #include "analysis/lookup/lookup_rule.hpp"
 
+#include "methods/list.hpp"
+
 #include <algorithm>
 
 namespace gnomon::analysis {
@@ -9,7 +11,7 @@ using scene::Outside;
 
 float LookupRule::outside_depth() const
 {
-    if (promises().interpolates()) {
+    if (promises.interpolates()) {
         return (outside == Outside::shadowed) != reversed ? 0.0F : 1.0F;
     }
     return (outside == Outside::lit) != reversed ? infinity : -infinity;
@@ -31,7 +33,7 @@ bool LookupRule::border_decides(float r, std::span<const Tap> taps) const
 
 LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
 {
-    return {job.lookup.filter, job.lookup.outside, view.frustum.reversed, view.bias.slope};
+    return {methods::promises(job), job.lookup.outside, view.frustum.reversed, view.bias.slope};
 }
 
 } // namespace gnomon::analysis

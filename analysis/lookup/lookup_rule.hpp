@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/lookup/footprint.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/promises.hpp"
 #include "scene/infinity.hpp"
 #include "scene/job/job.hpp"
 #include "scene/view/view.hpp"
@@ -14,15 +14,10 @@ namespace gnomon::analysis {
 /// What a lookup's samples mean, as raster_gl/shaders/lookup.frag does it: the part of a job,
 /// beside the constant bias, that turns depths into verdicts.
 struct LookupRule {
-    scene::Filter filter = scene::Filter::nearest;
+    methods::Promises promises;
     scene::Outside outside = scene::Outside::lit;
     bool reversed = false;
     float slope = 0; ///< depth units per unit of tan θ
-
-    [[nodiscard]] const methods::FilterPromises& promises() const
-    {
-        return methods::filter_promises(filter);
-    }
 
     /// The comparison of a receiver's depth with a map's.
     ///

@@ -11,7 +11,7 @@ using scene::Vec2f;
 StoredTaps::StoredTaps(const scene::Image<float>& map_depths, const LookupRule& rule)
     : map_{map_depths},
       rule_{rule},
-      footprint_{{rule.filter, rule.outside}, map_depths.size().width_px}
+      footprint_{rule.promises, rule.outside, map_depths.size().width_px}
 {
 }
 

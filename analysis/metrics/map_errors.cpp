@@ -49,7 +49,7 @@ CentreHits::CentreHits(const Centres& centres, const FindFirstHits& find)
 CentreHits::Centres CentreHits::find_centres(const CauseInputs& inputs)
 {
     const auto& classes = inputs.truth.pixel_class;
-    const Footprint footprint{inputs.lookup, inputs.resolution_texels};
+    const Footprint footprint = inputs.footprint();
     Centres centres;
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
@@ -65,7 +65,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
                                        scene::DepthFormat format)
 {
     const DepthMapping mapping{frustum.depth_range()};
-    const float farthest = inputs.rule().farthest_depth();
+    const float farthest = inputs.rule.farthest_depth();
     scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
                                  std::numeric_limits<float>::quiet_NaN()};
     const auto& seen = hits.seen();

@@ -51,7 +51,7 @@ struct Metrics {
 [[nodiscard]] ClassCounts count_classes(const scene::TruthLayers& truth);
 
 /// Counts the wrong pixels, and adds up by how much verdicts differ from the truth.
-/// @param taps  `FilterPromises::equal_taps` of the lookup: the verdicts are multiples of 1/taps
+/// @param taps  `Promises::equal_taps` of the lookup: the verdicts are multiples of 1/taps
 ///              and their errors are added as integers; 0: as doubles.
 /// @throws std::invalid_argument  if the layers differ in size.
 /// @throws std::domain_error      if a scored pixel's verdict is not in [0, 1].

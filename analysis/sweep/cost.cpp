@@ -48,6 +48,8 @@ double estimate_seconds(const SweepStep& step, const CurveRequest& request)
         return pixels * 250e-9;
     case StepKind::draw_shadow_map:
         return 0.005 + texels * 3e-9;
+    case StepKind::prefilter:
+        return 0.005 + texels * 20e-9;
     case StepKind::look_up:
         return pixels * 40e-9;
     case StepKind::answer:

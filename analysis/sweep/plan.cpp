@@ -34,6 +34,8 @@ struct Place {
     std::size_t frustum = 0;
     std::size_t texels = 0; ///< the map but for its depth format: what exact rays see is kept
     std::size_t map = 0;
+    std::size_t filtered = 0;
+    bool is_filtered = false; ///< whether anything is made of the map
     std::size_t truth = 0;
     std::size_t receivers = 0;
     std::size_t lookup = 0;
@@ -42,7 +44,7 @@ struct Place {
 
     [[nodiscard]] auto order() const
     {
-        return std::tie(scene, light, group, frustum, texels, map, truth, lookup, curve);
+        return std::tie(scene, light, group, frustum, texels, map, filtered, truth, lookup, curve);
     }
 };
 
@@ -53,6 +55,7 @@ std::vector<Place> places(std::span<const CurveRequest> requests, std::size_t sl
     Numbers frusta;
     Numbers texels;
     Numbers maps;
+    Numbers filtered;
     Numbers truths;
     Numbers receivers;
     Numbers lookups;
@@ -63,8 +66,8 @@ std::vector<Place> places(std::span<const CurveRequest> requests, std::size_t sl
         const std::size_t camera = truths_by_light[keys.light].of(keys.truth);
         all.push_back({scenes.of(keys.scene), lights.of(keys.light), camera / slots,
                        frusta.of(keys.frustum), texels.of(keys.texels), maps.of(keys.map),
-                       truths.of(keys.truth), receivers.of(keys.receivers), lookups.of(keys.lookup),
-                       i, camera % slots});
+                       filtered.of(keys.filtered), !keys.filtered.empty(), truths.of(keys.truth),
+                       receivers.of(keys.receivers), lookups.of(keys.lookup), i, camera % slots});
     }
     std::sort(all.begin(), all.end(),
               [](const Place& a, const Place& b) { return a.order() < b.order(); });
@@ -96,8 +99,14 @@ public:
         if (needs_map) {
             add(Kind::draw_shadow_map, place);
             map_ = place.map;
+            filtered_ = nothing;
         }
-        if (lookup_ != place.lookup || needs_map || needs_receivers) {
+        const bool needs_filter = place.is_filtered && filtered_ != place.filtered;
+        if (needs_filter) {
+            add(Kind::prefilter, place);
+            filtered_ = place.filtered;
+        }
+        if (lookup_ != place.lookup || needs_map || needs_filter || needs_receivers) {
             add(Kind::look_up, place);
             lookup_ = place.lookup;
         }
@@ -118,6 +127,7 @@ private:
     std::vector<SweepStep> steps_;
     std::size_t scene_ = nothing;
     std::size_t map_ = nothing;
+    std::size_t filtered_ = nothing;
     std::size_t lookup_ = nothing;
     std::vector<std::size_t> truth_;
     std::vector<std::size_t> receivers_;
@@ -139,7 +149,7 @@ SweepPlan make_plan(std::span<const CurveRequest> requests, std::size_t slots)
 
 PlanCounts SweepPlan::counts(std::span<const CurveRequest> requests) const
 {
-    std::array<std::uint64_t, 6> by_kind{};
+    std::array<std::uint64_t, 7> by_kind{};
     PlanCounts counts;
     for (const SweepStep& step : steps) {
         ++by_kind[static_cast<std::size_t>(step.kind)];
@@ -152,6 +162,7 @@ PlanCounts SweepPlan::counts(std::span<const CurveRequest> requests) const
     counts.truths = of(Kind::find_truth);
     counts.receiver_passes = of(Kind::draw_receivers);
     counts.shadow_maps = of(Kind::draw_shadow_map);
+    counts.prefilters = of(Kind::prefilter);
     counts.lookup_passes = of(Kind::look_up);
     counts.curves = of(Kind::answer);
     return counts;

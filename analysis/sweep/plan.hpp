@@ -25,6 +25,7 @@ struct SweepStep {
         draw_receivers,  ///< GL, into a slot
         find_truth,      ///< of the receivers in a slot
         draw_shadow_map, ///< GL; the map drawn last is the one looked up
+        prefilter,       ///< GL: what a method makes of the map drawn last
         look_up,         ///< GL: the receivers of a slot in the map
         answer,          ///< the curve, and the configurations on it
     };
@@ -42,6 +43,7 @@ struct PlanCounts {
     std::uint64_t truths = 0;
     std::uint64_t receiver_passes = 0;
     std::uint64_t shadow_maps = 0;
+    std::uint64_t prefilters = 0; ///< of maps of which a method makes something
     std::uint64_t lookup_passes = 0;
     std::uint64_t curves = 0;
 

@@ -6,7 +6,7 @@
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/lookup_stage.hpp"
 #include "analysis/sweep/stage_result.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
@@ -108,6 +108,8 @@ private:
             return find_truth(step.slot);
         case Kind::draw_shadow_map:
             return draw_shadow_map();
+        case Kind::prefilter:
+            return prefilter();
         case Kind::look_up:
             return look_up(step.slot);
         case Kind::answer:
@@ -187,10 +189,20 @@ private:
         });
     }
 
+    void prefilter()
+    {
+        ++counts_.prefilters;
+        map_ = run_stage<bool>([&] {
+            static_cast<void>(require_result(map_));
+            renderers().prefilter_map(task_.job, FilteredContent::of_method);
+            return std::make_shared<bool>(true);
+        });
+    }
+
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
     void make_room_for_depths()
     {
-        if (!methods::filter_promises(task_.job.lookup.filter).has_one_tap() &&
+        if (!methods::promises(task_.job).has_one_tap() &&
             task_.job.shadow_map.resolution_texels > 4096) {
             lookup_ = {};
             finish_lanes();
@@ -226,14 +238,13 @@ private:
     /// Whether every bias is looked up and compared by itself.
     [[nodiscard]] bool is_compared() const
     {
-        return hooks_.keep_pixels || !methods::filter_promises(task_.job.lookup.filter).has_curve();
+        return hooks_.keep_pixels || !methods::promises(task_.job).has_curve();
     }
 
     /// Whether GL is asked again for what a curve says, or to verify it.
     [[nodiscard]] bool asks_gl() const
     {
-        return hooks_.verifies_biases ||
-               !methods::filter_promises(task_.job.lookup.filter).has_formula();
+        return hooks_.verifies_biases || !methods::promises(task_.job).has_formula();
     }
 
     void answer(std::size_t slot)
@@ -355,7 +366,7 @@ private:
     void remember_curve(const CurveName& name, const Comparison& comparison)
     {
         if (comparison.diagnosis && comparison.diagnosis->biases &&
-            !methods::filter_promises(task_.job.lookup.filter).has_formula()) {
+            !methods::promises(task_.job).has_formula()) {
             known_.emplace(name,
                            KnownCurve{comparison.diagnosis->curve, *comparison.diagnosis->biases});
         }

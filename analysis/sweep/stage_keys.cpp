@@ -1,6 +1,6 @@
 #include "analysis/sweep/stage_keys.hpp"
 
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 #include "scene/job/file.hpp"
 
 #include <map>
@@ -30,6 +30,12 @@ const std::map<std::string, scene::Stages, std::less<>>& stages_by_key()
     return stages;
 }
 
+/// Whether a key of the stage *lookup* says what is made of the depths there, not where they are.
+bool is_of_method(std::string_view key)
+{
+    return key == "lookup.filter" || key.starts_with("method.");
+}
+
 /// The job's keys, sorted by the first stage that each decides.
 struct Parts {
     std::string scene;
@@ -38,7 +44,9 @@ struct Parts {
     std::string frustum;
     std::string map; ///< but the format
     std::string format;
-    std::string lookup;
+    std::string filtered; ///< what is made of the map
+    std::string place;    ///< of the lookup in the map
+    std::string verdict;  ///< what is made of what is looked up
     std::string slope;
     std::string constant;
 
@@ -56,8 +64,11 @@ struct Parts {
         if (has(stages, Stage::shadow_map)) {
             return key == "shadow_map.depth_format" ? format : map;
         }
+        if (has(stages, Stage::prefilter)) {
+            return filtered;
+        }
         if (has(stages, Stage::lookup)) {
-            return lookup;
+            return is_of_method(key) ? verdict : place;
         }
         return key == "bias.slope" ? slope : constant;
     }
@@ -91,8 +102,10 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.receivers = is_of_pixel ? keys.truth : placed; // world positions serve every light matrix
     keys.texels = keys.frustum + parts.map;
     keys.map = keys.texels + parts.format;
-    keys.exact = placed + parts.map + parts.lookup;
-    keys.lookup = keys.exact + parts.format;
+    const bool is_filtered = !methods::passes(job).prefilter.empty();
+    keys.filtered = is_filtered ? keys.map + parts.filtered : std::string{};
+    keys.exact = placed + parts.map + parts.place;
+    keys.lookup = keys.exact + parts.format + parts.filtered + parts.verdict;
     keys.lookup += looks_up_every_bias ? bias : std::string{};
     keys.curve = keys.lookup + parts.slope;
     return keys;
@@ -102,7 +115,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
 
 StageKeys stage_keys(const scene::Job& job)
 {
-    return keys_of(job, !methods::filter_promises(job.lookup.filter).has_curve());
+    return keys_of(job, !methods::promises(job).has_curve());
 }
 
 StageKeys stage_keys_with_bias(const scene::Job& job)

@@ -18,7 +18,10 @@ struct StageKeys {
         receivers;      ///< camera, image and, with lookup.position = "vertex", the light's matrix
     std::string texels; ///< the map but for its depth format
     std::string map;
-    std::string exact; ///< what exact rays say of a lookup: everything but the depth format
+    std::string filtered; ///< what the method makes of the map; empty: nothing
+    /// What exact rays say of a lookup: everything but the depth format, and what the method and
+    /// its filter make of the depths.
+    std::string exact;
     std::string lookup;
     std::string curve; ///< everything but the constant bias; without a curve that too
 };

@@ -1,7 +1,7 @@
 #include "analysis/sweep/sweep_curves.hpp"
 
 #include "analysis/sweep/configuration_id.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys.hpp"
@@ -22,14 +22,14 @@ namespace {
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
                      const JobParameters& parameters)
 {
-    const bool has_curve = methods::filter_promises(job.lookup.filter).has_curve();
+    const bool has_curve = methods::promises(job).has_curve();
     return configuration_id(version, scene_name, parameters, !has_curve);
 }
 
 /// The constant bias that a job has but for the sweep's axes.
-std::string job_bias_text(const scene::BiasSettings& own, scene::Filter filter)
+std::string job_bias_text(const scene::BiasSettings& own, const scene::Job& job)
 {
-    if (!methods::filter_promises(filter).has_curve()) {
+    if (!methods::promises(job).has_curve()) {
         return {};
     }
     return own.constant_m ? fmt::format("{} m", *own.constant_m) : fmt::format("{}", own.constant);
@@ -74,11 +74,12 @@ void SweepCurves::add_curve_group(std::vector<std::uint64_t> ordinals)
     scene::Job job;
     try {
         job = space_.job(space_.at(ordinals.front()));
+        methods::check(job);
     } catch (const scene::InputError& error) {
         refusals_.push_back({std::move(ordinals), error.what()});
         return;
     }
-    if (!keeps_every_bias_ && methods::filter_promises(job.lookup.filter).has_curve()) {
+    if (!keeps_every_bias_ && methods::promises(job).has_curve()) {
         add_request(job, std::move(ordinals));
         return;
     }
@@ -93,7 +94,7 @@ void SweepCurves::add_request(const scene::Job& job, std::vector<std::uint64_t> 
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
     requests_.push_back({keeps_every_bias_ ? stage_keys_with_bias(job) : stage_keys(job),
                          std::move(ordinals), job.image.pixel_count(), side * side,
-                         !methods::filter_promises(job.lookup.filter).has_formula()});
+                         !methods::promises(job).has_formula()});
 }
 
 scene::Job SweepCurves::job(std::size_t request) const
@@ -158,7 +159,7 @@ void SweepCurves::describe(std::size_t request, const SceneIdentity& scene, cons
     const std::string name = scene_in_ids(scene, space_.given_keys(first));
     configuration.curve = curve_of(version_, name, job, configuration.parameters);
     configuration.case_name = space_.case_name(first);
-    configuration.job_bias = job_bias_text(space_.own_constant_bias(first), job.lookup.filter);
+    configuration.job_bias = job_bias_text(space_.own_constant_bias(first), job);
     for (const std::uint64_t ordinal : ordinals) {
         space_.set_constant_bias(job, space_.at(ordinal));
         replace_constant_bias(configuration.parameters, job);

@@ -1,8 +1,6 @@
 #include "analysis/tune/tune.hpp"
 
 #include "analysis/tune/tune_space.hpp"
-#include "methods/depth/depth_map.hpp"
-#include "methods/depth/filters.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +43,8 @@ public:
           views_{views},
           limits_{limits},
           progress_{progress},
-          frusta_{distinct_frusta()}
+          frusta_{distinct_frusta()},
+          filters_{tuned_filters(job)}
     {
     }
 
@@ -61,9 +60,8 @@ public:
                             limits_.max_resolution_texels));
         }
         for (auto first = sizes.begin(); first != sizes.end() && !is_done();) {
-            const auto last = std::find_if(first, sizes.end(), [&](const MapSize& size) {
-                return size.bytes() > first->bytes();
-            });
+            const auto last = std::find_if(
+                first, sizes.end(), [&](const MapSize& size) { return size.bytes > first->bytes; });
             try_sizes({first, last});
             first = last;
         }
@@ -107,9 +105,9 @@ private:
     /// Maps of as many bytes, filters from the fewest taps.
     void try_sizes(std::span<const MapSize> sizes)
     {
-        for (const Filter filter : tuned_filters(job_)) {
-            const int taps = methods::tap_count(filter);
-            if (is_done() && methods::tap_count(result_.best().filter) < taps) {
+        for (const Filter filter : filters_) {
+            const int taps = lookup_cost(with_filter(job_, filter)).taps;
+            if (is_done() && result_.best().cost.taps < taps) {
                 return;
             }
             if (is_costly(filter)) {
@@ -117,8 +115,7 @@ private:
                 continue;
             }
             for (const MapSize& size : sizes) {
-                const bool is_first = filter == Filter::nearest;
-                if (is_first || !is_hopeless(size)) {
+                if (is_first(filter) || !is_hopeless(size)) {
                     try_size(size, filter);
                 }
             }
@@ -136,7 +133,7 @@ private:
             const TunedSetting* best = nullptr;
             for (const TunedSetting& setting : result_.considered) {
                 const bool is_of_size = setting.map.resolution_texels == size.resolution_texels &&
-                                        methods::map_bytes(setting.map) == size.bytes();
+                                        setting.cost.map_bytes == size.bytes;
                 if (is_of_size && !is_costly(setting.filter) &&
                     (best == nullptr || is_better(setting, *best))) {
                     best = &setting;
@@ -147,10 +144,12 @@ private:
     }
 
     /// Each setting of such a filter costs as much as a hundred others.
-    static bool is_costly(Filter filter)
+    [[nodiscard]] bool is_costly(Filter filter) const
     {
-        return methods::filter_promises(filter).has_fractions();
+        return !is_first(filter) && methods::promises(with_filter(job_, filter)).has_fractions();
     }
+    /// Whether it is the filter of the fewest taps: what it finds tells whether others are tried.
+    [[nodiscard]] bool is_first(Filter filter) const { return filter == filters_.front(); }
     [[nodiscard]] bool is_far_from_limits(const TunedSetting& setting) const
     {
         return times_above(setting.bias.outcomes.front(), limits_) > hopeless_factor;
@@ -172,7 +171,7 @@ private:
             result_.considered.begin() + static_cast<std::ptrdiff_t>(first),
             result_.considered.end(),
             [](const TunedSetting& a, const TunedSetting& b) { return is_better(a, b); });
-        if (filter == Filter::nearest && is_far_from_limits(*best)) {
+        if (is_first(filter) && is_far_from_limits(*best)) {
             if (!is_hopeless(size)) {
                 result_.hopeless.push_back(size);
             }
@@ -188,7 +187,9 @@ private:
     void try_map(const scene::ShadowMapSettings& map, Filter filter)
     {
         for (const double normal_texels : normal_offsets(job_, filter)) {
-            TunedSetting setting{map, filter, 0, normal_texels, {}};
+            TunedSetting setting{map, filter, 0, normal_texels, {}, {}, {}};
+            setting.has_filter = !methods::method_of(job_).filters.empty();
+            setting.cost = lookup_cost(tuned_job(job_, setting));
             BiasSearch search{file_, renderers_, views_.turns_light};
             add_view(search, setting, views_.own());
             for (const double slope :
@@ -257,6 +258,7 @@ private:
     const TuneLimits& limits_;
     const std::function<void(const TunedSetting&)>& progress_;
     std::vector<scene::FrustumSettings> frusta_;
+    std::vector<Filter> filters_;
     TuneResult result_;
 };
 
@@ -268,19 +270,14 @@ bool is_better(const TunedSetting& a, const TunedSetting& b)
         return a.meets_limits();
     }
     const auto cost = [](const TunedSetting& setting) {
-        return setting.meets_limits()
-                   ? std::pair{methods::map_bytes(setting.map), methods::tap_count(setting.filter)}
-                   : std::pair{std::uint64_t{0}, 0};
+        return setting.meets_limits() ? setting.cost : LookupCost{};
     };
     const auto order = [&](const TunedSetting& setting) {
         // What fails was not looked at in all views: the job's own tells them apart.
         const ViewOutcome pooled =
             setting.meets_limits() ? setting.pooled() : setting.bias.outcomes.front();
-        return std::tuple{cost(setting),
-                          pooled.error_rate().value_or(0),
-                          pooled.metrics.error_rate.value_or(0),
-                          methods::map_bytes(setting.map),
-                          methods::tap_count(setting.filter),
+        return std::tuple{cost(setting), pooled.error_rate().value_or(0),
+                          pooled.metrics.error_rate.value_or(0), setting.cost,
                           -setting.bias.run.width()};
     };
     return order(a) < order(b);

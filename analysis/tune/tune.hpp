@@ -2,6 +2,7 @@
 
 #include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/lookup_cost.hpp"
 #include "analysis/advice/tune_limits.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/renderers.hpp"
@@ -19,6 +20,8 @@ struct TunedSetting {
     scene::Filter filter = scene::Filter::nearest;
     double slope = 0;
     double normal_texels = 0;
+    LookupCost cost;
+    bool has_filter = true; ///< else the job's method has none, and `filter` says nothing
     FoundBias bias; ///< its outcomes are of the job's own view alone where that fails the limits
 
     [[nodiscard]] bool meets_limits() const { return bias.meets_limits; }

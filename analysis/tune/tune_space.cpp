@@ -1,8 +1,7 @@
 #include "analysis/tune/tune_space.hpp"
 
 #include "analysis/bias/slope_curves.hpp"
-#include "methods/depth/depth_map.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 
 #include <fmt/format.h>
 
@@ -50,20 +49,15 @@ std::vector<DepthFormat> formats(const Job& job)
 
 } // namespace
 
-std::uint64_t MapSize::bytes() const
-{
-    scene::ShadowMapSettings map;
-    map.resolution_texels = resolution_texels;
-    map.depth_format = format;
-    return methods::map_bytes(map);
-}
-
 std::vector<MapSize> map_sizes(const Job& job, const TuneLimits& limits)
 {
     std::vector<MapSize> sizes;
     for (const int resolution : resolutions(job, limits)) {
         for (const DepthFormat format : formats(job)) {
-            sizes.push_back({resolution, format});
+            Job sized = job;
+            sized.shadow_map.resolution_texels = resolution;
+            sized.shadow_map.depth_format = format;
+            sizes.push_back({resolution, format, methods::promises(sized).map_bytes});
         }
     }
     std::ranges::stable_sort(sizes, {}, &MapSize::bytes);
@@ -100,18 +94,23 @@ std::vector<scene::Cull> other_culls(const Job& job)
 
 std::vector<Filter> tuned_filters(const Job& job)
 {
+    if (methods::method_of(job).filters.empty()) {
+        return {job.lookup.filter};
+    }
     std::vector<Filter> filters{Filter::nearest, Filter::linear, Filter::pcf3, Filter::pcf5};
     if (std::ranges::find(filters, job.lookup.filter) == filters.end()) {
         filters.push_back(job.lookup.filter);
     }
-    std::ranges::stable_sort(filters, {}, &methods::tap_count);
+    std::ranges::stable_sort(filters, {}, [&](Filter filter) {
+        return methods::promises(with_filter(job, filter)).tap_count();
+    });
     return filters;
 }
 
 std::vector<double> normal_offsets(const Job& job, Filter filter)
 {
     std::set<double> tried{0.0, 1.0, job.bias.normal_texels};
-    if (!methods::filter_promises(filter).has_fractions()) {
+    if (!methods::promises(with_filter(job, filter)).has_fractions()) {
         tried.insert(2.0);
     }
     return {tried.begin(), tried.end()};
@@ -122,16 +121,24 @@ std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrus
 {
     // A spot's at the geometric mean of near and far.
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
-    const double depth = depth_per_footprint(frustum, resolution_texels, filter, light_distance_m);
+    const methods::Promises promises = methods::promises(with_filter(job, filter));
+    const double depth =
+        depth_per_footprint(frustum, resolution_texels, promises.width_texels, light_distance_m);
     std::set<double> tried{0.0, job.bias.slope};
     for (const float slope : default_slopes(depth)) {
         const bool is_the_unit = slope == static_cast<float>(depth);
-        if (!methods::filter_promises(filter).has_fractions() || is_the_unit) {
+        if (!promises.has_fractions() || is_the_unit) {
             // Printed with few digits, and then exactly what is recommended.
             tried.insert(std::stod(fmt::format("{:.4g}", slope)));
         }
     }
     return {tried.begin(), tried.end()};
+}
+
+Job with_filter(Job job, Filter filter)
+{
+    job.lookup.filter = filter;
+    return job;
 }
 
 } // namespace gnomon::analysis

@@ -13,7 +13,8 @@ struct MapSize {
     int resolution_texels = 0;
     scene::DepthFormat format;
 
-    [[nodiscard]] std::uint64_t bytes() const;
+    std::uint64_t bytes = 0; ///< that the job's method takes for it
+
     friend bool operator==(const MapSize&, const MapSize&) = default;
 };
 /// Powers of two from 256 up and the job's own, in d16, d24, d32f and the job's own format: from
@@ -27,7 +28,8 @@ struct MapSize {
 /// The kinds of culling other than the job's.
 [[nodiscard]] std::vector<scene::Cull> other_culls(const scene::Job& job);
 
-/// nearest, linear, pcf3, pcf5 and the job's own; by ascending taps.
+/// nearest, linear, pcf3, pcf5 and the job's own, by ascending taps; the job's own alone where its
+/// method has none.
 [[nodiscard]] std::vector<scene::Filter> tuned_filters(const scene::Job& job);
 
 /// Normal offsets to try [texels], and slopes for a map [depth units per unit of tan θ]; ascending,
@@ -36,5 +38,8 @@ struct MapSize {
 [[nodiscard]] std::vector<double> normal_offsets(const scene::Job& job, scene::Filter filter);
 [[nodiscard]] std::vector<double> slopes(const scene::Job& job, scene::Filter filter,
                                          const scene::LightFrustum& frustum, int resolution_texels);
+
+/// The job with this filter in place of its own.
+[[nodiscard]] scene::Job with_filter(scene::Job job, scene::Filter filter);
 
 } // namespace gnomon::analysis

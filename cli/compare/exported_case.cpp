@@ -3,7 +3,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "cli/compare/kept_pixels.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/list.hpp"
 #include "scene/view/view.hpp"
 #include "store/case/case_write.hpp"
 
@@ -18,8 +18,8 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
                              scene::resolve_light(job, defaults),
                              {},
                              {}};
-    renderers.draw_shadow_map(job, comparison.view);
-    if (!methods::filter_promises(job.lookup.filter).has_one_tap()) {
+    renderers.draw_map(job, comparison.view);
+    if (!methods::promises(job).has_one_tap()) {
         extras.map_depths = renderers.read_map_depths();
     }
     if (!analysis::can_derive_unbiased(job, comparison.view)) {

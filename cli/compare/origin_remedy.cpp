@@ -1,6 +1,6 @@
 #include "cli/compare/origin_remedy.hpp"
 
-#include "methods/depth/depth_map.hpp"
+#include "analysis/advice/lookup_cost.hpp"
 #include "scene/moved_scene.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +28,7 @@ void advise_origin(analysis::Comparison& comparison, const ComparisonSession& se
           there.metrics.amounts,
           there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0},
          there.metrics.error_rate,
-         methods::map_bytes(comparison.job.shadow_map),
-         methods::tap_count(comparison.job.lookup.filter),
+         analysis::lookup_cost(comparison.job),
          analysis::MeasuredBy::rerun});
 }
 

@@ -1,5 +1,6 @@
 #include "cli/compare/renderers.hpp"
 
+#include "methods/list.hpp"
 #include "raster_gl/clip_positions.hpp"
 #include "reference_rt/light/exact_light.hpp"
 
@@ -12,6 +13,7 @@ GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleS
       box_{triangles.bounds()},
       scene_{context, triangles},
       shadow_map_pass_{context, raster_gl::UnormCodes::dropped},
+      prefilter_pass_{context},
       lookup_pass_{context}
 {
     select_receivers(0);
@@ -42,18 +44,50 @@ std::vector<scene::Vec4f> GlRenderer::receiver_clip_positions(const scene::View&
 void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
 {
     shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, job.shadow_map);
+    filtered_ = nullptr;
+}
+
+void GlRenderer::prefilter_map(const scene::Job& job, analysis::FilteredContent content)
+{
+    using raster_gl::FilteredFormats;
+    const methods::Passes passes = methods::passes(job);
+    filtered_ = &prefilter_pass_.render(*shadow_map_, passes,
+                                        content == analysis::FilteredContent::float32
+                                            ? FilteredFormats::float32
+                                            : FilteredFormats::of_method);
 }
 
 scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View& view)
 {
-    lookup_pass_.render(scene_, drawn_receivers(), *shadow_map_, job.lookup, view);
+    lookup_pass_.render(looked_up(), job, view);
     return lookup_pass_.read();
 }
 
 scene::Image<float> GlRenderer::find_critical_biases(const scene::Job& job, const scene::View& view)
 {
-    return lookup_pass_.find_critical_biases(scene_, drawn_receivers(), *shadow_map_, job.lookup,
-                                             view);
+    return lookup_pass_.find_critical_biases(looked_up(), job, view);
+}
+
+std::vector<scene::Image<float>>
+GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View& view,
+                                       const analysis::ExactDepths& depths,
+                                       std::span<const float> lit_from)
+{
+    shadow_map_ = &shadow_map_pass_.store(depths.map, view.frustum.reversed);
+    prefilter_map(job, analysis::FilteredContent::float32);
+    scene::View unbiased = view;
+    unbiased.bias = {};
+    std::vector<scene::Image<float>> criticals;
+    for (const float least : lit_from) {
+        criticals.push_back(lookup_pass_.find_critical_biases(looked_up(), job, unbiased,
+                                                              {least, &depths.receivers}));
+    }
+    return criticals;
+}
+
+raster_gl::LookedUp GlRenderer::looked_up() const
+{
+    return {scene_, drawn_receivers(), *shadow_map_, filtered_};
 }
 
 const raster_gl::ReceiverBuffer& GlRenderer::drawn_receivers() const
@@ -76,6 +110,8 @@ scene::Image<float> GlRenderer::read_map_depths() const
 void GlRenderer::forget_shadow_map()
 {
     shadow_map_ = nullptr;
+    filtered_ = nullptr;
+    prefilter_pass_.forget();
     shadow_map_pass_.forget();
 }
 
@@ -85,6 +121,7 @@ scene::Image<float> GlRenderer::read_float_depths(const scene::Job& job, const s
     scene::ShadowMapSettings floats = job.shadow_map;
     floats.depth_format = {scene::DepthFormat::Kind::d32f, 32};
     shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, floats, rows);
+    filtered_ = nullptr;
     return raster_gl::read_shader_depths(context_, *shadow_map_, rows);
 }
 
@@ -98,11 +135,19 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     renderers.draw_shadow_map = [&gl](const scene::Job& job, const scene::View& view) {
         gl.draw_shadow_map(job, view);
     };
+    renderers.prefilter_map = [&gl](const scene::Job& job, analysis::FilteredContent content) {
+        gl.prefilter_map(job, content);
+    };
     renderers.look_up = [&gl](const scene::Job& job, const scene::View& view) {
         return gl.look_up(job, view);
     };
     renderers.find_critical_biases = [&gl](const scene::Job& job, const scene::View& view) {
         return gl.find_critical_biases(job, view);
+    };
+    renderers.find_exact_critical_biases = [&gl](const scene::Job& job, const scene::View& view,
+                                                 const analysis::ExactDepths& depths,
+                                                 std::span<const float> lit_from) {
+        return gl.find_exact_critical_biases(job, view, depths, lit_from);
     };
     renderers.find_truth = [&gl, &reference, subpixel_bits = facts.subpixel_bits, options](
                                const scene::View& view, const scene::ReceiverLayers& receivers) {

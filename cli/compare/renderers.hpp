@@ -4,12 +4,14 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/lookup.hpp"
+#include "raster_gl/prefilter.hpp"
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "reference_rt/truth.hpp"
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace gnomon::cli {
@@ -26,11 +28,19 @@ public:
     /// The clip positions that GL gave the vertices when it drew the receivers.
     [[nodiscard]] std::vector<scene::Vec4f> receiver_clip_positions(const scene::View& view) const;
     void draw_shadow_map(const scene::Job& job, const scene::View& view);
+    /// Makes of the last shadow map what the job's method looks up.
+    void prefilter_map(const scene::Job& job, analysis::FilteredContent content);
     /// Looks the selected receivers up in the last shadow map.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
     /// The smallest constant bias with which each of them is lit, found by trying.
     [[nodiscard]] scene::Image<float> find_critical_biases(const scene::Job& job,
                                                            const scene::View& view);
+    /// The same in a map of exact depths, which takes the last one's place, and of exact receivers:
+    /// an image for each of `lit_from`.
+    [[nodiscard]] std::vector<scene::Image<float>>
+    find_exact_critical_biases(const scene::Job& job, const scene::View& view,
+                               const analysis::ExactDepths& depths,
+                               std::span<const float> lit_from);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
     /// Gives the last shadow map's memory back: it is to be drawn again before it is asked.
@@ -43,6 +53,8 @@ private:
     /// The selected ones.
     /// @throws std::invalid_argument  if they, or the map, were not drawn.
     [[nodiscard]] const raster_gl::ReceiverBuffer& drawn_receivers() const;
+    /// The selected ones, and what they are looked up in.
+    [[nodiscard]] raster_gl::LookedUp looked_up() const;
 
     struct Receivers {
         std::unique_ptr<raster_gl::ReceiverPass> pass;
@@ -55,8 +67,10 @@ private:
     std::vector<Receivers> receivers_; ///< by slot
     std::size_t slot_ = 0;
     raster_gl::ShadowMapPass shadow_map_pass_;
+    raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
     const raster_gl::ShadowMap* shadow_map_ = nullptr;
+    const raster_gl::Texture* filtered_ = nullptr; ///< made of it; nullptr until then
 };
 
 /// Both renderers as the callables that `analysis::compare` takes; the arguments must outlive it.

@@ -57,11 +57,13 @@ std::string counts_text(const analysis::PlanCounts& counts)
     const auto passes = [](std::uint64_t count, std::string_view kind) {
         return fmt::format("{} {} pass{}", reports::grouped(count), kind, count == 1 ? "" : "es");
     };
+    const std::string prefilters =
+        counts.prefilters > 0 ? passes(counts.prefilters, "prefilter") + ", " : std::string{};
     return fmt::format(
-        "{}, {}, {}, {}, {}, {}", reports::counted(counts.scenes, "scene"),
+        "{}, {}, {}, {}, {}{}, {}", reports::counted(counts.scenes, "scene"),
         reports::counted(counts.truths, "truth"), passes(counts.receiver_passes, "receiver"),
-        reports::counted(counts.shadow_maps, "shadow map"), passes(counts.lookup_passes, "lookup"),
-        reports::counted(counts.curves, "bias curve"));
+        reports::counted(counts.shadow_maps, "shadow map"), prefilters,
+        passes(counts.lookup_passes, "lookup"), reports::counted(counts.curves, "bias curve"));
 }
 
 std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summary)
@@ -93,6 +95,7 @@ std::string plan_json(const SweepSummary& summary)
                                         {"truths", counts.truths},
                                         {"receiver_passes", counts.receiver_passes},
                                         {"shadow_maps", counts.shadow_maps},
+                                        {"prefilters", counts.prefilters},
                                         {"lookup_passes", counts.lookup_passes},
                                         {"bias_curves", counts.curves}}},
                                       {"estimated_seconds", summary.estimated_seconds},

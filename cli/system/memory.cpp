@@ -1,6 +1,7 @@
 #include "cli/system/memory.hpp"
 
 #include "cli/system/control_group.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,8 @@ constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
 // class, reason and witness 6, P 12 and one layer in flight 16 in memory.
 constexpr std::uint64_t bytes_per_pixel = 64 + 54;
 
-/// Depth formats take up to 4 bytes a texel; of u-formats, too, lookups need the depth alone.
+/// Depth formats take up to 4 bytes a texel; of u-formats, too, lookups need the depth alone. What
+/// a method makes of the map comes on top.
 constexpr std::uint64_t bytes_per_texel = 4;
 
 /// MemAvailable of the machine [bytes].
@@ -121,7 +123,8 @@ std::uint64_t available_memory_bytes()
 std::uint64_t needed_memory_bytes(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
-    return job.image.pixel_count() * bytes_per_pixel + side * side * bytes_per_texel;
+    return job.image.pixel_count() * bytes_per_pixel +
+           std::max(side * side * bytes_per_texel, methods::promises(job).map_bytes);
 }
 
 void require_memory(const scene::Job& job)

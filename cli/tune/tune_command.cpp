@@ -6,7 +6,6 @@
 #include "cli/job_options.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/advice_options.hpp"
-#include "methods/depth/depth_map.hpp"
 #include "reports/tables/tune_report.hpp"
 #include "scene/error.hpp"
 
@@ -59,7 +58,7 @@ public:
 
     void tell(const analysis::TunedSetting& setting)
     {
-        const std::uint64_t bytes = methods::map_bytes(setting.map);
+        const std::uint64_t bytes = setting.cost.map_bytes;
         const bool is_new = bytes != bytes_;
         bytes_ = bytes;
         if (!options_.quiet && (options_.verbose || is_new)) {

@@ -17,9 +17,14 @@ constexpr auto depth_tables = std::to_array<std::string_view>({"shadow_map", "lo
 
 Promises depth_promises(const scene::Job& job)
 {
-    const FilterPromises& filter = filter_promises(job.lookup.filter);
-    return {filter.has_fractions() ? Verdict::fraction : Verdict::binary, filter.compares,
-            filter.rises, filter.curve, true};
+    Promises promises = filter_promises(job.lookup.filter);
+    promises.map_bytes = map_bytes(job.shadow_map);
+    return promises;
+}
+
+Passes depth_passes(const scene::Job& job)
+{
+    return filter_passes(job.lookup.filter);
 }
 
 /// Bytes of a texel: a whole number of GL's smallest formats; u-formats as if GL had them.
@@ -38,21 +43,17 @@ Method depth_map()
             .sources = depth_sources,
             .page = "docs/methods/depth.md",
             .key_tables = depth_tables,
+            .keys = {},
             .filters = filters(),
             .bias_terms = bias_terms(),
             .promises = depth_promises,
-            .map_bytes = map_bytes};
+            .passes = depth_passes};
 }
 
 std::uint64_t map_bytes(const scene::ShadowMapSettings& map)
 {
     const auto side = static_cast<std::uint64_t>(map.resolution_texels);
     return side * side * texel_bytes(map.depth_format);
-}
-
-int tap_count(scene::Filter filter)
-{
-    return static_cast<int>(filter_promises(filter).tap_count());
 }
 
 } // namespace gnomon::methods

@@ -1,5 +1,7 @@
 #include "methods/depth/filters.hpp"
 
+#include "methods/glsl.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -10,23 +12,52 @@ using scene::Filter;
 
 constexpr Rises always{Rise::exactly, 0};
 
+/// A filter, described.
+struct FilterRow {
+    FilterChoice choice;
+    Promises promises;
+    Sampling sampling = Sampling::fetched;
+    std::string_view glsl; ///< a name for `glsl_source`
+};
+
 /// The mean of comparisons with width × width texels, fetched one by one.
-constexpr FilterPromises mean_of_comparisons(Filter filter, int width_texels,
-                                             std::string_view sentence)
+constexpr FilterRow mean_of_comparisons(Filter filter, int width_texels, std::string_view sentence)
 {
-    return {filter,  width_texels,      Compares::each_tap, Weights::equal,
-            always,  Curve::by_formula, Sampling::fetched,  "mean_of_comparisons.glsl",
-            sentence};
+    return {{filter, sentence},
+            {.verdict = width_texels > 1 ? Verdict::fraction : Verdict::binary,
+             .compares = Compares::each_tap,
+             .rises = always,
+             .curve = Curve::by_formula,
+             .width_texels = width_texels,
+             .weights = Weights::equal,
+             .kernel = {}},
+            Sampling::fetched,
+            "mean_of_comparisons.glsl"};
 }
 
-constexpr auto filter_table = std::to_array<FilterPromises>({
+constexpr auto filter_table = std::to_array<FilterRow>({
     mean_of_comparisons(Filter::nearest, 1, "compares with the texel that holds the receiver"),
-    {Filter::linear, 2, Compares::mean_depth, Weights::bilinear, always, Curve::by_formula,
-     Sampling::interpolated, "interpolated_depth.glsl",
-     "interpolates the depths of 2 × 2 texels, and compares once"},
-    {Filter::hardware, 2, Compares::each_tap, Weights::bilinear_of_gl, always, Curve::by_bisection,
-     Sampling::compared, "compared_by_gl.glsl",
-     "GL's own filter: compares with 2 × 2 texels, and interpolates the answers"},
+    {{Filter::linear, "interpolates the depths of 2 × 2 texels, and compares once"},
+     {.verdict = Verdict::binary,
+      .compares = Compares::mean_depth,
+      .rises = always,
+      .curve = Curve::by_formula,
+      .width_texels = 2,
+      .weights = Weights::bilinear,
+      .kernel = {}},
+     Sampling::interpolated,
+     "interpolated_depth.glsl"},
+    {{Filter::hardware,
+      "GL's own filter: compares with 2 × 2 texels, and interpolates the answers"},
+     {.verdict = Verdict::fraction,
+      .compares = Compares::each_tap,
+      .rises = always,
+      .curve = Curve::by_bisection,
+      .width_texels = 2,
+      .weights = Weights::bilinear_of_gl,
+      .kernel = {}},
+     Sampling::compared,
+     "compared_by_gl.glsl"},
     mean_of_comparisons(Filter::pcf3, 3, "the mean of the comparisons with 3 × 3 texels"),
     mean_of_comparisons(Filter::pcf5, 5, "the mean of the comparisons with 5 × 5 texels"),
     mean_of_comparisons(Filter::pcf7, 7, "the mean of the comparisons with 7 × 7 texels"),
@@ -37,26 +68,44 @@ constexpr auto filter_table = std::to_array<FilterPromises>({
 constexpr bool follows_enumerators()
 {
     for (std::size_t i = 0; i < filter_table.size(); ++i) {
-        if (filter_table[i].filter != static_cast<Filter>(i)) {
+        if (filter_table[i].choice.filter != static_cast<Filter>(i)) {
             return false;
         }
     }
     return filter_table.size() == scene::filter_count;
 }
 static_assert(follows_enumerators(), "each filter needs its row, in the order of the enumerators");
-static_assert(std::ranges::max(filter_table, {}, &FilterPromises::tap_count).tap_count() ==
-              most_taps);
+static_assert(std::ranges::all_of(filter_table, [](const FilterRow& row) {
+    return row.promises.tap_count() <= most_taps;
+}));
+
+constexpr auto choice_table = [] {
+    std::array<FilterChoice, filter_table.size()> choices;
+    std::ranges::transform(filter_table, choices.begin(), &FilterRow::choice);
+    return choices;
+}();
+
+const FilterRow& row_of(Filter filter)
+{
+    return filter_table.at(static_cast<std::size_t>(filter));
+}
 
 } // namespace
 
-std::span<const FilterPromises> filters()
+std::span<const FilterChoice> filters()
 {
-    return filter_table;
+    return choice_table;
 }
 
-const FilterPromises& filter_promises(Filter filter)
+const Promises& filter_promises(Filter filter)
 {
-    return filter_table.at(static_cast<std::size_t>(filter));
+    return row_of(filter).promises;
+}
+
+Passes filter_passes(Filter filter)
+{
+    const FilterRow& row = row_of(filter);
+    return {{}, {glsl_source(row.glsl)}, row.sampling};
 }
 
 } // namespace gnomon::methods

@@ -1,18 +1,21 @@
 #pragma once
 
-#include "methods/filter_promises.hpp"
+#include "methods/method.hpp"
+#include "methods/passes.hpp"
+#include "methods/promises.hpp"
+#include "scene/filter.hpp"
 
-#include <cstddef>
 #include <span>
 
 namespace gnomon::methods {
 
 /// All filters, in the order of their enumerators.
-[[nodiscard]] std::span<const FilterPromises> filters();
+[[nodiscard]] std::span<const FilterChoice> filters();
 
-[[nodiscard]] const FilterPromises& filter_promises(scene::Filter filter);
+/// What a filter promises of lookups in a map of depths, whose memory is left 0.
+[[nodiscard]] const Promises& filter_promises(scene::Filter filter);
 
-/// No filter has more taps than this.
-inline constexpr std::size_t most_taps = 81;
+/// What GL is to do for a filter.
+[[nodiscard]] Passes filter_passes(scene::Filter filter);
 
 } // namespace gnomon::methods

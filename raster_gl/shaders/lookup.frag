@@ -2,21 +2,28 @@
 //
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
-// INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL and BISECTS are
-// defined by the program that compiles this. Where no formula tells of other biases, BISECTS finds
-// the smallest bias with which the very same verdict is at least one half: it rises with the bias.
+// KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL,
+// BISECTS and DEPTH_IS_GIVEN are defined by the program that compiles this. Where no formula tells of
+// other biases, BISECTS finds the smallest bias with which the very same verdict is at least
+// `lit_from`: it rises with the bias.
 #if BISECTS
+uniform float lit_from;
 layout(location = 0) out float critical_out; // −∞: lit with every bias; +∞: with none
+#if DEPTH_IS_GIVEN
+layout(binding = 7) uniform sampler2D receiver_depth;
+#endif
 #else
 layout(location = 0) out vec4 sample_out; // r, d, tan θ, verdict
 layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lower left
 #endif
 
-// Is the whole 2 × 2 footprint of a linear lookup beyond the map?
+// Is the whole footprint of an interpolating lookup, the kernels about 2 × 2 texels, beyond the map?
 bool footprint_is_outside(vec2 texel)
 {
+    const float reach = float(KERNEL_ACROSS / 2);
     vec2 first = floor(texel - 0.5);
-    return any(lessThan(first, vec2(-1.0))) || any(greaterThanEqual(first, vec2(resolution)));
+    return any(lessThan(first, vec2(-1.0 - reach))) ||
+           any(greaterThanEqual(first, vec2(resolution + reach)));
 }
 
 #if BISECTS
@@ -37,7 +44,7 @@ bool is_lit_with(int rank, float r, float slope_term, vec2 uv, vec2 texel)
 {
     precise float bias = bias_of_rank(rank) + slope_term;
     float d;
-    return visibility(r, bias, uv, texel, d) >= 0.5;
+    return visibility(r, bias, uv, texel, d) >= lit_from;
 }
 
 float critical_bias(float r, float slope_term, vec2 uv, vec2 texel)
@@ -79,6 +86,43 @@ void write_border(float r, float tan_theta)
 #endif
 }
 
+// Before any offset.
+vec4 light_clip_of(ivec2 pixel)
+{
+#if POSITION_OF_PIXEL
+    vec3 position = texelFetch(receiver_world_position, pixel, 0).xyz;
+    precise vec4 clip = light_clip_from_world * vec4(position, 1.0);
+    return clip;
+#else
+    return texelFetch(receiver_light_clip, pixel, 0);
+#endif
+}
+
+#if GRADIENTS
+bool shows(ivec2 pixel, uint triangle)
+{
+    return all(greaterThanEqual(pixel, ivec2(0))) &&
+           all(lessThan(pixel, textureSize(receiver_triangle, 0))) &&
+           texelFetch(receiver_triangle, pixel, 0).r == triangle;
+}
+
+vec2 uv_of(ivec2 pixel)
+{
+    vec4 clip = light_clip_of(pixel);
+    return clip.xy / clip.w * 0.5 + 0.5;
+}
+
+// The change of uv to the next pixel, or from the one before, where it shows the same triangle; else
+// 0. Hardware takes differences within squares of 2 × 2 pixels, which depend on where they lie.
+vec2 uv_change(ivec2 pixel, ivec2 towards, uint triangle)
+{
+    if (shows(pixel + towards, triangle)) {
+        return uv_of(pixel + towards) - uv_of(pixel);
+    }
+    return shows(pixel - towards, triangle) ? uv_of(pixel) - uv_of(pixel - towards) : vec2(0.0);
+}
+#endif
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -87,11 +131,10 @@ void main()
     if (triangle == 0xFFFFFFFFu) {
         return;
     }
-#if POSITION_OF_PIXEL
-    vec3 position = texelFetch(receiver_world_position, pixel, 0).xyz;
-    precise vec4 clip = light_clip_from_world * vec4(position, 1.0);
-#else
-    vec4 clip = texelFetch(receiver_light_clip, pixel, 0);
+    vec4 clip = light_clip_of(pixel);
+#if GRADIENTS
+    uv_dx = uv_change(pixel, ivec2(1, 0), triangle);
+    uv_dy = uv_change(pixel, ivec2(0, 1), triangle);
 #endif
     vec3 n = texelFetch(normals, int(triangle)).xyz;
 #if SPOT
@@ -117,6 +160,9 @@ void main()
 #else
     precise float r = ndc.z * 0.5 + 0.5;
     bool beyond_far = !(r <= 1.0);
+#endif
+#if DEPTH_IS_GIVEN
+    r = texelFetch(receiver_depth, pixel, 0).r;
 #endif
     precise float slope_term = bias_slope * tan_theta;
 #if !BISECTS

@@ -1,5 +1,5 @@
 // What a lookup reads, for the filter's visibility(): receivers, the map, one comparison.
-// OUTSIDE_CLAMP, OUTSIDE_VERDICT and REVERSED are defined by the program that compiles this.
+// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED and GRADIENTS are defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
@@ -9,6 +9,7 @@ layout(binding = 2) uniform sampler2D receiver_world_position;
 layout(binding = 3) uniform sampler2D map;              // as the filter samples it
 layout(binding = 4) uniform sampler2DShadow map_compare; // for filters that GL compares
 layout(binding = 5) uniform samplerBuffer normals;       // unit, by triangle
+layout(binding = 6) uniform sampler2D filtered_map;      // what a prefilter made of it
 
 uniform mat4 light_clip_from_world;
 uniform vec3 light; // SPOT: its position, else the unit vector towards it
@@ -16,6 +17,11 @@ uniform float bias_constant;
 uniform float bias_slope;
 uniform float normal_offset; // in metres at ζ = 1 for SPOT, else in metres
 uniform float resolution;    // in texels
+
+#if GRADIENTS
+vec2 uv_dx; // change of uv to the next pixel along a row,
+vec2 uv_dy; // and along a column
+#endif
 
 const float not_a_depth = uintBitsToFloat(0x7FC00000u);
 

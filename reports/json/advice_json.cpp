@@ -53,8 +53,8 @@ store::Json remedy_json(const analysis::Comparison& comparison, const analysis::
 {
     store::Json json{{"toml", remedy_toml(remedy)}, {"keys", remedy.keys}};
     json.update(left_json(remedy.outcome, remedy.error_rate));
-    json["map_bytes"] = remedy.map_bytes;
-    json["taps"] = remedy.taps;
+    json["map_bytes"] = remedy.cost.map_bytes;
+    json["taps"] = remedy.cost.taps;
     json["measured_by"] =
         analysis::measured_by_names.at(static_cast<std::size_t>(remedy.measured_by));
     json["bias"] = remedy.bias ? store::Json(remedy.bias->depth) : store::Json(nullptr);

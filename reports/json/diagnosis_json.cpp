@@ -1,6 +1,7 @@
 #include "reports/json/diagnosis_json.hpp"
 
 #include "analysis/metrics/subset_table.hpp"
+#include "methods/list.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/json/metric_json.hpp"
 #include "reports/words/findings.hpp"
@@ -176,7 +177,8 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
         }
         return;
     }
-    json["cause_arithmetic"] = "exact";
+    json["cause_arithmetic"] =
+        methods::promises(comparison.job).has_exact_causes() ? "exact" : "float32";
     json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
     add_bias_curve(json, *diagnosis);
     json["bias_source"] = diagnosis->biases ? "curve" : "rerun";

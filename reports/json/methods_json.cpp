@@ -44,18 +44,21 @@ store::Json promises_object(const methods::Promises& promises)
             {"rises", methods::name(promises.rises.how)},
             {"largest_fall", falls ? store::Json(promises.rises.largest_fall) : nullptr},
             {"curve", methods::name(promises.curve)},
+            {"footprint_texels", promises.width_texels},
+            {"reads", methods::name(promises.reads)},
+            {"map_bytes", promises.map_bytes},
             {"has_map", promises.has_map}};
 }
 
 store::Json filter_array(const methods::Method& method)
 {
     store::Json json = store::Json::array();
-    for (const methods::FilterPromises& filter : method.filters) {
-        json.push_back(
-            {{"name", scene::filter_name(filter.filter)},
-             {"sentence", filter.sentence},
-             {"width_texels", filter.width_texels},
-             {"promises", promises_object(methods::promises_with(method, filter.filter))}});
+    for (const methods::FilterChoice& filter : method.filters) {
+        const methods::Promises promises = methods::promises_with(method, filter.filter);
+        json.push_back({{"name", scene::filter_name(filter.filter)},
+                        {"sentence", filter.sentence},
+                        {"width_texels", promises.width_texels},
+                        {"promises", promises_object(promises)}});
     }
     return json;
 }

@@ -55,7 +55,8 @@ double constant_bias_of(const store::Json& detail)
 
 PixelRules::PixelRules(const store::Json& detail)
     : frustum(frustum_of(detail)), // braces would make a list of it
-      filter{setting_of<std::string>(detail, "lookup.filter", "nearest")},
+      filter{detail.at("job").value("lookup.filter",
+                                    std::string{detail.contains("evaluate") ? "nearest" : ""})},
       slope{setting_of<double>(detail, "bias.slope", 0)},
       outside{setting_of<std::string>(detail, "lookup.outside", "lit")},
       bias{constant_bias_of(detail)},

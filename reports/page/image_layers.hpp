@@ -28,7 +28,7 @@ struct PixelRules {
     }
 
     store::Json frustum;
-    std::string filter;
+    std::string filter; ///< empty: the method has none
     double slope;
     std::string outside;
     double bias;         ///< constant, in depth units

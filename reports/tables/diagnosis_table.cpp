@@ -215,8 +215,8 @@ std::string remedies(const analysis::Comparison& comparison)
         text += count_line(fmt::format("{}", i + 1), grouped(remedy.outcome.errors.total()),
                            share(remedy.outcome.error_amount()),
                            fmt::format("{}: {}, {}, by {}", remedy_keys(remedy),
-                                       mebibytes(remedy.map_bytes),
-                                       counted(static_cast<std::uint64_t>(remedy.taps), "tap"),
+                                       mebibytes(remedy.cost.map_bytes),
+                                       counted(static_cast<std::uint64_t>(remedy.cost.taps), "tap"),
                                        shown_name(analysis::measured_by_names.at(
                                            static_cast<std::size_t>(remedy.measured_by)))));
     }

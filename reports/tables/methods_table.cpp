@@ -70,15 +70,18 @@ void add_promises(Row& row, const methods::Promises& promises)
 std::string promises_columns(const methods::Method& method)
 {
     if (method.filters.empty()) {
-        std::vector<Row> rows{{"verdict", "compares", "rises", "curve"}, {}};
-        add_promises(rows.back(), method.promises(scene::Job{}));
+        const methods::Promises promises = method.promises(scene::Job{});
+        std::vector<Row> rows{{"texels", "verdict", "compares", "rises", "curve"},
+                              {fmt::format("{0} × {0}", promises.width_texels)}};
+        add_promises(rows.back(), promises);
         return aligned(rows);
     }
     std::vector<Row> rows{{"filter", "texels", "verdict", "compares", "rises", "curve", ""}};
-    for (const methods::FilterPromises& filter : method.filters) {
+    for (const methods::FilterChoice& filter : method.filters) {
+        const methods::Promises promises = methods::promises_with(method, filter.filter);
         Row row{std::string{scene::filter_name(filter.filter)},
-                fmt::format("{0} × {0}", filter.width_texels)};
-        add_promises(row, methods::promises_with(method, filter.filter));
+                fmt::format("{0} × {0}", promises.width_texels)};
+        add_promises(row, promises);
         row.emplace_back(filter.sentence);
         rows.push_back(std::move(row));
     }

@@ -1,7 +1,6 @@
 #include "reports/tables/tune_report.hpp"
 
 #include "analysis/advice/fit_setting.hpp"
-#include "methods/depth/depth_map.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/tables/graphics_api_states.hpp"
 #include "reports/words/findings.hpp"
@@ -45,18 +44,25 @@ store::Json setting_json(const TunedSetting& setting)
         {"shadow_map.near", plane_json(setting.map.frustum.near_m)},
         {"shadow_map.far", plane_json(setting.map.frustum.far_m)},
         {"shadow_map.cull", scene::cull_name(setting.map.cull)},
-        {"lookup.filter", scene::filter_name(setting.filter)},
+        {"lookup.filter", setting.has_filter ? store::Json(scene::filter_name(setting.filter))
+                                             : store::Json(nullptr)},
         {"bias.constant", setting.bias.constant()},
         {"bias.slope", setting.slope},
         {"bias.normal_texels", setting.normal_texels},
-        {"map_bytes", methods::map_bytes(setting.map)},
-        {"taps", methods::tap_count(setting.filter)}};
+        {"map_bytes", setting.cost.map_bytes},
+        {"taps", setting.cost.taps}};
     json.update(outcome_json(setting.pooled()));
     json["best_interval"] = {run.lo,
                              std::isfinite(run.hi) ? store::Json(run.hi) : store::Json(nullptr)};
     json["views"] = setting.bias.outcomes.size();
     json["meets_limits"] = setting.meets_limits();
     return json;
+}
+
+/// "–" where the method has no filter.
+std::string_view filter_text(const TunedSetting& setting)
+{
+    return setting.has_filter ? scene::filter_name(setting.filter) : "–";
 }
 
 /// Maps that differ only in slope, offset and bias share a line: the best of them.
@@ -109,10 +115,10 @@ std::string table_line(const TunedSetting& setting)
                        "{}\n",
                        map_name(setting), scene::fit_name(setting.map.frustum.fit),
                        range(setting.map.frustum), scene::cull_name(setting.map.cull),
-                       scene::filter_name(setting.filter),
-                       mebibytes(methods::map_bytes(setting.map)), setting.bias.constant(),
-                       setting.slope, setting.normal_texels, percent(pooled.shadow_rate()),
-                       percent(pooled.light_rate()), setting.meets_limits() ? "met" : "-");
+                       filter_text(setting), mebibytes(setting.cost.map_bytes),
+                       setting.bias.constant(), setting.slope, setting.normal_texels,
+                       percent(pooled.shadow_rate()), percent(pooled.light_rate()),
+                       setting.meets_limits() ? "met" : "-");
 }
 
 std::string table(const TuneResult& result, TuneDetail detail)
@@ -248,26 +254,28 @@ store::Json states_json(const TunedSetting& setting)
 
 std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit)
 {
-    return fmt::format(
-        "[shadow_map]\n"
-        "resolution = {}\n"
-        "depth_format = \"{}\"\n"
-        "{}\n"
-        "near = {}\n"
-        "far = {}\n"
-        "cull = \"{}\"\n"
-        "[lookup]\n"
-        "filter = \"{}\"\n"
-        "[bias]\n"
-        "{}\n"
-        "slope = {}\n"
-        "normal_texels = {}\n",
-        setting.map.resolution_texels, scene::depth_format_name(setting.map.depth_format),
-        analysis::fit_setting(own_fit, setting.map.frustum.fit),
-        plane_text(setting.map.frustum.near_m), plane_text(setting.map.frustum.far_m),
-        scene::cull_name(setting.map.cull), scene::filter_name(setting.filter),
-        setting.bias.pasted.key.substr(std::size("bias.") - 1), setting.slope,
-        setting.normal_texels);
+    return fmt::format("[shadow_map]\n"
+                       "resolution = {}\n"
+                       "depth_format = \"{}\"\n"
+                       "{}\n"
+                       "near = {}\n"
+                       "far = {}\n"
+                       "cull = \"{}\"\n"
+                       "{}"
+                       "[bias]\n"
+                       "{}\n"
+                       "slope = {}\n"
+                       "normal_texels = {}\n",
+                       setting.map.resolution_texels,
+                       scene::depth_format_name(setting.map.depth_format),
+                       analysis::fit_setting(own_fit, setting.map.frustum.fit),
+                       plane_text(setting.map.frustum.near_m),
+                       plane_text(setting.map.frustum.far_m), scene::cull_name(setting.map.cull),
+                       setting.has_filter ? fmt::format("[lookup]\nfilter = \"{}\"\n",
+                                                        scene::filter_name(setting.filter))
+                                          : std::string{},
+                       setting.bias.pasted.key.substr(std::size("bias.") - 1), setting.slope,
+                       setting.normal_texels);
 }
 
 std::string tuned_setting_line(const TunedSetting& setting)
@@ -276,8 +284,8 @@ std::string tuned_setting_line(const TunedSetting& setting)
     return fmt::format("{}, fit {}, cull {}, {}, slope {:.4g}, offset {:.3g}: false shadow {}, "
                        "false lit {}{}",
                        map_name(setting), scene::fit_name(setting.map.frustum.fit),
-                       scene::cull_name(setting.map.cull), scene::filter_name(setting.filter),
-                       setting.slope, setting.normal_texels, percent(pooled.shadow_rate()),
+                       scene::cull_name(setting.map.cull), filter_text(setting), setting.slope,
+                       setting.normal_texels, percent(pooled.shadow_rate()),
                        percent(pooled.light_rate()),
                        setting.meets_limits() ? ", meets the limits" : "");
 }

@@ -1,11 +1,14 @@
 #include "reports/words/description.hpp"
 
+#include "methods/list.hpp"
 #include "reports/words/text.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace gnomon::reports {
 
@@ -53,6 +56,23 @@ std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias
                        plain_zero(bias.normal_texels));
 }
 
+/// The filter, or the method and its settings where it has none.
+std::string lookup_name(const scene::Job& job)
+{
+    const methods::Method& method = methods::method_of(job);
+    if (!method.filters.empty()) {
+        return std::string{scene::filter_name(job.lookup.filter)};
+    }
+    std::string text{method.name};
+    for (const scene::HandedKey& key : method.keys) {
+        const scene::JobValue& value = key.value_of(job);
+        const auto* word = std::get_if<std::string>(&value);
+        text += fmt::format(", {} {}", scene::key_leaf(key.key.name),
+                            word != nullptr ? *word : scene::to_toml(value));
+    }
+    return text;
+}
+
 } // namespace
 
 Description describe(const analysis::Comparison& comparison)
@@ -64,7 +84,7 @@ Description describe(const analysis::Comparison& comparison)
         .light = describe_light(view.light),
         .map = describe_map(job.shadow_map),
         .range = describe_range(view.frustum, job.shadow_map.cull),
-        .lookup = fmt::format("{}, outside {}", scene::filter_name(job.lookup.filter),
+        .lookup = fmt::format("{}, outside {}", lookup_name(job),
                               scene::outside_name(job.lookup.outside)),
         .bias = describe_bias(job.bias, view.bias),
         .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),

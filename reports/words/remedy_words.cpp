@@ -1,7 +1,6 @@
 #include "reports/words/remedy_words.hpp"
 
 #include "analysis/metrics/ratio.hpp"
-#include "methods/depth/depth_map.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -92,8 +91,8 @@ std::string remedy_sentence(const analysis::Comparison& comparison, const analys
         fmt::format("{} leaves {} of the surface wrong, in place of {}", remedy_keys(remedy),
                     of_surface(comparison, remedy.outcome.error_amount()),
                     of_surface(comparison, analysis::error_amount(comparison)));
-    if (remedy.map_bytes != methods::map_bytes(comparison.job.shadow_map)) {
-        text += fmt::format(", with a map of {}", mebibytes(remedy.map_bytes));
+    if (remedy.cost.map_bytes != analysis::lookup_cost(comparison.job).map_bytes) {
+        text += fmt::format(", with a map of {}", mebibytes(remedy.cost.map_bytes));
     }
     return text + price_words(comparison, remedy) + step_words(remedy) + "." +
            views_words(comparison, remedy);

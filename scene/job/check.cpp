@@ -1,7 +1,9 @@
 #include "scene/error.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/job/setting_layers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string_view>
 
@@ -133,6 +135,27 @@ void check_bias(const Settings& settings, KnownLight light)
     }
 }
 
+/// Refuses keys of other methods than the job's.
+void check_method(const Settings& settings)
+{
+    const Setting* chosen = find_setting(settings, "method.name");
+    const std::string name =
+        chosen != nullptr ? std::get<std::string>(chosen->value) : Job{}.method.name;
+    const Setting* filter = find_setting(settings, "lookup.filter");
+    if (filter != nullptr && !has_filters(name)) {
+        refuse(*filter, fmt::format("the method {} has no filter; remove it", name));
+    }
+    for (const auto& [key, setting] : settings) {
+        const HandedKey* handed = find_handed_key(key);
+        if (handed != nullptr && !handed->is_of(name)) {
+            refuse(setting,
+                   fmt::format("is for method.name = \"{}\", and the job's method is \"{}\"; "
+                               "remove it, or set that",
+                               fmt::join(handed->methods, "\" or \""), name));
+        }
+    }
+}
+
 void check_image(const Settings& settings)
 {
     const Setting* width = find_setting(settings, "image.width");
@@ -188,6 +211,7 @@ void check_settings(const Settings& settings, const std::string& source)
     check_fit(settings, light);
     check_planes(settings, light);
     check_bias(settings, light);
+    check_method(settings);
     check_image(settings);
 }
 

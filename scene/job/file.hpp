@@ -18,8 +18,9 @@ enum class Stage : std::uint8_t {
     truth = 1 << 1,      ///< classes
     receivers = 1 << 2,  ///< camera pass; with lookup.position = "vertex" light clip coordinates
     shadow_map = 1 << 3, ///< the map
-    lookup = 1 << 4,     ///< r, d
-    bias = 1 << 5,       ///< verdicts only: answered by the bias curve
+    prefilter = 1 << 4,  ///< what a method makes of the map before it is looked up
+    lookup = 1 << 5,     ///< r, d
+    bias = 1 << 6,       ///< verdicts only: answered by the bias curve
 };
 using Stages = std::uint8_t;
 

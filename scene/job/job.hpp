@@ -2,11 +2,13 @@
 
 #include "scene/filter.hpp"
 #include "scene/image.hpp"
+#include "scene/job/value.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"
 #include "scene/view/camera.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,6 +58,15 @@ enum class LookupPosition : std::uint8_t {
 [[nodiscard]] std::string_view cull_name(Cull cull);
 [[nodiscard]] std::string_view fit_name(Fit fit);
 
+/// The job's `[method]` table: what decides verdicts, and how.
+struct MethodSettings {
+    std::string name = "depth";
+    /// What the job sets of the keys that were handed over (`HandedKey`), by name.
+    std::map<std::string, JobValue, std::less<>> values;
+
+    friend bool operator==(const MethodSettings&, const MethodSettings&) = default;
+};
+
 struct ShadowMapSettings {
     int resolution_texels = 1024; ///< [1, 16384]
     DepthFormat depth_format;
@@ -83,6 +94,7 @@ struct Job {
     std::optional<CameraSettings> camera; ///< empty: from the scene file, else framed
     ImageSize image;
     std::optional<LightSettings> light; ///< empty: from the scene file, else (-0.4, -1, -0.3)
+    MethodSettings method;
     ShadowMapSettings shadow_map;
     LookupSettings lookup;
     BiasSettings bias;

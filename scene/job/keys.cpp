@@ -290,7 +290,7 @@ std::vector<KeySpec> all_key_specs()
 {
     std::vector<KeySpec> specs;
     for (const auto& group : {scene_keys(), parameter_keys(), camera_keys(), image_keys(),
-                              light_keys(), map_key_specs()}) {
+                              light_keys(), method_key_specs(), map_key_specs()}) {
         specs.insert(specs.end(), group.begin(), group.end());
     }
     for (KeySpec& spec : specs) {

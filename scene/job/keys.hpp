@@ -44,6 +44,9 @@ struct KeySpec {
 /// A built-in's parameters, as they stand among the keys: "scene.wall." for "wall".
 [[nodiscard]] std::string parameter_prefix(std::string_view builtin);
 
+/// The rows of `[method]`: its name, and what was handed over.
+[[nodiscard]] std::vector<KeySpec> method_key_specs();
+
 /// The rows of `[shadow_map]`, `[lookup]` and `[bias]`.
 [[nodiscard]] std::vector<KeySpec> map_key_specs();
 

@@ -1,3 +1,4 @@
+#include "scene/job/handed_key.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
@@ -159,14 +160,23 @@ KeySpec constant_m_key()
             .example = "0.01"};
 }
 
+KeySpec filter_key()
+{
+    KeySpec spec = word_key<Filter>(
+        make_key("lookup.filter", "how the map is filtered", "\"nearest\"", only(Stage::lookup)),
+        static_cast<int>(filter_count), filter_name,
+        [](auto& job) -> auto& { return job.lookup.filter; });
+    spec.get = [](const Job& job) -> std::optional<JobValue> {
+        return has_filters(job.method.name) ? held(std::string{filter_name(job.lookup.filter)})
+                                            : std::nullopt;
+    };
+    return spec;
+}
+
 std::vector<KeySpec> lookup_and_bias_keys()
 {
     constexpr double steepest = 1000;
-    return {word_key<Filter>(
-                make_key("lookup.filter", "how the map is filtered", "\"nearest\"",
-                         only(Stage::lookup)),
-                static_cast<int>(filter_count), filter_name,
-                [](auto& job) -> auto& { return job.lookup.filter; }),
+    return {filter_key(),
             word_key<Outside>(
                 make_key("lookup.outside", "the verdict beyond the map's edge or its far plane",
                          "\"lit\"", only(Stage::lookup)),

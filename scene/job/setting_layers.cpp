@@ -1,6 +1,7 @@
 #include "scene/job/setting_layers.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>
@@ -60,6 +61,15 @@ void drop_replaced(Settings& settings, const Setting& setting)
             for (const std::string_view dropped : replacement.drops) {
                 settings.erase(std::string{dropped});
             }
+        }
+    }
+    if (key == "method.name") {
+        std::erase_if(settings, [&](const auto& entry) {
+            const HandedKey* handed = find_handed_key(entry.first);
+            return handed != nullptr && !handed->is_of(*word);
+        });
+        if (!has_filters(*word)) {
+            settings.erase("lookup.filter");
         }
     }
     if (key == "scene.builtin" || key == "scene.file") {

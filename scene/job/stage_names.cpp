@@ -14,6 +14,8 @@ std::string_view stage_name(Stage stage)
         return "receivers";
     case Stage::shadow_map:
         return "shadow_map";
+    case Stage::prefilter:
+        return "prefilter";
     case Stage::lookup:
         return "lookup";
     case Stage::bias:

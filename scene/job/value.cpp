@@ -31,7 +31,8 @@ std::string range_of(const FlagDomain&)
 }
 std::string range_of(const IntegerDomain& domain)
 {
-    return fmt::format("an integer from {} to {}", domain.lower, domain.upper);
+    return fmt::format("an {}integer from {} to {}", domain.step == 2 ? "odd " : "", domain.lower,
+                       domain.upper);
 }
 std::string range_of(const RealDomain& domain)
 {
@@ -68,7 +69,8 @@ std::optional<JobValue> value_in(const FlagDomain&, const TomlNode& node)
 std::optional<JobValue> value_in(const IntegerDomain& domain, const TomlNode& node)
 {
     const auto* integer = std::get_if<std::int64_t>(&node.value);
-    if (integer == nullptr || *integer < domain.lower || *integer > domain.upper) {
+    if (integer == nullptr || *integer < domain.lower || *integer > domain.upper ||
+        (*integer - domain.lower) % domain.step != 0) {
         return std::nullopt;
     }
     return *integer;

@@ -24,6 +24,7 @@ struct FlagDomain {};
 struct IntegerDomain {
     std::int64_t lower = 0;
     std::int64_t upper = 0;
+    std::int64_t step = 1; ///< from one to the next: 1, or 2 for odd numbers
 };
 
 /// Finite numbers from `lower` to `upper`, both included.

@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/one_line.hpp"
 #include "store/case/mesh_glb.hpp"
@@ -133,7 +134,8 @@ std::string name_list(const scene::TriangleScene& scene, bool scene::Object::*ro
     return text;
 }
 
-/// The keys of a job's tables, as `case.toml` has them too.
+/// The keys of a job's tables, as `case.toml` has them too: what made a mask of another renderer is
+/// nobody's method here.
 std::string job_tables(scene::Job job, const CaseExtras& extras)
 {
     job.camera = extras.camera;
@@ -143,7 +145,7 @@ std::string job_tables(scene::Job job, const CaseExtras& extras)
     for (const auto& [key, value] : scene::resolved_keys(job)) {
         const std::size_t dot = key.find('.');
         const std::string table = key.substr(0, dot);
-        if (table == "scene" || table == "image") {
+        if (table == "scene" || table == "image" || table == "method") {
             continue;
         }
         if (table != last_table) {
@@ -167,6 +169,9 @@ std::string case_toml(const analysis::Comparison& comparison, const CaseExtras& 
     text += fmt::format("no_cast = [{}]\n", name_list(scene, &scene::Object::casts));
     text += fmt::format("no_receive = [{}]\n", name_list(scene, &scene::Object::receives));
     text += job_tables(comparison.job, extras);
+    if (!scene::has_filters(comparison.job.method.name)) {
+        text += "\n[channels]\nfractions = true\n";
+    }
     if (!extras.map_depths.empty()) {
         text += fmt::format("\n[map]\nfile = \"{}\"\n", map_file);
     }

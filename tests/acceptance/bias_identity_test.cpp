@@ -158,7 +158,7 @@ void expect_amounts(const AmountsByBias& measured, const scene::Image<scene::Pix
 /// The critical biases that GL finds by trying.
 scene::Image<float> bisected(GlCase& c)
 {
-    return c.lookup_pass.find_critical_biases(c.gpu, *c.receivers, *c.map, c.job.lookup, c.view);
+    return c.lookup_pass.find_critical_biases(c.looked_up(), c.job, c.view);
 }
 
 /// @return  how many receivers have their verdict from the border.
@@ -169,7 +169,7 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     const auto lookup = c.lookup_pass.read();
     const auto depths = read_shader_depths(*shared_context(), *c.map);
     const auto criticals =
-        rule.promises().has_formula()
+        rule.promises.has_formula()
             ? analysis::critical_biases(
                   analysis::deciding_samples(lookup, lookup.texels, depths, rule), rule)
             : bisected(c);
@@ -185,7 +185,7 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     const auto verification = analysis::verify_biases(
         c.job, c.view, triangles, criticals, biases_to_try(seen, is_full_run() ? 1000 : 12),
         lookups_of(c, classes, amounts));
-    if (rule.promises().equal_taps() > 1) {
+    if (rule.promises.equal_taps() > 1) {
         expect_amounts(amounts, classes, {lookup, depths, rule}, label);
     }
     std::uint64_t lit = 0;

@@ -1,6 +1,5 @@
 #include "analysis/tune/tune.hpp"
 #include "compared.hpp"
-#include "methods/depth/depth_map.hpp"
 #include "methods/depth/filters.hpp"
 #include "scene/builtin/scenes.hpp"
 
@@ -112,9 +111,9 @@ TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
     ASSERT_TRUE(result.meets_limits());
     EXPECT_EQ(result.best().filter, scene::Filter::nearest) << "the fewest taps";
     EXPECT_EQ(result.best().map.resolution_texels, 256);
-    EXPECT_EQ(methods::map_bytes(result.best().map), 256U * 256 * 2);
+    EXPECT_EQ(result.best().cost.map_bytes, 256U * 256 * 2);
     for (const analysis::TunedSetting& setting : result.considered) {
-        EXPECT_EQ(methods::map_bytes(setting.map), methods::map_bytes(result.best().map));
+        EXPECT_EQ(setting.cost.map_bytes, result.best().cost.map_bytes);
         EXPECT_GE(setting.pooled().error_rate(), result.best().pooled().error_rate());
     }
 }
@@ -185,7 +184,7 @@ TEST(LongTune, PlacesNearAndFarBeforeItSpendsBytes)
     const Compared compared{std::move(bunny.file)};
     const auto result = tuned(job, compared, {});
     ASSERT_TRUE(result.meets_limits());
-    EXPECT_LE(methods::map_bytes(result.best().map), std::uint64_t{32} << 20);
+    EXPECT_LE(result.best().cost.map_bytes, std::uint64_t{32} << 20);
 }
 
 } // namespace

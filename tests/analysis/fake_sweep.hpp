@@ -179,9 +179,11 @@ inline scene::CaseLayer case_of(const std::string& name, const std::vector<scene
     return {name, scene::layer_from_overrides(keys)};
 }
 
-inline const std::vector<scene::CaseLayer> two_cameras{
-    case_of("left", {{"camera.eye", "[1, 5, 0]"}}),
-    case_of("right", {{"camera.eye", "[2, 6, 0]"}})};
+inline std::vector<scene::CaseLayer> two_cameras()
+{
+    return {case_of("left", {{"camera.eye", "[1, 5, 0]"}}),
+            case_of("right", {{"camera.eye", "[2, 6, 0]"}})};
+}
 
 inline std::string result_text(const Comparison& comparison)
 {

@@ -5,6 +5,7 @@
 #include "analysis/causes/lit_causes.hpp"
 
 #include "fake_light.hpp"
+#include "filter_rule.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,13 +68,16 @@ struct OnePixel {
         return *this;
     }
 
+    [[nodiscard]] LookupRule rule(float slope = 0) const
+    {
+        return rule_of(settings.filter, settings.outside, reversed, slope);
+    }
     [[nodiscard]] PixelCauses causes() const
     {
         const bool has_filter = settings.filter != scene::Filter::nearest;
         PixelCauses found{scene::Image<PixelCause>{{1, 1}},
                           scene::Image<FilterCause>{scene::ImageSize{has_filter ? 1 : 0, 1}}};
-        const CauseInputs inputs{settings, resolution, reversed,   truth,
-                                 lookup,   unbiased,   map_depths, light};
+        const CauseInputs inputs{rule(), resolution, truth, lookup, unbiased, map_depths, light};
         find_lit_causes(inputs, found);
         const bool is_blocked = truth.pixel_class[0] == scene::PixelClass::blocked;
         find_blocked_causes(
@@ -87,9 +91,9 @@ struct OnePixel {
     {
         const PixelCauses pixels = causes();
         const scene::Image<float> verdicts = criticals_of_verdicts(lookup);
-        const LookupRule rule{settings.filter, settings.outside, reversed, bias.slope};
-        const TapCriticals taps{lookup, map_depths, rule};
-        return classify_errors({truth.pixel_class, lookup, verdicts, pixels, rule,
+        const LookupRule rule_of_job = rule(bias.slope);
+        const TapCriticals taps{lookup, map_depths, rule_of_job};
+        return classify_errors({truth.pixel_class, lookup, verdicts, pixels, rule_of_job,
                                 settings.filter == scene::Filter::nearest ? nullptr : &taps, true},
                                bias.constant);
     }

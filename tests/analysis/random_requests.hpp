@@ -38,7 +38,11 @@ inline std::vector<CurveRequest> random_requests(std::mt19937& random)
         keys.receivers = keys.truth + frustum;
         const std::string map = pick(maps, "m");
         keys.map = keys.frustum + map;
-        keys.lookup = keys.receivers + map + pick(2, "k");
+        // One method in three makes nothing of the map.
+        const std::string made = pick(3, "p");
+        const bool is_filtered = !made.starts_with("p0");
+        keys.filtered = is_filtered ? keys.map + made : std::string{};
+        keys.lookup = keys.receivers + map + made + pick(2, "k");
         keys.curve = keys.lookup + pick(2, "b");
         request.pixels = 1 + random() % 1'000'000;
         request.texels = 1 + random() % 1'000'000;

@@ -143,8 +143,9 @@ TEST(Methods, ListsFiltersBiasTermsAndKeysThatAJobTakes)
     const Ending ending = gnomon({"methods", "--json"});
     expect_done(ending);
     const Json json = Json::parse(ending.out);
-    ASSERT_EQ(json.size(), 1U);
+    ASSERT_EQ(json.size(), 2U);
     EXPECT_EQ(json[0].at("name"), "depth");
+    EXPECT_EQ(json[1].at("name"), "vsm");
     std::set<std::string> filters;
     for (const Json& filter : json[0].at("filters")) {
         filters.insert(filter.at("name"));
@@ -152,9 +153,11 @@ TEST(Methods, ListsFiltersBiasTermsAndKeysThatAJobTakes)
     EXPECT_EQ(filters, (std::set<std::string>{"nearest", "linear", "hardware", "pcf3", "pcf5",
                                               "pcf7", "pcf9"}));
     const std::string job = gnomon({"init"}).out;
-    for (const Json& key : json[0].at("keys")) {
-        const std::string name = key.at("name");
-        EXPECT_THAT(job, HasSubstr(name.substr(name.find('.') + 1) + " = ")) << name;
+    for (const Json& method : json) {
+        for (const Json& key : method.at("keys")) {
+            const std::string name = key.at("name");
+            EXPECT_THAT(job, HasSubstr(name.substr(name.find('.') + 1) + " = ")) << name;
+        }
     }
     const Ending table = gnomon({"methods"});
     expect_done(table);

@@ -1,4 +1,5 @@
 #include "methods/depth/depth_map.hpp"
+#include "methods/depth/filters.hpp"
 #include "methods/list.hpp"
 
 #include <gtest/gtest.h>
@@ -23,9 +24,11 @@ scene::Job job_with(Filter filter)
 
 TEST(Methods, AreListedByName)
 {
-    ASSERT_EQ(methods().size(), 1U);
+    ASSERT_EQ(methods().size(), 2U);
     EXPECT_EQ(methods()[0].name, "depth");
-    EXPECT_EQ(find_method("depth"), methods().data());
+    EXPECT_EQ(methods()[1].name, "vsm");
+    EXPECT_EQ(find_method("depth"), &methods()[0]);
+    EXPECT_EQ(find_method("vsm"), &methods()[1]);
     EXPECT_EQ(find_method("moments"), nullptr);
     EXPECT_EQ(find_method(""), nullptr);
 }
@@ -41,16 +44,29 @@ TEST(Methods, DescribeThemselves)
     }
 }
 
-TEST(Methods, HaveTheKeysOfTheirTablesAndNoOthers)
+TEST(Methods, HaveTheKeysOfTheirTablesAndTheirOwnAndNoOthers)
 {
-    std::set<std::string> keys;
-    for (const scene::JobKey& key : keys_of(methods()[0])) {
-        keys.insert(key.name);
-    }
-    for (const scene::JobKey& key : scene::job_keys()) {
-        const bool is_own = key.name.starts_with("shadow_map.") ||
-                            key.name.starts_with("lookup.") || key.name.starts_with("bias.");
-        EXPECT_EQ(keys.contains(key.name), is_own) << key.name;
+    for (const Method& method : methods()) {
+        SCOPED_TRACE(method.name);
+        std::set<std::string> expected;
+        for (const scene::JobKey& key : scene::job_keys()) {
+            const std::string table = key.name.substr(0, key.name.find('.'));
+            const bool is_of_table =
+                table == "shadow_map" || table == "bias" ||
+                (table == "lookup" && (key.name != "lookup.filter" || method.name == "depth"));
+            if (is_of_table) {
+                expected.insert(key.name);
+            }
+        }
+        for (const scene::HandedKey& own : method.keys) {
+            EXPECT_TRUE(own.key.name.starts_with("method.")) << own.key.name;
+            EXPECT_TRUE(expected.insert(own.key.name).second) << own.key.name;
+        }
+        std::set<std::string> keys;
+        for (const scene::JobKey& key : keys_of(method)) {
+            EXPECT_TRUE(keys.insert(key.name).second) << key.name;
+        }
+        EXPECT_EQ(keys, expected);
     }
     Method none = methods()[0];
     none.key_tables = {};
@@ -59,38 +75,54 @@ TEST(Methods, HaveTheKeysOfTheirTablesAndNoOthers)
 
 TEST(Promises, OfAJobAreThoseOfItsFilter)
 {
-    const Rises exactly{Rise::exactly, 0};
-    const Promises one{Verdict::binary, Compares::each_tap, exactly, Curve::by_formula, true};
-    const Promises mean{Verdict::binary, Compares::mean_depth, exactly, Curve::by_formula, true};
-    const Promises driver{Verdict::fraction, Compares::each_tap, exactly, Curve::by_bisection,
-                          true};
-    const Promises share{Verdict::fraction, Compares::each_tap, exactly, Curve::by_formula, true};
+    const Promises one{.verdict = Verdict::binary,
+                       .compares = Compares::each_tap,
+                       .rises = {Rise::exactly, 0},
+                       .curve = Curve::by_formula,
+                       .width_texels = 1,
+                       .weights = Weights::equal,
+                       .kernel = {},
+                       .map_bytes = 4U << 20U, // 1024² texels of d32f
+                       .has_map = true};
+    Promises mean = one;
+    mean.compares = Compares::mean_depth;
+    mean.width_texels = 2;
+    mean.weights = Weights::bilinear;
+    Promises driver = one;
+    driver.verdict = Verdict::fraction;
+    driver.curve = Curve::by_bisection;
+    driver.width_texels = 2;
+    driver.weights = Weights::bilinear_of_gl;
     EXPECT_EQ(promises(scene::Job{}), one);
     EXPECT_EQ(promises(job_with(Filter::nearest)), one);
     EXPECT_EQ(promises(job_with(Filter::linear)), mean);
     EXPECT_EQ(promises(job_with(Filter::hardware)), driver);
+    Promises share = one;
+    share.verdict = Verdict::fraction;
     for (const Filter filter : {Filter::pcf3, Filter::pcf5, Filter::pcf7, Filter::pcf9}) {
+        share.width_texels += 2;
         EXPECT_EQ(promises(job_with(filter)), share) << scene::filter_name(filter);
     }
 }
 
 TEST(Promises, WithAFilterAreThoseOfAJobThatNamesIt)
 {
-    for (const FilterPromises& filter : methods()[0].filters) {
+    for (const FilterChoice& filter : methods()[0].filters) {
         EXPECT_EQ(promises_with(methods()[0], filter.filter), promises(job_with(filter.filter)));
     }
 }
 
 TEST(MapBytes, AreTwoOrFourATexel)
 {
-    scene::ShadowMapSettings map;
+    scene::Job job;
+    scene::ShadowMapSettings& map = job.shadow_map;
     map.resolution_texels = 512;
     for (const auto& [format, bytes] :
          {std::pair{"d16", 2U}, std::pair{"d24", 4U}, std::pair{"d32", 4U}, std::pair{"d32f", 4U},
           std::pair{"u8", 2U}, std::pair{"u16", 2U}, std::pair{"u17", 4U}, std::pair{"u24", 4U}}) {
         map.depth_format = scene::depth_format_from_name(format).value();
         EXPECT_EQ(map_bytes(map), 512U * 512 * bytes) << format;
-        EXPECT_EQ(methods()[0].map_bytes(map), map_bytes(map)) << format;
+        EXPECT_EQ(promises(job).map_bytes, map_bytes(map)) << format;
     }
 }
 
@@ -105,9 +137,9 @@ TEST(MapBytes, OfTheSmallestAndTheLargestMap)
 
 TEST(TapCount, IsTheTexelsOfTheFootprint)
 {
-    EXPECT_EQ(tap_count(Filter::nearest), 1);
-    EXPECT_EQ(tap_count(Filter::hardware), 4);
-    EXPECT_EQ(tap_count(Filter::pcf9), 81);
+    EXPECT_EQ(filter_promises(Filter::nearest).tap_count(), 1U);
+    EXPECT_EQ(filter_promises(Filter::hardware).tap_count(), 4U);
+    EXPECT_EQ(filter_promises(Filter::pcf9).tap_count(), 81U);
 }
 
 } // namespace

@@ -74,7 +74,12 @@ void GlCase::draw_shadow_map()
 
 void GlCase::look_up()
 {
-    lookup_pass.render(gpu, *receivers, *map, job.lookup, view);
+    lookup_pass.render(looked_up(), job, view);
+}
+
+raster_gl::LookedUp GlCase::looked_up() const
+{
+    return {gpu, *receivers, *map};
 }
 
 void GlCase::draw_all()

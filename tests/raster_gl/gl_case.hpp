@@ -34,6 +34,8 @@ public:
     void draw_shadow_map();
     void look_up();
     void draw_all();
+    /// What `look_up` reads.
+    [[nodiscard]] raster_gl::LookedUp looked_up() const;
 
     scene::Job job;
     scene::SceneFile file;

@@ -88,7 +88,7 @@ analysis::Remedy rerun(const std::string& key, const analysis::ErrorCounts& erro
          {static_cast<double>(errors.false_shadow), static_cast<double>(errors.false_lit), 0, 0},
          0},
         {},
-        std::uint64_t{1024} * 1024 * 4};
+        {std::uint64_t{1024} * 1024 * 4, 1}};
 }
 
 TEST(Findings, AreSilentWithoutADiagnosis)
@@ -203,7 +203,7 @@ TEST(Findings, SayWhatARemedyCosts)
     analysis::Comparison comparison = comparison_of(0, 40);
     set_causes(comparison, analysis::Cause::precision, analysis::Label::leak);
     analysis::Remedy finer = rerun("shadow_map.resolution = 2048", {0, 20});
-    finer.map_bytes = std::uint64_t{2048} * 2048 * 4;
+    finer.cost.map_bytes = std::uint64_t{2048} * 2048 * 4;
     finer.step = {0.34, 0.0012};
     comparison.advice = {finer};
     EXPECT_EQ(findings(comparison)[1],
@@ -281,11 +281,11 @@ TEST(Remedies, RankTheCheapestThatCuresMostBeforeTheBest)
     set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
     comparison.advice = {rerun("large", {0, 0}), rerun("most", {10, 0}), rerun("little", {55, 0}),
                          rerun("taps", {2, 0}), rerun("worse", {61, 0})};
-    comparison.advice[0].map_bytes = 100;
-    comparison.advice[1].map_bytes = 50;
-    comparison.advice[2].map_bytes = 10;
-    comparison.advice[3].map_bytes = 50;
-    comparison.advice[3].taps = 9;
+    comparison.advice[0].cost.map_bytes = 100;
+    comparison.advice[1].cost.map_bytes = 50;
+    comparison.advice[2].cost.map_bytes = 10;
+    comparison.advice[3].cost.map_bytes = 50;
+    comparison.advice[3].cost.taps = 9;
     EXPECT_THAT(ranked_keys(comparison), ElementsAre("most", "taps", "large", "little"));
 }
 

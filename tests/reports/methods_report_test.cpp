@@ -16,11 +16,8 @@ namespace {
 using Json = nlohmann::json;
 using methods::Compares;
 using methods::Curve;
-using methods::FilterPromises;
 using methods::Rise;
-using methods::Sampling;
 using methods::Verdict;
-using methods::Weights;
 using scene::Filter;
 using ::testing::HasSubstr;
 
@@ -28,24 +25,8 @@ constexpr std::array<std::string_view, 1> bias_key{"bias.normal_texels"};
 constexpr std::array<std::string_view, 1> lookup_table{"lookup"};
 constexpr auto made_up_sources = std::to_array<methods::Source>(
     {{"A. Author", 1999, "A title", {}}, {"B. Author", 2001, "Means", "filters"}});
-constexpr auto made_up_filters = std::to_array<FilterPromises>({{Filter::nearest,
-                                                                 1,
-                                                                 Compares::each_tap,
-                                                                 Weights::equal,
-                                                                 {},
-                                                                 Curve::by_formula,
-                                                                 Sampling::fetched,
-                                                                 "mean_of_comparisons.glsl",
-                                                                 "one texel"},
-                                                                {Filter::pcf3,
-                                                                 3,
-                                                                 Compares::each_tap,
-                                                                 Weights::equal,
-                                                                 {},
-                                                                 Curve::by_formula,
-                                                                 Sampling::fetched,
-                                                                 "mean_of_comparisons.glsl",
-                                                                 "nine texels"}});
+constexpr auto made_up_filters = std::to_array<methods::FilterChoice>(
+    {{Filter::nearest, "one texel"}, {Filter::pcf3, "nine texels"}});
 constexpr auto made_up_terms = std::to_array<methods::BiasTerm>(
     {{"offset", bias_key, methods::BiasPlace::lookup_position, "moves P"}});
 
@@ -54,11 +35,13 @@ methods::Promises made_up_promises(const scene::Job& job)
     if (job.lookup.filter == Filter::nearest) {
         return {};
     }
-    return {Verdict::fraction,
-            Compares::none,
-            {Rise::up_to_rounding, 0.125},
-            Curve::by_bisection,
-            false};
+    return {.verdict = Verdict::fraction,
+            .compares = Compares::none,
+            .rises = {Rise::up_to_rounding, 0.125},
+            .curve = Curve::by_bisection,
+            .width_texels = 3,
+            .map_bytes = 4096,
+            .has_map = false};
 }
 
 methods::Method made_up()
@@ -70,8 +53,7 @@ methods::Method made_up()
             .key_tables = lookup_table,
             .filters = made_up_filters,
             .bias_terms = made_up_terms,
-            .promises = made_up_promises,
-            .map_bytes = nullptr};
+            .promises = made_up_promises};
 }
 
 methods::Method without_filters()
@@ -101,14 +83,15 @@ TEST(MethodsJson, SaysWhatIsPromisedWithEachFilter)
 {
     const auto json = Json::parse(methods_json(std::vector{made_up()}));
     const Json with_nearest = Json::parse(R"({"verdict": "binary", "compares": "each_tap",
-        "rises": "exactly", "largest_fall": null, "curve": "by_formula", "has_map": true})");
+        "rises": "exactly", "largest_fall": null, "curve": "by_formula",
+        "footprint_texels": 1, "reads": "footprint", "map_bytes": 0, "has_map": true})");
     EXPECT_EQ(json[0]["promises"], with_nearest);
     ASSERT_EQ(json[0]["filters"].size(), 2U);
     EXPECT_EQ(json[0]["filters"][0]["promises"], with_nearest);
     EXPECT_EQ(json[0]["filters"][1], Json::parse(R"({"name": "pcf3", "sentence": "nine texels",
         "width_texels": 3, "promises": {"verdict": "fraction", "compares": "none",
         "rises": "up_to_rounding", "largest_fall": 0.125, "curve": "by_bisection",
-        "has_map": false}})"));
+        "footprint_texels": 3, "reads": "footprint", "map_bytes": 4096, "has_map": false}})"));
 }
 
 TEST(MethodsJson, TakesUnitsDefaultsAndStagesFromTheKeyTable)
@@ -185,8 +168,8 @@ TEST(MethodsTable, LeavesOutWhatAMethodDoesNotHave)
                      "\n"
                      "  page    made_up.md\n"
                      "\n"
-                     "  verdict  compares  rises    curve\n"
-                     "  binary   each tap  exactly  by formula\n");
+                     "  texels  verdict  compares  rises    curve\n"
+                     "  1 × 1   binary   each tap  exactly  by formula\n");
     EXPECT_EQ(methods_table({}), "");
 }
 
@@ -195,7 +178,7 @@ TEST(MethodsTable, ShowsEveryMethodAndFilterThereIs)
     const std::string table = methods_table(methods::methods());
     for (const methods::Method& method : methods::methods()) {
         EXPECT_THAT(table, HasSubstr(std::string{method.name} + ": "));
-        for (const FilterPromises& filter : method.filters) {
+        for (const methods::FilterChoice& filter : method.filters) {
             EXPECT_THAT(table, HasSubstr(std::string{scene::filter_name(filter.filter)} + " "));
         }
     }

@@ -4,7 +4,7 @@
 #include "analysis/bias/amount_rows.hpp"
 
 #include "analysis/bias/bias_order.hpp"
-#include "methods/depth/filters.hpp"
+#include "filter_rule.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 
@@ -43,7 +43,7 @@ int count_lit_taps(const Taps& taps, std::size_t pixel, float bias)
 {
     const scene::LookupSample& sample = taps.lookup.samples[pixel];
     const LookupRule& rule = taps.rule;
-    const int radius = methods::filter_promises(rule.filter).width_texels / 2;
+    const int radius = rule.promises.width_texels / 2;
     const int side = taps.map.size().width_px;
     const float r = sample.receiver_depth;
     const float whole = bias + rule.slope * sample.tan_theta;
@@ -76,8 +76,8 @@ Taps random_taps(std::mt19937& random)
     Taps taps{scene::Image<PixelClass>{size},
               {scene::Image<scene::LookupSample>{size}, scene::Image<scene::Vec2f>{size}},
               scene::Image<float>{{side, side}},
-              {filters.at(random() % 4), static_cast<Outside>(random() % 3), random() % 2 == 0,
-               slopes.at(random() % 3)}};
+              rule_of(filters.at(random() % 4), static_cast<Outside>(random() % 3),
+                      random() % 2 == 0, slopes.at(random() % 3))};
     for (std::size_t i = 0; i < taps.map.pixel_count(); ++i) {
         taps.map[i] = random_depth(random);
     }
@@ -106,7 +106,7 @@ Taps two_pixels()
               {scene::Image<scene::LookupSample>{{2, 1}, {0.75F, 0.25F, 0, 0}},
                scene::Image<scene::Vec2f>{{2, 1}, {1.5F, 1.5F}}},
               scene::Image<float>{{3, 3}, 0.25F},
-              {Filter::pcf3}};
+              rule_of(Filter::pcf3)};
     taps.classes[0] = PixelClass::lit;
     taps.classes[1] = PixelClass::blocked;
     taps.map(2, 0) = 0.75F;
@@ -150,7 +150,7 @@ TEST(SumAmounts, AgreesWithCountingEachBiasByItself)
         const auto amounts = sum_amounts(taps.classes, criticals_of(taps), biases);
         const auto counts = count_lit_taps(taps.classes, criticals_of(taps), biases);
         ASSERT_EQ(amounts.size(), biases.size());
-        const int all = methods::filter_promises(taps.rule.filter).equal_taps();
+        const int all = taps.rule.promises.equal_taps();
         for (std::size_t i = 0; i < biases.size(); ++i) {
             std::array<int, 2> wrong{};
             std::uint64_t partial = 0;

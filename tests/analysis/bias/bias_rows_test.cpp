@@ -5,6 +5,7 @@
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/bias/bias_order.hpp"
 #include "analysis/metrics/metrics.hpp"
+#include "filter_rule.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 
@@ -154,8 +155,8 @@ Subject random_subject(std::mt19937& random)
 {
     Subject subject{{1 + static_cast<int>(random() % 9), 1 + static_cast<int>(random() % 7)}};
     constexpr std::array<float, 4> slopes{0.0F, 0.0F, 0.0625F, -0.1F};
-    subject.rule = {scene::Filter::nearest, static_cast<Outside>(random() % 3), random() % 2 == 0,
-                    slopes.at(random() % 4)};
+    subject.rule = rule_of(scene::Filter::nearest, static_cast<Outside>(random() % 3),
+                           random() % 2 == 0, slopes.at(random() % 4));
     constexpr std::array<PixelClass, 4> classes{PixelClass::lit, PixelClass::blocked,
                                                 PixelClass::attached, PixelClass::background};
     for (std::size_t i = 0; i < subject.classes.pixel_count(); ++i) {

@@ -54,12 +54,11 @@ TEST(DefaultSlopes, ScaleWithTheFootprintsDepth)
     scene::LightFrustum frustum; // 2 m wide
     frustum.near_m = 1;
     frustum.far_m = 5;
-    EXPECT_EQ(depth_per_footprint(frustum, 16, scene::Filter::nearest, 2), 0.125 / 4);
-    EXPECT_EQ(depth_per_footprint(frustum, 16, scene::Filter::pcf5, 2), 5 * 0.125 / 4);
+    EXPECT_EQ(depth_per_footprint(frustum, 16, 1, 2), 0.125 / 4);
+    EXPECT_EQ(depth_per_footprint(frustum, 16, 5, 2), 5 * 0.125 / 4);
     frustum.projection = scene::Projection::perspective;
     // Texels of ζ/8, depth falling off with 1/(A ζ²), A = 0.8.
-    EXPECT_DOUBLE_EQ(depth_per_footprint(frustum, 16, scene::Filter::nearest, 2),
-                     1 / (8 * 0.8 * 2));
+    EXPECT_DOUBLE_EQ(depth_per_footprint(frustum, 16, 1, 2), 1 / (8 * 0.8 * 2));
 }
 
 TEST(SlopeCurve, EqualsTheCurveOfItsCriticalBiases)

@@ -1,6 +1,7 @@
 #include "analysis/metrics/map_errors.hpp"
 
 #include "fake_light.hpp"
+#include "filter_rule.hpp"
 
 #include <gtest/gtest.h>
 
@@ -45,14 +46,8 @@ struct FourPixels {
 
     [[nodiscard]] scene::Image<float> errors_m() const
     {
-        const CauseInputs inputs{{scene::Filter::nearest, scene::Outside::lit},
-                                 8,
-                                 false,
-                                 truth,
-                                 lookup,
-                                 lookup,
-                                 no_depths,
-                                 light};
+        const CauseInputs inputs{
+            rule_of(scene::Filter::nearest), 8, truth, lookup, lookup, no_depths, light};
         return map_depth_errors_m(inputs, CentreHits{inputs}, orthographic_frustum(),
                                   {scene::DepthFormat::Kind::unorm, 8});
     }

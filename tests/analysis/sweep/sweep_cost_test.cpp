@@ -61,7 +61,7 @@ TEST(SweepCost, GrowsWithTheWork)
     large.texels = 4'000'000;
     large.ordinals.resize(1000);
     for (const Kind kind : {Kind::draw_receivers, Kind::find_truth, Kind::draw_shadow_map,
-                            Kind::look_up, Kind::answer}) {
+                            Kind::prefilter, Kind::look_up, Kind::answer}) {
         const SweepStep step{kind, 0, 0};
         EXPECT_GT(estimate_seconds(step, small), 0) << static_cast<int>(kind);
         EXPECT_GT(estimate_seconds(step, large), estimate_seconds(step, small))

@@ -81,7 +81,7 @@ TEST(SweepRunner, FailsOnlyWhatNeedsAStageThatFailed)
             FakeSweep sweep{{"shadow_map.resolution=4,8", "lookup.outside=lit,clamp",
                              "bias.slope=0,0.25", "bias.constant=0,0.25"},
                             {},
-                            two_cameras};
+                            two_cameras()};
             if (keeps_pixels) {
                 sweep.keep_pixels();
             }

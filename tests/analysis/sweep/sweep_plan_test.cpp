@@ -23,8 +23,11 @@ namespace gnomon::analysis {
 namespace {
 
 using Kind = SweepStep::Kind;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 scene::Job job_with(const std::vector<scene::Override>& overrides)
 {
@@ -42,7 +45,8 @@ std::vector<std::string> changed_by(const scene::Override& change,
         {"scene", &StageKeys::scene},         {"light", &StageKeys::light},
         {"truth", &StageKeys::truth},         {"frustum", &StageKeys::frustum},
         {"receivers", &StageKeys::receivers}, {"map", &StageKeys::map},
-        {"lookup", &StageKeys::lookup},       {"curve", &StageKeys::curve}};
+        {"filtered", &StageKeys::filtered},   {"lookup", &StageKeys::lookup},
+        {"curve", &StageKeys::curve}};
     std::vector<std::string> changed;
     for (const auto& [name, member] : members) {
         if (before.*member != after.*member) {
@@ -131,11 +135,65 @@ TEST(StageKeys, LookEveryBiasUpToKeepPixelsAlone)
 
 TEST(StageKeys, NameEveryKeyExactlyOnce)
 {
-    const scene::Job job = job_with({});
-    const std::string curve = stage_keys_with_bias(job).curve;
-    for (const auto& [key, value] : scene::resolved_keys(job)) {
-        const std::string line = fmt::format("{}={}\n", key, value);
-        EXPECT_NE(curve.find(line), std::string::npos) << line;
+    for (const char* const method : {"depth", "vsm"}) {
+        const scene::Job job = job_with({{"method.name", method}});
+        const std::string curve = stage_keys_with_bias(job).curve;
+        for (const auto& [key, value] : scene::resolved_keys(job)) {
+            const std::string line = fmt::format("{}={}\n", key, value);
+            EXPECT_NE(curve.find(line), std::string::npos) << line;
+        }
+    }
+}
+
+TEST(StageKeys, SayWhatAMethodMakesOfTheMap)
+{
+    const std::vector<scene::Override> vsm{{"method.name", "vsm"}};
+    EXPECT_THAT(changed_by(vsm[0]), ElementsAre("filtered", "lookup", "curve"));
+    for (const scene::Override& pass : {scene::Override{"method.content", "rg16"},
+                                        {"method.kernel", "gaussian"},
+                                        {"method.kernel_width", "3"}}) {
+        EXPECT_THAT(changed_by(pass, vsm), ElementsAre("filtered", "lookup", "curve")) << pass.key;
+    }
+    for (const scene::Override& lookup : {scene::Override{"method.bleeding_reduction", "0.25"},
+                                          {"method.min_variance", "0.5"},
+                                          {"lookup.outside", "clamp"},
+                                          {"bias.normal_texels", "1.5"}}) {
+        EXPECT_THAT(changed_by(lookup, vsm), ElementsAre("lookup", "curve")) << lookup.key;
+    }
+    EXPECT_THAT(changed_by({"shadow_map.depth_format", "d16"}, vsm),
+                ElementsAre("map", "filtered", "lookup", "curve"));
+    EXPECT_THAT(changed_by({"bias.slope", "1.5"}, vsm), ElementsAre("curve"));
+    EXPECT_THAT(changed_by({"bias.constant", "0.5"}, vsm), IsEmpty());
+}
+
+TEST(StageKeys, AreFilteredOnlyWhereAMethodHasPasses)
+{
+    for (const char* const filter : {"nearest", "linear", "hardware", "pcf9"}) {
+        EXPECT_EQ(stage_keys(job_with({{"lookup.filter", filter}})).filtered, "") << filter;
+    }
+    const StageKeys vsm = stage_keys(job_with({{"method.name", "vsm"}}));
+    EXPECT_THAT(vsm.filtered, AllOf(StartsWith(vsm.map), HasSubstr("method.kernel=\"box\"\n")));
+}
+
+TEST(StageKeys, OfAllMethodsAndFiltersShareWhatExactRaysSay)
+{
+    const std::string depth = stage_keys(job_with({})).exact;
+    const std::vector<scene::Override> vsm{{"method.name", "vsm"}};
+    EXPECT_EQ(stage_keys(job_with(vsm)).exact, depth);
+    EXPECT_EQ(stage_keys(job_with({{"lookup.filter", "pcf5"}})).exact, depth);
+    EXPECT_EQ(stage_keys(job_with({vsm[0], {"method.kernel", "gaussian"}})).exact, depth);
+    for (const scene::Override& verdict :
+         {scene::Override{"shadow_map.depth_format", "d16"}, {"bias.slope", "1.5"}}) {
+        EXPECT_EQ(stage_keys(job_with({verdict})).exact, depth) << verdict.key;
+        EXPECT_EQ(stage_keys(job_with({vsm[0], verdict})).exact, depth) << verdict.key;
+    }
+    for (const scene::Override& place : {scene::Override{"shadow_map.resolution", "77"},
+                                         {"lookup.outside", "clamp"},
+                                         {"bias.normal_texels", "1.5"},
+                                         {"camera.eye", "[1, 2, 9]"}}) {
+        const std::string moved = stage_keys(job_with({place})).exact;
+        EXPECT_NE(moved, depth) << place.key;
+        EXPECT_EQ(stage_keys(job_with({vsm[0], place})).exact, moved) << place.key;
     }
 }
 
@@ -181,6 +239,7 @@ TEST(SweepPlan, OfTwoHundredThousandConfigurationsSharesAllItCan)
                                           .truths = 2,
                                           .receiver_passes = 10,
                                           .shadow_maps = 100,
+                                          .prefilters = 0,
                                           .lookup_passes = 200,
                                           .curves = 200}));
 }
@@ -195,14 +254,43 @@ TEST(SweepPlan, OfOneConfigurationRunsEachStageOnce)
     }
     EXPECT_THAT(kinds, ElementsAre(Kind::read_scene, Kind::draw_receivers, Kind::find_truth,
                                    Kind::draw_shadow_map, Kind::look_up, Kind::answer));
-    EXPECT_EQ(planned.counts, (PlanCounts{1, 1, 1, 1, 1, 1, 1}));
+    EXPECT_EQ(planned.counts, (PlanCounts{1, 1, 1, 1, 1, 0, 1, 1}));
 }
 
 TEST(SweepPlan, AnswersSlopesFromOneLookup)
 {
     const scene::SweepSpace space{scene::builtin_job_source("wall", {}),
                                   {"bias.slope=0,1,2", "bias.constant=0,0.5"}};
-    EXPECT_EQ(plan_of(space).counts, (PlanCounts{6, 1, 1, 1, 1, 1, 3}));
+    EXPECT_EQ(plan_of(space).counts, (PlanCounts{6, 1, 1, 1, 1, 0, 1, 3}));
+}
+
+TEST(SweepPlan, PrefiltersOnceForEachMapAndWhatIsMadeOfIt)
+{
+    scene::JobSource source = scene::builtin_job_source("wall", {{"method.name", "vsm"}});
+    for (const char* const eye : {"[0, 2, 6]", "[3, 2, 6]"}) {
+        source.cases.push_back({eye, scene::layer_from_overrides({{"camera.eye", eye}})});
+    }
+    const scene::SweepSpace space{source,
+                                  {"shadow_map.resolution=64,128", "method.kernel=box,gaussian",
+                                   "method.bleeding_reduction=0,0.25", "bias.slope=0,1",
+                                   "bias.constant=0,0.5,1"}};
+    EXPECT_EQ(plan_of(space).counts, (PlanCounts{.configurations = 96,
+                                                 .scenes = 1,
+                                                 .truths = 2,
+                                                 .receiver_passes = 2,
+                                                 .shadow_maps = 2,
+                                                 .prefilters = 4,
+                                                 .lookup_passes = 16,
+                                                 .curves = 32}));
+}
+
+TEST(SweepPlan, DrawsOneMapForAllMethods)
+{
+    for (const char* const methods : {"depth,vsm", "vsm,depth"}) {
+        const scene::SweepSpace space{scene::builtin_job_source("wall", {}),
+                                      {fmt::format("method.name={}", methods)}};
+        EXPECT_EQ(plan_of(space).counts, (PlanCounts{2, 1, 1, 1, 1, 1, 2, 2})) << methods;
+    }
 }
 
 TEST(SweepPlan, OfNothingIsEmpty)
@@ -240,6 +328,7 @@ public:
             std::fill(receivers_.begin(), receivers_.end(), "");
             std::fill(truths_.begin(), truths_.end(), "");
             map_.clear();
+            filtered_.clear();
             lookup_.clear();
             break;
         case Kind::draw_receivers:
@@ -253,18 +342,23 @@ public:
         case Kind::draw_shadow_map:
             EXPECT_EQ(scene_, keys.scene);
             map_ = keys.map;
+            filtered_.clear();
+            break;
+        case Kind::prefilter:
+            EXPECT_EQ(map_, keys.map);
+            filtered_ = keys.filtered;
             break;
         case Kind::look_up:
             EXPECT_EQ(receivers_[step.slot], keys.receivers);
             EXPECT_EQ(truths_[step.slot], keys.truth);
-            EXPECT_EQ(map_, keys.map);
+            expect_map(keys);
             lookup_ = keys.lookup;
             break;
         case Kind::answer:
             EXPECT_EQ(scene_, keys.scene);
             EXPECT_EQ(receivers_[step.slot], keys.receivers);
             EXPECT_EQ(truths_[step.slot], keys.truth);
-            EXPECT_EQ(map_, keys.map);
+            expect_map(keys);
             EXPECT_EQ(lookup_, keys.lookup);
             ++answers_[step.curve];
             break;
@@ -273,11 +367,21 @@ public:
     [[nodiscard]] const std::map<std::size_t, int>& answers() const { return answers_; }
 
 private:
+    /// What a method without passes looks up is the map itself, whatever another made of it.
+    void expect_map(const StageKeys& keys) const
+    {
+        EXPECT_EQ(map_, keys.map);
+        if (!keys.filtered.empty()) {
+            EXPECT_EQ(filtered_, keys.filtered);
+        }
+    }
+
     const std::vector<CurveRequest>& requests_;
     std::string scene_;
     std::vector<std::string> receivers_;
     std::vector<std::string> truths_;
     std::string map_;
+    std::string filtered_; ///< what was made of the map last
     std::string lookup_;
     std::map<std::size_t, int> answers_;
 };
@@ -315,6 +419,14 @@ std::size_t distinct(const std::vector<CurveRequest>& requests, std::string Stag
     return texts.size();
 }
 
+/// How many maps are filtered, and how.
+std::size_t distinct_filtered(const std::vector<CurveRequest>& requests)
+{
+    const bool leaves_some = std::ranges::any_of(
+        requests, [](const CurveRequest& request) { return request.keys.filtered.empty(); });
+    return distinct(requests, &StageKeys::filtered) - (leaves_some ? 1 : 0);
+}
+
 TEST(SweepPlan, RunsEachStageOnceForEachOfItsKeysWhereCamerasFit)
 {
     std::mt19937 random{22};
@@ -326,6 +438,7 @@ TEST(SweepPlan, RunsEachStageOnceForEachOfItsKeysWhereCamerasFit)
         EXPECT_EQ(counts.truths, distinct(requests, &StageKeys::truth));
         EXPECT_EQ(counts.receiver_passes, distinct(requests, &StageKeys::receivers));
         EXPECT_EQ(counts.shadow_maps, distinct(requests, &StageKeys::map));
+        EXPECT_EQ(counts.prefilters, distinct_filtered(requests));
         EXPECT_EQ(counts.lookup_passes, distinct(requests, &StageKeys::lookup));
         EXPECT_EQ(counts.curves, requests.size());
     }
@@ -346,6 +459,7 @@ TEST(SweepPlan, NeverRepeatsATruthWithFewerSlotsThanCameras)
         // One map for each group of `slots` of at most 5 cameras.
         const std::size_t groups = (5 + slots - 1) / slots;
         EXPECT_LE(counts.shadow_maps, groups * distinct(requests, &StageKeys::map));
+        EXPECT_LE(counts.prefilters, groups * distinct_filtered(requests));
     }
 }
 
@@ -366,7 +480,7 @@ TEST(SweepPlan, CountsItsSteps)
         EXPECT_EQ(plan.counts(requests),
                   (PlanCounts{configurations, kinds[Kind::read_scene], kinds[Kind::find_truth],
                               kinds[Kind::draw_receivers], kinds[Kind::draw_shadow_map],
-                              kinds[Kind::look_up], kinds[Kind::answer]}))
+                              kinds[Kind::prefilter], kinds[Kind::look_up], kinds[Kind::answer]}))
             << text_of(requests, 2);
     }
 }

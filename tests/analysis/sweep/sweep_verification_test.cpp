@@ -23,7 +23,7 @@ const std::vector<scene::Override> small_map{{"shadow_map.resolution", "5"}};
 
 TEST(SweepVerification, FindsNoDifferenceWhereGlDoesWhatTheCurveSays)
 {
-    FakeSweep sweep{axes, small_map, two_cameras};
+    FakeSweep sweep{axes, small_map, two_cameras()};
     sweep.hooks.verifies_biases = true;
     EXPECT_EQ(sweep.run(), sweep.planned);
     EXPECT_THAT(sweep.failed, IsEmpty());
@@ -44,8 +44,8 @@ TEST(SweepVerification, FindsNoDifferenceWhereGlDoesWhatTheCurveSays)
 
 TEST(SweepVerification, ChangesNoResult)
 {
-    FakeSweep plain{axes, small_map, two_cameras};
-    FakeSweep verified{axes, small_map, two_cameras};
+    FakeSweep plain{axes, small_map, two_cameras()};
+    FakeSweep verified{axes, small_map, two_cameras()};
     verified.hooks.verifies_biases = true;
     plain.run();
     verified.run();

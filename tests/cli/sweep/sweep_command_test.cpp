@@ -254,6 +254,7 @@ TEST(SweepDryRun, CountsTheWorkAndWritesNothing)
                                      {"truths", 2},
                                      {"receiver_passes", 4},
                                      {"shadow_maps", 12},
+                                     {"prefilters", 0},
                                      {"lookup_passes", 12},
                                      {"bias_curves", 12}}));
     EXPECT_GT(plan.at("estimated_seconds"), 0);

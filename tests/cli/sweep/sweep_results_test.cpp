@@ -105,6 +105,23 @@ TEST(Sweep, GivesWhatCompareGivesWhereTheLookupIsMovedAndBiasesAreBelowZero)
                         12);
 }
 
+TEST(Sweep, GivesWhatCompareGivesForMethodsThatShareAMap)
+{
+    for (const char* const methods : {"\"vsm\", \"depth\"", "\"depth\", \"vsm\""}) {
+        const TemporaryFolder folder;
+        const path job = folder.write(
+            "job.toml", two_lights + fmt::format("[lookup]\nfilter = \"linear\"\n[sweep]\n"
+                                                 "\"method.name\" = [{}]\n"
+                                                 "\"bias.constant\" = [0.02, 0]\n",
+                                                 methods));
+        const path run = folder.path() / "run";
+        const Ending ending =
+            swept(sweep(job, run, {"--no-keep-pixels", "--set", "shadow_map.resolution=24"}));
+        EXPECT_THAT(ending.out, HasSubstr("2 shadow maps, 2 prefilter passes, 4 lookup passes"));
+        expect_rows_compare(job, run, {"shadow_map.resolution", "method.name", "bias.constant"}, 8);
+    }
+}
+
 TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
 {
     const TemporaryFolder folder;

@@ -87,6 +87,7 @@ const std::map<std::string, KeyCases> key_cases{
     {"light.position", beside(vectors, spot)},
     {"light.target", beside(vectors, spot)},
     {"light.cone_deg", beside(angles, spot)},
+    {"method.name", {{"\"depth\""}, {"\"depths\"", "\"\"", "1"}, {}}},
     {"shadow_map.resolution", sides},
     {"shadow_map.depth_format",
      {{"\"d16\"", "\"d24\"", "\"d32\"", "\"d32f\"", "\"u8\"", "\"u13\"", "\"u24\""},
@@ -227,6 +228,7 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
     EXPECT_EQ(stages("bias.slope"), only(Stage::bias));
     EXPECT_EQ(stages("bias.normal_texels"), only(Stage::lookup));
     EXPECT_EQ(stages("lookup.filter"), only(Stage::lookup));
+    EXPECT_EQ(stages("method.name"), Stage::prefilter | Stage::lookup);
     EXPECT_EQ(stages("shadow_map.depth_format"), only(Stage::shadow_map));
     EXPECT_EQ(stages("shadow_map.roll_deg"), Stage::receivers | Stage::shadow_map);
     EXPECT_EQ(stages("camera.eye"), Stage::truth | Stage::receivers | Stage::shadow_map);
@@ -265,8 +267,9 @@ TEST(JobKeys, SpellTheirStages)
 {
     EXPECT_TRUE(stage_names(0).empty());
     EXPECT_EQ(stage_names(only(Stage::scene)), std::vector<std::string_view>{"scene"});
-    EXPECT_EQ(stage_names(0x3F), (std::vector<std::string_view>{"scene", "truth", "receivers",
-                                                                "shadow_map", "lookup", "bias"}));
+    EXPECT_EQ(stage_names(0x7F),
+              (std::vector<std::string_view>{"scene", "truth", "receivers", "shadow_map",
+                                             "prefilter", "lookup", "bias"}));
 }
 
 RC_GTEST_PROP(JobKeys, PrintNumbersThatReadBackAsTheSameBits, ())

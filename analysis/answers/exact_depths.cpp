@@ -1,0 +1,103 @@
+#include "analysis/answers/exact_depths.hpp"
+
+#include "scene/pixel_class.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace gnomon::analysis {
+
+namespace {
+
+constexpr std::uint8_t is_known = 1;
+constexpr std::uint8_t is_wanted = 2;
+
+/// The texels that are wanted and not known yet, in squares of 4 × 4, which traces run through
+/// fastest.
+std::vector<scene::Texel> unknown_texels(const scene::Image<std::uint8_t>& states)
+{
+    const int side = states.size().width_px;
+    std::vector<scene::Texel> texels;
+    for (int y = 0; y < side; y += 4) {
+        for (int x = 0; x < side; x += 4) {
+            for (int i = 0; i < 16; ++i) {
+                const scene::Texel texel{x + i % 4, y + i / 4};
+                if (texel.x < side && texel.y < side && states(texel.x, texel.y) == is_wanted) {
+                    texels.push_back(texel);
+                }
+            }
+        }
+    }
+    return texels;
+}
+
+} // namespace
+
+ExactDepthCache::ExactDepthCache(int resolution_texels, scene::ImageSize image)
+    : map_{{resolution_texels, resolution_texels}, 1.0F},
+      knows_texel_{map_.size()},
+      receivers_{image}
+{
+}
+
+ExactDepths ExactDepthCache::of(const CauseInputs& inputs)
+{
+    want_texels(inputs);
+    trace_texels(inputs.light);
+    if (!knows_receivers_) {
+        find_receivers(inputs);
+    }
+    return {map_, receivers_};
+}
+
+void ExactDepthCache::want_texels(const CauseInputs& inputs)
+{
+    if (inputs.rule.promises.reads == methods::Reads::whole_map) {
+        for (std::size_t i = 0; i < knows_texel_.pixel_count(); ++i) {
+            knows_texel_[i] |= is_wanted;
+        }
+        return;
+    }
+    const Footprint footprint = inputs.footprint();
+    const auto& classes = inputs.truth.pixel_class;
+    const int last = inputs.resolution_texels - 1;
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (!scene::is_scored(classes[i])) {
+            continue;
+        }
+        footprint.visit_taps(inputs.unbiased.texels[i], [&](const Tap& tap) {
+            // Beyond the map's edge a prefilter reads the nearest texel on it.
+            const int x = std::clamp(tap.texel.x, 0, last);
+            const int y = std::clamp(tap.texel.y, 0, last);
+            knows_texel_(x, y) |= is_wanted;
+        });
+    }
+}
+
+void ExactDepthCache::trace_texels(const scene::ExactLight& light)
+{
+    const int last = map_.size().width_px - 1;
+    const std::vector<scene::Texel> texels = unknown_texels(knows_texel_);
+    const std::vector<float> depths = light.texel_depths(texels);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        map_(texels[i].x, last - texels[i].y) = depths[i];
+        knows_texel_(texels[i].x, texels[i].y) |= is_known;
+    }
+}
+
+void ExactDepthCache::find_receivers(const CauseInputs& inputs)
+{
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < receivers_.pixel_count(); ++i) {
+        if (scene::is_scored(inputs.truth.pixel_class[i])) {
+            pixels.push_back(i);
+        }
+    }
+    const std::vector<float> depths = inputs.light.receiver_depths(pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        receivers_[pixels[i]] = depths[i];
+    }
+    knows_receivers_ = true;
+}
+
+} // namespace gnomon::analysis

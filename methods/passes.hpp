@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::methods {
+
+/// How GL is to sample a texture.
+enum class Sampling : std::uint8_t {
+    fetched,      ///< texel by texel
+    interpolated, ///< bilinearly
+    compared,     ///< comparisons of depths with 2 × 2 texels, bilinearly
+};
+
+/// What a texture's texels hold.
+enum class TexelFormat : std::uint8_t { rg16, rg16f, rg32f };
+
+/// Preprocessor definitions that a piece is compiled with.
+struct Definition {
+    std::string name;
+    std::string value;
+};
+
+/// The value of a uniform of a piece: a float, or an array of floats.
+struct Uniform {
+    std::string name;
+    std::vector<float> values;
+};
+
+/// A piece of GLSL, and what it is given.
+struct Piece {
+    std::string_view glsl; ///< its text, which stands for ever
+    std::vector<Definition> definitions = {};
+    std::vector<Uniform> uniforms = {};
+};
+
+/// A pass of the stage *prefilter*: makes a texture as large as the map from the one before it, the
+/// first from the depths that were drawn. Its piece defines
+///
+///     vec4 texel(ivec2 at)
+///
+/// what the texel holds; raster_gl/shaders/prefilter.frag is what it may call.
+struct PrefilterPass {
+    Piece piece;
+    TexelFormat format = TexelFormat::rg32f;
+};
+
+/// What GL is to do for a job, after the casters' depths are drawn. The lookup's piece defines
+///
+///     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
+///
+/// the verdict in [0, 1], and d, the depth looked up; raster_gl/shaders/lookup_map.glsl is what it
+/// may call, and TAPS_ACROSS is `Promises::width_texels`.
+struct Passes {
+    std::vector<PrefilterPass> prefilter;
+    Piece lookup;
+    Sampling sampling = Sampling::fetched; ///< of the last pass's texture, else of the depths
+    bool makes_mipmaps = false;            ///< of the last pass's texture
+    int anisotropy = 1;                    ///< most samples along a pixel's longer side there
+
+    /// Whether the lookup's piece has `uv_dx` and `uv_dy`, the change of uv to the next pixel.
+    [[nodiscard]] bool has_gradients() const { return makes_mipmaps || anisotropy > 1; }
+};
+
+} // namespace gnomon::methods

@@ -1,0 +1,134 @@
+#include "raster_gl/prefilter.hpp"
+
+#include "raster_gl/pieces.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::raster_gl {
+namespace {
+
+using methods::TexelFormat;
+
+/// What GL calls a format, and what its texels hold.
+struct GlTexelFormat {
+    GLenum internal = 0;
+    std::string_view name;
+    GLenum type = 0; ///< of the red component
+    GLint red_bits = 0;
+};
+
+GlTexelFormat gl_format(TexelFormat format, FilteredFormats formats)
+{
+    if (formats == FilteredFormats::float32) {
+        return {GL_RG32F, "rg32f", GL_FLOAT, 32};
+    }
+    switch (format) {
+    case TexelFormat::rg16:
+        return {GL_RG16, "rg16", GL_UNSIGNED_NORMALIZED, 16};
+    case TexelFormat::rg16f:
+        return {GL_RG16F, "rg16f", GL_FLOAT, 16};
+    case TexelFormat::rg32f:
+        return {GL_RG32F, "rg32f", GL_FLOAT, 32};
+    }
+    return {};
+}
+
+/// A driver may give a texture more or fewer bits than it was asked for.
+void require_format(const Texture& texture, const GlTexelFormat& asked)
+{
+    GLint bits = 0;
+    GLint type = 0;
+    glGetTextureLevelParameteriv(texture.name(), 0, GL_TEXTURE_RED_SIZE, &bits);
+    glGetTextureLevelParameteriv(texture.name(), 0, GL_TEXTURE_RED_TYPE, &type);
+    if (bits != asked.red_bits || static_cast<GLenum>(type) != asked.type) {
+        throw scene::InputError(
+            fmt::format("the map's content {}: this driver gives {} bits in its place; choose "
+                        "another content",
+                        asked.name, bits));
+    }
+}
+
+} // namespace
+
+PrefilterPass::PrefilterPass(const Context& context)
+    : context_{context},
+      no_attributes_{make_vertex_array()},
+      target_{make_framebuffer()}
+{
+    context.check("preparing the prefilter");
+}
+
+const Program& PrefilterPass::program(const methods::Piece& piece)
+{
+    const std::string key = program_key(piece);
+    const auto found = programs_.find(key);
+    if (found != programs_.end()) {
+        return found->second;
+    }
+    Definitions definitions;
+    add_definitions(piece, definitions);
+    Program made = make_program({"fullscreen.vert", "prefilter.frag", definitions, nullptr,
+                                 pieces_before_shader("prefilter_source.glsl", piece)});
+    return programs_.emplace(key, std::move(made)).first->second;
+}
+
+void PrefilterPass::draw(const methods::PrefilterPass& pass, const Texture& source,
+                         int resolution_texels, int levels, FilteredFormats formats, Made& made)
+{
+    const GlTexelFormat format = gl_format(pass.format, formats);
+    if (made.format != format.internal || made.resolution_texels != resolution_texels ||
+        made.levels != levels) {
+        made = {}; // the old texture goes before the new one comes
+        made = {make_texture(format.internal, resolution_texels, resolution_texels, levels),
+                format.internal, resolution_texels, levels};
+        require_format(made.texture, format);
+    }
+    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, made.texture.name(), 0);
+    const Program& texel = program(pass.piece);
+    set_uniforms(texel, pass.piece);
+    glBindTextureUnit(0, source.name());
+    glUseProgram(texel.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+const Texture& PrefilterPass::render(const ShadowMap& map, const methods::Passes& passes,
+                                     FilteredFormats formats)
+{
+    if (passes.prefilter.empty()) {
+        forget();
+        return nothing_;
+    }
+    made_.resize(passes.prefilter.size());
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    glViewport(0, 0, map.resolution_texels, map.resolution_texels);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glBindSampler(0, 0);
+    glBindVertexArray(no_attributes_.name());
+    const auto all_levels = std::bit_width(static_cast<unsigned>(map.resolution_texels));
+    const Texture* source = &map.depth;
+    for (std::size_t i = 0; i < made_.size(); ++i) {
+        const bool has_levels = passes.makes_mipmaps && i + 1 == made_.size();
+        draw(passes.prefilter[i], *source, map.resolution_texels,
+             has_levels ? static_cast<int>(all_levels) : 1, formats, made_[i]);
+        source = &made_[i].texture;
+    }
+    if (passes.makes_mipmaps) {
+        glGenerateTextureMipmap(source->name());
+    }
+    glFinish();
+    context_.check(fmt::format("prefiltering a map of {0}×{0} texels", map.resolution_texels));
+    return *source;
+}
+
+void PrefilterPass::forget()
+{
+    made_.clear();
+}
+
+} // namespace gnomon::raster_gl

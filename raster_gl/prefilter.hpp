@@ -1,0 +1,56 @@
+#pragma once
+
+#include "methods/passes.hpp"
+#include "raster_gl/context.hpp"
+#include "raster_gl/gl_object.hpp"
+#include "raster_gl/program.hpp"
+#include "raster_gl/shadow_map.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon::raster_gl {
+
+/// Which formats a prefilter's textures have.
+enum class FilteredFormats : std::uint8_t {
+    of_method, ///< those that the method asks for
+    float32,   ///< 32-bit floats in their place
+};
+
+/// Runs the passes that a method makes of a map before it is looked up.
+class PrefilterPass {
+public:
+    explicit PrefilterPass(const Context& context);
+
+    /// @return  What the last pass made, the object's own; empty without passes. The next call
+    ///          overwrites it.
+    /// @throws scene::InputError        if the driver lacks a format.
+    /// @throws scene::EnvironmentError  if GL fails, memory included.
+    const Texture& render(const ShadowMap& map, const methods::Passes& passes,
+                          FilteredFormats formats = FilteredFormats::of_method);
+    /// Gives the memory back.
+    void forget();
+
+private:
+    const Program& program(const methods::Piece& piece);
+    struct Made {
+        Texture texture;
+        GLenum format = 0;
+        int resolution_texels = 0;
+        int levels = 0;
+    };
+    /// Draws the pass's texture, which is made first where it is not such a one.
+    void draw(const methods::PrefilterPass& pass, const Texture& source, int resolution_texels,
+              int levels, FilteredFormats formats, Made& made);
+
+    const Context& context_;
+    std::map<std::string, Program> programs_;
+    VertexArray no_attributes_;
+    Framebuffer target_;
+    std::vector<Made> made_; ///< by pass
+    Texture nothing_;
+};
+
+} // namespace gnomon::raster_gl

@@ -1,0 +1,114 @@
+#include "scene/job/handed_key.hpp"
+
+#include "scene/job/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::scene {
+namespace {
+
+struct HandedMethods {
+    std::vector<HandedMethod> methods{{Job{}.method.name, true}};
+    std::vector<HandedKey> keys;
+    bool is_read = false;
+};
+
+HandedMethods& handed()
+{
+    static HandedMethods all;
+    return all;
+}
+
+KeySpec name_key(const std::vector<HandedMethod>& methods)
+{
+    WordDomain names;
+    for (const HandedMethod& method : methods) {
+        names.words.push_back(method.name);
+    }
+    return member_key<std::string>(
+        make_key("method.name", "what decides verdicts; `gnomon methods` lists them", "\"depth\"",
+                 Stage::prefilter | Stage::lookup),
+        std::move(names), [](auto& job) -> auto& { return job.method.name; });
+}
+
+KeySpec spec_of(const HandedKey& handed_key)
+{
+    return {.key = handed_key.row(),
+            .domain = handed_key.domain,
+            .set = [name = handed_key.key.name](
+                       Job& job, const JobValue& value) { job.method.values[name] = value; },
+            .get = [handed_key](const Job& job) -> std::optional<JobValue> {
+                return handed_key.is_of(job.method.name) ? std::optional{handed_key.value_of(job)}
+                                                         : std::nullopt;
+            },
+            .example = {}};
+}
+
+} // namespace
+
+bool HandedKey::is_of(std::string_view method) const
+{
+    return std::ranges::find(methods, method) != methods.end();
+}
+
+JobKey HandedKey::row() const
+{
+    JobKey row = key;
+    row.default_text = to_toml(default_value);
+    row.range_text = range_text(domain);
+    return row;
+}
+
+const JobValue& HandedKey::value_of(const Job& job) const
+{
+    const auto found = job.method.values.find(key.name);
+    return found == job.method.values.end() ? default_value : found->second;
+}
+
+void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey> keys)
+{
+    if (handed().is_read) {
+        throw std::logic_error("hand_over_methods: the table of keys was read already");
+    }
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (keys[i].key.name == keys[j].key.name) {
+                throw std::logic_error(
+                    fmt::format("hand_over_methods: {} repeats", keys[i].key.name));
+            }
+        }
+    }
+    handed().methods = std::move(methods);
+    handed().keys = std::move(keys);
+}
+
+std::vector<KeySpec> method_key_specs()
+{
+    HandedMethods& all = handed();
+    all.is_read = true;
+    std::vector<KeySpec> specs{name_key(all.methods)};
+    std::ranges::transform(all.keys, std::back_inserter(specs), spec_of);
+    return specs;
+}
+
+bool has_filters(std::string_view method)
+{
+    const auto& methods = handed().methods;
+    const auto found = std::ranges::find(methods, method, &HandedMethod::name);
+    return found != methods.end() && found->has_filters;
+}
+
+const HandedKey* find_handed_key(std::string_view name)
+{
+    const auto& keys = handed().keys;
+    const auto found =
+        std::ranges::find(keys, name, [](const HandedKey& key) { return key.key.name; });
+    return found == keys.end() ? nullptr : &*found;
+}
+
+} // namespace gnomon::scene

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "scene/job/file.hpp"
+#include "scene/job/value.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A key that a layer above hands to the table of keys: of a shadow method, "method.KEY".
+struct HandedKey {
+    JobKey key; ///< from `make_key`, without its default and range, which follow from what is here
+    Domain domain;
+    JobValue default_value;
+    std::vector<std::string> methods = {}; ///< the names of those that have it
+
+    /// Whether the method of that name has it.
+    [[nodiscard]] bool is_of(std::string_view method) const;
+    /// The row of the key table.
+    [[nodiscard]] JobKey row() const;
+    /// What the job has it at: its own value, or the default.
+    [[nodiscard]] const JobValue& value_of(const Job& job) const;
+};
+
+/// A name that `method.name` takes.
+struct HandedMethod {
+    std::string name;
+    bool has_filters = false; ///< else a job with this method has no lookup.filter
+};
+
+/// Says which methods there are, and what keys beside the scene's own: once, and before the table
+/// of keys is read. Until then there is one method, "depth", and no such key.
+/// @throws std::logic_error  if the table was read already, or keys repeat.
+void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey> keys);
+
+/// Whether jobs of the method of that name have a lookup.filter.
+[[nodiscard]] bool has_filters(std::string_view method);
+
+/// The key that was handed over by that name, or nullptr.
+[[nodiscard]] const HandedKey* find_handed_key(std::string_view name);
+
+} // namespace gnomon::scene

@@ -1,0 +1,276 @@
+// Keys that a layer above hands to the table of keys: here those of made-up methods.
+
+#include "scene/job/handed_key.hpp"
+
+#include "job_fixture.hpp"
+
+#include "scene/job/keys.hpp"
+
+#include <stdexcept>
+
+namespace gnomon::scene::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+HandedKey width_key()
+{
+    return {make_key("method.width", "texels across", "", only(Stage::prefilter), "texels"),
+            IntegerDomain{1, 9, 2},
+            std::int64_t{5},
+            {"vsm", "moments"}};
+}
+HandedKey content_key()
+{
+    return {make_key("method.content", "what is stored", "", only(Stage::prefilter)),
+            WordDomain{.words = {"half", "full"}},
+            std::string{"full"},
+            {"vsm"}};
+}
+HandedKey blur_key()
+{
+    return {make_key("method.blur", "how much", "", only(Stage::lookup)),
+            RealDomain{.lower = 0, .upper = 1},
+            0.25,
+            {"moments"}};
+}
+
+void hand_over(std::vector<HandedKey> keys)
+{
+    hand_over_methods({{"depth", true}, {"vsm", false}, {"moments", true}}, std::move(keys));
+}
+
+/// The message of the std::logic_error that handing the keys over throws, or "no error".
+std::string logic_error_of(std::vector<HandedKey> keys)
+{
+    try {
+        hand_over(std::move(keys));
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+/// Hands the keys over as a program does, before anything reads the table.
+struct HandedOver {
+    std::string refusal_of_repeats = logic_error_of({width_key(), blur_key(), width_key()});
+
+    HandedOver() { hand_over({width_key(), content_key(), blur_key()}); }
+};
+const HandedOver handed_over;
+
+const std::string wall = "scene.builtin = \"wall\"\n";
+
+std::string wall_with(const std::string& method, const std::string& keys = "")
+{
+    return wall + "[method]\nname = \"" + method + "\"\n" + keys;
+}
+
+/// The job's keys of `[method]`, as "name = value".
+std::vector<std::string> method_keys(const Job& job)
+{
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : resolved_keys(job)) {
+        if (key.starts_with("method.")) {
+            keys.push_back(key + " = " + value);
+        }
+    }
+    return keys;
+}
+
+TEST(HandOverMethods, RefusesKeysThatRepeat)
+{
+    EXPECT_EQ(handed_over.refusal_of_repeats, "hand_over_methods: method.width repeats");
+}
+
+TEST(HandOverMethods, IsRefusedOnceTheTableWasRead)
+{
+    ASSERT_FALSE(job_keys().empty());
+    const std::string refused = "hand_over_methods: the table of keys was read already";
+    EXPECT_EQ(logic_error_of({width_key()}), refused);
+    EXPECT_EQ(logic_error_of({}), refused);
+    EXPECT_NE(find_key("method.blur"), nullptr);
+}
+
+TEST(HandedKey, StandsInTheTableBehindTheMethodsName)
+{
+    std::vector<std::string> names;
+    for (const JobKey& key : job_keys()) {
+        if (key.name.starts_with("method.")) {
+            names.push_back(key.name);
+        }
+    }
+    EXPECT_THAT(names, ElementsAre("method.name", "method.width", "method.content", "method.blur"));
+    EXPECT_EQ(find_key("method.name")->key.range_text, "one of depth, vsm, moments");
+    const JobKey& width = find_key("method.width")->key;
+    EXPECT_EQ(width.default_text, "5");
+    EXPECT_EQ(width.range_text, "an odd integer from 1 to 9");
+    EXPECT_EQ(width.stages, only(Stage::prefilter));
+    EXPECT_EQ(width.unit, "texels");
+    EXPECT_EQ(find_key("method.content")->key.default_text, "\"full\"");
+    EXPECT_EQ(find_key("method.blur")->key.default_text, "0.25");
+}
+
+TEST(HandedKey, IsFoundByItsName)
+{
+    EXPECT_EQ(find_handed_key("method.width")->key.name, "method.width");
+    EXPECT_EQ(find_handed_key("method.name"), nullptr) << "is the scene's own";
+    EXPECT_EQ(find_handed_key("width"), nullptr);
+    EXPECT_EQ(find_handed_key(""), nullptr);
+}
+
+TEST(HandedKey, IsOfTheMethodsThatHaveIt)
+{
+    EXPECT_TRUE(width_key().is_of("vsm"));
+    EXPECT_TRUE(width_key().is_of("moments"));
+    EXPECT_FALSE(width_key().is_of("depth"));
+    EXPECT_FALSE(content_key().is_of("moments"));
+    EXPECT_FALSE(content_key().is_of(""));
+}
+
+TEST(HandedKey, HasItsDefaultUntilAJobSetsIt)
+{
+    EXPECT_EQ(width_key().value_of(Job{}), JobValue{std::int64_t{5}});
+    const Job job = job_of(wall_with("vsm", "width = 9\n")).job;
+    EXPECT_EQ(job.method.name, "vsm");
+    EXPECT_EQ(width_key().value_of(job), JobValue{std::int64_t{9}});
+    EXPECT_EQ(content_key().value_of(job), JobValue{std::string{"full"}});
+    EXPECT_EQ(job.method.values.size(), 1U);
+}
+
+TEST(HandedKey, IsAmongTheKeysOfJobsOfItsMethodAlone)
+{
+    EXPECT_THAT(method_keys(job_of(wall).job), ElementsAre("method.name = \"depth\""));
+    EXPECT_THAT(
+        method_keys(job_of(wall_with("vsm", "width = 3\n")).job),
+        ElementsAre("method.name = \"vsm\"", "method.width = 3", "method.content = \"full\""));
+    EXPECT_THAT(method_keys(job_of(wall_with("moments")).job),
+                ElementsAre("method.name = \"moments\"", "method.width = 5", "method.blur = 0.25"));
+}
+
+TEST(HandedKey, ReadsBackAsItWasWritten)
+{
+    const auto keys = resolved_keys(job_of(wall_with("vsm", "content = \"half\"\n")).job);
+    std::string text;
+    for (const auto& [key, value] : keys) {
+        text += key + " = " + value + "\n";
+    }
+    EXPECT_EQ(resolved_keys(job_of(text).job), keys) << text;
+}
+
+TEST(HandedKey, IsRefusedOutsideItsRange)
+{
+    EXPECT_EQ(refusal(wall_with("vsm", "width = 4\n")),
+              "job.toml:4: method.width = 4: must be an odd integer from 1 to 9");
+    EXPECT_EQ(refusal(wall_with("vsm", "content = \"hull\"\n")),
+              "job.toml:4: method.content = \"hull\": must be one of half, full; the nearest is "
+              "\"full\"");
+}
+
+TEST(HandedKey, IsRefusedOfAnotherMethodByOneLineThatNamesBoth)
+{
+    EXPECT_EQ(refusal(wall + "method.content = \"half\"\n"),
+              "job.toml:2: method.content = \"half\": is for method.name = \"vsm\", and the job's "
+              "method is \"depth\"; remove it, or set that");
+    EXPECT_EQ(refusal(wall_with("moments", "content = \"half\"\n")),
+              "job.toml:4: method.content = \"half\": is for method.name = \"vsm\", and the job's "
+              "method is \"moments\"; remove it, or set that");
+    EXPECT_EQ(refusal(wall, {{"method.width", "3"}}),
+              "--set method.width=3: is for method.name = \"vsm\" or \"moments\", and the job's "
+              "method is \"depth\"; remove it, or set that");
+    EXPECT_EQ(refusal(wall, {{"method.width", "3"}, {"method.name", "vsm"}}), "no error");
+}
+
+TEST(MethodName, NamesTheNearestOfThoseThatWereHandedOver)
+{
+    EXPECT_EQ(job_of(wall).job.method.name, "depth");
+    EXPECT_EQ(job_of(wall_with("moments")).job.method.name, "moments");
+    EXPECT_EQ(refusal(wall_with("vms")), "job.toml:3: method.name = \"vms\": must be one of depth, "
+                                         "vsm, moments; the nearest is \"vsm\"");
+    EXPECT_THAT(refusal(wall, {{"method.name", "esm"}}), HasSubstr("the nearest is \"vsm\""));
+    EXPECT_THAT(refusal(wall + "method.wdth = 3\n"),
+                HasSubstr("unknown key \"method.wdth\"; the nearest is method.width"));
+}
+
+TEST(MethodName, LeavesTheKeysOfAnotherMethodBehindInTheLayersBelow)
+{
+    const std::string text = wall_with("vsm", "width = 3\ncontent = \"half\"\n");
+    EXPECT_THAT(method_keys(job_of(text, {{"method.name", "moments"}}).job),
+                ElementsAre("method.name = \"moments\"", "method.width = 3", "method.blur = 0.25"));
+    EXPECT_THAT(method_keys(job_of(text, {{"method.name", "depth"}}).job),
+                ElementsAre("method.name = \"depth\""));
+    EXPECT_THAT(
+        method_keys(job_of(text, {{"method.name", "vsm"}}).job),
+        ElementsAre("method.name = \"vsm\"", "method.width = 3", "method.content = \"half\""));
+    // What the same layer sets beside it is no remnant.
+    EXPECT_THAT(refusal(text, {{"method.name", "moments"}, {"method.content", "half"}}),
+                HasSubstr("--set method.content=half: is for method.name = \"vsm\""));
+}
+
+TEST(MethodName, DecidesWhetherAJobHasAFilter)
+{
+    EXPECT_TRUE(has_filters("depth"));
+    EXPECT_TRUE(has_filters("moments"));
+    EXPECT_FALSE(has_filters("vsm"));
+    EXPECT_FALSE(has_filters("esm")) << "is no method";
+    EXPECT_EQ(keys_of(job_of(wall_with("moments")).job).count("lookup.filter"), 1U);
+    EXPECT_EQ(keys_of(job_of(wall_with("vsm")).job).count("lookup.filter"), 0U);
+    EXPECT_EQ(refusal(wall_with("vsm", "[lookup]\nfilter = \"pcf3\"\n")),
+              "job.toml:5: lookup.filter = \"pcf3\": the method vsm has no filter; remove it");
+}
+
+TEST(MethodName, WithoutFiltersLeavesThatOfTheLayersBelowBehind)
+{
+    const std::string text = wall + "lookup = {filter = \"pcf3\", outside = \"clamp\"}\n";
+    const auto keys = keys_of(job_of(text, {{"method.name", "vsm"}}).job);
+    EXPECT_EQ(keys.count("lookup.filter"), 0U);
+    EXPECT_EQ(keys.at("lookup.outside"), "\"clamp\"");
+    EXPECT_EQ(keys_of(job_of(text, {{"method.name", "moments"}}).job).at("lookup.filter"),
+              "\"pcf3\"");
+    EXPECT_EQ(refusal(text, {{"method.name", "vsm"}, {"lookup.filter", "pcf5"}}),
+              "--set lookup.filter=pcf5: the method vsm has no filter; remove it");
+}
+
+TEST(MethodName, OfACaseReplacesThatOfTheFile)
+{
+    const std::string text = wall_with("vsm", "content = \"half\"\n") +
+                             "[[case]]\nname = \"plain\"\nmethod.name = \"depth\"\n";
+    EXPECT_THAT(method_keys(job_of(text, {}, "plain").job), ElementsAre("method.name = \"depth\""));
+    EXPECT_EQ(job_of(text).job.method.name, "vsm");
+}
+
+TEST(CommentedJobFile, HasTheKeysOfAllMethods)
+{
+    EXPECT_THAT(commented_job_file(),
+                AllOf(HasSubstr("name = \"depth\""), HasSubstr("width = 5"),
+                      HasSubstr("content = \"full\""), HasSubstr("blur = 0.25")));
+    EXPECT_EQ(refusal(commented_job_file()), "no error");
+}
+
+TEST(IntegerDomain, TakesEveryIntegerByItself)
+{
+    const Domain domain = IntegerDomain{1, 3};
+    EXPECT_EQ(range_text(domain), "an integer from 1 to 3");
+    for (const std::int64_t integer : {1, 2, 3}) {
+        EXPECT_EQ(read_value(domain, {integer}), JobValue{integer});
+    }
+}
+
+TEST(IntegerDomain, TakesOddNumbersAloneInStepsOfTwo)
+{
+    const Domain domain = IntegerDomain{1, 9, 2};
+    EXPECT_EQ(range_text(domain), "an odd integer from 1 to 9");
+    for (const std::int64_t odd : {1, 3, 5, 7, 9}) {
+        EXPECT_EQ(read_value(domain, {odd}), JobValue{odd});
+    }
+    for (const std::int64_t refused : {-1, 0, 2, 4, 8, 10, 11}) {
+        EXPECT_FALSE(read_value(domain, {refused})) << refused;
+    }
+    EXPECT_FALSE(read_value(domain, {3.0}));
+    EXPECT_EQ(refusal_text(domain, {std::int64_t{4}}), "must be an odd integer from 1 to 9");
+}
+
+} // namespace
+} // namespace gnomon::scene::test
