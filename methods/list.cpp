@@ -1,6 +1,7 @@
 #include "methods/list.hpp"
 
 #include "methods/depth/depth_map.hpp"
+#include "methods/vsm/variance_map.hpp"
 
 #include <array>
 
@@ -8,7 +9,7 @@ namespace gnomon::methods {
 
 std::span<const Method> methods()
 {
-    static const std::array list{depth_map()};
+    static const std::array list{depth_map(), variance_map()};
     return list;
 }
 
