@@ -140,7 +140,7 @@ void check_method(const Settings& settings)
 {
     const Setting* chosen = find_setting(settings, "method.name");
     const std::string name =
-        chosen != nullptr ? std::get<std::string>(chosen->value) : Job{}.method.name;
+        chosen != nullptr ? std::get<std::string>(chosen->value) : default_method();
     const Setting* filter = find_setting(settings, "lookup.filter");
     if (filter != nullptr && !has_filters(name)) {
         refuse(*filter, fmt::format("the method {} has no filter; remove it", name));

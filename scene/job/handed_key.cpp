@@ -24,6 +24,13 @@ HandedMethods& handed()
     return all;
 }
 
+/// Of those, the one of a job that names none.
+const std::string& default_of(const std::vector<HandedMethod>& methods)
+{
+    const auto depth = std::ranges::find(methods, Job{}.method.name, &HandedMethod::name);
+    return depth == methods.end() ? methods.front().name : depth->name;
+}
+
 KeySpec name_key(const std::vector<HandedMethod>& methods)
 {
     WordDomain names;
@@ -31,8 +38,8 @@ KeySpec name_key(const std::vector<HandedMethod>& methods)
         names.words.push_back(method.name);
     }
     return member_key<std::string>(
-        make_key("method.name", "what decides verdicts; `gnomon methods` lists them", "\"depth\"",
-                 Stage::prefilter | Stage::lookup),
+        make_key("method.name", "what decides verdicts; `gnomon methods` lists them",
+                 to_toml(JobValue{default_of(methods)}), Stage::prefilter | Stage::lookup),
         std::move(names), [](auto& job) -> auto& { return job.method.name; });
 }
 
@@ -75,6 +82,9 @@ void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey>
     if (handed().is_read) {
         throw std::logic_error("hand_over_methods: the table of keys was read already");
     }
+    if (methods.empty()) {
+        throw std::logic_error("hand_over_methods: there is no method");
+    }
     for (std::size_t i = 0; i < keys.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             if (keys[i].key.name == keys[j].key.name) {
@@ -94,6 +104,11 @@ std::vector<KeySpec> method_key_specs()
     std::vector<KeySpec> specs{name_key(all.methods)};
     std::ranges::transform(all.keys, std::back_inserter(specs), spec_of);
     return specs;
+}
+
+const std::string& default_method()
+{
+    return default_of(handed().methods);
 }
 
 bool has_filters(std::string_view method)

@@ -32,8 +32,11 @@ struct HandedMethod {
 
 /// Says which methods there are, and what keys beside the scene's own: once, and before the table
 /// of keys is read. Until then there is one method, "depth", and no such key.
-/// @throws std::logic_error  if the table was read already, or keys repeat.
+/// @throws std::logic_error  if the table was read already, there is no method, or keys repeat.
 void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey> keys);
+
+/// The method of a job that names none: "depth", or without it the first.
+[[nodiscard]] const std::string& default_method();
 
 /// Whether jobs of the method of that name have a lookup.filter.
 [[nodiscard]] bool has_filters(std::string_view method);

@@ -2,6 +2,7 @@
 
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/job/sweep_axes.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
@@ -191,11 +192,13 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
     if (const Setting* choice = find_setting(settings, "scene.builtin")) {
         const auto& builtin = find_builtin_scene(std::get<std::string>(choice->value));
         Job defaults = builtin.default_job(builtin_parameters(builtin, settings));
+        defaults.method.name = default_method();
         layers.insert(layers.begin(), layer_from_job(defaults, builtin.name));
         settings = lay_all(layers);
     }
     check_settings(settings, source.name);
     Job job;
+    job.method.name = default_method();
     for (const KeySpec& spec : key_specs()) {
         if (const Setting* setting = find_setting(settings, spec.key.name)) {
             spec.set(job, setting->value);
