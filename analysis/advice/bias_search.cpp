@@ -120,7 +120,7 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     }
     draw(views_.size() - 1);
     scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);
-    if (!has_fractions() && has_formula()) {
+    if (counts_errors()) {
         const auto texels = lookup.texels;
         added.deciding =
             deciding_samples(std::move(lookup), texels, {}, lookup_rule(added.job, added.view));
@@ -309,10 +309,10 @@ PastedBias BiasSearch::pasted_of(const Valley& found) const
 
 FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const
 {
-    const bool is_soft = has_fractions();
-    const std::vector<BiasCurve> of_views = is_soft ? std::vector<BiasCurve>{} : curves(slope);
+    const bool is_counted = counts_errors();
+    const std::vector<BiasCurve> of_views = is_counted ? curves(slope) : std::vector<BiasCurve>{};
     const Valley valley =
-        is_soft ? valley_of_fractions(limits, slope) : valley_of(of_views, limits);
+        is_counted ? valley_of(of_views, limits) : valley_of_fractions(limits, slope);
     FoundBias found{valley.valley ? valley.valley->run : BiasInterval{},
                     middle_of(valley),
                     pasted_of(valley),
@@ -320,7 +320,7 @@ FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const
                     true};
     const std::array<float, 1> constant{found.pasted.bias};
     for (std::size_t view = 0; view < views_.size(); ++view) {
-        if (is_soft) {
+        if (!is_counted) {
             found.outcomes.push_back(outcomes_in(view, slope, constant).front());
         } else {
             const float here = carried(view, constant.front());

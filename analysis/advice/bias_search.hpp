@@ -82,6 +82,8 @@ private:
     [[nodiscard]] bool has_fractions() const;
     /// Whether every constant bias follows from one lookup of each view.
     [[nodiscard]] bool has_formula() const;
+    /// Whether one lookup tells each bias's errors: then they are counted, else measured.
+    [[nodiscard]] bool counts_errors() const { return !has_fractions() && has_formula(); }
     [[nodiscard]] std::vector<BiasCurve> curves(float slope) const;
     [[nodiscard]] Valley valley_of(const std::vector<BiasCurve>& curves,
                                    const TuneLimits& limits) const;
