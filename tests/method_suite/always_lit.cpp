@@ -1,0 +1,57 @@
+#include "always_lit.hpp"
+
+#include "methods/list.hpp"
+
+#include <array>
+
+// A definition of `methods::methods` here takes the place of methods/list.cpp in the library.
+namespace gnomon::methods {
+namespace {
+
+constexpr auto sources = std::to_array<Source>({{"nobody", 2025, "A light without shadows", {}}});
+constexpr auto tables = std::to_array<std::string_view>({"shadow_map", "bias"});
+
+constexpr std::string_view piece = R"glsl(
+float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
+{
+    fetch_depth(floor(texel), d);
+    return 1.0;
+}
+)glsl";
+
+Promises promises_of_always(const scene::Job& job)
+{
+    const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
+    return {.verdict = Verdict::binary,
+            .compares = Compares::none,
+            .rises = {Rise::exactly, 0},
+            .curve = Curve::by_bisection,
+            .width_texels = 1,
+            .weights = Weights::equal,
+            .kernel = {},
+            .map_bytes = 4 * side * side};
+}
+
+Passes passes_of_always(const scene::Job& /*job*/)
+{
+    return {{}, {piece}, Sampling::fetched};
+}
+
+} // namespace
+
+std::span<const Method> methods()
+{
+    static const std::array list{Method{.name = tests::always_lit,
+                                        .sentence = "lets all light through",
+                                        .sources = sources,
+                                        .page = "README.md",
+                                        .key_tables = tables,
+                                        .keys = {},
+                                        .filters = {},
+                                        .bias_terms = {},
+                                        .promises = promises_of_always,
+                                        .passes = passes_of_always}};
+    return list;
+}
+
+} // namespace gnomon::methods

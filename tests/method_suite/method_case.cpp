@@ -1,0 +1,120 @@
+#include "method_case.hpp"
+
+#include "methods/list.hpp"
+
+#include <utility>
+#include <variant>
+
+namespace gnomon::tests {
+
+MethodCase::MethodCase(scene::Job the_job, scene::SceneFile the_file)
+    : job{std::move(the_job)},
+      file{std::move(the_file)},
+      view{resolve_view(job, file.scene, file.defaults)},
+      gpu_{*shared_context(), file.scene},
+      receiver_pass_{*shared_context()},
+      map_pass_{*shared_context()},
+      prefilter_pass_{*shared_context()},
+      lookup_pass_{*shared_context()}
+{
+    receivers_ = &receiver_pass_.render(gpu_, view, file.scene.bounds());
+}
+
+MethodCase::MethodCase(const std::string& builtin, const std::vector<scene::Override>& keys)
+    : MethodCase{job_of_builtin(builtin, keys),
+                 scene::load_scene(job_of_builtin(builtin, keys).scene)}
+{
+}
+
+void MethodCase::set(scene::Job other)
+{
+    job = std::move(other);
+    view = resolve_view(job, file.scene, file.defaults);
+    receivers_ = &receiver_pass_.render(gpu_, view, file.scene.bounds());
+    map_ = nullptr;
+}
+
+void MethodCase::draw_map()
+{
+    map_ = &map_pass_.render(gpu_, view.frustum, job.shadow_map);
+    prefilter();
+}
+
+void MethodCase::give_map(scene::Image<float> depths)
+{
+    map_ = &map_pass_.store(std::move(depths), view.frustum.reversed);
+    prefilter();
+}
+
+void MethodCase::prefilter()
+{
+    filtered_ = &prefilter_pass_.render(*map_, methods::passes(job).prefilter);
+}
+
+raster_gl::LookedUp MethodCase::looked_up() const
+{
+    return {gpu_, *receivers_, *map_, filtered_};
+}
+
+scene::LookupLayers MethodCase::look_up(float constant_bias)
+{
+    scene::View biased = view;
+    biased.bias.constant = constant_bias;
+    lookup_pass_.render(looked_up(), job, biased);
+    return lookup_pass_.read();
+}
+
+scene::Image<float> MethodCase::find_critical_biases()
+{
+    return lookup_pass_.find_critical_biases(looked_up(), job, view);
+}
+
+scene::Image<std::uint32_t> MethodCase::triangles() const
+{
+    return read_triangles(*shared_context(), *receivers_);
+}
+
+std::vector<Configuration> configurations()
+{
+    std::vector<Configuration> all;
+    for (const methods::Method& method : methods::methods()) {
+        const std::string name{method.name};
+        const std::vector<scene::Override> base{{"method.name", name}};
+        if (method.filters.empty()) {
+            all.push_back({name, base});
+        }
+        for (const methods::FilterChoice& filter : method.filters) {
+            const std::string word{scene::filter_name(filter.filter)};
+            all.push_back({name + " " + word, with(base, {{"lookup.filter", word}})});
+        }
+        for (const scene::HandedKey& key : method.keys) {
+            const auto* const words = std::get_if<scene::WordDomain>(&key.domain);
+            if (words == nullptr) {
+                continue;
+            }
+            for (const std::string& word : words->words) {
+                if (scene::JobValue{word} != key.default_value) {
+                    all.push_back({name + " " + word, with(base, {{key.key.name, word}})});
+                }
+            }
+        }
+    }
+    return all;
+}
+
+std::vector<scene::Override> with(std::vector<scene::Override> keys,
+                                  const std::vector<scene::Override>& more)
+{
+    for (const scene::Override& key : more) {
+        std::erase_if(keys, [&](const scene::Override& old) { return old.key == key.key; });
+        keys.push_back(key);
+    }
+    return keys;
+}
+
+scene::Job job_of_builtin(const std::string& builtin, const std::vector<scene::Override>& keys)
+{
+    return scene::builtin_job(builtin, keys).job;
+}
+
+} // namespace gnomon::tests

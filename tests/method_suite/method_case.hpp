@@ -1,0 +1,70 @@
+#pragma once
+
+#include "gl_case.hpp"
+#include "raster_gl/prefilter.hpp"
+#include "scene/image.hpp"
+#include "scene/import/scene_file.hpp"
+#include "scene/job/job.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/view/view.hpp"
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace gnomon::tests {
+
+/// A scene before a light, its receivers drawn, and a map, drawn or given, with what the job's
+/// method makes of it.
+class MethodCase {
+public:
+    MethodCase(scene::Job job, scene::SceneFile file);
+    MethodCase(const std::string& builtin, const std::vector<scene::Override>& keys);
+
+    /// Another job of the same scene, camera and image; the map is to be made anew.
+    void set(scene::Job job);
+    void draw_map();
+    /// @param depths  top left first.
+    void give_map(scene::Image<float> depths);
+    [[nodiscard]] scene::LookupLayers look_up(float constant_bias = 0);
+    [[nodiscard]] scene::Image<float> find_critical_biases();
+    [[nodiscard]] scene::Image<std::uint32_t> triangles() const;
+
+    scene::Job job;
+    scene::SceneFile file;
+    scene::View view;
+
+private:
+    [[nodiscard]] raster_gl::LookedUp looked_up() const;
+    void prefilter();
+
+    raster_gl::GpuScene gpu_;
+    raster_gl::ReceiverPass receiver_pass_;
+    raster_gl::ShadowMapPass map_pass_;
+    raster_gl::PrefilterPass prefilter_pass_;
+    raster_gl::LookupPass lookup_pass_;
+    const raster_gl::ReceiverBuffer* receivers_ = nullptr;
+    const raster_gl::ShadowMap* map_ = nullptr;
+    const raster_gl::Texture* filtered_ = nullptr;
+};
+
+/// A job's method with one of its filters, or one word of a key of its own.
+struct Configuration {
+    std::string label;
+    std::vector<scene::Override> keys;
+
+    friend void PrintTo(const Configuration& shown, std::ostream* out) { *out << shown.label; }
+};
+
+/// All methods of the list: each with its defaults, each filter, and each word of each of its keys.
+[[nodiscard]] std::vector<Configuration> configurations();
+
+/// Both lists of keys, the second over the first.
+[[nodiscard]] std::vector<scene::Override> with(std::vector<scene::Override> keys,
+                                                const std::vector<scene::Override>& more);
+
+[[nodiscard]] scene::Job job_of_builtin(const std::string& builtin,
+                                        const std::vector<scene::Override>& keys);
+
+} // namespace gnomon::tests
