@@ -284,6 +284,42 @@ TEST(SweepPlan, PrefiltersOnceForEachMapAndWhatIsMadeOfIt)
                                                  .curves = 32}));
 }
 
+TEST(SweepPlan, OfTenThousandConfigurationsOfAMethodSharesAllItCan)
+{
+    const scene::SweepSpace space{scene::builtin_job_source("wall", {{"method.name", "vsm"}}),
+                                  {"bias.constant={from=1e-6, to=0.1, count=50, scale=\"log\"}",
+                                   "shadow_map.resolution=256,512,1024,2048,4096",
+                                   "method.kernel=box,gaussian", "method.kernel_width=1,3,5,7,9",
+                                   "method.bleeding_reduction=0,0.1,0.2,0.4"}};
+    ASSERT_EQ(space.size(), 10'000U);
+    const Planned planned = plan_of(space);
+    EXPECT_EQ(planned.counts, (PlanCounts{.configurations = 10'000,
+                                          .scenes = 1,
+                                          .truths = 1,
+                                          .receiver_passes = 1,
+                                          .shadow_maps = 5,
+                                          .prefilters = 5 * 2 * 5,
+                                          .lookup_passes = 5 * 2 * 5 * 4,
+                                          .curves = 5 * 2 * 5 * 4}));
+    // What exact rays say is found once for each resolution.
+    std::set<std::string> exact;
+    for (const CurveRequest& request : planned.requests) {
+        exact.insert(request.keys.exact);
+    }
+    EXPECT_EQ(exact.size(), 5U);
+    // No curve of another resolution is answered in between, so that it need not be found again.
+    std::string last;
+    std::size_t changes = 0;
+    for (const SweepStep& step : planned.plan.steps) {
+        const std::string& key = planned.requests[step.curve].keys.exact;
+        if (step.kind == Kind::answer && key != last) {
+            ++changes;
+            last = key;
+        }
+    }
+    EXPECT_EQ(changes, 5U);
+}
+
 TEST(SweepPlan, DrawsOneMapForAllMethods)
 {
     for (const char* const methods : {"depth,vsm", "vsm,depth"}) {
