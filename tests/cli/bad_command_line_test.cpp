@@ -128,6 +128,35 @@ TEST(JobSettings, RefusesUnknownKeysAndWrongTypes)
     expect_settings_refused("wall", {"lookup.filter=blurry"}, "lookup.filter");
 }
 
+TEST(JobSettings, RefusesMethodsAndKeysThatTheyDoNotHave)
+{
+    expect_settings_refused("wall", {"method.name=vms"}, "the nearest is \"vsm\"");
+    expect_settings_refused("wall", {"method.kernel_width=5"}, "method.kernel_width");
+    expect_settings_refused("wall", {"method.name=depth", "method.kernel_width=5"},
+                            "method.kernel_width");
+    expect_settings_refused("wall", {"method.name=vsm", "method.kernel_widht=5"},
+                            "the nearest is method.kernel_width");
+    expect_settings_refused("wall", {"method.name=vsm", "lookup.filter=pcf3"},
+                            "the method vsm has no filter; remove it");
+}
+
+TEST(JobSettings, RefusesKernelsThatAMethodCannotHave)
+{
+    for (const char* const width : {"4", "0", "11", "-3", "2.5", "\"wide\""}) {
+        expect_settings_refused("wall",
+                                {"method.name=vsm", fmt::format("method.kernel_width={}", width)},
+                                "method.kernel_width");
+    }
+    expect_settings_refused("wall",
+                            {"method.name=vsm", "method.kernel_width=7", "shadow_map.resolution=4"},
+                            "method.kernel_width = 7: wider than the map of 4 texels");
+    expect_settings_refused("wall", {"method.name=vsm", "method.kernel=disc"}, "method.kernel");
+    expect_settings_refused("wall", {"method.name=vsm", "method.min_variance=1e-40"},
+                            "method.min_variance");
+    expect_settings_refused("wall", {"method.name=vsm", "method.bleeding_reduction=1"},
+                            "method.bleeding_reduction");
+}
+
 TEST(JobSettings, NamesFileAndLineOfAMistake)
 {
     const TemporaryFolder folder;

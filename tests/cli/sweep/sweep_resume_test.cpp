@@ -24,13 +24,11 @@ namespace {
 using std::filesystem::path;
 using ::testing::HasSubstr;
 
-TEST(Sweep, ResumesWheneverItIsKilled)
+/// A sweep that was killed, however often, and resumed leaves what an uninterrupted one does.
+void expect_resumed(const std::vector<std::string>& axes)
 {
     const TemporaryFolder folder;
     const path job = folder.write("job.toml", two_lights);
-    const std::vector<std::string> axes{"--axis", "shadow_map.resolution=16,20,24,28,32",
-                                        "--axis", "lookup.filter=nearest,hardware",
-                                        "--axis", "bias.constant=0,0.001,0.02"};
     std::mt19937 random{7};
     // With pixels and without: what is acknowledged includes its pixels.
     for (const char* const pixels : {"--keep-pixels", "--no-keep-pixels"}) {
@@ -69,6 +67,19 @@ TEST(Sweep, ResumesWheneverItIsKilled)
         std::filesystem::remove_all(run);
         std::filesystem::remove_all(whole);
     }
+}
+
+TEST(Sweep, ResumesWheneverItIsKilled)
+{
+    expect_resumed({"--axis", "shadow_map.resolution=16,20,24,28,32", "--axis",
+                    "lookup.filter=nearest,hardware", "--axis", "bias.constant=0,0.001,0.02"});
+}
+
+TEST(Sweep, ResumesAmongWhatAMethodMakesOfAMap)
+{
+    expect_resumed({"--set", "method.name=vsm", "--axis", "shadow_map.resolution=16,24", "--axis",
+                    "method.kernel_width=1,5", "--axis", "method.bleeding_reduction=0,0.2",
+                    "--axis", "bias.constant=0,0.001,0.02"});
 }
 
 /// Arguments of a sweep that keeps pixels, so that one sees from outside how far it is.
