@@ -51,6 +51,22 @@ TEST(TuneCommand, PrintsAFragmentWithWhichCompareMeasuresWhatWasPromised)
     }
 }
 
+TEST(TuneCommand, PrintsAFragmentThatAJobOfItsMethodTakes)
+{
+    const Ending ending = tune({"--builtin", "sphere-plane", "--set", "method.name=vsm", "--set",
+                                "method.kernel_width=3", "--max-false-shadow", "10%",
+                                "--max-false-lit", "10%", "--max-resolution", "256", "--json"});
+    const Json result = Json::parse(ending.out);
+    const TemporaryFolder folder;
+    const auto job = folder.path() / "tuned.toml";
+    std::ofstream{job} << "[scene]\nbuiltin = \"sphere-plane\"\n[method]\nname = \"vsm\"\n"
+                          "kernel_width = 3\n"
+                       << result.at("toml").get<std::string>();
+    const Ending compared = gnomon(small({"compare", job.string(), "--json"}));
+    expect_done(compared);
+    EXPECT_EQ(Json::parse(compared.out).at("false_lit"), result.at("measured").at("false_lit"));
+}
+
 TEST(TuneCommand, RecommendsNoFilterThatShadowsItselfByLessThanHalf)
 {
     // By count every bias of the first is right that leaves less than half of the taps shadowed.
