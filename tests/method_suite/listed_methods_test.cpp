@@ -1,5 +1,5 @@
-// What every method of the list must do, whichever it is, with each of its filters and each word of
-// its own keys.
+// What every method of the list must do, whichever it is, with each of its filters and with other
+// values of its own keys.
 
 #include "analysis/bias/bias_verification.hpp"
 #include "analysis/metrics/amounts.hpp"
@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -356,12 +357,13 @@ TEST_P(ListedMethod, HasTheCurveThatGlsRerunsHave)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(List, ListedMethod, testing::ValuesIn(configurations()),
-                         [](const auto& info) {
-                             std::string name = info.param.label;
-                             std::ranges::replace(name, ' ', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    List, ListedMethod, testing::ValuesIn(configurations()), [](const auto& info) {
+        std::string name = info.param.label;
+        std::ranges::replace_if(
+            name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+        return name;
+    });
 
 } // namespace
 } // namespace gnomon::tests

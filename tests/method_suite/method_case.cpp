@@ -48,7 +48,7 @@ void MethodCase::give_map(scene::Image<float> depths)
 
 void MethodCase::prefilter()
 {
-    filtered_ = &prefilter_pass_.render(*map_, methods::passes(job).prefilter);
+    filtered_ = &prefilter_pass_.render(*map_, methods::passes(job));
 }
 
 raster_gl::LookedUp MethodCase::looked_up() const
@@ -74,6 +74,26 @@ scene::Image<std::uint32_t> MethodCase::triangles() const
     return read_triangles(*shared_context(), *receivers_);
 }
 
+namespace {
+
+/// Those of a key's values that are tried beside its default: every other word, the other flag, the
+/// largest integer.
+std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
+{
+    std::vector<scene::JobValue> values;
+    if (const auto* const words = std::get_if<scene::WordDomain>(&key.domain)) {
+        values.assign(words->words.begin(), words->words.end());
+    } else if (std::holds_alternative<scene::FlagDomain>(key.domain)) {
+        values = {true, false};
+    } else if (const auto* const integers = std::get_if<scene::IntegerDomain>(&key.domain)) {
+        values = {integers->upper};
+    }
+    std::erase(values, key.default_value);
+    return values;
+}
+
+} // namespace
+
 std::vector<Configuration> configurations()
 {
     std::vector<Configuration> all;
@@ -88,14 +108,12 @@ std::vector<Configuration> configurations()
             all.push_back({name + " " + word, with(base, {{"lookup.filter", word}})});
         }
         for (const scene::HandedKey& key : method.keys) {
-            const auto* const words = std::get_if<scene::WordDomain>(&key.domain);
-            if (words == nullptr) {
-                continue;
-            }
-            for (const std::string& word : words->words) {
-                if (scene::JobValue{word} != key.default_value) {
-                    all.push_back({name + " " + word, with(base, {{key.key.name, word}})});
-                }
+            for (const scene::JobValue& value : other_values(key)) {
+                const std::string text = scene::to_toml(value);
+                std::string shown =
+                    name + " " + key.key.name.substr(key.key.name.find('.') + 1) + " " + text;
+                std::erase(shown, '"');
+                all.push_back({shown, with(base, {{key.key.name, text}})});
             }
         }
     }

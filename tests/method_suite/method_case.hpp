@@ -49,7 +49,7 @@ private:
     const raster_gl::Texture* filtered_ = nullptr;
 };
 
-/// A job's method with one of its filters, or one word of a key of its own.
+/// A job's method with one of its filters, or another value of a key of its own.
 struct Configuration {
     std::string label;
     std::vector<scene::Override> keys;
@@ -57,7 +57,8 @@ struct Configuration {
     friend void PrintTo(const Configuration& shown, std::ostream* out) { *out << shown.label; }
 };
 
-/// All methods of the list: each with its defaults, each filter, and each word of each of its keys.
+/// All methods of the list: each with its defaults, each filter, and each of its own keys at other
+/// values: each word, the other flag, the largest integer.
 [[nodiscard]] std::vector<Configuration> configurations();
 
 /// Both lists of keys, the second over the first.
