@@ -4,9 +4,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace gnomon::methods {
+namespace {
+
+using scene::Stage;
+
+[[noreturn]] void refuse(const BiasTerm& term, std::string_view why)
+{
+    throw std::invalid_argument(fmt::format("bias term {}: {}", term.name, why));
+}
+
+/// Its own keys are of `[bias]`, and among its keys.
+void check_own_keys(const BiasTerm& term)
+{
+    if (term.own_keys == nullptr) {
+        return;
+    }
+    for (const scene::HandedKey& own : term.own_keys()) {
+        if (!own.key.name.starts_with("bias.")) {
+            refuse(term, "its keys must be of [bias]");
+        }
+        if (std::ranges::find(term.keys, own.key.name) == term.keys.end()) {
+            refuse(term, fmt::format("its keys lack {}", own.key.name));
+        }
+    }
+}
+
+} // namespace
 
 std::vector<scene::JobKey> keys_of(const BiasTerm& term)
 {
@@ -28,6 +57,58 @@ scene::Stages stages_of(const BiasTerm& term)
         stages = static_cast<scene::Stages>(stages | key.stages);
     }
     return stages;
+}
+
+bool is_of_curve(const BiasTerm& term)
+{
+    return stages_of(term) == scene::only(Stage::bias);
+}
+
+void check(const BiasTerm& term)
+{
+    check_own_keys(term);
+    const scene::Stages stages = stages_of(term);
+    switch (term.place) {
+    case BiasPlace::map_drawn:
+        refuse(term, "no pass draws maps with such a term yet");
+    case BiasPlace::per_tap:
+        refuse(term, "no lookup has a depth of its own for each tap yet");
+    case BiasPlace::receiver_depth:
+        if (stages == scene::only(Stage::bias)) {
+            if (term.own_keys != nullptr) {
+                refuse(term, "the bias curve's formula has constant and slope alone: its stage "
+                             "must be lookup");
+            }
+            break;
+        }
+        [[fallthrough]];
+    case BiasPlace::lookup_position:
+        if (stages != scene::only(Stage::lookup)) {
+            refuse(term, "the stage of its keys must be lookup");
+        }
+        break;
+    }
+    if (term.function.empty() || term.piece == nullptr) {
+        refuse(term, "it has no GLSL");
+    }
+}
+
+std::vector<ActiveBias> active_biases(std::span<const BiasTerm> terms, const scene::Job& job,
+                                      const scene::View& view)
+{
+    std::vector<ActiveBias> active;
+    for (const BiasTerm& term : terms) {
+        if (auto piece = term.piece(job, view)) {
+            active.push_back({&term, *std::move(piece)});
+        }
+    }
+    return active;
+}
+
+bool moves_lookups(std::span<const ActiveBias> biases)
+{
+    return !std::ranges::all_of(biases,
+                                [](const ActiveBias& bias) { return is_of_curve(*bias.term); });
 }
 
 std::string_view name(BiasPlace place)

@@ -1,8 +1,13 @@
 #pragma once
 
+#include "methods/passes.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/handed_key.hpp"
+#include "scene/job/job.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,12 +23,34 @@ enum class BiasPlace : std::uint8_t {
 };
 
 /// A part of what keeps a surface from shadowing itself.
+///
+/// A file of its own holds all of it, and the list of a method names it
+/// (methods/depth/bias_terms.cpp). Its piece of GLSL defines one function, named `function`;
+/// `Receiver` and what else it may read are in raster_gl/shaders/lookup_map.glsl. Place and stage
+/// say which:
+///
+///   - receiver_depth, bias: `float NAME(Receiver receiver)`, added to the bias; the curve varies
+///     the list's first;
+///   - receiver_depth, lookup: `float NAME(Receiver receiver, float r)`, the receiver's depth in
+///     place of r;
+///   - lookup_position, lookup: `vec4 NAME(Receiver receiver, vec4 clip)`, the light clip position
+///     that is looked up in place of clip.
+///
+/// No pass asks for other terms yet: `check` refuses them. Terms of the stage bias are the
+/// formula's b and slope, which the bias curve knows; the others make a lookup that is not at the
+/// receiver itself, whose depth and place every formula takes as they come.
 struct BiasTerm {
     std::string_view name;
     std::span<const std::string_view> keys; ///< of a job, that set it: one, or one in place of
                                             ///< another; their rows have units and stages
     BiasPlace place = BiasPlace::receiver_depth;
     std::string_view sentence; ///< with its formula
+    std::string_view function = {};
+    /// The GLSL, with the values of its uniforms; nothing where the term does not act. Numbers come
+    /// from `view.bias`, in which those of an unbiased lookup are missing or neutral.
+    std::optional<Piece> (*piece)(const scene::Job& job, const scene::View& view) = nullptr;
+    /// Rows of those keys that the scene has none of; nullptr: it has all.
+    std::vector<scene::HandedKey> (*own_keys)() = nullptr;
 };
 
 /// The rows of its keys in the key table.
@@ -33,6 +60,26 @@ struct BiasTerm {
 /// The stages of a sweep that must be redone when it changes: those of its keys.
 /// @throws std::invalid_argument  if a key has no row.
 [[nodiscard]] scene::Stages stages_of(const BiasTerm& term);
+
+/// Whether the formula of the bias curve has it: constant and slope.
+/// @throws std::invalid_argument  if a key has no row.
+[[nodiscard]] bool is_of_curve(const BiasTerm& term);
+
+/// @throws std::invalid_argument  if no lookup does what the term says, or it does not say enough.
+void check(const BiasTerm& term);
+
+/// A bias term at work.
+struct ActiveBias {
+    const BiasTerm* term = nullptr;
+    Piece piece;
+};
+
+/// Those of the terms that act on a job's lookups, in their order.
+[[nodiscard]] std::vector<ActiveBias> active_biases(std::span<const BiasTerm> terms,
+                                                    const scene::Job& job, const scene::View& view);
+
+/// Whether one acts that the bias curve does not know.
+[[nodiscard]] bool moves_lookups(std::span<const ActiveBias> biases);
 
 /// The place as results and documents spell it: "receiver_depth".
 [[nodiscard]] std::string_view name(BiasPlace place);

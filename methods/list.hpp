@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::methods {
 
@@ -27,8 +28,19 @@ void check(const scene::Job& job);
 /// What GL is to do for the job.
 [[nodiscard]] Passes passes(const scene::Job& job);
 
+/// The bias terms of the job's method that act on its lookups, in the order of its list.
+[[nodiscard]] std::vector<ActiveBias> active_biases(const scene::Job& job, const scene::View& view);
+
+/// Whether other biases act than the curve's formula has: then the lookup is not at the receiver
+/// itself, and the one without bias does not follow from it.
+[[nodiscard]] bool moves_lookups(const scene::Job& job, const scene::View& view);
+
+/// The keys of those biases, of the job's method: at their defaults they do not act.
+[[nodiscard]] std::vector<std::string_view> moving_bias_keys(const scene::Job& job);
+
 /// Hands names and keys of all methods to the table of keys (`scene::hand_over_methods`): once,
 /// before it is read.
+/// @throws std::invalid_argument  for a bias term that no lookup does as it says.
 void hand_keys_to_scene();
 
 } // namespace gnomon::methods

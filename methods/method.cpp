@@ -19,12 +19,24 @@ std::string_view table_of(std::string_view key)
     return key.substr(0, key.rfind('.'));
 }
 
+/// The method's own keys, and those of its bias terms.
+std::vector<scene::HandedKey> own_keys(const Method& method)
+{
+    std::vector<scene::HandedKey> keys = method.keys;
+    for (const BiasTerm& term : method.bias_terms) {
+        if (term.own_keys != nullptr) {
+            std::ranges::copy(term.own_keys(), std::back_inserter(keys));
+        }
+    }
+    return keys;
+}
+
 /// The keys of all methods, each once, with the names of all methods that have it.
 std::vector<scene::HandedKey> all_keys()
 {
     std::vector<scene::HandedKey> all;
     for (const Method& method : methods()) {
-        for (const scene::HandedKey& key : method.keys) {
+        for (const scene::HandedKey& key : own_keys(method)) {
             const auto same = std::ranges::find(
                 all, key.key.name, [](const scene::HandedKey& known) { return known.key.name; });
             auto& of = same == all.end() ? all.emplace_back(key) : *same;
@@ -42,9 +54,11 @@ std::vector<scene::JobKey> keys_of(const Method& method)
     std::ranges::copy_if(scene::job_keys(), std::back_inserter(keys), [&](const auto& key) {
         const bool is_read =
             std::ranges::find(method.key_tables, table_of(key.name)) != method.key_tables.end();
-        return is_read && (key.name != "lookup.filter" || !method.filters.empty());
+        // Handed to the table are also keys of other methods' bias terms.
+        return is_read && (key.name != "lookup.filter" || !method.filters.empty()) &&
+               scene::find_handed_key(key.name) == nullptr;
     });
-    for (const scene::HandedKey& own : method.keys) {
+    for (const scene::HandedKey& own : own_keys(method)) {
         keys.push_back(own.row());
     }
     return keys;
@@ -92,6 +106,27 @@ Passes passes(const scene::Job& job)
     return method_of(job).passes(job);
 }
 
+std::vector<ActiveBias> active_biases(const scene::Job& job, const scene::View& view)
+{
+    return active_biases(method_of(job).bias_terms, job, view);
+}
+
+bool moves_lookups(const scene::Job& job, const scene::View& view)
+{
+    return moves_lookups(active_biases(job, view));
+}
+
+std::vector<std::string_view> moving_bias_keys(const scene::Job& job)
+{
+    std::vector<std::string_view> keys;
+    for (const BiasTerm& term : method_of(job).bias_terms) {
+        if (!is_of_curve(term)) {
+            keys.insert(keys.end(), term.keys.begin(), term.keys.end());
+        }
+    }
+    return keys;
+}
+
 void hand_keys_to_scene()
 {
     std::vector<scene::HandedMethod> all;
@@ -99,6 +134,9 @@ void hand_keys_to_scene()
         all.push_back({std::string{method.name}, !method.filters.empty()});
     }
     scene::hand_over_methods(std::move(all), all_keys());
+    for (const Method& method : methods()) {
+        std::ranges::for_each(method.bias_terms, [](const BiasTerm& term) { check(term); });
+    }
 }
 
 } // namespace gnomon::methods

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <vector>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -73,8 +74,7 @@ LookupPass::LookupPass(const Context& context)
 }
 
 const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
-                                   const scene::View& view, const methods::Passes& passes,
-                                   Computes computes)
+                                   const scene::View& view, const Pieces& pieces, Computes computes)
 {
     const methods::Promises promised = methods::promises(job);
     const scene::LookupSettings& settings = job.lookup;
@@ -88,11 +88,15 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"SPOT", flag(view.light.type == scene::LightType::spot)},
         {"POSITION_OF_PIXEL", flag(settings.position == scene::LookupPosition::pixel)},
         {"BISECTS", flag(computes != Computes::verdict)},
-        {"GRADIENTS", flag(passes.has_gradients())},
+        {"GRADIENTS", flag(pieces.passes.has_gradients())},
         {"DEPTH_IS_GIVEN", flag(computes == Computes::critical_bias_of_given_depth)},
     };
-    add_definitions(passes.lookup, definitions);
-    std::string key{passes.lookup.glsl};
+    add_definitions(pieces.passes.lookup, definitions);
+    for (const methods::ActiveBias& bias : pieces.biases) {
+        add_definitions(bias.piece, definitions);
+    }
+    const std::string biases = bias_functions(pieces.biases);
+    std::string key = biases + std::string{pieces.passes.lookup.glsl};
     for (const auto& [name, value] : definitions) {
         key += fmt::format(" {}={}", name, value);
     }
@@ -100,8 +104,9 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     if (found != programs_.end()) {
         return found->second;
     }
-    Program made = make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr,
-                                 pieces_before_shader("lookup_map.glsl", passes.lookup)});
+    Program made =
+        make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr,
+                      pieces_before_shader("lookup_map.glsl", pieces.passes.lookup, biases)});
     return programs_.emplace(std::move(key), std::move(made)).first->second;
 }
 
@@ -198,17 +203,16 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
         throw std::invalid_argument("LookupPass: only reversed depth looks up in [0, 1]");
     }
     const methods::Passes passes = methods::passes(job);
-    const Program& lookup = program(from, job, view, passes, computes);
-    const double texel_width_m = view.frustum.texel_width_m(1.0, from.map.resolution_texels);
+    const std::vector<methods::ActiveBias> biases = methods::active_biases(job, view);
+    const Program& lookup = program(from, job, view, {passes, biases}, computes);
     set_uniform(lookup, "light_clip_from_world", view.frustum.light_clip_from_world);
     set_uniform(lookup, "light", light_uniform(view.light));
-    set_uniform(lookup, "bias_constant", view.bias.constant);
-    set_uniform(lookup, "bias_slope", view.bias.slope);
-    set_uniform(lookup, "normal_offset",
-                static_cast<float>(double{view.bias.normal_texels} * texel_width_m));
     set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
     set_uniform(lookup, "lit_from", lit_from);
     set_uniforms(lookup, passes.lookup);
+    for (const methods::ActiveBias& bias : biases) {
+        set_uniforms(lookup, bias.piece);
+    }
 
     glViewport(0, 0, view.image.width_px, view.image.height_px);
     glDisable(GL_DEPTH_TEST);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/bias_term.hpp"
 #include "methods/passes.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 
 namespace gnomon::raster_gl {
@@ -33,7 +35,8 @@ struct Bisection {
 
 /// Looks every receiver up in the shadow map, or in what a method made of it.
 ///
-/// The bias is a uniform, and r, d and tan θ are handed out: constant and slope bias can be changed
+/// The bias terms of the method act as the view's bias says. Biases are uniforms, and r, d and tan
+/// θ are handed out, r as it is compared before constant and slope: these two can be changed
 /// afterwards without GL.
 class LookupPass {
 public:
@@ -47,7 +50,7 @@ public:
     [[nodiscard]] scene::LookupLayers read() const;
 
     /// The smallest constant bias of each pixel with which `render`'s verdict is at least one half,
-    /// or what else is asked, with the view's slope and normal offset: found by trying, in one
+    /// or what else is asked, with the view's other biases: found by trying, in one
     /// draw, so that it holds whatever the driver's arithmetic is, as long as the verdict rises
     /// with the bias.
     /// @return  0 or a normal float32; −∞ if every bias is lit, +∞ if none is; 0 without a
@@ -66,8 +69,13 @@ private:
         critical_bias,
         critical_bias_of_given_depth, ///< of receivers whose depths are given
     };
+    /// What a program is compiled with for a job.
+    struct Pieces {
+        const methods::Passes& passes;
+        std::span<const methods::ActiveBias> biases;
+    };
     const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                           const methods::Passes& passes, Computes computes);
+                           const Pieces& pieces, Computes computes);
     void allocate(scene::ImageSize size);
     /// Draws to the bound framebuffer.
     void draw(const LookedUp& from, const scene::Job& job, const scene::View& view,

@@ -1,12 +1,84 @@
 #include "raster_gl/pieces.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstddef>
+#include <vector>
 
 namespace gnomon::raster_gl {
 
-std::string pieces_before_shader(std::string_view source, const methods::Piece& piece)
+namespace {
+
+using methods::ActiveBias;
+using methods::BiasPlace;
+
+/// Calls of the terms for which `is_asked` holds, one a line.
+template <typename Asks, typename Call>
+std::string calls(std::span<const ActiveBias> biases, const Asks& is_asked, const Call& call)
 {
-    return fmt::format("#line 1 1\n{}#line 1 2\n{}#line 1 0\n", shader_source(source), piece.glsl);
+    std::string text;
+    for (const ActiveBias& bias : biases) {
+        if (is_asked(*bias.term)) {
+            text += fmt::format("    {}\n", call(bias.term->function));
+        }
+    }
+    return text;
+}
+
+/// The bias that the curve varies, the first of its terms, and the sum of the others.
+std::string curve_functions(std::span<const ActiveBias> biases)
+{
+    std::vector<std::string> terms;
+    for (const ActiveBias& bias : biases) {
+        if (methods::is_of_curve(*bias.term)) {
+            terms.push_back(fmt::format("{}(receiver)", bias.term->function));
+        }
+    }
+    const std::span<const std::string> all{terms};
+    const auto function = [](std::string_view name, std::span<const std::string> sum) {
+        return fmt::format(
+            "float {}(Receiver receiver)\n{{\n    precise float bias = {};\n    return bias;\n}}\n",
+            name, sum.empty() ? "0.0" : fmt::format("{}", fmt::join(sum, " + ")));
+    };
+    const std::size_t first = all.empty() ? 0 : 1;
+    return function("varied_bias", all.first(first)) + function("added_bias", all.subspan(first));
+}
+
+} // namespace
+
+std::string pieces_before_shader(std::string_view source, const methods::Piece& piece,
+                                 std::string_view biases)
+{
+    return fmt::format("#line 1 1\n{}{}#line 1 2\n{}#line 1 0\n", shader_source(source), biases,
+                       piece.glsl);
+}
+
+std::string bias_functions(std::span<const ActiveBias> biases)
+{
+    std::string text;
+    int number = 3;
+    for (const ActiveBias& bias : biases) {
+        text += fmt::format("#line 1 {}\n{}", number++, bias.piece.glsl);
+    }
+    text += fmt::format("#line 1 {}\n", number);
+    text += curve_functions(biases);
+    const auto moves_position = [](const methods::BiasTerm& term) {
+        return term.place == BiasPlace::lookup_position;
+    };
+    const auto moves_depth = [](const methods::BiasTerm& term) {
+        return term.place == BiasPlace::receiver_depth && !methods::is_of_curve(term);
+    };
+    text += fmt::format("vec4 moved_position(Receiver receiver)\n{{\n    vec4 clip = "
+                        "receiver.clip;\n{}    return clip;\n}}\n",
+                        calls(biases, moves_position, [](std::string_view function) {
+                            return fmt::format("clip = {}(receiver, clip);", function);
+                        }));
+    text += fmt::format("float moved_depth(Receiver receiver, float r)\n{{\n{}    return r;\n}}\n",
+                        calls(biases, moves_depth, [](std::string_view function) {
+                            return fmt::format("r = {}(receiver, r);", function);
+                        }));
+    return text;
 }
 
 std::string program_key(const methods::Piece& piece)

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "methods/bias_term.hpp"
 #include "methods/passes.hpp"
 #include "raster_gl/program.hpp"
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,10 +12,14 @@ namespace gnomon::raster_gl {
 
 /// What comes before a shader that calls a method's piece: what the piece may read, and the piece.
 /// @param source  a name for `shader_source`. A driver's log counts its lines as of text 1, those
-/// of
-///                the piece as of text 2, and the shader's own as of text 0.
-[[nodiscard]] std::string pieces_before_shader(std::string_view source,
-                                               const methods::Piece& piece);
+///                of the piece as of text 2, and the shader's own as of text 0.
+/// @param biases  text that comes before the piece, from `bias_functions`: counted from text 3.
+[[nodiscard]] std::string pieces_before_shader(std::string_view source, const methods::Piece& piece,
+                                               std::string_view biases = {});
+
+/// The pieces of bias terms, each a text of its own from 3 on, and the functions that call them for
+/// raster_gl/shaders/lookup.frag, each term in the order of the list.
+[[nodiscard]] std::string bias_functions(std::span<const methods::ActiveBias> biases);
 
 /// A text that tells pieces apart whose programs differ: all but the uniforms.
 [[nodiscard]] std::string program_key(const methods::Piece& piece);

@@ -2,9 +2,11 @@
 
 #include "analysis/advice/fit_setting.hpp"
 #include "methods/list.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -49,14 +51,27 @@ private:
     std::vector<Variant> tried_;
 };
 
+/// Without each bias that moves the lookup.
+void add_lookups_at_the_receiver(Variants& variants)
+{
+    for (const std::string_view key : methods::moving_bias_keys(variants.job())) {
+        const scene::KeySpec& spec = *scene::find_key(key);
+        const auto neutral = scene::default_of(spec, variants.job());
+        if (neutral && spec.get(variants.job()) != neutral) {
+            variants.add({fmt::format("{} = {}", key, spec.key.default_text)},
+                         [&](Job& job) { spec.set(job, *neutral); });
+        }
+    }
+}
+
 /// Biases that no constant one makes up for; and those that spare the surfaces that need none.
 void add_biases(Variants& variants, const std::optional<BiasAnswers>& answers)
 {
     if (variants.has(Cause::bias) && variants.job().bias.slope != 0) {
         variants.add({"bias.slope = 0"}, [](Job& job) { job.bias.slope = 0; });
     }
-    if (variants.has(Cause::bias) && variants.job().bias.normal_texels != 0) {
-        variants.add({"bias.normal_texels = 0"}, [](Job& job) { job.bias.normal_texels = 0; });
+    if (variants.has(Cause::bias)) {
+        add_lookups_at_the_receiver(variants);
     }
     if (variants.has(Label::acne) && answers) {
         const double slope =

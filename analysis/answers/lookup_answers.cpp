@@ -195,7 +195,8 @@ CauseInputs LookupAnswers::cause_inputs() const
     CauseInputs inputs{rule_with(0),
                        lookup_.job.shadow_map.resolution_texels,
                        exact_->receivers().truth(),
-                       lookup_.view.bias.normal_texels == 0 ? unbiased : lookup_.layers,
+                       methods::moves_lookups(lookup_.job, lookup_.view) ? lookup_.layers
+                                                                         : unbiased,
                        unbiased,
                        lookup_.map_depths,
                        exact_->light()};

@@ -25,8 +25,9 @@ struct CauseInputs {
     LookupRule rule; ///< without any bias
     int resolution_texels = 0;
     const scene::TruthLayers& truth;
-    const scene::LookupLayers& job;        ///< V0's places and depths; the same object as
-                                           ///< `unbiased` where no normal offset moved the lookup
+    const scene::LookupLayers&
+        job; ///< V0's places and depths; the same object as
+             ///< `unbiased` where no bias moved the lookup (`methods::moves_lookups`)
     const scene::LookupLayers& unbiased;   ///< V1: at the receiver itself, all biases zero
     const scene::Image<float>& map_depths; ///< as shaders see them; empty for `nearest`
     const scene::ExactLight& light;

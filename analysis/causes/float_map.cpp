@@ -39,7 +39,7 @@ scene::Job with_floats(scene::Job job)
 /// At the receiver itself.
 scene::View with_biases(scene::View view, float constant, float slope)
 {
-    view.bias = {constant, slope, 0};
+    view.bias = {.constant = constant, .slope = slope};
     return view;
 }
 

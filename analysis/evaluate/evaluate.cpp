@@ -4,6 +4,7 @@
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "methods/list.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -162,15 +164,19 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
     const scene::CaseLayers& layers = subject.layers;
     const bool has_one_tap =
         subject.file.says("lookup.filter") && methods::promises(comparison.job).has_one_tap();
-    const bool is_unmoved =
-        subject.file.says("bias.normal_texels") && comparison.job.bias.normal_texels == 0;
     std::vector<std::string> missing;
     for (const auto& [is_there, what] : {std::pair{!layers.z_light.empty(), "z.light"},
                                          {!layers.z_map.empty(), "z.map"},
-                                         {has_one_tap, "lookup.filter = \"nearest\""},
-                                         {is_unmoved, "bias.normal_texels = 0"}}) {
+                                         {has_one_tap, "lookup.filter = \"nearest\""}}) {
         if (!is_there) {
             missing.emplace_back(what);
+        }
+    }
+    for (const std::string_view key : methods::moving_bias_keys(comparison.job)) {
+        const scene::KeySpec& spec = *scene::find_key(key);
+        if (!subject.file.says(key) ||
+            spec.get(comparison.job) != scene::default_of(spec, comparison.job)) {
+            missing.push_back(fmt::format("{} = {}", key, spec.key.default_text));
         }
     }
     if (missing.empty()) {

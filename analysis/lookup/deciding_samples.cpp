@@ -77,7 +77,7 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
 
 bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
 {
-    return methods::promises(job).has_formula() && view.bias.normal_texels == 0;
+    return methods::promises(job).has_formula() && !methods::moves_lookups(job, view);
 }
 
 } // namespace gnomon::analysis

@@ -15,7 +15,8 @@ namespace gnomon::analysis {
 /// nearest and linear make one comparison: their samples are returned as they came. pcfK makes K ×
 /// K and is lit when at least ⌈K²/2⌉ are; the critical bias is monotone in the map depth, so the
 /// deciding tap is the one of median depth, where a tap outside the map counts as farther
-/// (`outside` lit) or nearer (shadowed) than every depth. Depends on no bias but a normal offset.
+/// (`outside` lit) or nearer (shadowed) than every depth. Depends on no bias that
+/// the curve's formula has.
 /// @param texels      uv · resolution of each lookup, origin at the map's lower left.
 /// @param map_depths  The map's depths as shaders see them, top left first, square.
 ///                    Neither is read unless the filter is pcfK.

@@ -1,4 +1,11 @@
-// The shadow test of one pixel, after lookup_map.glsl and the filter's piece, which gives
+// The shadow test of one pixel, after lookup_map.glsl; the bias terms, which give
+//
+//     vec4 moved_position(Receiver receiver)         light clip, that is looked up
+//     float moved_depth(Receiver receiver, float r)  the receiver's, that is compared
+//     float varied_bias(Receiver receiver)           b of the bias curve
+//     float added_bias(Receiver receiver)            what is added to it: the slope term
+//
+// and the filter's piece, which gives
 //
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
@@ -136,35 +143,37 @@ void main()
     uv_dx = uv_change(pixel, ivec2(1, 0), triangle);
     uv_dy = uv_change(pixel, ivec2(0, 1), triangle);
 #endif
-    vec3 n = texelFetch(normals, int(triangle)).xyz;
+    Receiver receiver;
+    receiver.position = texelFetch(receiver_world_position, pixel, 0).xyz;
+    receiver.normal = texelFetch(normals, int(triangle)).xyz;
 #if SPOT
-    vec3 to_light = normalize(light - texelFetch(receiver_world_position, pixel, 0).xyz);
-    float offset = normal_offset * clip.w;
+    receiver.to_light = normalize(light - receiver.position);
 #else
-    vec3 to_light = light;
-    float offset = normal_offset;
+    receiver.to_light = light;
 #endif
-    float cosine = dot(n, to_light);
-    float tan_theta = min(length(cross(n, to_light)) / abs(cosine), 3.0e38);
-    if (normal_offset != 0.0) {
-        vec3 towards_light = cosine >= 0.0 ? n : -n;
-        clip += light_clip_from_world * vec4(offset * towards_light, 0.0);
-    }
+    receiver.clip = clip;
+    receiver.cosine = dot(receiver.normal, receiver.to_light);
+    float tan_theta = min(
+        length(cross(receiver.normal, receiver.to_light)) / abs(receiver.cosine), 3.0e38);
+    receiver.tan_theta = tan_theta;
+    clip = moved_position(receiver);
 
     precise vec3 ndc = clip.xyz / clip.w;
     precise vec2 uv = ndc.xy * 0.5 + 0.5;
     precise vec2 texel = uv * resolution;
 #if REVERSED
     precise float r = ndc.z;
+    r = moved_depth(receiver, r);
     bool beyond_far = !(r >= 0.0);
 #else
     precise float r = ndc.z * 0.5 + 0.5;
+    r = moved_depth(receiver, r);
     bool beyond_far = !(r <= 1.0);
 #endif
 #if DEPTH_IS_GIVEN
     r = texelFetch(receiver_depth, pixel, 0).r;
 #endif
-    precise float slope_term = bias_slope * tan_theta;
+    float slope_term = added_bias(receiver);
 #if !BISECTS
     texel_out = texel;
 #endif
@@ -187,7 +196,7 @@ void main()
 #if BISECTS
     critical_out = critical_bias(r, slope_term, uv, texel);
 #else
-    precise float bias = bias_constant + slope_term;
+    precise float bias = varied_bias(receiver) + slope_term;
     float d;
     float verdict = visibility(r, bias, uv, texel, d);
     sample_out = vec4(r, d, tan_theta, verdict);

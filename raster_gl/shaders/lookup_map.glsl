@@ -1,5 +1,6 @@
-// What a lookup reads, for the filter's visibility(): receivers, the map, one comparison.
-// OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED and GRADIENTS are defined by the program that compiles this.
+// What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
+// comparison. OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT and GRADIENTS are defined by the program
+// that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
@@ -13,10 +14,7 @@ layout(binding = 6) uniform sampler2D filtered_map;      // what a prefilter mad
 
 uniform mat4 light_clip_from_world;
 uniform vec3 light; // SPOT: its position, else the unit vector towards it
-uniform float bias_constant;
-uniform float bias_slope;
-uniform float normal_offset; // in metres at ζ = 1 for SPOT, else in metres
-uniform float resolution;    // in texels
+uniform float resolution; // in texels
 
 #if GRADIENTS
 vec2 uv_dx; // change of uv to the next pixel along a row,
@@ -24,6 +22,16 @@ vec2 uv_dy; // and along a column
 #endif
 
 const float not_a_depth = uintBitsToFloat(0x7FC00000u);
+
+// The surface point that a pixel shows.
+struct Receiver {
+    vec3 position;   // in the world
+    vec3 normal;     // geometric, unit
+    vec3 to_light;   // unit
+    vec4 clip;       // its light clip position
+    float cosine;    // of the angle between normal and to_light
+    float tan_theta; // of the angle between them, or of its supplement: not negative, finite
+};
 
 bool is_lit(float r, float b, float d)
 {

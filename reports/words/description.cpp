@@ -51,9 +51,13 @@ std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias
 {
     const std::string metres =
         settings.constant_m ? fmt::format(" ({:.4g} m)", *settings.constant_m) : std::string{};
-    return fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
-                       plain_zero(bias.constant), metres, plain_zero(bias.slope),
-                       plain_zero(bias.normal_texels));
+    std::string text = fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
+                                   plain_zero(bias.constant), metres, plain_zero(bias.slope),
+                                   plain_zero(bias.normal_texels));
+    for (const auto& [key, value] : bias.handed) {
+        text += fmt::format(", {} {:.4g}", scene::key_leaf(key), plain_zero(value));
+    }
+    return text;
 }
 
 /// The filter, or the method and its settings where it has none.

@@ -256,7 +256,8 @@ std::string precision_kinds(const analysis::Comparison& comparison)
                                      : what;
 }
 
-/// Slope and normal offset are biases too, which no constant one makes up for.
+/// Slope, normal offset and what methods bring along are biases too, which no constant one makes up
+/// for.
 std::string other_biases(const scene::Bias& bias)
 {
     std::vector<std::string> others;
@@ -265,6 +266,11 @@ std::string other_biases(const scene::Bias& bias)
     }
     if (bias.normal_texels != 0) {
         others.push_back(fmt::format("a normal offset of {:.3g} texels", bias.normal_texels));
+    }
+    for (const auto& [key, value] : bias.handed) {
+        if (value != 0) {
+            others.push_back(fmt::format("{} = {:.3g}", key, value));
+        }
     }
     return others.empty() ? "" : fmt::format("There is {} as well", fmt::join(others, " and "));
 }

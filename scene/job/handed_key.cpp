@@ -43,6 +43,12 @@ KeySpec name_key(const std::vector<HandedMethod>& methods)
         std::move(names), [](auto& job) -> auto& { return job.method.name; });
 }
 
+bool is_of_table(const HandedKey& key, std::string_view table)
+{
+    const std::string_view name = key.key.name;
+    return name.substr(0, name.rfind('.')) == table;
+}
+
 KeySpec spec_of(const HandedKey& handed_key)
 {
     return {.key = handed_key.row(),
@@ -86,6 +92,12 @@ void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey>
         throw std::logic_error("hand_over_methods: there is no method");
     }
     for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (!is_of_table(keys[i], "method") && !is_of_table(keys[i], "bias")) {
+            throw std::logic_error(
+                fmt::format("hand_over_methods: {} is neither of [method] nor of "
+                            "[bias]",
+                            keys[i].key.name));
+        }
         for (std::size_t j = 0; j < i; ++j) {
             if (keys[i].key.name == keys[j].key.name) {
                 throw std::logic_error(
@@ -97,12 +109,26 @@ void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey>
     handed().keys = std::move(keys);
 }
 
-std::vector<KeySpec> method_key_specs()
+const std::vector<HandedKey>& handed_keys()
+{
+    return handed().keys;
+}
+
+KeySpec method_name_key()
+{
+    return name_key(handed().methods);
+}
+
+std::vector<KeySpec> handed_key_specs(std::string_view table)
 {
     HandedMethods& all = handed();
     all.is_read = true;
-    std::vector<KeySpec> specs{name_key(all.methods)};
-    std::ranges::transform(all.keys, std::back_inserter(specs), spec_of);
+    std::vector<KeySpec> specs;
+    for (const HandedKey& key : all.keys) {
+        if (is_of_table(key, table)) {
+            specs.push_back(spec_of(key));
+        }
+    }
     return specs;
 }
 

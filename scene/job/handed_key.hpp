@@ -9,7 +9,8 @@
 
 namespace gnomon::scene {
 
-/// A key that a layer above hands to the table of keys: of a shadow method, "method.KEY".
+/// A key that a layer above hands to the table of keys: of a shadow method, "method.KEY", or of one
+/// of its bias terms, "bias.KEY".
 struct HandedKey {
     JobKey key; ///< from `make_key`, without its default and range, which follow from what is here
     Domain domain;
@@ -32,11 +33,15 @@ struct HandedMethod {
 
 /// Says which methods there are, and what keys beside the scene's own: once, and before the table
 /// of keys is read. Until then there is one method, "depth", and no such key.
-/// @throws std::logic_error  if the table was read already, there is no method, or keys repeat.
+/// @throws std::logic_error  if the table was read already, there is no method, if keys repeat, or
+///                           are of another table than `[method]` and `[bias]`.
 void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey> keys);
 
 /// The method of a job that names none: "depth", or without it the first.
 [[nodiscard]] const std::string& default_method();
+
+/// The keys that were handed over, in their order.
+[[nodiscard]] const std::vector<HandedKey>& handed_keys();
 
 /// Whether jobs of the method of that name have a lookup.filter.
 [[nodiscard]] bool has_filters(std::string_view method);

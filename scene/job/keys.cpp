@@ -289,8 +289,10 @@ std::vector<KeySpec> light_keys()
 std::vector<KeySpec> all_key_specs()
 {
     std::vector<KeySpec> specs;
-    for (const auto& group : {scene_keys(), parameter_keys(), camera_keys(), image_keys(),
-                              light_keys(), method_key_specs(), map_key_specs()}) {
+    for (const auto& group :
+         {scene_keys(), parameter_keys(), camera_keys(), image_keys(), light_keys(),
+          std::vector{method_name_key()}, handed_key_specs("method"), map_key_specs(),
+          handed_key_specs("bias")}) {
         specs.insert(specs.end(), group.begin(), group.end());
     }
     for (KeySpec& spec : specs) {
@@ -324,6 +326,13 @@ const KeySpec* find_key(std::string_view name)
     const auto found = std::find_if(specs.begin(), specs.end(),
                                     [&](const KeySpec& spec) { return spec.key.name == name; });
     return found == specs.end() ? nullptr : &*found;
+}
+
+std::optional<JobValue> default_of(const KeySpec& spec, const Job& job)
+{
+    Job defaults;
+    defaults.method.name = job.method.name;
+    return spec.get(defaults);
 }
 
 bool is_key_table(std::string_view name)

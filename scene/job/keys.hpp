@@ -35,6 +35,9 @@ struct KeySpec {
 /// The row of that name, or nullptr.
 [[nodiscard]] const KeySpec* find_key(std::string_view name);
 
+/// What a job of defaults has the key at, of the same method as the job.
+[[nodiscard]] std::optional<JobValue> default_of(const KeySpec& spec, const Job& job);
+
 /// True if a known key is `name` followed by a dot and more.
 [[nodiscard]] bool is_key_table(std::string_view name);
 
@@ -44,10 +47,13 @@ struct KeySpec {
 /// A built-in's parameters, as they stand among the keys: "scene.wall." for "wall".
 [[nodiscard]] std::string parameter_prefix(std::string_view builtin);
 
-/// The rows of `[method]`: its name, and what was handed over.
-[[nodiscard]] std::vector<KeySpec> method_key_specs();
+/// The row of `method.name`.
+[[nodiscard]] KeySpec method_name_key();
 
-/// The rows of `[shadow_map]`, `[lookup]` and `[bias]`.
+/// The rows of a table that were handed over.
+[[nodiscard]] std::vector<KeySpec> handed_key_specs(std::string_view table);
+
+/// The scene's own rows of `[shadow_map]`, `[lookup]` and `[bias]`.
 [[nodiscard]] std::vector<KeySpec> map_key_specs();
 
 [[nodiscard]] constexpr Stages operator|(Stage a, Stage b)

@@ -1,11 +1,14 @@
 #include "scene/view/view.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/handed_key.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string_view>
+#include <variant>
 
 namespace gnomon::scene {
 namespace {
@@ -34,6 +37,31 @@ float constant_bias(const BiasSettings& settings, const LightFrustum& frustum)
                          "in metres; use bias.constant");
     }
     return rounded_bias(*settings.constant_m / frustum.range_m(), "bias.constant_m");
+}
+
+/// The value if it is a number.
+std::optional<double> number_of(const JobValue& value)
+{
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        return static_cast<double>(*integer);
+    }
+    const auto* real = std::get_if<double>(&value);
+    return real == nullptr ? std::nullopt : std::optional{*real};
+}
+
+std::map<std::string, float, std::less<>> resolve_handed_biases(const Job& job)
+{
+    std::map<std::string, float, std::less<>> biases;
+    for (const HandedKey& key : handed_keys()) {
+        const std::string& name = key.key.name;
+        if (!name.starts_with("bias.") || !key.is_of(job.method.name)) {
+            continue;
+        }
+        if (const auto number = number_of(key.value_of(job))) {
+            biases.emplace(name, rounded_bias(*number, name));
+        }
+    }
+    return biases;
 }
 
 /// The box that a default camera frames: everything but the ground, which reaches far beyond.
@@ -65,6 +93,12 @@ LightSettings default_light()
 }
 
 } // namespace
+
+std::optional<float> Bias::find_handed(std::string_view key) const
+{
+    const auto found = handed.find(key);
+    return found == handed.end() ? std::nullopt : std::optional{found->second};
+}
 
 Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum)
 {
@@ -98,6 +132,7 @@ View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefault
     view.frustum =
         fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera, job.image);
     view.bias = resolve_bias(job.bias, view.frustum);
+    view.bias.handed = resolve_handed_biases(job);
     return view;
 }
 

@@ -3,16 +3,29 @@
 #include "scene/job/job.hpp"
 #include "scene/scene_defaults.hpp"
 
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
 namespace gnomon::scene {
 
-/// The bias as GL receives it: float32, depth units, each 0 or a normal float.
+/// The bias as GL receives it: float32, each 0 or a normal float; constant and slope in depth
+/// units. Without what a member or an entry says, there is no such bias.
 struct Bias {
     float constant = 0;
     float slope = 0;
     float normal_texels = 0;
+    /// Numbers of the keys "bias.…" that were handed over and the job's method has, by key.
+    std::map<std::string, float, std::less<>> handed = {};
+
+    /// What `handed` has of the key, or nothing.
+    [[nodiscard]] std::optional<float> find_handed(std::string_view key) const;
 };
 
-/// The biases, each rounded to float32 once; constant_m [m] is divided by far − near before.
+/// The scene's own biases, each rounded to float32 once; constant_m [m] is divided by far − near
+/// before.
 /// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
 [[nodiscard]] Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum);
 

@@ -1,5 +1,9 @@
 #include "store/exr/exact_inputs.hpp"
 
+#include "scene/job/keys.hpp"
+
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -69,6 +73,10 @@ void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
     inputs.push_back({"bias_slope", numbers({static_cast<double>(view.bias.slope)})});
     inputs.push_back(
         {"bias_normal_texels", numbers({static_cast<double>(view.bias.normal_texels)})});
+    for (const auto& [key, bias] : view.bias.handed) {
+        inputs.push_back(
+            {fmt::format("bias_{}", scene::key_leaf(key)), numbers({static_cast<double>(bias)})});
+    }
 }
 
 } // namespace

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "methods/bias_term.hpp"
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace gnomon::methods {
+
+inline constexpr auto constant_bias_keys =
+    std::to_array<std::string_view>({"bias.constant", "bias.constant_m"});
+
+inline constexpr std::string_view constant_bias_glsl = R"(uniform float bias_constant;
+
+float constant_bias(Receiver receiver)
+{
+    return bias_constant;
+}
+)";
+
+inline std::optional<Piece> constant_bias_piece(const scene::Job& /*job*/, const scene::View& view)
+{
+    return Piece{constant_bias_glsl, {}, {{"bias_constant", {view.bias.constant}}}};
+}
+
+/// b, which a bias curve varies.
+inline constexpr BiasTerm constant_bias{
+    .name = "constant",
+    .keys = constant_bias_keys,
+    .place = BiasPlace::receiver_depth,
+    .sentence = "b = constant, or constant_m / (far − near): lit if fl(r − fl(b + s)) ≤ d, with s "
+                "the slope term",
+    .function = "constant_bias",
+    .piece = constant_bias_piece};
+
+} // namespace gnomon::methods
