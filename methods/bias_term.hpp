@@ -29,12 +29,12 @@ enum class BiasPlace : std::uint8_t {
 /// `Receiver` and what else it may read are in raster_gl/shaders/lookup_map.glsl. Place and stage
 /// say which:
 ///
-///   - receiver_depth, bias: `float NAME(Receiver receiver)`, added to the bias; the curve varies
-///     the list's first;
-///   - receiver_depth, lookup: `float NAME(Receiver receiver, float r)`, the receiver's depth in
-///     place of r;
-///   - lookup_position, lookup: `vec4 NAME(Receiver receiver, vec4 clip)`, the light clip position
-///     that is looked up in place of clip.
+///     receiver_depth, bias     float NAME(Receiver receiver)
+///         what is added to the bias; the first of a list is the one that the curve varies
+///     receiver_depth, lookup   float NAME(Receiver receiver, float r)
+///         the receiver's depth in place of r
+///     lookup_position, lookup  vec4 NAME(Receiver receiver, vec4 clip)
+///         the light clip position that is looked up in place of clip
 ///
 /// No pass asks for other terms yet: `check` refuses them. Terms of the stage bias are the
 /// formula's b and slope, which the bias curve knows; the others make a lookup that is not at the

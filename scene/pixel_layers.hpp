@@ -16,7 +16,8 @@ struct ReceiverLayers {
 
 /// What the lookup computed for one pixel; all zero where there is no receiver.
 struct LookupSample {
-    float receiver_depth = 0; ///< r, before constant and slope bias; limited to [0, 1] by `clamp` only
+    /// r, as it is before constant and slope bias; limited to [0, 1] by `clamp` only
+    float receiver_depth = 0;
     /// d of the centre tap (linear: interpolated); NaN where the border mode decided
     float map_depth = 0;
     float tan_theta = 0; ///< tangent of the angle between geometric normal and light, >= 0, finite

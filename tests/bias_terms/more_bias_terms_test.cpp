@@ -41,7 +41,7 @@ Keys small(Keys keys)
 /// A wall whose shadow the map knows coarsely, without the built-in's own bias.
 scene::Job wall_with(Keys keys)
 {
-    keys.insert(keys.begin(), {"bias.constant", "0"});
+    keys.insert(keys.begin(), {"bias.constant_m", "0"});
     return scene::builtin_job("wall", small(std::move(keys))).job;
 }
 
@@ -69,7 +69,7 @@ TEST(MoreBiasTerms, HaveRowsInTheTableOfBiases)
                                             "bias.normal_texels", "bias.pull_m", "bias.lift_m"));
     const scene::JobKey& pull = scene::find_key("bias.pull_m")->key;
     EXPECT_EQ(pull.unit, "m");
-    EXPECT_EQ(pull.default_text, "0.0");
+    EXPECT_EQ(pull.default_text, "0");
     EXPECT_EQ(methods::keys_of(methods::methods()[0]).back().name, "bias.lift_m");
     EXPECT_EQ(methods::keys_of(methods::methods()[1]).back().name, "method.min_variance");
 }
@@ -122,7 +122,6 @@ TEST(MoreBiasTerms, NeedALookupOfTheirOwnWithoutBias)
     EXPECT_TRUE(analysis::can_derive_unbiased(job, view));
 }
 
-/// Neither of them when the stages are told apart: only the lookup's key differs.
 TEST(MoreBiasTerms, ChangeTheLookupAlone)
 {
     const auto keys = [](const char* pull) {

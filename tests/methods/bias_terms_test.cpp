@@ -7,6 +7,7 @@
 
 #include <array>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -45,29 +46,42 @@ TEST(BiasTerms, AreThoseOfTheList)
     EXPECT_THAT(keys_with_units(terms[2]), ElementsAre("bias.normal_texels [texel widths]"));
 }
 
-/// The stage from which a term that acts there takes part.
-Stage first_stage(BiasPlace place)
-{
-    switch (place) {
-    case BiasPlace::map_drawn:
-        return Stage::shadow_map;
-    case BiasPlace::lookup_position:
-    case BiasPlace::per_tap:
-        return Stage::lookup;
-    case BiasPlace::receiver_depth:
-        return Stage::bias;
-    }
-    return Stage::scene;
-}
-
-TEST(BiasTerms, AreOfTheStageInWhichTheyAct)
+TEST(BiasTerms, AreOfOneStageAndOfAPlaceWhereALookupActs)
 {
     for (const BiasTerm& term : bias_terms()) {
-        EXPECT_EQ(stages_of(term), scene::only(first_stage(term.place))) << term.name;
+        EXPECT_NO_THROW(check(term)) << term.name;
         for (const scene::JobKey& key : keys_of(term)) {
             EXPECT_EQ(key.stages, stages_of(term)) << key.name;
         }
+        const bool is_of_depth = term.place == BiasPlace::receiver_depth;
+        EXPECT_EQ(is_of_curve(term), is_of_depth) << term.name;
     }
+}
+
+TEST(BiasTerms, DefineTheFunctionThatTheyName)
+{
+    const scene::Job job;
+    scene::View view;
+    view.bias = {.constant = 1, .slope = 2, .normal_texels = 3};
+    const auto active = active_biases(bias_terms(), job, view);
+    ASSERT_EQ(active.size(), bias_terms().size());
+    for (const ActiveBias& bias : active) {
+        const std::string start = std::string{" "} + std::string{bias.term->function} + "(Receiver";
+        EXPECT_NE(bias.piece.glsl.find(start), std::string_view::npos) << bias.term->name;
+        ASSERT_EQ(bias.piece.uniforms.size(), 1U) << bias.term->name;
+        EXPECT_NE(bias.piece.uniforms[0].values, std::vector{0.0F}) << bias.term->name;
+    }
+    EXPECT_TRUE(moves_lookups(active));
+}
+
+TEST(BiasTerms, OfTheCurveAloneActWithoutANormalOffset)
+{
+    const auto active = active_biases(bias_terms(), scene::Job{}, scene::View{});
+    ASSERT_EQ(active.size(), 2U);
+    EXPECT_EQ(active[0].term->name, "constant");
+    EXPECT_EQ(active[1].term->name, "slope");
+    EXPECT_FALSE(moves_lookups(active));
+    EXPECT_FALSE(moves_lookups(std::span<const ActiveBias>{}));
 }
 
 TEST(BiasTerms, SetEveryKeyOfTheirTableOnce)
@@ -90,6 +104,80 @@ TEST(BiasTerms, RejectAKeyThatHasNoRow)
     const BiasTerm term{"polygon offset", unknown, BiasPlace::map_drawn, "none"};
     EXPECT_THROW((void)keys_of(term), std::invalid_argument);
     EXPECT_THROW((void)stages_of(term), std::invalid_argument);
+}
+
+/// What `check` says of the term; empty: nothing.
+std::string refusal(const BiasTerm& term)
+{
+    try {
+        check(term);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return {};
+}
+
+std::vector<scene::HandedKey> key_of_another_table()
+{
+    return {{scene::make_key("method.pull", "", "", scene::only(Stage::lookup)),
+             scene::RealDomain{.lower = 0, .upper = 1}, 0.0}};
+}
+std::vector<scene::HandedKey> key_that_is_not_listed()
+{
+    return {{scene::make_key("bias.pull", "", "", scene::only(Stage::lookup)),
+             scene::RealDomain{.lower = 0, .upper = 1}, 0.0}};
+}
+std::vector<scene::HandedKey> no_keys()
+{
+    return {};
+}
+
+TEST(BiasTerms, AreRefusedWhereNoLookupDoesAsTheySay)
+{
+    const BiasTerm slope = bias_terms()[1];
+    const BiasTerm offset = bias_terms()[2];
+    BiasTerm term = offset;
+    term.place = BiasPlace::map_drawn;
+    EXPECT_EQ(refusal(term), "bias term normal offset: no pass draws maps with such a term yet");
+    term.place = BiasPlace::per_tap;
+    EXPECT_EQ(refusal(term),
+              "bias term normal offset: no lookup has a depth of its own for each tap yet");
+    term.place = BiasPlace::receiver_depth;
+    EXPECT_EQ(refusal(term), "") << "of the stage lookup";
+    term = slope;
+    term.place = BiasPlace::lookup_position;
+    EXPECT_EQ(refusal(term), "bias term slope: the stage of its keys must be lookup");
+    term = slope;
+    term.own_keys = no_keys;
+    EXPECT_EQ(refusal(term), "bias term slope: the bias curve's formula has constant and slope "
+                             "alone: its stage must be lookup");
+}
+
+TEST(BiasTerms, AreRefusedOfSeveralStages)
+{
+    constexpr std::array<std::string_view, 2> keys{"bias.slope", "bias.normal_texels"};
+    BiasTerm term = bias_terms()[1];
+    term.keys = keys;
+    EXPECT_EQ(refusal(term), "bias term slope: the stage of its keys must be lookup");
+}
+
+TEST(BiasTerms, AreRefusedWithoutGlsl)
+{
+    BiasTerm term = bias_terms()[2];
+    term.function = {};
+    EXPECT_EQ(refusal(term), "bias term normal offset: it has no GLSL");
+    term = bias_terms()[2];
+    term.piece = nullptr;
+    EXPECT_EQ(refusal(term), "bias term normal offset: it has no GLSL");
+}
+
+TEST(BiasTerms, AreRefusedWithKeysOfAnotherTableOrNotListed)
+{
+    BiasTerm term = bias_terms()[2];
+    term.own_keys = key_of_another_table;
+    EXPECT_EQ(refusal(term), "bias term normal offset: its keys must be of [bias]");
+    term.own_keys = key_that_is_not_listed;
+    EXPECT_EQ(refusal(term), "bias term normal offset: its keys lack bias.pull");
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 #include "job_fixture.hpp"
 
 #include "scene/job/keys.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/view/view.hpp"
 
 #include <stdexcept>
 
@@ -28,6 +30,13 @@ HandedKey content_key()
             WordDomain{.words = {"half", "full"}},
             std::string{"full"},
             {"vsm"}};
+}
+HandedKey offset_key()
+{
+    return {make_key("bias.offset", "how far", "", only(Stage::lookup), "m"),
+            RealDomain{.lower = -1, .upper = 1},
+            0.5,
+            {"moments"}};
 }
 HandedKey blur_key()
 {
@@ -57,7 +66,11 @@ std::string logic_error_of(std::vector<HandedKey> keys)
 struct HandedOver {
     std::string refusal_of_repeats = logic_error_of({width_key(), blur_key(), width_key()});
 
-    HandedOver() { hand_over({width_key(), content_key(), blur_key()}); }
+    std::string refusal_of_another_table =
+        logic_error_of({{make_key("lookup.width", "", "", only(Stage::lookup)), IntegerDomain{1, 9},
+                         std::int64_t{5}}});
+
+    HandedOver() { hand_over({width_key(), offset_key(), content_key(), blur_key()}); }
 };
 const HandedOver handed_over;
 
@@ -83,6 +96,12 @@ std::vector<std::string> method_keys(const Job& job)
 TEST(HandOverMethods, RefusesKeysThatRepeat)
 {
     EXPECT_EQ(handed_over.refusal_of_repeats, "hand_over_methods: method.width repeats");
+}
+
+TEST(HandOverMethods, RefusesKeysOfTheScenesOwnTables)
+{
+    EXPECT_EQ(handed_over.refusal_of_another_table,
+              "hand_over_methods: lookup.width is neither of [method] nor of [bias]");
 }
 
 TEST(HandOverMethods, IsRefusedOnceTheTableWasRead)
@@ -111,6 +130,28 @@ TEST(HandedKey, StandsInTheTableBehindTheMethodsName)
     EXPECT_EQ(width.unit, "texels");
     EXPECT_EQ(find_key("method.content")->key.default_text, "\"full\"");
     EXPECT_EQ(find_key("method.blur")->key.default_text, "0.25");
+}
+
+TEST(HandedKey, OfABiasStandsBehindTheScenesOwnBiases)
+{
+    const auto& keys = job_keys();
+    ASSERT_GE(keys.size(), 2U);
+    EXPECT_EQ(keys.back().name, "bias.offset");
+    EXPECT_EQ(keys[keys.size() - 2].name, "bias.normal_texels");
+}
+
+TEST(HandedKey, OfABiasIsResolvedToFloat32ForJobsOfItsMethod)
+{
+    const auto bias_of = [](const std::string& text) {
+        const Job job = job_of(text).job;
+        const SceneFile file = load_scene(job.scene);
+        return resolve_view(job, file.scene, file.defaults).bias;
+    };
+    EXPECT_EQ(bias_of(wall_with("moments", "[bias]\noffset = 0.1\n")).find_handed("bias.offset"),
+              0.1F);
+    EXPECT_EQ(bias_of(wall_with("moments")).find_handed("bias.offset"), 0.5F);
+    EXPECT_FALSE(bias_of(wall_with("moments")).find_handed("method.blur"));
+    EXPECT_TRUE(bias_of(wall_with("vsm")).handed.empty());
 }
 
 TEST(HandedKey, IsFoundByItsName)
