@@ -159,29 +159,35 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
 
 } // namespace
 
+void finish_comparison(Comparison& begun, const Renderers& renderers)
+{
+    StageSeconds& seconds = begun.seconds;
+    const scene::Job& job = begun.job;
+    const scene::View& view = begun.view;
+
+    begun.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });
+    timed(seconds.shadow_map, [&] { renderers.draw_map(job, view); });
+    begun.lookup = timed(seconds.lookup, [&] { return renderers.look_up(job, view); });
+    begun.truth =
+        timed(seconds.truth, [&] { return renderers.find_truth(view, begun.receivers); });
+
+    timed(seconds.analysis, [&] {
+        measure_comparison(begun, renderers, {view.bias.constant, MapAfterDiagnosis::given_back});
+    });
+    if (begun.diagnosis) {
+        begun.precision_kinds =
+            timed(seconds.analysis, [&] { return measure_precision_kinds(begun, renderers); });
+    }
+}
+
 Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
 {
     double scene_seconds = 0;
     Comparison result = timed(scene_seconds, [&] {
         return begin_comparison(job, file, summarise_scene(job.scene, file.scene), renderers);
     });
-    StageSeconds& seconds = result.seconds;
-    seconds.scene = scene_seconds;
-    const scene::View& view = result.view;
-
-    result.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });
-    timed(seconds.shadow_map, [&] { renderers.draw_map(job, view); });
-    result.lookup = timed(seconds.lookup, [&] { return renderers.look_up(job, view); });
-    result.truth =
-        timed(seconds.truth, [&] { return renderers.find_truth(view, result.receivers); });
-
-    timed(seconds.analysis, [&] {
-        measure_comparison(result, renderers, {view.bias.constant, MapAfterDiagnosis::given_back});
-    });
-    if (result.diagnosis) {
-        result.precision_kinds =
-            timed(seconds.analysis, [&] { return measure_precision_kinds(result, renderers); });
-    }
+    result.seconds.scene = scene_seconds;
+    finish_comparison(result, renderers);
     return result;
 }
 

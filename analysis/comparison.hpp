@@ -96,6 +96,12 @@ struct Comparison {
 [[nodiscard]] Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
                                           SceneSummary summary, const Renderers& renderers);
 
+/// Runs both renderers over the view of a begun comparison, measures the difference, and adds what
+/// each stage took.
+///
+/// The shadow maps drawn last need not be the job's afterwards.
+void finish_comparison(Comparison& begun, const Renderers& renderers);
+
 /// Fills in metrics and, where the renderers can answer for it, the diagnosis of a comparison whose
 /// other members are known, and holds its verdicts to the bias curve.
 /// @throws std::invalid_argument  if its layers are not of the image's size.

@@ -30,7 +30,7 @@ struct Environment {
 
 /// Depths that exact rays find, rounded once to float32.
 struct ExactDepths {
-    const scene::Image<float>& map;       ///< of texels, as shaders see them, top left first
+    const scene::Image<float>& map;       ///< of texels, as shaders see them (`maps_image_size`)
     const scene::Image<float>& receivers; ///< of pixels
 };
 
@@ -68,7 +68,7 @@ struct Renderers {
         const scene::Job&, const scene::View&, const ExactDepths&, std::span<const float> lit_from)>
         find_exact_critical_biases;
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
-    /// The depths of the map drawn last, as shaders see them, top left first.
+    /// The depths of the maps drawn last, as shaders see them (`scene::maps_image_size`).
     std::function<scene::Image<float>()> read_map_depths;
     /// Gives the memory of the map drawn last back: it is drawn again before it is asked again.
     /// Empty: there is nothing to give back.

@@ -48,6 +48,38 @@ void set_sampler(const Sampler& sampler, GLint filter, Outside outside, bool rev
     glSamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, border.data());
 }
 
+std::vector<scene::Mat4f> matrices_of(const scene::View& view)
+{
+    std::vector<scene::Mat4f> matrices;
+    for (const scene::LightFrustum& map : view.maps) {
+        matrices.push_back(map.light_clip_from_world);
+    }
+    return matrices;
+}
+
+void require_maps(const ShadowMap& map, const scene::Job& job, const scene::View& view)
+{
+    for (const scene::LightFrustum& frustum : view.maps) {
+        const bool zero_to_one = frustum.clip_range == scene::ClipRange::zero_to_one;
+        if (zero_to_one != frustum.reversed || frustum.reversed != map.reversed) {
+            throw std::invalid_argument("LookupPass: only reversed depth looks up in [0, 1]");
+        }
+    }
+    if (map.depth.layer_count() != view.maps.size()) {
+        throw std::invalid_argument("LookupPass: other maps were drawn than the view has");
+    }
+    if (view.maps.size() > 1 && job.lookup.position != scene::LookupPosition::pixel) {
+        throw std::invalid_argument("LookupPass: several maps are looked up from pixels alone");
+    }
+}
+
+/// Source of the choice among a light's maps; nothing where there is but one.
+std::string map_choice(const scene::View& view)
+{
+    return view.maps.size() > 1 ? fmt::format("#line 1 3\n{}", shader_source("map_choice.glsl"))
+                                : std::string{};
+}
+
 void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& context)
 {
     const float largest = context.facts().max_anisotropy;
@@ -79,6 +111,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     const methods::Promises promised = methods::promises(job);
     const scene::LookupSettings& settings = job.lookup;
     Definitions definitions{
+        {"MAPS", std::to_string(view.maps.size())},
         {"TAPS_ACROSS", std::to_string(promised.width_texels)},
         {"KERNEL_ACROSS", std::to_string(promised.kernel.width_texels())},
         {"INTERPOLATES", flag(promised.interpolates())},
@@ -95,7 +128,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     for (const methods::ActiveBias& bias : pieces.biases) {
         add_definitions(bias.piece, definitions);
     }
-    const std::string biases = bias_functions(pieces.biases);
+    const std::string biases = map_choice(view) + bias_functions(pieces.biases);
     std::string key = biases + std::string{pieces.passes.lookup.glsl};
     for (const auto& [name, value] : definitions) {
         key += fmt::format(" {}={}", name, value);
@@ -110,9 +143,10 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     return programs_.emplace(std::move(key), std::move(made)).first->second;
 }
 
-void LookupPass::allocate(scene::ImageSize size)
+void LookupPass::allocate(scene::ImageSize size, std::size_t maps)
 {
-    if (size_ == size) {
+    const bool has_maps = maps > 1;
+    if (size_ == size && has_maps != maps_.empty()) {
         return;
     }
     samples_ = make_texture(GL_RGBA32F, size.width_px, size.height_px);
@@ -120,8 +154,11 @@ void LookupPass::allocate(scene::ImageSize size)
     target_ = make_framebuffer();
     glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, samples_.name(), 0);
     glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT1, texels_.name(), 0);
-    constexpr std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    glNamedFramebufferDrawBuffers(target_.name(), 2, outputs.data());
+    maps_ = has_maps ? make_texture(GL_R8UI, size.width_px, size.height_px) : Texture{};
+    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT2, maps_.name(), 0);
+    constexpr std::array<GLenum, 3> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                            GL_COLOR_ATTACHMENT2};
+    glNamedFramebufferDrawBuffers(target_.name(), has_maps ? 3 : 2, outputs.data());
     context_.check(fmt::format("allocating a {}×{} lookup", size.width_px, size.height_px));
     size_ = size;
 }
@@ -163,7 +200,7 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
 
 void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view)
 {
-    allocate(view.image);
+    allocate(view.image, view.maps.size());
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     draw(from, job, view, Computes::verdict, {});
     context_.check("looking up the shadow map");
@@ -198,14 +235,11 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     if (!(from.receivers.size == view.image)) {
         throw std::invalid_argument("LookupPass: receivers are not of the view's size");
     }
-    const bool zero_to_one = view.frustum.clip_range == scene::ClipRange::zero_to_one;
-    if (zero_to_one != view.frustum.reversed) {
-        throw std::invalid_argument("LookupPass: only reversed depth looks up in [0, 1]");
-    }
+    require_maps(from.map, job, view);
     const methods::Passes passes = methods::passes(job);
     const std::vector<methods::ActiveBias> biases = methods::active_biases(job, view);
     const Program& lookup = program(from, job, view, {passes, biases}, computes);
-    set_uniform(lookup, "light_clip_from_world", view.frustum.light_clip_from_world);
+    set_uniform(lookup, "light_clip_from_world", matrices_of(view));
     set_uniform(lookup, "light", light_uniform(view.light));
     set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
     set_uniform(lookup, "lit_from", lit_from);
@@ -237,6 +271,9 @@ scene::LookupLayers LookupPass::read() const
     scene::LookupLayers layers{
         read_texture<scene::LookupSample>(samples_, size_, GL_RGBA, GL_FLOAT),
         read_texture<scene::Vec2f>(texels_, size_, GL_RG, GL_FLOAT)};
+    if (!maps_.empty()) {
+        layers.maps = read_texture<std::uint8_t>(maps_, size_, GL_RED_INTEGER, GL_UNSIGNED_BYTE);
+    }
     context_.check("reading the lookup");
     return layers;
 }

@@ -5,12 +5,14 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/layered_texture.hpp"
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -23,7 +25,8 @@ struct LookedUp {
     const GpuScene& scene;
     const ReceiverBuffer& receivers;
     const ShadowMap& map;
-    const Texture* filtered = nullptr; ///< what a prefilter made of the map; nullptr: nothing
+    const LayeredTexture* filtered =
+        nullptr; ///< what a prefilter made of the map; nullptr: nothing
 };
 
 /// What a bisection looks for.
@@ -33,7 +36,8 @@ struct Bisection {
     const scene::Image<float>* receiver_depths = nullptr;
 };
 
-/// Looks every receiver up in the shadow map, or in what a method made of it.
+/// Looks every receiver up in the shadow map, or in what a method made of it; of several maps in
+/// the one that it reads (`scene::MapChoice`).
 ///
 /// The bias terms of the method act as the view's bias says. Biases are uniforms, and r, d and tan
 /// θ are handed out, r as it is compared before constant and slope: these two can be changed
@@ -43,7 +47,9 @@ public:
     explicit LookupPass(const Context& context);
 
     /// Draws the lookup; read the result with `read`.
-    /// @throws std::invalid_argument  if the receivers are not of the view's size.
+    /// @throws std::invalid_argument  if the receivers are not of the view's size, there are not
+    ///                                as many maps as the view has, or several are looked up from
+    ///                                vertices.
     void render(const LookedUp& from, const scene::Job& job, const scene::View& view);
 
     /// What `render` drew last, in images of the view's size, top left first.
@@ -76,7 +82,8 @@ private:
     };
     const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
                            const Pieces& pieces, Computes computes);
-    void allocate(scene::ImageSize size);
+    /// @param maps  of the light.
+    void allocate(scene::ImageSize size, std::size_t maps);
     /// Draws to the bound framebuffer.
     void draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
               Computes computes, float lit_from);
@@ -92,6 +99,7 @@ private:
     Framebuffer target_;
     Texture samples_;
     Texture texels_;
+    Texture maps_; ///< where the light has several
     scene::ImageSize size_{0, 0};
 };
 

@@ -57,7 +57,7 @@ std::string pieces_before_shader(std::string_view source, const methods::Piece& 
 std::string bias_functions(std::span<const ActiveBias> biases)
 {
     std::string text;
-    int number = 3;
+    int number = 4;
     for (const ActiveBias& bias : biases) {
         text += fmt::format("#line 1 {}\n{}", number++, bias.piece.glsl);
     }

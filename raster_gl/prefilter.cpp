@@ -77,27 +77,30 @@ const Program& PrefilterPass::program(const methods::Piece& piece)
     return programs_.emplace(key, std::move(made)).first->second;
 }
 
-void PrefilterPass::draw(const methods::PrefilterPass& pass, const Texture& source,
+void PrefilterPass::draw(const methods::PrefilterPass& pass, const LayeredTexture& source,
                          int resolution_texels, int levels, FilteredFormats formats, Made& made)
 {
     const GlTexelFormat format = gl_format(pass.format, formats);
     if (made.format != format.internal || made.resolution_texels != resolution_texels ||
-        made.levels != levels) {
+        made.levels != levels || made.texture.layer_count() != source.layer_count()) {
         made = {}; // the old texture goes before the new one comes
-        made = {make_texture(format.internal, resolution_texels, resolution_texels, levels),
+        made = {LayeredTexture{format.internal, resolution_texels, source.layer_count(), levels},
                 format.internal, resolution_texels, levels};
-        require_format(made.texture, format);
+        require_format(made.texture.layer(0), format);
     }
-    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, made.texture.name(), 0);
     const Program& texel = program(pass.piece);
     set_uniforms(texel, pass.piece);
-    glBindTextureUnit(0, source.name());
     glUseProgram(texel.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    for (std::size_t i = 0; i < source.layer_count(); ++i) {
+        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0,
+                                  made.texture.layer(i).name(), 0);
+        glBindTextureUnit(0, source.layer(i).name());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
 }
 
-const Texture& PrefilterPass::render(const ShadowMap& map, const methods::Passes& passes,
-                                     FilteredFormats formats)
+const LayeredTexture& PrefilterPass::render(const ShadowMap& map, const methods::Passes& passes,
+                                            FilteredFormats formats)
 {
     if (passes.prefilter.empty()) {
         forget();
@@ -111,7 +114,7 @@ const Texture& PrefilterPass::render(const ShadowMap& map, const methods::Passes
     glBindSampler(0, 0);
     glBindVertexArray(no_attributes_.name());
     const auto all_levels = std::bit_width(static_cast<unsigned>(map.resolution_texels));
-    const Texture* source = &map.depth;
+    const LayeredTexture* source = &map.depth;
     for (std::size_t i = 0; i < made_.size(); ++i) {
         const bool has_levels = passes.makes_mipmaps && i + 1 == made_.size();
         draw(passes.prefilter[i], *source, map.resolution_texels,

@@ -3,6 +3,7 @@
 #include "methods/passes.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
+#include "raster_gl/layered_texture.hpp"
 #include "raster_gl/program.hpp"
 #include "raster_gl/shadow_map.hpp"
 
@@ -24,33 +25,34 @@ class PrefilterPass {
 public:
     explicit PrefilterPass(const Context& context);
 
-    /// @return  What the last pass made, the object's own; empty without passes. The next call
-    ///          overwrites it.
+    /// @return  What the last pass made of each map, the object's own; empty without passes. The
+    ///          next call overwrites it.
     /// @throws scene::InputError        if the driver lacks a format.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
-    const Texture& render(const ShadowMap& map, const methods::Passes& passes,
-                          FilteredFormats formats = FilteredFormats::of_method);
+    const LayeredTexture& render(const ShadowMap& map, const methods::Passes& passes,
+                                 FilteredFormats formats = FilteredFormats::of_method);
     /// Gives the memory back.
     void forget();
 
 private:
     const Program& program(const methods::Piece& piece);
     struct Made {
-        Texture texture;
+        LayeredTexture texture;
         GLenum format = 0;
         int resolution_texels = 0;
         int levels = 0;
     };
     /// Draws the pass's texture, which is made first where it is not such a one.
-    void draw(const methods::PrefilterPass& pass, const Texture& source, int resolution_texels,
-              int levels, FilteredFormats formats, Made& made);
+    /// @param source  of as many layers.
+    void draw(const methods::PrefilterPass& pass, const LayeredTexture& source,
+              int resolution_texels, int levels, FilteredFormats formats, Made& made);
 
     const Context& context_;
     std::map<std::string, Program> programs_;
     VertexArray no_attributes_;
     Framebuffer target_;
     std::vector<Made> made_; ///< by pass
-    Texture nothing_;
+    LayeredTexture nothing_;
 };
 
 } // namespace gnomon::raster_gl

@@ -101,8 +101,14 @@ void set_uniform(const Program& program, const char* name, const scene::Vec3f& v
 
 void set_uniform(const Program& program, const char* name, const scene::Mat4f& value)
 {
-    glProgramUniformMatrix4fv(program.name(), location(program, name), 1, GL_FALSE,
-                              glm::value_ptr(value));
+    set_uniform(program, name, {&value, 1});
+}
+
+void set_uniform(const Program& program, const char* name, std::span<const scene::Mat4f> values)
+{
+    glProgramUniformMatrix4fv(program.name(), location(program, name),
+                              static_cast<GLsizei>(values.size()), GL_FALSE,
+                              glm::value_ptr(values.front()));
 }
 
 } // namespace gnomon::raster_gl

@@ -39,5 +39,6 @@ void set_uniform(const Program& program, const char* name, std::uint32_t value);
 void set_uniform(const Program& program, const char* name, std::span<const float> values);
 void set_uniform(const Program& program, const char* name, const scene::Vec3f& value);
 void set_uniform(const Program& program, const char* name, const scene::Mat4f& value);
+void set_uniform(const Program& program, const char* name, std::span<const scene::Mat4f> values);
 
 } // namespace gnomon::raster_gl

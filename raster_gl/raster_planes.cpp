@@ -62,7 +62,7 @@ const ShadowMap& RasterPlanes::draw(scene::DepthFormat format)
     scene::ShadowMapSettings settings;
     settings.resolution_texels = planes_.resolution_texels;
     settings.depth_format = format;
-    return pass_.render(gpu_, planes_.frustum, settings);
+    return pass_.render(gpu_, {&planes_.frustum, 1}, settings);
 }
 
 bool RasterPlanes::surely_covers(const scene::RasterPlane& plane, const Vec2d& at) const

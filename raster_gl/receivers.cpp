@@ -78,7 +78,9 @@ const ReceiverBuffer& ReceiverPass::render(const GpuScene& scene, const scene::V
     clear(target_);
     set_uniform(program_, "camera_clip_from_world",
                 scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box)});
-    set_uniform(program_, "light_clip_from_world", view.frustum.light_clip_from_world);
+    const scene::Mat4f no_map{1};
+    set_uniform(program_, "light_clip_from_world",
+                view.maps.empty() ? no_map : view.first_map().light_clip_from_world);
     glUseProgram(program_.name());
     scene.draw_receivers(program_);
     glFinish();

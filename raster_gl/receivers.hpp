@@ -22,7 +22,7 @@ struct ReceiverBuffer {
 };
 
 /// Draws the receivers from the camera. Depends on camera and image size only, `light_clip` on the
-/// light's matrix too.
+/// matrix of the light's first map too: where a light has several, lookups do not read it.
 class ReceiverPass {
 public:
     explicit ReceiverPass(const Context& context);

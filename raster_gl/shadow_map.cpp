@@ -10,6 +10,8 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -26,7 +28,7 @@ void clear(const Framebuffer& target, const ShadowMap& map)
 {
     const float far_depth = map.reversed ? 0.0F : 1.0F;
     glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_depth);
-    if (map.code.name() != 0) {
+    if (!map.code.empty()) {
         const std::array<GLuint, 4> code{map.reversed ? 0U : largest_code(map.format)};
         const std::array<GLfloat, 4> z{far_depth};
         glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, code.data());
@@ -90,6 +92,37 @@ private:
     Program program_ = make_program({"fullscreen.vert", "map_depths.frag", {}, nullptr});
 };
 
+/// Level 0 of each layer, bit for bit (`scene::maps_image_size`).
+template <typename Pixel>
+scene::Image<Pixel> read_layers(const LayeredTexture& texture, int resolution_texels, GLenum format,
+                                GLenum type)
+{
+    const scene::ImageSize size{resolution_texels, resolution_texels};
+    if (texture.layer_count() == 1) {
+        return read_texture<Pixel>(texture.layer(0), size, format, type);
+    }
+    scene::Image<Pixel> all{scene::maps_image_size(resolution_texels, texture.layer_count())};
+    Pixel* next = all.data();
+    for (std::size_t i = 0; i < texture.layer_count(); ++i) {
+        const auto layer = read_texture<Pixel>(texture.layer(i), size, format, type);
+        next = std::copy(layer.begin(), layer.end(), next);
+    }
+    return all;
+}
+
+/// One map of an image of all.
+scene::Image<float> take_map(scene::Image<float>& maps, std::size_t map)
+{
+    const int side = maps.size().width_px;
+    if (maps.size().height_px == side) {
+        return std::move(maps);
+    }
+    scene::Image<float> taken{{side, side}};
+    std::copy_n(maps.data() + static_cast<std::ptrdiff_t>(map * taken.pixel_count()),
+                taken.pixel_count(), taken.data());
+    return taken;
+}
+
 /// Maps that fill a quarter of a gigabyte and more.
 bool is_large(int resolution_texels)
 {
@@ -143,7 +176,7 @@ void ShadowMapPass::forget()
     release(map_.resolution_texels);
 }
 
-void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
+void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size_t maps)
 {
     const int size = settings.resolution_texels;
     const int largest =
@@ -152,65 +185,81 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings)
         throw scene::InputError(fmt::format(
             "shadow_map.resolution = {}: this driver's largest map is {} texels", size, largest));
     }
-    if (map_.resolution_texels == size && map_.format == settings.depth_format) {
+    if (map_.resolution_texels == size && map_.format == settings.depth_format &&
+        map_.depth.layer_count() == maps) {
         return;
     }
     // The old textures go before the new ones come.
     release(std::max(size, map_.resolution_texels));
-    map_.depth = make_texture(internal_format(settings.depth_format), size, size);
-    require_format(map_.depth, settings.depth_format);
-    glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, map_.depth.name(), 0);
+    map_.depth = LayeredTexture{internal_format(settings.depth_format), size, maps};
+    require_format(map_.depth.layer(0), settings.depth_format);
     if (settings.depth_format.kind == Kind::unorm && codes_ == UnormCodes::kept) {
-        map_.code = make_texture(GL_R32UI, size, size);
-        map_.unquantised_z = make_texture(GL_R32F, size, size);
-        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, map_.code.name(), 0);
-        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT1, map_.unquantised_z.name(),
-                                  0);
+        map_.code = LayeredTexture{GL_R32UI, size, maps};
+        map_.unquantised_z = LayeredTexture{GL_R32F, size, maps};
         constexpr std::array<GLenum, 2> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
         glNamedFramebufferDrawBuffers(target_.name(), 2, buffers.data());
     } else {
         glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
     }
-    context_.check(fmt::format("allocating a {0}×{0} {1} shadow map", size,
-                               scene::depth_format_name(settings.depth_format)));
+    context_.check(fmt::format("allocating {2} {0}×{0} {1} shadow map{3}", size,
+                               scene::depth_format_name(settings.depth_format),
+                               maps == 1 ? "a" : std::to_string(maps), maps == 1 ? "" : "s"));
     map_.format = settings.depth_format;
     map_.resolution_texels = size;
 }
 
-const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::LightFrustum& frustum,
+void ShadowMapPass::attach(std::size_t map)
+{
+    const auto attach_layer = [&](GLenum attachment, const LayeredTexture& texture) {
+        glNamedFramebufferTexture(target_.name(), attachment, texture.layer(map).name(), 0);
+    };
+    attach_layer(GL_DEPTH_ATTACHMENT, map_.depth);
+    if (!map_.code.empty()) {
+        attach_layer(GL_COLOR_ATTACHMENT0, map_.code);
+        attach_layer(GL_COLOR_ATTACHMENT1, map_.unquantised_z);
+    }
+}
+
+const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
+                                       std::span<const scene::LightFrustum> maps,
                                        const scene::ShadowMapSettings& settings,
                                        scene::TexelRows rows)
 {
     const DrawnRows only{rows, settings.resolution_texels};
-    return render(scene, frustum, settings);
+    return render(scene, maps, settings);
 }
 
-const ShadowMap& ShadowMapPass::render(const GpuScene& scene, const scene::LightFrustum& frustum,
+const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
+                                       std::span<const scene::LightFrustum> maps,
                                        const scene::ShadowMapSettings& settings)
 {
-    allocate(settings);
-    map_.reversed = frustum.reversed;
+    allocate(settings, maps.size());
+    const scene::LightFrustum& first = maps.front();
+    map_.reversed = first.reversed;
     const bool unorm = map_.format.kind == Kind::unorm;
     const Program& program = unorm ? unorm_ : depth_only_;
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     glViewport(0, 0, map_.resolution_texels, map_.resolution_texels);
-    glClipControl(GL_LOWER_LEFT, frustum.clip_range == scene::ClipRange::zero_to_one
+    glClipControl(GL_LOWER_LEFT, first.clip_range == scene::ClipRange::zero_to_one
                                      ? GL_ZERO_TO_ONE
                                      : GL_NEGATIVE_ONE_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
-    glDepthFunc(frustum.reversed ? GL_GREATER : GL_LESS);
+    glDepthFunc(first.reversed ? GL_GREATER : GL_LESS);
     set_culling(settings.cull);
-    clear(target_, map_);
-    set_uniform(program, "clip_from_world", frustum.light_clip_from_world);
     if (unorm) {
         set_uniform(program, "largest_code", largest_code(map_.format));
     }
     glUseProgram(program.name());
-    if (is_large(map_.resolution_texels)) {
-        scene.draw_casters_in_parts();
-    } else {
-        scene.draw_casters();
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        attach(i);
+        clear(target_, map_);
+        set_uniform(program, "clip_from_world", maps[i].light_clip_from_world);
+        if (is_large(map_.resolution_texels)) {
+            scene.draw_casters_in_parts();
+        } else {
+            scene.draw_casters();
+        }
     }
     glFinish();
     context_.check("rendering the shadow map");
@@ -222,28 +271,32 @@ const ShadowMap& ShadowMapPass::store(scene::Image<float> depths, bool reversed)
     scene::ShadowMapSettings settings;
     settings.resolution_texels = depths.size().width_px;
     settings.depth_format = {Kind::d32f, 32};
-    allocate(settings);
+    const int side = settings.resolution_texels;
+    allocate(settings, static_cast<std::size_t>(depths.size().height_px / side));
     map_.reversed = reversed;
-    flip_rows(depths);
-    glTextureSubImage2D(map_.depth.name(), 0, 0, 0, depths.size().width_px, depths.size().height_px,
-                        GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+    for (std::size_t i = 0; i < map_.depth.layer_count(); ++i) {
+        scene::Image<float> map = take_map(depths, i);
+        flip_rows(map);
+        glTextureSubImage2D(map_.depth.layer(i).name(), 0, 0, 0, side, side, GL_DEPTH_COMPONENT,
+                            GL_FLOAT, map.data());
+    }
     context_.check("storing a shadow map");
     return map_;
 }
 
 scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map)
 {
-    if (map.format.kind == Kind::unorm && map.code.name() == 0) {
+    if (map.format.kind == Kind::unorm && map.code.empty()) {
         throw std::invalid_argument("read_codes: map: its codes were dropped");
     }
-    const scene::ImageSize size{map.resolution_texels, map.resolution_texels};
     const auto read = [&] {
         if (map.format.kind == Kind::unorm) {
-            return read_texture<std::uint32_t>(map.code, size, GL_RED_INTEGER, GL_UNSIGNED_INT);
+            return read_layers<std::uint32_t>(map.code, map.resolution_texels, GL_RED_INTEGER,
+                                              GL_UNSIGNED_INT);
         }
         // Of floats the bits.
-        return read_texture<std::uint32_t>(map.depth, size, GL_DEPTH_COMPONENT,
-                                           map.format.is_float() ? GL_FLOAT : GL_UNSIGNED_INT);
+        return read_layers<std::uint32_t>(map.depth, map.resolution_texels, GL_DEPTH_COMPONENT,
+                                          map.format.is_float() ? GL_FLOAT : GL_UNSIGNED_INT);
     };
     scene::Image<std::uint32_t> codes = read();
     context.check("reading the map's codes");
@@ -258,12 +311,11 @@ scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& 
 
 scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map)
 {
-    if (map.unquantised_z.name() == 0) {
+    if (map.unquantised_z.empty()) {
         throw std::invalid_argument("read_unquantised_z: map: only u-formats keep their z, where "
                                     "they keep their codes");
     }
-    auto z = read_texture<float>(map.unquantised_z, {map.resolution_texels, map.resolution_texels},
-                                 GL_RED, GL_FLOAT);
+    auto z = read_layers<float>(map.unquantised_z, map.resolution_texels, GL_RED, GL_FLOAT);
     context.check("reading the map's z");
     return z;
 }
@@ -280,16 +332,18 @@ scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& 
     const int resolution = map.resolution_texels;
     const int band_rows = std::min(rows.count, 256);
     const DepthCopy copy{resolution, band_rows};
-    scene::Image<float> depths{{resolution, resolution}};
+    scene::Image<float> depths{scene::maps_image_size(resolution, map.depth.layer_count())};
     const int end = rows.first + rows.count;
-    for (int first_row = rows.first; first_row < end; first_row += band_rows) {
-        const int drawn = std::min(band_rows, end - first_row);
-        copy.draw(map.depth, first_row, drawn);
-        // Turned over, a short last band's rows are the last ones, and the map's top comes first.
-        const auto band = copy.read();
-        std::copy_n(band.data() + std::ptrdiff_t{band_rows - drawn} * resolution,
-                    std::ptrdiff_t{drawn} * resolution,
-                    depths.data() + std::ptrdiff_t{resolution - first_row - drawn} * resolution);
+    for (std::size_t i = 0; i < map.depth.layer_count(); ++i) {
+        for (int first_row = rows.first; first_row < end; first_row += band_rows) {
+            const int drawn = std::min(band_rows, end - first_row);
+            copy.draw(map.depth.layer(i), first_row, drawn);
+            // Turned over, a short last band's rows are the last ones, and the top comes first.
+            const auto band = copy.read();
+            const scene::Texel top_left{0, first_row + drawn - 1, static_cast<int>(i)};
+            std::copy_n(band.data() + std::ptrdiff_t{band_rows - drawn} * resolution,
+                        std::ptrdiff_t{drawn} * resolution, &at_texel(depths, top_left));
+        }
     }
     context.check("reading the map's depths");
     return depths;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/image.hpp"
+#include "scene/map_texels.hpp"
 #include "scene/pixel_class.hpp"
 #include "scene/vec.hpp"
 
@@ -29,6 +30,13 @@ struct LookupLayers {
     /// uv · resolution of each lookup, in float32, as the lookup computed it: the origin is at the
     /// map's lower left, the centre texel is the floor.
     Image<Vec2f> texels = {};
+    MapIndices maps = {}; ///< which of the light's maps each lookup reads
+
+    /// Where the pixel's lookup reads.
+    [[nodiscard]] MapPoint at(std::size_t pixel) const
+    {
+        return {texels[pixel], map_of(maps, pixel)};
+    }
 };
 
 /// Some of a shadow map's rows of texels, counted from its lower edge.

@@ -53,7 +53,7 @@ private:
         for (const JudgedView& judged : views_.views) {
             search.add_view(with_view_of(variant.job, judged.view.job), judged);
         }
-        const BiasLengths lengths{search.own_view().frustum,
+        const BiasLengths lengths{search.own_view().first_map(),
                                   variant.job.shadow_map.resolution_texels,
                                   views_.own().median_light_distance_m};
         const auto slope = static_cast<float>(variant.job.bias.slope);
@@ -115,7 +115,7 @@ private:
         const scene::View view = scene::resolve_view(with_view_of(job, views_.own().view.job),
                                                      file_.scene, file_.defaults);
         const auto length_m = [&](const scene::View& of, const Job& with) {
-            return depth_step_length_m(of.frustum, with.shadow_map.depth_format,
+            return depth_step_length_m(of.first_map(), with.shadow_map.depth_format,
                                        views_.own().median_light_distance_m);
         };
         return {length_m(comparison_.view, comparison_.job), length_m(view, job)};

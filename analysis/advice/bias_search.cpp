@@ -48,9 +48,11 @@ std::vector<float> merged(std::vector<float> a, const std::vector<float>& b)
 bool is_same_map(const scene::Job& a, const scene::View& view_a, const scene::Job& b,
                  const scene::View& view_b)
 {
-    return view_a.frustum.light_clip_from_world == view_b.frustum.light_clip_from_world &&
-           view_a.frustum.reversed == view_b.frustum.reversed &&
-           view_a.frustum.clip_range == view_b.frustum.clip_range &&
+    const auto draws_alike = [](const scene::LightFrustum& one, const scene::LightFrustum& other) {
+        return one.light_clip_from_world == other.light_clip_from_world &&
+               one.reversed == other.reversed && one.clip_range == other.clip_range;
+    };
+    return std::ranges::equal(view_a.maps, view_b.maps, draws_alike) &&
            a.shadow_map.resolution_texels == b.shadow_map.resolution_texels &&
            a.shadow_map.depth_format == b.shadow_map.depth_format &&
            a.shadow_map.cull == b.shadow_map.cull && a.method == b.method;
@@ -112,18 +114,18 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
         told_like_ = job.bias;
     }
     added.view = scene::resolve_view(added.job, file_.scene, file_.defaults);
-    added.set_constant = scene::resolve_bias(job.bias, added.view.frustum).constant;
+    added.set_constant = scene::resolve_bias(job.bias, added.view.first_map()).constant;
     added.judged = &judged;
-    const bool is_directional = added.view.frustum.projection == scene::Projection::orthographic;
+    const bool is_directional =
+        added.view.first_map().projection == scene::Projection::orthographic;
     if (views_.size() == 1 && in_metres_ && is_directional && !told_like_.constant_m) {
         told_like_.constant_m = 0; // carried from light to light as a length
     }
     draw(views_.size() - 1);
     scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);
     if (counts_errors()) {
-        const auto texels = lookup.texels;
         added.deciding =
-            deciding_samples(std::move(lookup), texels, {}, lookup_rule(added.job, added.view));
+            deciding_samples(std::move(lookup), {}, {}, lookup_rule(added.job, added.view));
         return;
     }
     if (!renderers_.make_exact_light) {
@@ -145,8 +147,8 @@ float BiasSearch::carried(std::size_t to, float bias) const
     }
     const SearchedView& own = views_.front();
     const double length_m =
-        bias_length_m(own.view.frustum, double{bias}, own.judged->median_light_distance_m);
-    return as_bias(bias_of_length(views_[to].view.frustum, length_m,
+        bias_length_m(own.view.first_map(), double{bias}, own.judged->median_light_distance_m);
+    return as_bias(bias_of_length(views_[to].view.first_map(), length_m,
                                   views_[to].judged->median_light_distance_m));
 }
 
@@ -156,9 +158,10 @@ float BiasSearch::carried_back(std::size_t from, float bias) const
         return bias;
     }
     const SearchedView& own = views_.front();
-    const double length_m = bias_length_m(views_[from].view.frustum, double{bias},
+    const double length_m = bias_length_m(views_[from].view.first_map(), double{bias},
                                           views_[from].judged->median_light_distance_m);
-    return as_bias(bias_of_length(own.view.frustum, length_m, own.judged->median_light_distance_m));
+    return as_bias(
+        bias_of_length(own.view.first_map(), length_m, own.judged->median_light_distance_m));
 }
 
 std::vector<BiasCurve> BiasSearch::curves(float slope) const
@@ -304,7 +307,7 @@ PastedBias BiasSearch::pasted_of(const Valley& found) const
             within = common(within, allowed).value_or(allowed);
         }
     }
-    return pasted_bias(middle, within, told_like_, own_view().frustum);
+    return pasted_bias(middle, within, told_like_, own_view().first_map());
 }
 
 FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const

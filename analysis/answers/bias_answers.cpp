@@ -13,7 +13,7 @@ namespace {
 /// the geometric mean of near and far.
 std::vector<float> slopes(const BiasQuestion& question)
 {
-    const scene::LightFrustum& frustum = question.view.frustum;
+    const scene::LightFrustum& frustum = question.view.first_map();
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
     return default_slopes(depth_per_footprint(frustum, question.job.shadow_map.resolution_texels,
                                               methods::promises(question.job).width_texels,
@@ -31,7 +31,7 @@ std::optional<Recommendation> recommended_with(const BiasQuestion& question,
         return std::nullopt;
     }
     return recommend_by_count(curve.curve,
-                              {question.view.frustum, question.job.shadow_map.resolution_texels,
+                              {question.view.first_map(), question.job.shadow_map.resolution_texels,
                                question.unit_light_distance_m},
                               question.job.bias);
 }
@@ -67,7 +67,7 @@ BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own,
 {
     SlopeAnswers by_slope = answer_slopes(question, own, recommended);
     BiasMap map = map_biases({own.critical_bias, question.curves.classes, question.curves.samples,
-                              question.light_distance_m, question.view.frustum,
+                              question.light_distance_m, question.view.first_map(),
                               question.job.shadow_map.resolution_texels,
                               question.job.shadow_map.depth_format});
     return {

@@ -12,29 +12,37 @@ namespace {
 constexpr std::uint8_t is_known = 1;
 constexpr std::uint8_t is_wanted = 2;
 
-/// The texels that are wanted and not known yet, in squares of 4 × 4, which traces run through
-/// fastest.
-std::vector<scene::Texel> unknown_texels(const scene::Image<std::uint8_t>& states)
+/// Appends those of a map's texels that are wanted and not known yet, in squares of 4 × 4, which
+/// traces run through fastest.
+void append_unknown(const scene::Image<std::uint8_t>& states, int map,
+                    std::vector<scene::Texel>& texels)
 {
     const int side = states.size().width_px;
-    std::vector<scene::Texel> texels;
     for (int y = 0; y < side; y += 4) {
         for (int x = 0; x < side; x += 4) {
             for (int i = 0; i < 16; ++i) {
-                const scene::Texel texel{x + i % 4, y + i / 4};
-                if (texel.x < side && texel.y < side && states(texel.x, texel.y) == is_wanted) {
+                const scene::Texel texel{x + i % 4, y + i / 4, map};
+                if (texel.x < side && texel.y < side && at_texel(states, texel) == is_wanted) {
                     texels.push_back(texel);
                 }
             }
         }
+    }
+}
+
+std::vector<scene::Texel> unknown_texels(const scene::Image<std::uint8_t>& states)
+{
+    std::vector<scene::Texel> texels;
+    for (int map = 0; map < states.size().height_px / states.size().width_px; ++map) {
+        append_unknown(states, map, texels);
     }
     return texels;
 }
 
 } // namespace
 
-ExactDepthCache::ExactDepthCache(int resolution_texels, scene::ImageSize image)
-    : map_{{resolution_texels, resolution_texels}, 1.0F},
+ExactDepthCache::ExactDepthCache(scene::ImageSize maps, scene::ImageSize image)
+    : map_{maps, 1.0F},
       knows_texel_{map_.size()},
       receivers_{image}
 {
@@ -65,23 +73,22 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs)
         if (!scene::is_scored(classes[i])) {
             continue;
         }
-        footprint.visit_taps(inputs.unbiased.texels[i], [&](const Tap& tap) {
+        footprint.visit_taps(inputs.unbiased.at(i), [&](const Tap& tap) {
             // Beyond the map's edge a prefilter reads the nearest texel on it.
             const int x = std::clamp(tap.texel.x, 0, last);
             const int y = std::clamp(tap.texel.y, 0, last);
-            knows_texel_(x, y) |= is_wanted;
+            at_texel(knows_texel_, {x, y, tap.texel.map}) |= is_wanted;
         });
     }
 }
 
 void ExactDepthCache::trace_texels(const scene::ExactLight& light)
 {
-    const int last = map_.size().width_px - 1;
     const std::vector<scene::Texel> texels = unknown_texels(knows_texel_);
     const std::vector<float> depths = light.texel_depths(texels);
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        map_(texels[i].x, last - texels[i].y) = depths[i];
-        knows_texel_(texels[i].x, texels[i].y) |= is_known;
+        at_texel(map_, texels[i]) = depths[i];
+        at_texel(knows_texel_, texels[i]) |= is_known;
     }
 }
 
@@ -93,7 +100,7 @@ void ExactDepthCache::find_receivers(const CauseInputs& inputs)
             pixels.push_back(i);
         }
     }
-    const std::vector<float> depths = inputs.light.receiver_depths(pixels);
+    const std::vector<float> depths = inputs.light.receiver_depths(pixels, inputs.unbiased.maps);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         receivers_[pixels[i]] = depths[i];
     }

@@ -14,7 +14,8 @@ namespace gnomon::analysis {
 /// scored receivers.
 class ExactDepthCache {
 public:
-    ExactDepthCache(int resolution_texels, scene::ImageSize image);
+    /// @param maps  size of the image of all maps' texels (`scene::maps_image_size`).
+    ExactDepthCache(scene::ImageSize maps, scene::ImageSize image);
 
     /// What the inputs' scored receivers and their footprints need; others keep what they have.
     /// @return  Valid as long as this.
@@ -25,8 +26,8 @@ private:
     void trace_texels(const scene::ExactLight& light);
     void find_receivers(const CauseInputs& inputs);
 
-    scene::Image<float> map_;                ///< as shaders see it, top left first
-    scene::Image<std::uint8_t> knows_texel_; ///< from the lower left, as texels are counted
+    scene::Image<float> map_; ///< as shaders see it, top left first
+    scene::Image<std::uint8_t> knows_texel_;
     scene::Image<float> receivers_;
     bool knows_receivers_ = false;
 };

@@ -19,8 +19,8 @@ ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
       cull_{job.shadow_map.cull},
       geometry_{triangles, view_, receivers_->receivers().triangle},
       light_{renderers.make_exact_light(job, view_, receivers_->receivers())},
-      light_distance_m_{receivers_->light_distance_m(view_.frustum, geometry_)},
-      distances_{receivers_->distances(view_.frustum, geometry_)},
+      light_distance_m_{receivers_->light_distance_m(view_.first_map(), geometry_)},
+      distances_{receivers_->distances(view_.first_map(), geometry_)},
       pixel_gaps_{size_if(receivers_->use().by_many_maps), unknown_gap}
 {
 }
@@ -32,7 +32,7 @@ scene::ImageSize ExactLightCache::size_if(bool is_kept) const
 
 std::optional<double> ExactLightCache::representative_light_distance_m()
 {
-    if (view_.frustum.projection == scene::Projection::orthographic) {
+    if (view_.first_map().projection == scene::Projection::orthographic) {
         const auto scored =
             std::ranges::find_if(*light_distance_m_, [](float m) { return std::isfinite(m); });
         return scored != light_distance_m_->end() ? std::optional{double{*scored}} : std::nullopt;
@@ -48,7 +48,7 @@ std::optional<double> ExactLightCache::representative_light_distance_m()
 const CellMap& ExactLightCache::cells()
 {
     if (cells_ == nullptr) {
-        cells_ = receivers_->cells(view_.frustum, geometry_, triangles_);
+        cells_ = receivers_->cells(view_.first_map(), geometry_, triangles_);
     }
     return *cells_;
 }
@@ -67,7 +67,8 @@ CauseCache* ExactLightCache::causes_of(const CauseInputs& inputs)
 ExactDepths ExactLightCache::exact_depths(const CauseInputs& inputs)
 {
     if (!exact_depths_) {
-        exact_depths_.emplace(resolution_texels_, view_.image);
+        exact_depths_.emplace(scene::maps_image_size(resolution_texels_, view_.maps.size()),
+                              view_.image);
     }
     return exact_depths_->of(inputs);
 }
@@ -94,22 +95,24 @@ const CentreHits& ExactLightCache::centre_hits(const CauseInputs& inputs)
     if (!centre_hits_) {
         centre_hits_.emplace(inputs, [&](std::span<const scene::Texel> texels) {
             return receivers_->first_hits().first_hits(
-                {*light_, view_.frustum, resolution_texels_, cull_}, texels);
+                {*light_, view_.maps, resolution_texels_, cull_}, texels);
         });
     }
     return *centre_hits_;
 }
 
-std::vector<PixelGap> ExactLightCache::find_gaps(std::span<const std::size_t> pixels)
+std::vector<PixelGap> ExactLightCache::find_gaps(std::span<const std::size_t> pixels,
+                                                 const scene::MapIndices& maps)
 {
     gaps().find(*light_, pixels);
-    return gaps_of_pixels(gaps(), pixels, geometry_, view_.frustum, resolution_texels_);
+    return gaps_of_pixels(gaps(), pixels, geometry_, {view_.maps, maps, resolution_texels_});
 }
 
-std::vector<PixelGap> ExactLightCache::pixel_gaps(std::span<const std::size_t> pixels)
+std::vector<PixelGap> ExactLightCache::pixel_gaps(std::span<const std::size_t> pixels,
+                                                  const scene::MapIndices& maps)
 {
     if (pixel_gaps_.empty()) {
-        return find_gaps(pixels);
+        return find_gaps(pixels, maps);
     }
     std::vector<std::size_t> asked;
     for (const std::size_t pixel : pixels) {
@@ -117,7 +120,7 @@ std::vector<PixelGap> ExactLightCache::pixel_gaps(std::span<const std::size_t> p
             asked.push_back(pixel);
         }
     }
-    const auto found = find_gaps(asked);
+    const auto found = find_gaps(asked, maps);
     for (std::size_t i = 0; i < asked.size(); ++i) {
         pixel_gaps_[asked[i]] = found[i];
     }

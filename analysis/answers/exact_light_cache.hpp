@@ -52,7 +52,9 @@ public:
     [[nodiscard]] const CellMap& cells();
     [[nodiscard]] BlockerGapCache& gaps() { return receivers_->gaps(); }
     /// The gaps of these blocked pixels, in the order of the pixels.
-    [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels);
+    /// @param maps  that their lookups read.
+    [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels,
+                                                   const scene::MapIndices& maps);
 
     /// `find_lit_causes`, with what is known of other formats.
     void find_lit(const CauseInputs& inputs, PixelCauses& causes);
@@ -76,7 +78,8 @@ private:
     [[nodiscard]] CauseCache* causes_of(const CauseInputs& inputs);
     /// The same, with what is known of texels.
     [[nodiscard]] CauseInputs with_known_hits(CauseInputs inputs);
-    [[nodiscard]] std::vector<PixelGap> find_gaps(std::span<const std::size_t> pixels);
+    [[nodiscard]] std::vector<PixelGap> find_gaps(std::span<const std::size_t> pixels,
+                                                  const scene::MapIndices& maps);
 
     std::shared_ptr<JudgedReceivers> receivers_;
     const scene::TriangleScene& triangles_;

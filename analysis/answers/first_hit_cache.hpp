@@ -18,35 +18,36 @@ public:
     /// @param most_texels  that it remembers, of all maps together: 8 bytes each.
     explicit FirstHitCache(std::size_t most_texels) : room_{most_texels} {}
 
-    /// The map whose texels are asked for, and the light that sees through them.
-    struct Map {
+    /// The maps whose texels are asked for, and the light that sees through them.
+    struct Maps {
         const scene::ExactLight& light;
-        const scene::LightFrustum& frustum; ///< the light's
+        std::span<const scene::LightFrustum> frusta; ///< the light's
         int resolution_texels = 0;
         scene::Cull cull = scene::Cull::none; ///< the light's
     };
 
     /// The texels' first hits, placed, in their order; as a rule without tracing where the same
     /// texels were asked for with a nearer near plane.
-    [[nodiscard]] std::vector<scene::TexelHit> first_hits(const Map& map,
+    [[nodiscard]] std::vector<scene::TexelHit> first_hits(const Maps& maps,
                                                           std::span<const scene::Texel> texels);
 
 private:
-    /// Coordinates as 16 bits each: a map has at most 16384 texels along a side.
+    /// Coordinates as 14 bits each, and the map as 4: a map has at most 16384 texels along a side,
+    /// and a light at most 16 maps.
     using Packed = std::uint32_t;
 
     struct Seen {
         int resolution_texels = 0;
         scene::Cull cull = scene::Cull::none;
-        scene::LightFrustum frustum;
+        std::vector<scene::LightFrustum> frusta;
         std::vector<Packed> texels;
         std::vector<std::uint32_t> triangles; ///< by texel
     };
 
     static Packed packed(const scene::Texel& texel);
     [[nodiscard]] static bool is_of(const Seen& seen, std::span<const scene::Texel> texels);
-    [[nodiscard]] Seen* find(const Map& map);
-    void remember(const Map& map, std::span<const scene::Texel> texels,
+    [[nodiscard]] Seen* find(const Maps& maps);
+    void remember(const Maps& maps, std::span<const scene::Texel> texels,
                   std::span<const scene::TexelHit> hits);
 
     std::size_t room_; ///< texels for which there is room

@@ -83,7 +83,7 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
       causes_{no_causes()},
       knows_blocked_{classes().size()},
       map_error_m_{map_depth_errors_m(cause_inputs(), exact_->centre_hits(cause_inputs()),
-                                      lookup_.view.frustum, lookup_.job.shadow_map.depth_format)}
+                                      lookup_.view.maps, lookup_.job.shadow_map.depth_format)}
 {
     remove_bias();
     rerun_exactly();
@@ -108,7 +108,7 @@ void LookupAnswers::rerun_exactly()
 
 scene::LookupLayers LookupAnswers::make_deciding() const
 {
-    return has_taps() ? deciding_samples({lookup_.layers.samples}, lookup_.layers.texels,
+    return has_taps() ? deciding_samples({lookup_.layers.samples}, lookup_.layers,
                                          lookup_.map_depths, rule_)
                       : scene::LookupLayers{};
 }
@@ -229,7 +229,7 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
             panning.push_back(i);
         }
     }
-    const auto lengths = exact_->pixel_gaps(panning);
+    const auto lengths = exact_->pixel_gaps(panning, lookup_.layers.maps);
     std::vector<PanningGap> gaps;
     gaps.reserve(panning.size());
     for (std::size_t i = 0; i < panning.size(); ++i) {
@@ -272,7 +272,8 @@ void LookupAnswers::break_down(const scene::LookupLayers& own, int verdict_taps,
                                  diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
                                  diagnosis.map_error_m, verdict_taps};
     diagnosis.by_distance = errors_by_bin(exact_->distances(), inputs);
-    add_envelopes(diagnosis.by_distance, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
+    add_envelopes(diagnosis.by_distance, lookup_.view.first_map(),
+                  lookup_.job.shadow_map.depth_format);
     diagnosis.by_angle = errors_by_bin(bin_by_angle(classes(), own), inputs);
     diagnosis.by_object = errors_by_object(classes(), own, exact_->receivers().receivers().triangle,
                                            exact_->triangles(), verdict_taps);

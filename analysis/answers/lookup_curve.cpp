@@ -78,8 +78,8 @@ std::vector<ConfigurationResult> LookupAnswers::rows(const SlopeCurve& curve,
 CurveResult LookupAnswers::describe_map() const
 {
     CurveResult result;
-    result.near_m = lookup_.view.frustum.near_m;
-    result.far_m = lookup_.view.frustum.far_m;
+    result.near_m = lookup_.view.first_map().near_m;
+    result.far_m = lookup_.view.first_map().far_m;
     result.map_bytes = rule_.promises.map_bytes;
     return result;
 }
@@ -99,7 +99,7 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     const std::array<float, 2> biases{profile_bias, curve.best.recommended()};
     auto by_bin = lookup_.reruns ? rerun_profiles(curve, biases) : profiles(curve, biases);
     for (std::vector<ErrorBin>& profile : by_bin) {
-        add_envelopes(profile, lookup_.view.frustum, lookup_.job.shadow_map.depth_format);
+        add_envelopes(profile, lookup_.view.first_map(), lookup_.job.shadow_map.depth_format);
     }
     result.by_distance = {{At::job_bias, biases[0], std::move(by_bin[0])},
                           {At::best_bias, biases[1], std::move(by_bin[1])}};
@@ -137,7 +137,7 @@ std::optional<BiasLengths> LookupAnswers::bias_lengths(const SlopeCurve& curve) 
     if (curve.curve.lit().empty() || !light_distance_m) {
         return std::nullopt;
     }
-    return BiasLengths{lookup_.view.frustum, lookup_.job.shadow_map.resolution_texels,
+    return BiasLengths{lookup_.view.first_map(), lookup_.job.shadow_map.resolution_texels,
                        *light_distance_m};
 }
 

@@ -71,7 +71,7 @@ private:
         std::vector<Tap> taps;
         for (const std::size_t pixel : pixels) {
             taps.clear();
-            footprint_.append_taps(inputs_.unbiased.texels[pixel], taps);
+            footprint_.append_taps(inputs_.unbiased.at(pixel), taps);
             if (!rule_.border_decides(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
                 open.push_back(pixel);
                 continue;
@@ -106,7 +106,7 @@ private:
         const TracedLookups lookups = trace_lookups(inputs_, inputs_.unbiased, pixels);
         auto asked = shadowing_taps(inputs_, inputs_.unbiased, lookups);
         for (std::size_t i = 0; i < pixels.size() && !is_made_of_taps_; ++i) {
-            asked[i].set(footprint_.centre_tap(inputs_.unbiased.texels[pixels[i]]));
+            asked[i].set(footprint_.centre_tap(inputs_.unbiased.at(pixels[i])));
         }
         const auto own = own_taps(inputs_.light, lookups, asked);
         Open open;
@@ -145,7 +145,7 @@ private:
     }
     [[nodiscard]] bool sees_own_at_centre(std::size_t pixel, const TapSet& own) const
     {
-        return own[footprint_.centre_tap(inputs_.unbiased.texels[pixel])];
+        return own[footprint_.centre_tap(inputs_.unbiased.at(pixel))];
     }
 
     /// What V1 does not repair.
@@ -221,7 +221,7 @@ private:
         }
         std::vector<std::size_t> centres;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
-            centres.push_back(footprint_.centre_tap(inputs_.unbiased.texels[lookups.pixel(i)]));
+            centres.push_back(footprint_.centre_tap(inputs_.unbiased.at(lookups.pixel(i))));
         }
         const auto critical = exact_tap_biases(rule_, lookups, inputs_.light, centres);
         for (std::size_t i = 0; i < lookups.size(); ++i) {
@@ -261,7 +261,7 @@ private:
     void explain_by_truth(const TracedLookups& lookups, std::span<const TapSet> own,
                           std::span<const std::size_t> pixels, std::span<const std::size_t> indices)
     {
-        const auto crossed = inputs_.light.are_crossed(pixels);
+        const auto crossed = inputs_.light.are_crossed(pixels, inputs_.unbiased.maps);
         std::vector<std::size_t> between_texels;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const bool is_shadowed = inputs_.is_uncovered(footprint_, pixels[i])
@@ -295,7 +295,7 @@ private:
                     texels.push_back(taps[t].texel);
                 }
             }
-            const auto ring = footprint_.ring(inputs_.unbiased.texels[pixel]);
+            const auto ring = footprint_.ring(inputs_.unbiased.at(pixel));
             texels.insert(texels.end(), ring.begin(), ring.end());
             pixels.push_back(pixel);
             ends.push_back(texels.size());

@@ -12,8 +12,10 @@ void require_cause_inputs(const CauseInputs& inputs)
             throw std::invalid_argument("causes: the lookup is not of the truth's size");
         }
     }
-    const scene::ImageSize map{inputs.resolution_texels, inputs.resolution_texels};
-    if (!inputs.rule.promises.has_one_tap() && inputs.map_depths.size() != map) {
+    const scene::ImageSize maps = inputs.map_depths.size();
+    const bool has_maps = !inputs.map_depths.empty() && maps.width_px == inputs.resolution_texels &&
+                          maps.height_px % maps.width_px == 0;
+    if (!inputs.rule.promises.has_one_tap() && !has_maps) {
         throw std::invalid_argument("causes: map_depths is not of the map's size");
     }
     if (!inputs.rule.promises.has_exact_causes() &&

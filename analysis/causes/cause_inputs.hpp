@@ -46,9 +46,8 @@ struct CauseInputs {
     [[nodiscard]] float stored_depth(const scene::LookupLayers& layers, std::size_t pixel,
                                      const scene::Texel& texel) const
     {
-        // The map's rows are counted from the top, texels from the bottom.
         return rule.promises.has_one_tap() ? layers.samples[pixel].map_depth
-                                           : map_depths(texel.x, resolution_texels - 1 - texel.y);
+                                           : at_texel(map_depths, texel);
     }
     /// Whether a tap shadows without bias, by the depth that GL stored.
     [[nodiscard]] bool shadows(const scene::LookupLayers& layers, std::size_t pixel,
@@ -62,7 +61,7 @@ struct CauseInputs {
     /// it.
     [[nodiscard]] bool is_uncovered(const Footprint& footprint, std::size_t pixel) const
     {
-        return !footprint.is_inside(unbiased.texels[pixel]) ||
+        return !footprint.is_inside(unbiased.at(pixel)) ||
                rule.is_beyond_far(unbiased.samples[pixel].receiver_depth);
     }
 };

@@ -19,7 +19,7 @@ scene::TexelRows rows_of(const scene::Job& job, const scene::LookupLayers& looku
     int first = resolution - 1;
     int last = 0;
     for (const std::size_t pixel : pixels) {
-        footprint.visit_taps(lookup.texels[pixel], [&](const Tap& tap) {
+        footprint.visit_taps(lookup.at(pixel), [&](const Tap& tap) {
             if (tap.is_inside) {
                 first = std::min(first, tap.texel.y);
                 last = std::max(last, tap.texel.y);

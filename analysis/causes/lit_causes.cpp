@@ -71,7 +71,7 @@ private:
         std::vector<Tap> taps;
         for (const std::size_t pixel : pixels) {
             taps.clear();
-            footprint_.append_taps(inputs_.unbiased.texels[pixel], taps);
+            footprint_.append_taps(inputs_.unbiased.at(pixel), taps);
             if (rule_.border_decides(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
                 set(pixel, Cause::coverage);
                 causes_.pixels[pixel].exact_critical_bias = scene::infinity;
@@ -151,7 +151,7 @@ private:
                                         : std::vector<float>{half.begin(), half.end()};
         std::vector<std::size_t> centres;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
-            centres.push_back(footprint_.centre_tap(inputs_.unbiased.texels[lookups.pixel(i)]));
+            centres.push_back(footprint_.centre_tap(inputs_.unbiased.at(lookups.pixel(i))));
         }
         const auto centre = exact_tap_biases(rule_, lookups, inputs_.light, centres);
         std::vector<TapSet> asked(lookups.size());

@@ -49,8 +49,7 @@ public:
 private:
     [[nodiscard]] float depth_at(const scene::Texel& texel) const
     {
-        // The map's rows are counted from the top, texels from the bottom.
-        return floats_.map_depths(texel.x, floats_.resolution_texels - 1 - texel.y);
+        return at_texel(floats_.map_depths, texel);
     }
     /// The only tap's, or as GL interpolated it.
     [[nodiscard]] float compared_depth(std::size_t pixel) const
@@ -59,7 +58,7 @@ private:
         if (!floats_.rule.promises.has_one_tap()) {
             return looked_up;
         }
-        const Tap tap = footprint_.taps(floats_.unbiased.texels[pixel]).front();
+        const Tap tap = footprint_.taps(floats_.unbiased.at(pixel)).front();
         return tap.is_inside ? depth_at(tap.texel) : looked_up;
     }
     /// V2's: the job's for a lit pixel, as the lookup added it.

@@ -12,8 +12,8 @@ TracedLookups trace_lookups(const CauseInputs& inputs, const scene::LookupLayers
     lookups.taps.reserve(pixels.size() * lookups.taps_each);
     lookups.first_taps.reserve(pixels.size());
     for (const std::size_t pixel : pixels) {
-        footprint.append_taps(layers.texels[pixel], lookups.taps);
-        lookups.first_taps.push_back(footprint.first_tap(layers.texels[pixel]));
+        footprint.append_taps(layers.at(pixel), lookups.taps);
+        lookups.first_taps.push_back(footprint.first_tap(layers.at(pixel)));
     }
     return {std::move(lookups), inputs.light, inputs.known_hits};
 }

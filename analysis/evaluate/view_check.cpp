@@ -142,7 +142,7 @@ std::string find_disagreement(const View& view, const scene::CaseLayers& layers,
         const double r{layers.unmoved.samples.empty() ? layers.z_light[i]
                                                       : layers.unmoved.samples[i].receiver_depth};
         if (r > 0 && r < 1) {
-            depths.push_back(std::abs(depth_of(view.frustum, point) - r));
+            depths.push_back(std::abs(depth_of(view.first_map(), point) - r));
         }
     }
     if (!lengths_m.empty()) {

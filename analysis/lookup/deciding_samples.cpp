@@ -15,17 +15,16 @@
 
 namespace gnomon::analysis {
 
-using scene::Vec2f;
-
 namespace {
 
 constexpr float no_depth = std::numeric_limits<float>::quiet_NaN();
 
 /// The median of the taps' depths; NaN where the border mode decides.
-float deciding_depth(const StoredTaps& taps, const scene::LookupSample& sample, Vec2f texel)
+float deciding_depth(const StoredTaps& taps, const scene::LookupSample& sample,
+                     const scene::MapPoint& at)
 {
     std::array<float, methods::most_taps> depths; // filled as far as it is read
-    const std::span<float> read = taps.gather(sample, texel, depths);
+    const std::span<float> read = taps.gather(sample, at, depths);
     if (read.empty()) {
         return no_depth;
     }
@@ -34,7 +33,7 @@ float deciding_depth(const StoredTaps& taps, const scene::LookupSample& sample, 
     return std::isinf(*middle) ? no_depth : *middle;
 }
 
-void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& texels,
+void require_taps(const scene::LookupLayers& lookup, const scene::Image<scene::Vec2f>& texels,
                   const scene::Image<float>& map_depths)
 {
     const scene::ImageSize map = map_depths.size();
@@ -44,7 +43,7 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& 
                         texels.size().width_px, texels.size().height_px,
                         lookup.samples.size().width_px, lookup.samples.size().height_px));
     }
-    if (map.width_px != map.height_px || map_depths.empty()) {
+    if (map_depths.empty() || map.height_px % map.width_px != 0) {
         throw std::invalid_argument(
             fmt::format("deciding_samples: map_depths: {}x{}, but a shadow map is square",
                         map.width_px, map.height_px));
@@ -53,7 +52,7 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<Vec2f>& 
 
 } // namespace
 
-scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Image<Vec2f>& texels,
+scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::LookupLayers& where,
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
     const methods::Promises& promised = rule.promises;
@@ -64,12 +63,12 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Im
     if (promised.returns_deciding_depth()) {
         return lookup;
     }
-    require_taps(lookup, texels, map_depths);
+    require_taps(lookup, where.texels, map_depths);
     const StoredTaps taps{map_depths, rule};
     for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             scene::LookupSample& sample = lookup.samples[i];
-            sample.map_depth = deciding_depth(taps, sample, texels[i]);
+            sample.map_depth = deciding_depth(taps, sample, where.at(i));
         }
     });
     return lookup;

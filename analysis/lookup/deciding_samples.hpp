@@ -4,7 +4,6 @@
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
-#include "scene/vec.hpp"
 #include "scene/view/view.hpp"
 
 namespace gnomon::analysis {
@@ -17,14 +16,14 @@ namespace gnomon::analysis {
 /// deciding tap is the one of median depth, where a tap outside the map counts as farther
 /// (`outside` lit) or nearer (shadowed) than every depth. Depends on no bias that
 /// the curve's formula has.
-/// @param texels      uv · resolution of each lookup, origin at the map's lower left.
-/// @param map_depths  The map's depths as shaders see them, top left first, square.
+/// @param where       the same lookup: its texels and maps.
+/// @param map_depths  As shaders see them (`scene::maps_image_size`).
 ///                    Neither is read unless the filter is pcfK.
 /// @throws std::invalid_argument  for a filter without a formula; if the images
-///                                differ in size; if the map is not square.
+///                                differ in size; if the maps are not square.
 /// Source: raster_gl/shaders/lookup.frag; docs/bias_curve.md#critical-bias.
 [[nodiscard]] scene::LookupLayers deciding_samples(scene::LookupLayers lookup,
-                                                   const scene::Image<scene::Vec2f>& texels,
+                                                   const scene::LookupLayers& where,
                                                    const scene::Image<float>& map_depths,
                                                    const LookupRule& rule);
 

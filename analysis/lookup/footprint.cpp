@@ -5,8 +5,8 @@
 
 namespace gnomon::analysis {
 
+using scene::MapPoint;
 using scene::Texel;
-using scene::Vec2f;
 
 namespace {
 
@@ -25,15 +25,15 @@ bool is_on_map(const Texel& texel, int resolution)
 
 } // namespace
 
-Texel Footprint::first_tap(const Vec2f& point) const
+Texel Footprint::first_tap(const MapPoint& point) const
 {
     const float shift = interpolates_ ? 0.5F : 0.0F;
     const int before = kernel_.width_texels() / 2 + (interpolates_ ? 0 : width_ / 2);
-    return {texel_coordinate(point.x - shift, resolution_) - before,
-            texel_coordinate(point.y - shift, resolution_) - before};
+    return {texel_coordinate(point.texel.x - shift, resolution_) - before,
+            texel_coordinate(point.texel.y - shift, resolution_) - before, point.map};
 }
 
-std::vector<Tap> Footprint::taps(const Vec2f& point) const
+std::vector<Tap> Footprint::taps(const MapPoint& point) const
 {
     std::vector<Tap> taps;
     taps.reserve(tap_count());
@@ -41,7 +41,7 @@ std::vector<Tap> Footprint::taps(const Vec2f& point) const
     return taps;
 }
 
-void Footprint::append_taps(const Vec2f& point, std::vector<Tap>& taps) const
+void Footprint::append_taps(const MapPoint& point, std::vector<Tap>& taps) const
 {
     visit_taps(point, [&](const Tap& tap) { taps.push_back(tap); });
 }
@@ -70,37 +70,39 @@ Footprint::LineWeights Footprint::weights(float x) const
 Tap Footprint::tap_at(Texel texel, double weight) const
 {
     if (clamps_) {
-        texel = {std::clamp(texel.x, 0, resolution_ - 1), std::clamp(texel.y, 0, resolution_ - 1)};
+        texel = {std::clamp(texel.x, 0, resolution_ - 1), std::clamp(texel.y, 0, resolution_ - 1),
+                 texel.map};
     }
     return {texel, is_on_map(texel, resolution_), weight};
 }
 
-std::size_t Footprint::centre_tap(const Vec2f& point) const
+std::size_t Footprint::centre_tap(const MapPoint& point) const
 {
     const Texel first = first_tap(point);
     const auto place = [&](float x, int lowest) {
         return static_cast<std::size_t>(
             std::clamp(texel_coordinate(x, resolution_) - lowest, 0, width_ - 1));
     };
-    return place(point.y, first.y) * static_cast<std::size_t>(width_) + place(point.x, first.x);
+    return place(point.texel.y, first.y) * static_cast<std::size_t>(width_) +
+           place(point.texel.x, first.x);
 }
 
-std::optional<Texel> Footprint::first_if_on_map(const Vec2f& point) const
+std::optional<Texel> Footprint::first_if_on_map(const MapPoint& point) const
 {
     const Texel first = first_tap(point);
-    const Texel last{first.x + width_ - 1, first.y + width_ - 1};
+    const Texel last{first.x + width_ - 1, first.y + width_ - 1, first.map};
     return is_on_map(first, resolution_) && is_on_map(last, resolution_) ? std::optional{first}
                                                                          : std::nullopt;
 }
 
-std::vector<Texel> Footprint::ring(const Vec2f& point) const
+std::vector<Texel> Footprint::ring(const MapPoint& point) const
 {
     const Texel first = first_tap(point);
     std::vector<Texel> texels;
     for (int y = -1; y <= width_; ++y) {
         for (int x = -1; x <= width_; ++x) {
             const bool is_tap = x >= 0 && y >= 0 && x < width_ && y < width_;
-            const Texel texel{first.x + x, first.y + y};
+            const Texel texel{first.x + x, first.y + y, first.map};
             if (!is_tap && is_on_map(texel, resolution_)) {
                 texels.push_back(texel);
             }
@@ -109,10 +111,11 @@ std::vector<Texel> Footprint::ring(const Vec2f& point) const
     return texels;
 }
 
-bool Footprint::is_inside(const Vec2f& point) const
+bool Footprint::is_inside(const MapPoint& point) const
 {
     const auto resolution = static_cast<float>(resolution_);
-    return point.x >= 0 && point.y >= 0 && point.x < resolution && point.y < resolution;
+    return point.texel.x >= 0 && point.texel.y >= 0 && point.texel.x < resolution &&
+           point.texel.y < resolution;
 }
 
 } // namespace gnomon::analysis

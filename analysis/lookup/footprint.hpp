@@ -23,7 +23,8 @@ struct Tap {
 /// Some of a lookup's taps, in the order of its footprint.
 using TapSet = std::bitset<methods::most_taps>;
 
-/// Which texels a lookup reads around a point of the map, exactly as the method does.
+/// Which texels a lookup reads around a point of a map, exactly as the method does: all of that
+/// map.
 class Footprint {
 public:
     Footprint(const methods::Promises& promises, scene::Outside outside, int resolution_texels)
@@ -35,30 +36,29 @@ public:
     {
     }
 
-    /// Calls `visit(tap)` for the taps of a lookup at `uv·resolution`, row by row from the lower
-    /// left.
+    /// Calls `visit(tap)` for the taps of a lookup at the point, row by row from the lower left.
     ///
     /// Equal weights are 1 each. Those that interpolate are from fract(uv·resolution − ½) in
     /// float32, and 1 in all; with a kernel, whose means are interpolated, up to its rounding.
     template <typename Visit>
-    void visit_taps(const scene::Vec2f& point, const Visit& visit) const
+    void visit_taps(const scene::MapPoint& point, const Visit& visit) const
     {
         const scene::Texel first = first_tap(point);
-        const LineWeights columns = weights(point.x);
-        const LineWeights rows = weights(point.y);
+        const LineWeights columns = weights(point.texel.x);
+        const LineWeights rows = weights(point.texel.y);
         for (int y = 0; y < width_; ++y) {
             for (int x = 0; x < width_; ++x) {
                 const double weight = interpolates_ ? columns[static_cast<std::size_t>(x)] *
                                                           rows[static_cast<std::size_t>(y)]
                                                     : 1;
-                visit(tap_at({first.x + x, first.y + y}, weight));
+                visit(tap_at({first.x + x, first.y + y, first.map}, weight));
             }
         }
     }
     /// The same taps.
-    [[nodiscard]] std::vector<Tap> taps(const scene::Vec2f& point) const;
+    [[nodiscard]] std::vector<Tap> taps(const scene::MapPoint& point) const;
     /// Appends the same taps.
-    void append_taps(const scene::Vec2f& point, std::vector<Tap>& taps) const;
+    void append_taps(const scene::MapPoint& point, std::vector<Tap>& taps) const;
 
     /// Taps across.
     [[nodiscard]] int width_texels() const { return width_; }
@@ -68,20 +68,20 @@ public:
     }
 
     /// The texel of the lower left tap, before any clamping.
-    [[nodiscard]] scene::Texel first_tap(const scene::Vec2f& point) const;
+    [[nodiscard]] scene::Texel first_tap(const scene::MapPoint& point) const;
 
     /// Index of the tap that reads the texel that contains the point, or would, were it on the map.
-    [[nodiscard]] std::size_t centre_tap(const scene::Vec2f& point) const;
+    [[nodiscard]] std::size_t centre_tap(const scene::MapPoint& point) const;
 
     /// The lower left tap's texel if all taps are on the map, which then are the square from it;
     /// else empty.
-    [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::Vec2f& point) const;
+    [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::MapPoint& point) const;
 
     /// The texels of the map around the taps: the 4K + 4 around K × K; fewer at the map's border.
-    [[nodiscard]] std::vector<scene::Texel> ring(const scene::Vec2f& point) const;
+    [[nodiscard]] std::vector<scene::Texel> ring(const scene::MapPoint& point) const;
 
     /// True when the point lies on the map.
-    [[nodiscard]] bool is_inside(const scene::Vec2f& point) const;
+    [[nodiscard]] bool is_inside(const scene::MapPoint& point) const;
 
 private:
     static constexpr std::size_t most_across = 10;

@@ -19,7 +19,7 @@ namespace gnomon::analysis {
 class TapCriticals {
 public:
     /// @param lookup      with its texels.
-    /// @param map_depths  As shaders see them, top left first.
+    /// @param map_depths  As shaders see them (`scene::maps_image_size`).
     /// Both must outlive this.
     TapCriticals(const scene::LookupLayers& lookup, const scene::Image<float>& map_depths,
                  const LookupRule& rule)
@@ -36,7 +36,7 @@ public:
     void weights(std::size_t pixel, std::span<double> out) const
     {
         auto next = out.begin();
-        footprint_.visit_taps(lookup_.texels[pixel], [&](const Tap& tap) { *next++ = tap.weight; });
+        footprint_.visit_taps(lookup_.at(pixel), [&](const Tap& tap) { *next++ = tap.weight; });
     }
     /// Calls `visit(pixel, criticals)` for the pixels in [first, last) that `wants(pixel)`, with
     /// the critical biases of the pixel's taps, in the order of the footprint. Those that the
@@ -74,7 +74,7 @@ private:
     {
         const scene::LookupSample& sample = lookup_.samples[pixel];
         std::array<float, methods::most_taps> depths; // filled as far as it is read
-        const auto read = taps_.gather(sample, lookup_.texels[pixel], depths);
+        const auto read = taps_.gather(sample, lookup_.at(pixel), depths);
         const float slope_term = rule_.slope * sample.tan_theta;
         for (std::size_t t = 0; t < taps_each_; ++t) {
             if (read.empty()) { // any receiver depth does, but a spot's may be NaN

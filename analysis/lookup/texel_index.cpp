@@ -21,11 +21,13 @@ void TexelIndex::frame(std::span<const Texel> texels)
     Texel highest = lowest;
     for (const Texel& texel : texels) {
         lowest = {std::min(lowest.x, texel.x), std::min(lowest.y, texel.y)};
-        highest = {std::max(highest.x, texel.x), std::max(highest.y, texel.y)};
+        highest = {std::max(highest.x, texel.x), std::max(highest.y, texel.y),
+                   std::max(highest.map, texel.map)};
     }
     first_column_ = lowest.x >> side_bits;
     first_row_ = lowest.y >> side_bits;
     columns_ = static_cast<std::size_t>((highest.x >> side_bits) - first_column_) + 1;
+    rows_ = static_cast<std::size_t>((highest.y >> side_bits) - first_row_) + 1;
     block_at_.assign(cell_of(highest) + 1, none);
 }
 
@@ -36,7 +38,7 @@ void TexelIndex::mark(std::span<const Texel> texels)
         if (block == none) {
             block = static_cast<std::uint32_t>(blocks_.size());
             blocks_.emplace_back();
-            origins_.push_back({texel.x - texel.x % side, texel.y - texel.y % side});
+            origins_.push_back({texel.x - texel.x % side, texel.y - texel.y % side, texel.map});
         }
         blocks_[block].places |= std::uint64_t{1} << place_of(texel);
     }
@@ -54,7 +56,8 @@ void TexelIndex::number()
         blocks_[b].first = static_cast<std::uint32_t>(texels_.size());
         for (std::uint64_t rest = blocks_[b].places; rest != 0; rest &= rest - 1) {
             const Texel& within = step[static_cast<std::size_t>(std::countr_zero(rest))];
-            texels_.push_back({origins_[b].x + within.x, origins_[b].y + within.y});
+            texels_.push_back(
+                {origins_[b].x + within.x, origins_[b].y + within.y, origins_[b].map});
         }
     }
 }

@@ -25,7 +25,8 @@ public:
     {
         const int column = (texel.x >> side_bits) - first_column_;
         const int row = (texel.y >> side_bits) - first_row_;
-        if (column < 0 || row < 0 || static_cast<std::size_t>(column) >= columns_) {
+        if (column < 0 || row < 0 || static_cast<std::size_t>(column) >= columns_ ||
+            static_cast<std::size_t>(row) >= rows_) {
             return false;
         }
         const std::size_t cell = cell_of(texel);
@@ -52,7 +53,9 @@ private:
 
     [[nodiscard]] std::size_t cell_of(const scene::Texel& texel) const
     {
-        return static_cast<std::size_t>((texel.y >> side_bits) - first_row_) * columns_ +
+        return (static_cast<std::size_t>(texel.map) * rows_ +
+                static_cast<std::size_t>((texel.y >> side_bits) - first_row_)) *
+                   columns_ +
                static_cast<std::size_t>((texel.x >> side_bits) - first_column_);
     }
     /// The texel's place in its block's Z-order.
@@ -71,6 +74,7 @@ private:
     int first_column_ = 0; ///< of blocks
     int first_row_ = 0;
     std::size_t columns_ = 0;
+    std::size_t rows_ = 0;                ///< of each map
     std::vector<std::uint32_t> block_at_; ///< [cell], or `none`
     std::vector<Block> blocks_;           ///< those with texels, as they are first met
     std::vector<scene::Texel> origins_;   ///< of each block

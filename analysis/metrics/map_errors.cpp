@@ -15,9 +15,9 @@ namespace gnomon::analysis {
 namespace {
 
 /// The texel that holds the point.
-scene::Texel texel_at(const scene::Vec2f& point)
+scene::Texel texel_at(const scene::MapPoint& point)
 {
-    return {static_cast<int>(point.x), static_cast<int>(point.y)};
+    return {static_cast<int>(point.texel.x), static_cast<int>(point.texel.y), point.map};
 }
 
 } // namespace
@@ -52,19 +52,22 @@ CentreHits::Centres CentreHits::find_centres(const CauseInputs& inputs)
     const Footprint footprint = inputs.footprint();
     Centres centres;
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.texels[i])) {
+        if (scene::is_scored(classes[i]) && footprint.is_inside(inputs.unbiased.at(i))) {
             centres.pixels.push_back(static_cast<std::uint32_t>(i));
-            centres.texels.push_back(texel_at(inputs.unbiased.texels[i]));
+            centres.texels.push_back(texel_at(inputs.unbiased.at(i)));
         }
     }
     return centres;
 }
 
 scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHits& hits,
-                                       const scene::LightFrustum& frustum,
+                                       std::span<const scene::LightFrustum> maps,
                                        scene::DepthFormat format)
 {
-    const DepthMapping mapping{frustum.depth_range()};
+    std::vector<DepthMapping> mappings;
+    for (const scene::LightFrustum& map : maps) {
+        mappings.emplace_back(map.depth_range());
+    }
     const float farthest = inputs.rule.farthest_depth();
     scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
                                  std::numeric_limits<float>::quiet_NaN()};
@@ -72,8 +75,9 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
     for_each_run(seen.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             const scene::TexelHit& hit = hits.hit(seen[i]);
-            const float stored =
-                inputs.stored_depth(inputs.unbiased, seen[i].pixel, hits.texel(seen[i]));
+            const scene::Texel& texel = hits.texel(seen[i]);
+            const float stored = inputs.stored_depth(inputs.unbiased, seen[i].pixel, texel);
+            const DepthMapping& mapping = mappings[static_cast<std::size_t>(texel.map)];
             // The farthest depth stands for nothing, unless what is seen rounds to it.
             const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
                                                              depth_step(format, farthest);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -56,10 +57,11 @@ private:
 ///
 /// NaN where the pixel is not scored, where there is no texel, or where either sees nothing.
 /// @param hits  of the same inputs, whatever their stored depths.
+/// @param maps  of the light.
 /// Source: docs/depth_precision.md.
 [[nodiscard]] scene::Image<float> map_depth_errors_m(const CauseInputs& inputs,
                                                      const CentreHits& hits,
-                                                     const scene::LightFrustum& frustum,
+                                                     std::span<const scene::LightFrustum> maps,
                                                      scene::DepthFormat format);
 
 } // namespace gnomon::analysis

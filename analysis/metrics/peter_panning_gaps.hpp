@@ -1,9 +1,9 @@
 #pragma once
 
+#include "analysis/maps_of_pixels.hpp"
 #include "analysis/metrics/blocker_gap_cache.hpp"
 #include "analysis/metrics/quantiles.hpp"
 #include "analysis/receiver_geometry.hpp"
-#include "scene/light/frustum.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -28,7 +28,6 @@ struct Gaps {
 [[nodiscard]] std::vector<PixelGap> gaps_of_pixels(const BlockerGapCache& gaps,
                                                    std::span<const std::size_t> pixels,
                                                    const ReceiverGeometry& geometry,
-                                                   const scene::LightFrustum& frustum,
-                                                   int resolution_texels);
+                                                   const MapsOfPixels& maps);
 
 } // namespace gnomon::analysis

@@ -102,7 +102,7 @@ private:
     std::size_t slot_;
     ExactLightCaches& caches_;
     ObservedLookup lookup_;
-    scene::LightFrustum frustum_ = lookup_.view.frustum;
+    scene::LightFrustum frustum_ = lookup_.view.first_map();
     std::unique_ptr<LookupAnswers> answers_;
 };
 

@@ -348,7 +348,7 @@ private:
         comparison.receivers = subject->receivers;
         comparison.truth = subject->truth;
         comparison.lookup = renderers().look_up(comparison.job, comparison.view);
-        const float own_bias = own_constant_bias(task_.job, comparison.view.frustum);
+        const float own_bias = own_constant_bias(task_.job, comparison.view.first_map());
         const CurveName name{task_.id, slot, row.bias.constant_m.has_value(), own_bias};
         const KnownCurve* const known = known_ && known_->first == name ? &known_->second : nullptr;
         measure_comparison(comparison, renderers(), {own_bias, MapAfterDiagnosis::kept, known});

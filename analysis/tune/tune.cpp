@@ -83,7 +83,7 @@ private:
                     Job job = with_view_of(job_, judged.view.job);
                     job.shadow_map.frustum = frustum;
                     matrices.push_back(scene::resolve_view(job, file_.scene, file_.defaults)
-                                           .frustum.light_clip_from_world);
+                                           .first_map().light_clip_from_world);
                 }
             } catch (const scene::InputError&) {
                 continue; // planes that do not go together there
@@ -193,7 +193,7 @@ private:
             BiasSearch search{file_, renderers_, views_.turns_light};
             add_view(search, setting, views_.own());
             for (const double slope :
-                 slopes(job_, filter, search.own_view().frustum, map.resolution_texels)) {
+                 slopes(job_, filter, search.own_view().first_map(), map.resolution_texels)) {
                 setting.slope = slope;
                 consider(search, setting);
                 if (is_costly(filter) && is_far_from_limits(result_.considered.back())) {

@@ -43,7 +43,7 @@ std::vector<scene::Vec4f> GlRenderer::receiver_clip_positions(const scene::View&
 
 void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
 {
-    shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, job.shadow_map);
+    shadow_map_ = &shadow_map_pass_.render(scene_, view.maps, job.shadow_map);
     filtered_ = nullptr;
 }
 
@@ -73,7 +73,7 @@ GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View&
                                        const analysis::ExactDepths& depths,
                                        std::span<const float> lit_from)
 {
-    shadow_map_ = &shadow_map_pass_.store(depths.map, view.frustum.reversed);
+    shadow_map_ = &shadow_map_pass_.store(depths.map, view.first_map().reversed);
     prefilter_map(job, analysis::FilteredContent::float32);
     scene::View unbiased = view;
     unbiased.bias = {};
@@ -120,7 +120,7 @@ scene::Image<float> GlRenderer::read_float_depths(const scene::Job& job, const s
 {
     scene::ShadowMapSettings floats = job.shadow_map;
     floats.depth_format = {scene::DepthFormat::Kind::d32f, 32};
-    shadow_map_ = &shadow_map_pass_.render(scene_, view.frustum, floats, rows);
+    shadow_map_ = &shadow_map_pass_.render(scene_, view.maps, floats, rows);
     filtered_ = nullptr;
     return raster_gl::read_shader_depths(context_, *shadow_map_, rows);
 }

@@ -70,7 +70,7 @@ private:
     raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
     const raster_gl::ShadowMap* shadow_map_ = nullptr;
-    const raster_gl::Texture* filtered_ = nullptr; ///< made of it; nullptr until then
+    const raster_gl::LayeredTexture* filtered_ = nullptr; ///< made of it; nullptr until then
 };
 
 /// Both renderers as the callables that `analysis::compare` takes; the arguments must outlive it.

@@ -18,7 +18,7 @@ void print_texel_widths(const char* name)
     const ParameterValues parameters = complete_parameters(builtin, {});
     const TriangleScene scene = builtin.build(parameters);
     const Job job = builtin.default_job(parameters);
-    const LightFrustum frustum = resolve_view(job, scene, {}).frustum;
+    const LightFrustum frustum = resolve_view(job, scene, {}).first_map();
 
     const double light_distance_m = frustum.light_distance_m(scene.bounds().centre());
     std::printf("%s: %zu triangles, light camera from %g m to %g m\n", name, scene.triangles.size(),

@@ -9,7 +9,7 @@
 //
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
-// KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL,
+// MAPS, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL,
 // BISECTS and DEPTH_IS_GIVEN are defined by the program that compiles this. Where no formula tells of
 // other biases, BISECTS finds the smallest bias with which the very same verdict is at least
 // `lit_from`: it rises with the bias.
@@ -22,6 +22,9 @@ layout(binding = 7) uniform sampler2D receiver_depth;
 #else
 layout(location = 0) out vec4 sample_out; // r, d, tan θ, verdict
 layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lower left
+#if MAPS > 1
+layout(location = 2) out uint map_out;
+#endif
 #endif
 
 // Is the whole footprint of an interpolating lookup, the kernels about 2 × 2 texels, beyond the map?
@@ -80,6 +83,9 @@ void write_nothing()
 #else
     sample_out = vec4(0.0);
     texel_out = vec2(0.0);
+#if MAPS > 1
+    map_out = 0u;
+#endif
 #endif
 }
 
@@ -98,8 +104,7 @@ vec4 light_clip_of(ivec2 pixel)
 {
 #if POSITION_OF_PIXEL
     vec3 position = texelFetch(receiver_world_position, pixel, 0).xyz;
-    precise vec4 clip = light_clip_from_world * vec4(position, 1.0);
-    return clip;
+    return clip_position(light_clip_from_world[map_index], position);
 #else
     return texelFetch(receiver_light_clip, pixel, 0);
 #endif
@@ -138,13 +143,19 @@ void main()
     if (triangle == 0xFFFFFFFFu) {
         return;
     }
+    Receiver receiver;
+    receiver.position = texelFetch(receiver_world_position, pixel, 0).xyz;
+#if MAPS > 1
+    map_index = chosen_map(receiver.position);
+#if !BISECTS
+    map_out = uint(map_index);
+#endif
+#endif
     vec4 clip = light_clip_of(pixel);
 #if GRADIENTS
     uv_dx = uv_change(pixel, ivec2(1, 0), triangle);
     uv_dy = uv_change(pixel, ivec2(0, 1), triangle);
 #endif
-    Receiver receiver;
-    receiver.position = texelFetch(receiver_world_position, pixel, 0).xyz;
     receiver.normal = texelFetch(normals, int(triangle)).xyz;
 #if SPOT
     receiver.to_light = normalize(light - receiver.position);

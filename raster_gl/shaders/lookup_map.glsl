@@ -1,18 +1,28 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT and GRADIENTS are defined by the program
-// that compiles this.
+// comparison. MAPS, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT and GRADIENTS are defined by the
+// program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
 layout(binding = 0) uniform usampler2D receiver_triangle;
 layout(binding = 1) uniform sampler2D receiver_light_clip;
 layout(binding = 2) uniform sampler2D receiver_world_position;
-layout(binding = 3) uniform sampler2D map;              // as the filter samples it
-layout(binding = 4) uniform sampler2DShadow map_compare; // for filters that GL compares
-layout(binding = 5) uniform samplerBuffer normals;       // unit, by triangle
-layout(binding = 6) uniform sampler2D filtered_map;      // what a prefilter made of it
+layout(binding = 5) uniform samplerBuffer normals; // unit, by triangle
+// The light's map, or its maps as layers: as the filter samples it, for filters that GL compares, and
+// what a prefilter made of it.
+#if MAPS > 1
+layout(binding = 3) uniform sampler2DArray map;
+layout(binding = 4) uniform sampler2DArrayShadow map_compare;
+layout(binding = 6) uniform sampler2DArray filtered_map;
+int map_index; // of the map that the pixel reads
+#else
+layout(binding = 3) uniform sampler2D map;
+layout(binding = 4) uniform sampler2DShadow map_compare;
+layout(binding = 6) uniform sampler2D filtered_map;
+const int map_index = 0;
+#endif
 
-uniform mat4 light_clip_from_world;
+uniform mat4 light_clip_from_world[MAPS];
 uniform vec3 light; // SPOT: its position, else the unit vector towards it
 uniform float resolution; // in texels
 
@@ -20,6 +30,59 @@ uniform float resolution; // in texels
 vec2 uv_dx; // change of uv to the next pixel along a row,
 vec2 uv_dy; // and along a column
 #endif
+
+// Each product and sum rounded, in this order.
+vec4 clip_position(mat4 clip_from_world, vec3 position)
+{
+    precise vec4 clip = clip_from_world[0] * position.x;
+    clip = clip + clip_from_world[1] * position.y;
+    clip = clip + clip_from_world[2] * position.z;
+    clip = clip + clip_from_world[3];
+    return clip;
+}
+
+#if MAPS > 1
+float depth_of_texel(ivec2 texel)
+{
+    return texelFetch(map, ivec3(texel, map_index), 0).r;
+}
+float interpolated_depth(vec2 uv)
+{
+    return textureLod(map, vec3(uv, map_index), 0.0).r;
+}
+float compared_by_gl(vec2 uv, float reference)
+{
+    return textureGrad(map_compare, vec4(uv, map_index, reference), vec2(0.0), vec2(0.0));
+}
+#else
+float depth_of_texel(ivec2 texel)
+{
+    return texelFetch(map, texel, 0).r;
+}
+float interpolated_depth(vec2 uv)
+{
+    return textureLod(map, uv, 0.0).r;
+}
+float compared_by_gl(vec2 uv, float reference)
+{
+    return textureLod(map_compare, vec3(uv, reference), 0.0);
+}
+#endif
+
+// What a prefilter made of the map, interpolated.
+vec4 filtered(vec2 uv)
+{
+#if MAPS > 1
+    vec3 at = vec3(uv, map_index);
+#else
+    vec2 at = uv;
+#endif
+#if GRADIENTS
+    return textureGrad(filtered_map, at, uv_dx, uv_dy);
+#else
+    return textureLod(filtered_map, at, 0.0);
+#endif
+}
 
 const float not_a_depth = uintBitsToFloat(0x7FC00000u);
 
@@ -60,7 +123,7 @@ bool fetch_depth(vec2 texel, out float d)
         return false;
     }
 #endif
-    d = texelFetch(map, ivec2(texel), 0).r;
+    d = depth_of_texel(ivec2(texel));
     return true;
 }
 

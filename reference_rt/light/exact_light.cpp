@@ -5,6 +5,7 @@
 #include "reference_rt/light/depth_term.hpp"
 #include "reference_rt/light/known_hits.hpp"
 #include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/light_of_maps.hpp"
 #include "reference_rt/light/lit_point.hpp"
 #include "reference_rt/light/self_shadowing.hpp"
 #include "reference_rt/light/texel_first_hits.hpp"
@@ -15,7 +16,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace gnomon::reference_rt {
 
@@ -45,16 +49,18 @@ const std::array<ExactTap, 4>& taps_of(const LinearQuery& query)
     return query.taps;
 }
 
+/// Answers about one of the light's maps.
 class LightRays final : public scene::ExactLight {
 public:
-    LightRays(const ReferenceScene& reference, const View& view,
+    LightRays(const ReferenceScene& reference, const View& view, std::size_t map,
               const Image<std::uint32_t>& receivers, int resolution_texels, scene::Cull cull,
               int threads)
         : reference_{reference.implementation()},
           view_{view},
+          map_{map},
           seen_{reference_.triangles, view, receivers},
-          rays_{view.frustum, view.light, resolution_texels},
-          depth_{view.frustum},
+          rays_{view.maps[map], view.light, resolution_texels},
+          depth_{view.maps[map]},
           cull_{cull},
           segments_{reference_, view.light},
           threads_{threads}
@@ -78,7 +84,8 @@ public:
         if (known.triangles.size() != texels.size()) {
             throw std::invalid_argument{"first_hits: known: not of these texels"};
         }
-        if (!keeps_first_hits(view_.light, known.frustum, view_.frustum)) {
+        if (known.maps.size() != 1 ||
+            !keeps_first_hits(view_.light, known.maps.front(), view_.maps[map_])) {
             return first_hits(texels, HitDetail::placed);
         }
         const KnownHitPlacer placer{reference_.triangles, rays_, depth_};
@@ -96,7 +103,8 @@ public:
         return hits;
     }
 
-    std::vector<float> receiver_depths(std::span<const std::size_t> pixels) const override
+    std::vector<float> receiver_depths(std::span<const std::size_t> pixels,
+                                       const scene::MapIndices& /*maps*/) const override
     {
         seen_.check(pixels, "receiver_depths");
         std::vector<float> depths(pixels.size());
@@ -136,7 +144,8 @@ public:
         return find_biases(queries, clamps);
     }
 
-    std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels) const override
+    std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels,
+                                          const scene::MapIndices& /*maps*/) const override
     {
         seen_.check(pixels, "are_crossed");
         std::vector<std::uint8_t> crossed(pixels.size(), 0);
@@ -295,9 +304,11 @@ private:
     void check(Texel texel) const
     {
         const int n = rays_.resolution_texels();
-        if (texel.x < 0 || texel.y < 0 || texel.x >= n || texel.y >= n) {
-            throw std::invalid_argument{fmt::format(
-                "ExactLight: texel ({}, {}) is outside the map of {} texels", texel.x, texel.y, n)};
+        const bool is_of_map = static_cast<std::size_t>(texel.map) == map_;
+        if (!is_of_map || texel.x < 0 || texel.y < 0 || texel.x >= n || texel.y >= n) {
+            throw std::invalid_argument{
+                fmt::format("ExactLight: texel ({}, {}) of map {} is outside map {} of {} texels",
+                            texel.x, texel.y, texel.map, map_, n)};
         }
     }
     void check(std::uint32_t triangle) const
@@ -318,12 +329,13 @@ private:
         const double way =
             way_to_crossing(receiver, corners_of(reference_.triangles, blocker), light);
         return {blocker, way * glm::length(towards),
-                view_.frustum.light_distance_m(point + way * towards),
-                view_.frustum.light_distance_m(point)};
+                view_.first_map().light_distance_m(point + way * towards),
+                view_.first_map().light_distance_m(point)};
     }
 
     const ReferenceScene::Implementation& reference_;
     const View& view_;
+    std::size_t map_;
     SeenPixels seen_;
     TexelRays rays_;
     LightDepth depth_;
@@ -348,8 +360,12 @@ std::unique_ptr<scene::ExactLight> make_exact_light(const ReferenceScene& refere
         throw std::invalid_argument{fmt::format(
             "make_exact_light: resolution_texels = {} is not in [1, 16384]", resolution_texels)};
     }
-    return std::make_unique<LightRays>(reference, view, receivers, resolution_texels, cull,
-                                       threads);
+    std::vector<std::unique_ptr<scene::ExactLight>> maps;
+    for (std::size_t map = 0; map < view.maps.size(); ++map) {
+        maps.push_back(std::make_unique<LightRays>(reference, view, map, receivers,
+                                                   resolution_texels, cull, threads));
+    }
+    return light_of_maps(std::move(maps));
 }
 
 } // namespace gnomon::reference_rt

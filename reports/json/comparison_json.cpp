@@ -90,7 +90,7 @@ std::string comparison_json(const analysis::Comparison& comparison)
     json["scene"] = scene_object(comparison.scene);
     json["job"] = store::job_object(comparison);
     json["frustum"] =
-        frustum_object(comparison.view.frustum, comparison.job.shadow_map.resolution_texels);
+        frustum_object(comparison.view.first_map(), comparison.job.shadow_map.resolution_texels);
     json["truth_method"] = comparison.truth_method;
     json["truth_signs"] = truth_signs(comparison.truth.signs);
     json["float_audit"] = float_audit(comparison.float_audit);

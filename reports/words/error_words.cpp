@@ -201,7 +201,7 @@ std::string step_at_median(const analysis::Comparison& comparison)
     const auto light_distance_m = distances_m(comparison);
     return light_distance_m
                ? fmt::format(", whose step is {:.2g} m at the median receiver",
-                             analysis::depth_step_length_m(comparison.view.frustum,
+                             analysis::depth_step_length_m(comparison.view.first_map(),
                                                            comparison.job.shadow_map.depth_format,
                                                            double{light_distance_m->median}))
                : "";
@@ -214,7 +214,7 @@ std::string blind_depths(const analysis::Comparison& comparison)
     constexpr double too_long = 0.05; // of the receivers' range: no more than twenty depths
     constexpr scene::DepthFormat of_transforms{scene::DepthFormat::Kind::d24, 24};
     const auto light_distance_m = distances_m(comparison);
-    const scene::LightFrustum& frustum = comparison.view.frustum;
+    const scene::LightFrustum& frustum = comparison.view.first_map();
     if (!light_distance_m || double{light_distance_m->median} <= frustum.near_m ||
         double{light_distance_m->median} >= frustum.far_m) {
         return "";

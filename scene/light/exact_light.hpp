@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/light/frustum.hpp"
+#include "scene/map_texels.hpp"
 #include "scene/triangles.hpp"
 
 #include <array>
@@ -11,14 +12,6 @@
 #include <vector>
 
 namespace gnomon::scene {
-
-/// A texel of the shadow map, counted as GL counts: (0, 0) has its centre next to u = v = −1.
-struct Texel {
-    int x = 0;
-    int y = 0;
-
-    friend bool operator==(const Texel&, const Texel&) = default;
-};
 
 /// How closely first hits are placed.
 enum class HitDetail : std::uint8_t {
@@ -36,10 +29,10 @@ struct TexelHit {
     double depth_error = 0; ///< the exact depth is no farther than this from `depth`
 };
 
-/// What another frustum of the same light saw first through texels, with maps of the same
-/// resolution and the same culling.
+/// What other maps of the same light saw first through texels, as many maps of the same resolution
+/// and the same culling.
 struct KnownHits {
-    const LightFrustum& frustum;
+    std::span<const LightFrustum> maps;
     std::span<const std::uint32_t> triangles; ///< by texel, or `no_triangle`
 };
 
@@ -86,8 +79,9 @@ struct BlockerHit {
 
 /// Exact answers about the light's rays, for one view, map resolution and culling (docs/causes.md).
 ///
-/// Pixels are row-major indices; each must be scored. All answers are the same for any number of
-/// threads.
+/// Pixels are row-major indices; each must be scored. Depths are those of the map that a texel or a
+/// query's texel is of, or else of the map that the pixel reads. All answers are the same for any
+/// number of threads.
 class ExactLight {
 public:
     ExactLight() = default;
@@ -111,8 +105,8 @@ public:
     /// even; a result that would be subnormal is 0, which is positive.
     /// @return  In the order of the pixels, within half an ulp; any number, infinite ones included,
     ///          as P need not be between near and far; NaN for P in the light's camera plane.
-    [[nodiscard]] virtual std::vector<float>
-    receiver_depths(std::span<const std::size_t> pixels) const = 0;
+    [[nodiscard]] virtual std::vector<float> receiver_depths(std::span<const std::size_t> pixels,
+                                                             const MapIndices& maps) const = 0;
 
     /// The depth of the first hit of each texel-centre ray (`first_hits`), rounded alike; without a
     /// hit the farthest, 1 (reversed: 0).
@@ -131,8 +125,8 @@ public:
 
     /// For each pixel 1 where a triangle that the culling leaves crosses the open segment P→light,
     /// properly or through a seam, at a matrix depth in [0, 1]; else 0.
-    [[nodiscard]] virtual std::vector<std::uint8_t>
-    are_crossed(std::span<const std::size_t> pixels) const = 0;
+    [[nodiscard]] virtual std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels,
+                                                                const MapIndices& maps) const = 0;
 
     /// For each query 1 where the surface leads from P, along the straight line to the texel's
     /// centre in light view, into the triangle seen there (docs/truth.md); else 0.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 #include <string_view>
 #include <variant>
 
@@ -100,6 +101,14 @@ std::optional<float> Bias::find_handed(std::string_view key) const
     return found == handed.end() ? std::nullopt : std::optional{found->second};
 }
 
+const LightFrustum& View::first_map() const
+{
+    if (maps.empty()) {
+        throw std::logic_error("View: a light without shadow maps has no first one");
+    }
+    return maps.front();
+}
+
 Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum)
 {
     return {constant_bias(settings, frustum), rounded_bias(settings.slope, "bias.slope"),
@@ -129,9 +138,9 @@ View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefault
     if (light.type == LightType::point) {
         return view; // it has no shadow map
     }
-    view.frustum =
-        fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera, job.image);
-    view.bias = resolve_bias(job.bias, view.frustum);
+    view.maps = {fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera,
+                                   job.image)};
+    view.bias = resolve_bias(job.bias, view.first_map());
     view.bias.handed = resolve_handed_biases(job);
     return view;
 }

@@ -2,12 +2,14 @@
 
 #include "scene/job/job.hpp"
 #include "scene/scene_defaults.hpp"
+#include "scene/view/map_choice.hpp"
 
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::scene {
 
@@ -34,11 +36,17 @@ struct View {
     Camera camera;
     ImageSize image;
     Light light;
-    LightFrustum frustum;
+    std::vector<LightFrustum> maps; ///< what each shadow map sees, as large; a point light has none
     Bias bias;
+    MapChoice map_choice = MapChoice::containing; ///< which of several maps a receiver reads
+
+    /// The first map's, and of a light with one map the only one: whose light distances and ranges
+    /// are those of all.
+    /// @throws std::logic_error  if there is no map.
+    [[nodiscard]] const LightFrustum& first_map() const;
 };
 
-/// Resolves camera, light, frustum and bias; of a point light camera and light alone.
+/// Resolves camera, light, its map and bias; of a point light camera and light alone.
 /// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
 [[nodiscard]] View resolve_view(const Job& job, const TriangleScene& scene,
                                 const SceneDefaults& defaults);

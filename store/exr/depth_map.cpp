@@ -25,7 +25,7 @@ void write_depth_map(const std::filesystem::path& path, const analysis::Comparis
             fmt::format("write_depth_map: depths are {}x{} but the map has {} texels",
                         depths.size().width_px, depths.size().height_px, map.resolution_texels));
     }
-    const analysis::DepthMapping mapping{comparison.view.frustum.depth_range()};
+    const analysis::DepthMapping mapping{comparison.view.first_map().depth_range()};
     const float farthest = mapping.range().reversed ? 0.0F : 1.0F;
     const auto distance_m = [&](std::size_t i) {
         return depths[i] == farthest

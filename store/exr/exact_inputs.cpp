@@ -66,9 +66,9 @@ void add_camera(std::vector<ExactInput>& inputs, const scene::Camera& camera)
 
 void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
 {
-    inputs.push_back({"light_clip_from_world", row_major(view.frustum.light_clip_from_world)});
-    inputs.push_back({"near", numbers({view.frustum.near_m})});
-    inputs.push_back({"far", numbers({view.frustum.far_m})});
+    inputs.push_back({"light_clip_from_world", row_major(view.first_map().light_clip_from_world)});
+    inputs.push_back({"near", numbers({view.first_map().near_m})});
+    inputs.push_back({"far", numbers({view.first_map().far_m})});
     inputs.push_back({"bias_constant", numbers({static_cast<double>(view.bias.constant)})});
     inputs.push_back({"bias_slope", numbers({static_cast<double>(view.bias.slope)})});
     inputs.push_back(

@@ -41,7 +41,7 @@ void expect_closed_form(const Compared& compared, const TiltedPlaneSetting& sett
     ASSERT_GE(result.metrics.pixels.of(scene::PixelClass::lit), 500000U) << text(setting);
     // r and d are rounded a few times each.
     const double expected =
-        half_texel_slope(setting, result.view.frustum) + largest_rounding(result) + 4 * 0x1p-24;
+        half_texel_slope(setting, result.view.first_map()) + largest_rounding(result) + 4 * 0x1p-24;
     const double found = double{result.diagnosis->biases->bounds.strict.acne_free};
     // Few pixels meet a texel's corner and the largest rounding at the same time.
     EXPECT_NEAR(found, expected, 0.02 * expected) << text(setting);
@@ -69,7 +69,7 @@ TEST(AcneFreeBias, OfHardwareIsATexelsSlopeTapByTapAndHalfOfItByCount)
     // A point at the share u between two texels' centres is shadowed by the nearer to the light as
     // long as the bias is below u times a texel's slope, with the weight 1 − u: more than one half
     // where u is below one half.
-    const double half = half_texel_slope(setting, result.view.frustum);
+    const double half = half_texel_slope(setting, result.view.first_map());
     // Few pixels lie at the very end of their texel: 2 %, as above.
     EXPECT_NEAR(double{strict.acne_free}, 2 * half, 0.02 * 2 * half);
     EXPECT_NEAR(double{strict.acne_free_count}, half, 0.02 * half);

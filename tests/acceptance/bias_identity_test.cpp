@@ -168,11 +168,10 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
     const auto lookup = c.lookup_pass.read();
     const auto depths = read_shader_depths(*shared_context(), *c.map);
-    const auto criticals =
-        rule.promises.has_formula()
-            ? analysis::critical_biases(
-                  analysis::deciding_samples(lookup, lookup.texels, depths, rule), rule)
-            : bisected(c);
+    const auto criticals = rule.promises.has_formula()
+                               ? analysis::critical_biases(
+                                     analysis::deciding_samples(lookup, lookup, depths, rule), rule)
+                               : bisected(c);
     const auto triangles = read_triangles(*shared_context(), *c.receivers);
     std::vector<float> seen;
     for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
@@ -238,7 +237,7 @@ TEST_P(Bisection, FindsWhatTheFormulaSays)
             const auto lookup = c.lookup_pass.read();
             const auto depths = read_shader_depths(*shared_context(), *c.map);
             const auto formula = analysis::critical_biases(
-                analysis::deciding_samples(lookup, lookup.texels, depths, rule), rule);
+                analysis::deciding_samples(lookup, lookup, depths, rule), rule);
             const auto triangles = read_triangles(*shared_context(), *c.receivers);
             const auto found = bisected(c);
             std::size_t finite = 0;

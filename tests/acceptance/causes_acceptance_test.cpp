@@ -117,13 +117,13 @@ TEST(Fence, IsLostBelowTheTexelAndRaggedAboveIt)
                                   {"shadow_map.resolution", fmt::format("{}", resolution)}});
     };
     const auto thin = fence(0.002, 128);
-    const double texel_m = thin.view.frustum.texel_width_m(1, 128);
+    const double texel_m = thin.view.first_map().texel_width_m(1, 128);
     ASSERT_NEAR(0.002 / texel_m, 0.05, 0.015); // a twentieth of a texel
     EXPECT_GE(static_cast<double>(counts_of(thin).of(Label::leak)),
               0.8 * static_cast<double>(thin.metrics.false_lit));
     EXPECT_GT(thin.metrics.false_lit, 100U);
     const auto wide = fence(0.1, 256);
-    ASSERT_GT(0.1 / wide.view.frustum.texel_width_m(1, 256), 4); // four texels and more
+    ASSERT_GT(0.1 / wide.view.first_map().texel_width_m(1, 256), 4); // four texels and more
     EXPECT_GE(static_cast<double>(counts_of(wide).of(Label::edge)),
               0.99 * static_cast<double>(wide.metrics.false_lit));
     EXPECT_GT(wide.metrics.false_lit, 100U);
@@ -160,7 +160,7 @@ TEST(Precision, IsTheCauseWhereTheBiasCoversTheTexelsSlopeButNotTheStep)
     const TiltedPlaneSetting plane{45, 8192, "u8", 0};
     const scene::Job job = tilted_plane_job(plane, 0);
     const Compared scene{job};
-    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).frustum;
+    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).first_map();
     const double slope = closed_form_bias({45, 8192, "d32f", 0}, frustum);
     expect_share(scene(tilted_plane_job(plane, slope + 0.25 / 255)), Cause::precision, 0.95,
                  "tilted-plane");
@@ -204,7 +204,7 @@ TEST(Resolution, IsTheCauseWhereTheBiasIsHalfOfWhatCoarseTexelsNeed)
     const TiltedPlaneSetting plane{45, 256, "d32f", 0};
     const scene::Job job = tilted_plane_job(plane, 0);
     const Compared scene{job};
-    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).frustum;
+    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).first_map();
     expect_share(scene(tilted_plane_job(plane, 0.5 * closed_form_bias(plane, frustum))),
                  Cause::resolution, 0.95, "tilted-plane");
     const Keys coarse{{"shadow_map.resolution", "256"}, {"shadow_map.depth_format", "d32f"}};
@@ -262,7 +262,7 @@ TEST(Repair, OfPrecisionIsAFloatFormat)
     const TiltedPlaneSetting plane{45, 4096, "u8", 0};
     const scene::Job job = tilted_plane_job(plane, 0);
     const Compared scene{job};
-    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).frustum;
+    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).first_map();
     const double needed = closed_form_bias({45, 4096, "d32f", 0}, frustum);
     const auto before = scene(tilted_plane_job(plane, 1.02 * needed));
     const auto after = scene(tilted_plane_job({45, 4096, "d32f", 0}, 1.02 * needed));
@@ -276,7 +276,7 @@ void expect_repaired_by_resolution(int resolution)
     const scene::Job job = tilted_plane_job(plane, 0);
     const Compared scene{job};
     const TiltedPlaneSetting finer{45, resolution, "d32f", 0};
-    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).frustum;
+    const auto frustum = resolve_view(job, scene.file().scene, scene.file().defaults).first_map();
     const double bias = 1.02 * closed_form_bias(finer, frustum);
     expect_repaired(repaired(scene(tilted_plane_job(plane, bias)), Cause::resolution,
                              scene.without_diagnosis(tilted_plane_job(finer, bias))),

@@ -30,7 +30,7 @@ scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias)
 
 PlaneDepth::PlaneDepth(const analysis::Comparison& result)
 {
-    const auto& matrix = result.view.frustum.light_clip_from_world_exact;
+    const auto& matrix = result.view.first_map().light_clip_from_world_exact;
     const double texels = result.job.shadow_map.resolution_texels;
     std::array<scene::Vec3d, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {

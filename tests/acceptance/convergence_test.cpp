@@ -24,7 +24,8 @@ TEST(Columns, ErrorFallsMonotonicallyAsTheMapGrows)
         const scene::View view =
             resolve_view(at(resolution, 0, 0), compared.file().scene, compared.file().defaults);
         // One texel's width in depth units: half of it, and 0.71 of it times tan θ.
-        const double texel = view.frustum.texel_width_m(1.0, resolution) / view.frustum.range_m();
+        const double texel =
+            view.first_map().texel_width_m(1.0, resolution) / view.first_map().range_m();
         const auto result = compared.without_diagnosis(at(resolution, 0.5 * texel, 0.71 * texel));
         const double error_rate = result.metrics.error_rate.value();
         EXPECT_LT(error_rate, last) << resolution;

@@ -60,7 +60,7 @@ double mean_amount(const Shares& shares, double beta)
 
 void expect_ends(const analysis::Comparison& result, const TiltedPlaneSetting& setting, int width)
 {
-    const double half = half_texel_slope(setting, result.view.frustum);
+    const double half = half_texel_slope(setting, result.view.first_map());
     const auto& strict = result.diagnosis->biases->bounds.strict;
     // Where the plane falls along both axes few pixels meet a texel's corner: the nearest misses it
     // by a part of a texel, whatever the filter's width.
@@ -101,7 +101,7 @@ private:
 void expect_amounts(const Compared& compared, const analysis::Comparison& result,
                     const TiltedPlaneSetting& setting, Filter filter)
 {
-    const double half = half_texel_slope(setting, result.view.frustum);
+    const double half = half_texel_slope(setting, result.view.first_map());
     const AmountAt amount_at{compared, result};
     const Shares shares = shares_of(setting);
     const double across =
@@ -126,10 +126,10 @@ void expect_tap_criticals(const Compared& compared, const analysis::Comparison& 
         0, result.truth.pixel_class.pixel_count(),
         [&](std::size_t i) { return result.truth.pixel_class[i] == scene::PixelClass::lit; },
         [&](std::size_t i, std::span<const float> criticals) {
-            const scene::Vec2f at = result.lookup.texels[i];
+            const scene::MapPoint at = result.lookup.at(i);
             std::size_t t = 0;
             footprint.visit_taps(at, [&](const analysis::Tap& tap) {
-                const double here = depth(double{at.x}, double{at.y});
+                const double here = depth(double{at.texel.x}, double{at.texel.y});
                 const double there = depth(tap.texel.x + 0.5, tap.texel.y + 0.5);
                 const double off = double{criticals[t++]} - (here - there);
                 largest = tap.is_inside ? std::max(largest, std::abs(off)) : largest;
@@ -165,7 +165,7 @@ void expect_hardware(const TiltedPlaneSetting& setting, const Compared& compared
 {
     SCOPED_TRACE(text(setting));
     const auto without = compared.without_diagnosis(job_of(setting, Filter::hardware, 0));
-    const double across = 2 * half_texel_slope(setting, without.view.frustum);
+    const double across = 2 * half_texel_slope(setting, without.view.first_map());
     const AmountAt amount_at{compared, without};
     EXPECT_EQ(amount_at(1.001 * across + rounding), 0);
     EXPECT_GT(amount_at(0.8 * across), 0);

@@ -19,11 +19,11 @@ TEST_P(TiltedPlane, IsHalfAcneWithoutBiasAndNoneJustAboveTheClosedForm)
                 EXPECT_GE(without.metrics.pixels.of(scene::PixelClass::lit), 500000U) << label;
                 // Sampling at pixels and the code's rounding shift "half" by a few percent.
                 EXPECT_NEAR(without.metrics.false_shadow_rate.value(), 0.5, 0.05) << label;
-                const double bias = 1.02 * closed_form_bias(s, without.view.frustum);
+                const double bias = 1.02 * closed_form_bias(s, without.view.first_map());
                 EXPECT_EQ(
                     compared.without_diagnosis(tilted_plane_job(s, bias)).metrics.false_shadow, 0U)
                     << label;
-                const double too_small = 0.9 * closed_form_bias(s, without.view.frustum);
+                const double too_small = 0.9 * closed_form_bias(s, without.view.first_map());
                 EXPECT_GT(
                     compared.without_diagnosis(tilted_plane_job(s, too_small)).metrics.false_shadow,
                     0U)

@@ -81,7 +81,7 @@ TEST_P(WallGap, IsTheBiasAndTheStripItsSine)
     const Compared compared{wall_job(GetParam(), 0)};
     for (const double bias_m : {0.02, 0.05, 0.2}) {
         const auto result = compared(wall_job(GetParam(), bias_m));
-        const double texel_m = result.view.frustum.texel_width_m(1, 4096);
+        const double texel_m = result.view.first_map().texel_width_m(1, 4096);
         const double strip_m = bias_m * std::sin(angle_rad);
         // Half a texel on the light's plane reaches ½·texel·cos θ along the ground seen by the
         // light, and moves the depth of what it sees by ½·texel·cot θ.
@@ -109,7 +109,7 @@ TEST(WallGapOfFilters, IsTheBiasWithinHalfTheFootprint)
                                        scene::Filter::pcf3, scene::Filter::pcf9}) {
         job.lookup.filter = filter;
         const auto result = compared(job);
-        const double texel_m = result.view.frustum.texel_width_m(1, 4096);
+        const double texel_m = result.view.first_map().texel_width_m(1, 4096);
         const Strip strip = measure_strip(result, 0, 0, 1.2);
         // Pixels that only the ground's own taps shadow without bias lie a whole shadow's length
         // away; a tap that the wall shadows is at most half the filter from P's.

@@ -34,13 +34,14 @@ public:
     [[nodiscard]] std::vector<scene::TexelHit>
     first_hits(std::span<const scene::Texel> texels, const scene::KnownHits& known) const override
     {
-        known_frusta.push_back(known.frustum);
+        known_frusta.push_back(known.maps.front());
         known_triangles.emplace_back(known.triangles.begin(), known.triangles.end());
         return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
     }
 
     [[nodiscard]] std::vector<float>
-    receiver_depths(std::span<const std::size_t> pixels) const override
+    receiver_depths(std::span<const std::size_t> pixels,
+                    const scene::MapIndices& /*maps*/) const override
     {
         return answer<float>(pixels, [&](std::size_t p) { return pixel_depths.at(p); });
     }
@@ -74,7 +75,8 @@ public:
     }
 
     [[nodiscard]] std::vector<std::uint8_t>
-    are_crossed(std::span<const std::size_t> pixels) const override
+    are_crossed(std::span<const std::size_t> pixels,
+                const scene::MapIndices& /*maps*/) const override
     {
         return answer<std::uint8_t>(pixels, [&](std::size_t p) { return crossed.contains(p); });
     }

@@ -33,7 +33,7 @@ void ask(FirstHitCache& cache, FakeLight& light, double near_m, int resolution_t
          Cull cull = Cull::none, const std::vector<Texel>& of = texels)
 {
     const scene::LightFrustum frustum = frustum_from(near_m);
-    const auto hits = cache.first_hits({light, frustum, resolution_texels, cull}, of);
+    const auto hits = cache.first_hits({light, {&frustum, 1}, resolution_texels, cull}, of);
     ASSERT_EQ(hits.size(), of.size());
     for (std::size_t i = 0; i < of.size(); ++i) {
         const auto expected = light.hits.find({of[i].x, of[i].y});

@@ -80,15 +80,15 @@ private:
     }
     static std::string light_text(const scene::View& view)
     {
-        return fmt::format("{} {} {}", view.frustum.near_m, view.frustum.far_m,
-                           view.frustum.reversed);
+        return fmt::format("{} {} {}", view.first_map().near_m, view.first_map().far_m,
+                           view.first_map().reversed);
     }
     static float receiver_depth(const scene::View& view, std::size_t pixel)
     {
         const std::string text =
             fmt::format("r {} {} {}", camera_text(view), light_text(view), pixel);
         // Some receivers lie beyond far.
-        return draw(text + "far", 11) == 0 ? (view.frustum.reversed ? -0.25F : 1.25F)
+        return draw(text + "far", 11) == 0 ? (view.first_map().reversed ? -0.25F : 1.25F)
                                            : draw_depth(text);
     }
     static scene::Vec2f texel_of(const scene::Job& job, const scene::View& view, std::size_t pixel)
@@ -115,7 +115,7 @@ private:
             scene::LookupSample sample;
             sample.receiver_depth = receiver_depth(view_, pixel);
             const float r = sample.receiver_depth;
-            const bool is_far = view_.frustum.reversed ? r < 0 : r > 1;
+            const bool is_far = view_.first_map().reversed ? r < 0 : r > 1;
             if (job_.lookup.outside == scene::Outside::clamp) {
                 sample.receiver_depth = std::clamp(r, 0.0F, 1.0F);
             }
@@ -152,7 +152,7 @@ private:
             if (std::isnan(d)) {
                 return border();
             }
-            return (view_.frustum.reversed ? r + bias >= d : r - bias <= d) ? 1.0F : 0.0F;
+            return (view_.first_map().reversed ? r + bias >= d : r - bias <= d) ? 1.0F : 0.0F;
         }
         [[nodiscard]] float verdict(const scene::LookupSample& sample, scene::Vec2f texel) const
         {
@@ -214,7 +214,7 @@ private:
         renderers_.draw_receivers = [this](const scene::View& view) {
             begin("receivers", nullptr, view);
             slots_.resize(std::max(slots_.size(), selected_ + 1));
-            slots_[selected_] = {view.camera.eye, view.frustum.light_clip_from_world};
+            slots_[selected_] = {view.camera.eye, view.first_map().light_clip_from_world};
             return scene::ReceiverLayers{scene::Image<std::uint32_t>{view.image, 0}};
         };
         renderers_.find_truth = [this](const scene::View& view, const scene::ReceiverLayers&) {
@@ -288,7 +288,7 @@ private:
         EXPECT_EQ(map_key_, stage_keys(job).map) << "looked up in another map";
         EXPECT_EQ(slots_.at(selected_).eye, view.camera.eye) << "read other receivers";
         EXPECT_TRUE(job.lookup.position == scene::LookupPosition::pixel ||
-                    slots_.at(selected_).light_clip == view.frustum.light_clip_from_world)
+                    slots_.at(selected_).light_clip == view.first_map().light_clip_from_world)
             << "read receivers of another light matrix";
         const Lookup lookup{*this, job, view};
         scene::LookupLayers layers{scene::Image<scene::LookupSample>{view.image},
@@ -310,7 +310,8 @@ private:
                 const std::string text = fmt::format("h {} {} {}", key, x, y);
                 if (draw(text, 5) != 0) {
                     light->hits[{x, y}] = {1, double{draw_depth(text)},
-                                           view.frustum.near_m + static_cast<double>(x + y) / 8};
+                                           view.first_map().near_m +
+                                               static_cast<double>(x + y) / 8};
                 }
             }
         }

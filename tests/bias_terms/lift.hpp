@@ -23,7 +23,7 @@ inline constexpr std::string_view lift_glsl = R"(uniform float lift_m;
 
 vec4 lift(Receiver receiver, vec4 clip)
 {
-    precise vec4 lifted = clip + light_clip_from_world * vec4(lift_m * receiver.to_light, 0.0);
+    precise vec4 lifted = clip + light_clip_from_world[map_index] * vec4(lift_m * receiver.to_light, 0.0);
     return lifted;
 }
 )";

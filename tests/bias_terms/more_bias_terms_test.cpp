@@ -165,7 +165,7 @@ TEST(Pull, GivesTheVerdictsOfAConstantBiasInThePlaceOfWhichItStands)
         const Comparison constant =
             compared.without_diagnosis(wall_with(with(variant, {{"bias.constant_m", "0.0625"}})));
         ASSERT_GT(constant.view.bias.constant, 0);
-        const bool reversed = constant.view.frustum.reversed;
+        const bool reversed = constant.view.first_map().reversed;
         for (std::size_t i = 0; i < constant.lookup.samples.pixel_count(); ++i) {
             if (constant.receivers.triangle[i] == scene::no_triangle) {
                 continue;
@@ -258,7 +258,7 @@ TEST(Lift, MovesTheLookupAlongTheLightAsFarAsItSays)
     const Compared compared{job_with({})};
     const Comparison plain = compared.without_diagnosis(job_with({}));
     const Comparison lifted = compared.without_diagnosis(job_with({{"bias.lift_m", "0.0625"}}));
-    const double lift = 0.0625 / plain.view.frustum.range_m();
+    const double lift = 0.0625 / plain.view.first_map().range_m();
     std::size_t receivers = 0;
     std::size_t made_lit = 0;
     for (std::size_t i = 0; i < plain.lookup.samples.pixel_count(); ++i) {

@@ -39,7 +39,7 @@ inline std::optional<methods::Piece> pull_piece(const scene::Job& /*job*/, const
         return std::nullopt;
     }
     return methods::Piece{
-        pull_glsl, {}, {{"pull_depth", {static_cast<float>(pull_m / view.frustum.range_m())}}}};
+        pull_glsl, {}, {{"pull_depth", {static_cast<float>(pull_m / view.first_map().range_m())}}}};
 }
 
 /// A length along a directional light, taken from the receiver's depth.

@@ -76,7 +76,7 @@ public:
     {
         const bool is_lit = exact_.truth.pixel_class[pixel] == PixelClass::lit;
         const double bias = is_lit ? double{exact_.view.bias.constant} : 0;
-        const double sign = exact_.view.frustum.reversed ? -1 : 1;
+        const double sign = exact_.view.first_map().reversed ? -1 : 1;
         for (const analysis::Tap& tap : taps(pixel)) {
             const double r{depths_.receivers[pixel]};
             const double d{depth(tap.texel)};
@@ -120,13 +120,13 @@ public:
 private:
     [[nodiscard]] std::vector<analysis::Tap> taps(std::size_t pixel) const
     {
-        auto all = footprint_.taps(exact_.lookup.texels[pixel]);
+        auto all = footprint_.taps(exact_.lookup.at(pixel));
         std::erase_if(all, [](const analysis::Tap& tap) { return !tap.is_inside; });
         return all;
     }
     [[nodiscard]] float depth(const scene::Texel& texel) const
     {
-        return depths_.map(texel.x, exact_.job.shadow_map.resolution_texels - 1 - texel.y);
+        return at_texel(depths_.map, texel);
     }
 
     const analysis::Comparison& exact_;

@@ -36,13 +36,13 @@ void MethodCase::set(scene::Job other)
 
 void MethodCase::draw_map()
 {
-    map_ = &map_pass_.render(gpu_, view.frustum, job.shadow_map);
+    map_ = &map_pass_.render(gpu_, view.maps, job.shadow_map);
     prefilter();
 }
 
 void MethodCase::give_map(scene::Image<float> depths)
 {
-    map_ = &map_pass_.store(std::move(depths), view.frustum.reversed);
+    map_ = &map_pass_.store(std::move(depths), view.first_map().reversed);
     prefilter();
 }
 

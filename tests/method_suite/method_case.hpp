@@ -46,7 +46,7 @@ private:
     raster_gl::LookupPass lookup_pass_;
     const raster_gl::ReceiverBuffer* receivers_ = nullptr;
     const raster_gl::ShadowMap* map_ = nullptr;
-    const raster_gl::Texture* filtered_ = nullptr;
+    const raster_gl::LayeredTexture* filtered_ = nullptr;
 };
 
 /// A job's method with one of its filters, or another value of a key of its own.

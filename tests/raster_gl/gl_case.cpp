@@ -69,7 +69,7 @@ void GlCase::draw_receivers()
 
 void GlCase::draw_shadow_map()
 {
-    map = &shadow_map_pass.render(gpu, view.frustum, job.shadow_map);
+    map = &shadow_map_pass.render(gpu, view.maps, job.shadow_map);
 }
 
 void GlCase::look_up()

@@ -64,7 +64,7 @@ TEST(LookupPosition, OfThePixelIsTheMatrixTimesItsWorldPosition)
             const auto triangles = read_triangles(*tests::shared_context(), *c.receivers);
             const auto positions = read_world_positions(*tests::shared_context(), *c.receivers);
             const auto lookup = c.lookup_pass.read();
-            const scene::Mat4f& m = c.view.frustum.light_clip_from_world;
+            const scene::Mat4f& m = c.view.first_map().light_clip_from_world;
             std::size_t receivers = 0;
             for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
                 const Component w = component(m, positions[i], 3);

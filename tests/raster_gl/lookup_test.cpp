@@ -266,7 +266,7 @@ TEST(Lookup, MovesBySoManyTexelWidthsAlongTheNormal)
     c.set(with({{"bias.normal_texels", std::to_string(offset_texels)}}));
     c.draw_all();
     const auto moved = c.lookup_pass.read().samples;
-    const scene::LightFrustum& f = c.view.frustum;
+    const scene::LightFrustum& f = c.view.first_map();
     // A plane at 45°: the normal's component along the light is cos 45°, towards the light.
     const double expected = offset_texels * f.texel_width_m(1, c.map->resolution_texels) *
                             std::cos(M_PI / 4) / f.range_m();

@@ -56,7 +56,7 @@ public:
               scene::camera_clip_from_world(c.view.camera, c.view.image, c.file.scene.bounds())},
           camera_clip_{capture_clip_positions(*tests::shared_context(), c.gpu, camera_)},
           light_clip_{capture_clip_positions(*tests::shared_context(), c.gpu,
-                                             c.view.frustum.light_clip_from_world)}
+                                             c.view.first_map().light_clip_from_world)}
     {
     }
 
@@ -75,7 +75,7 @@ public:
         for (const int row : {0, 1, 3}) {
             result.camera_error = std::max(result.camera_error, row_error(camera_, corners, row));
         }
-        const scene::Mat4f& light = c_.view.frustum.light_clip_from_world;
+        const scene::Mat4f& light = c_.view.first_map().light_clip_from_world;
         result.light_error = {row_error(light, corners, 2), row_error(light, corners, 3)};
         return result;
     }
@@ -84,7 +84,7 @@ public:
     /// left, meets the triangle's plane.
     [[nodiscard]] scene::Vec4d light_clip_at(std::uint32_t triangle, double x, double y) const
     {
-        return scene::Mat4d{c_.view.frustum.light_clip_from_world} *
+        return scene::Mat4d{c_.view.first_map().light_clip_from_world} *
                scene::Vec4d{point_at(triangle, x, y), 1};
     }
     /// Distance of that point from the camera's plane [m].

@@ -99,9 +99,9 @@ TEST(ClipPositions, EqualTheMatrixProductWithinFourRoundings)
     GNOMON_REQUIRE_GL();
     GlCase c{"sphere-plane", small_image};
     const auto captured = capture_clip_positions(*tests::shared_context(), c.gpu,
-                                                 c.view.frustum.light_clip_from_world);
+                                                 c.view.first_map().light_clip_from_world);
     ASSERT_EQ(captured.size(), c.file.scene.vertices.size());
-    const scene::Mat4d m{c.view.frustum.light_clip_from_world};
+    const scene::Mat4d m{c.view.first_map().light_clip_from_world};
     for (std::size_t i = 0; i < captured.size(); ++i) {
         const scene::Vec4d p{scene::Vec3d{c.file.scene.vertices[i]}, 1};
         const scene::Vec4d exact = m * p;

@@ -67,7 +67,7 @@ TEST(ShadowMap, HasTheSameDepthsWhereCodesAreDropped)
     c.draw_shadow_map();
     const auto kept = read_shader_depths(*tests::shared_context(), *c.map);
     ShadowMapPass pass{*tests::shared_context(), UnormCodes::dropped};
-    const ShadowMap& map = pass.render(c.gpu, c.view.frustum, c.job.shadow_map);
+    const ShadowMap& map = pass.render(c.gpu, c.view.maps, c.job.shadow_map);
     const auto dropped = read_shader_depths(*tests::shared_context(), map);
     EXPECT_TRUE(std::equal(kept.begin(), kept.end(), dropped.begin(), dropped.end()));
     EXPECT_THROW((void)read_codes(*tests::shared_context(), map), std::invalid_argument);
@@ -82,7 +82,7 @@ TEST(ShadowMap, RowsDrawnAndReadAloneAreThoseOfTheWholeMap)
     const auto whole = read_shader_depths(*tests::shared_context(), *c.map);
     for (const scene::TexelRows rows : {scene::TexelRows{0, 1}, {599, 1}, {100, 300}, {0, 600}}) {
         ShadowMapPass pass{*tests::shared_context()};
-        const ShadowMap& map = pass.render(c.gpu, c.view.frustum, c.job.shadow_map, rows);
+        const ShadowMap& map = pass.render(c.gpu, c.view.maps, c.job.shadow_map, rows);
         const auto part = read_shader_depths(*tests::shared_context(), map, rows);
         ASSERT_EQ(part.size(), whole.size());
         for (int y = 0; y < 600; ++y) {
@@ -93,7 +93,7 @@ TEST(ShadowMap, RowsDrawnAndReadAloneAreThoseOfTheWholeMap)
             }
         }
         // A later draw of the pass is whole again.
-        const ShadowMap& again = pass.render(c.gpu, c.view.frustum, c.job.shadow_map);
+        const ShadowMap& again = pass.render(c.gpu, c.view.maps, c.job.shadow_map);
         const auto depths = read_shader_depths(*tests::shared_context(), again);
         ASSERT_TRUE(std::equal(depths.begin(), depths.end(), whole.begin()));
     }

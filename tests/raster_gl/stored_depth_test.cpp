@@ -123,7 +123,8 @@ void include(scene::Image<Interval>& bounds, const scene::WindowTriangle& t, dou
 std::optional<scene::Image<Interval>> exact_bounds(const GlCase& c)
 {
     const auto& context = *tests::shared_context();
-    const auto clip = capture_clip_positions(context, c.gpu, c.view.frustum.light_clip_from_world);
+    const auto clip =
+        capture_clip_positions(context, c.gpu, c.view.first_map().light_clip_from_world);
     const double subpixel_px = std::ldexp(1.0, -context.facts().subpixel_bits);
     scene::Image<Interval> bounds{{resolution_texels, resolution_texels}};
     for (const auto& indices : c.file.scene.triangles) {
@@ -166,10 +167,10 @@ void set_map_of_whole_triangles(GlCase& c, const char* format)
                                       {"shadow_map.far", "\"auto\""},
                                       {"shadow_map.depth_format", format}};
     c.set(keys);
-    double nearest_m = c.view.frustum.near_m;
-    double farthest_m = c.view.frustum.far_m;
+    double nearest_m = c.view.first_map().near_m;
+    double farthest_m = c.view.first_map().far_m;
     for (const scene::Vec3f& vertex : c.file.scene.vertices) {
-        const double light_distance_m = c.view.frustum.light_distance_m(scene::Vec3d{vertex});
+        const double light_distance_m = c.view.first_map().light_distance_m(scene::Vec3d{vertex});
         nearest_m = std::min(nearest_m, light_distance_m);
         farthest_m = std::max(farthest_m, light_distance_m);
     }

@@ -30,8 +30,8 @@ struct LitScene {
           reference{triangles},
           resolution{resolution_in}
     {
-        view.frustum = scene::fit_light_frustum(frustum, light, view.light, triangles, view.camera,
-                                                view.image);
+        view.maps = {scene::fit_light_frustum(frustum, light, view.light, triangles, view.camera,
+                                              view.image)};
         receivers = brute_force_receivers(triangles, view);
     }
     LitScene(const LitScene&) = delete;
@@ -54,7 +54,7 @@ struct LitScene {
     }
     [[nodiscard]] scene::Ray texel_ray(Texel texel) const
     {
-        return TexelRays{view.frustum, view.light, resolution}.ray(texel);
+        return TexelRays{view.first_map(), view.light, resolution}.ray(texel);
     }
     /// Pixels that are lit or blocked.
     [[nodiscard]] std::vector<std::size_t> scored_pixels() const
@@ -176,7 +176,8 @@ inline Rational tap_depth(const LitScene& lit, const ExactTap& tap)
         return Rational{tap.depth};
     }
     const scene::Ray ray = lit.texel_ray(tap.texel);
-    return *matrix_depth(lit.view.frustum, exact_point(ray, lit.triangles.corners(tap.triangle)));
+    return *matrix_depth(lit.view.first_map(),
+                         exact_point(ray, lit.triangles.corners(tap.triangle)));
 }
 
 } // namespace gnomon::reference_rt::test

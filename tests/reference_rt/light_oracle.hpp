@@ -145,7 +145,7 @@ inline Passing first_hit_of(const scene::TriangleScene& scene, const scene::View
     Passing first;
     for (const Passing& passing :
          passings(scene, origin, step, [&](int side) { return culling_leaves(cull, -side); })) {
-        if (!is_between_near_and_far(view.frustum, origin + passing.t * step)) {
+        if (!is_between_near_and_far(view.first_map(), origin + passing.t * step)) {
             continue;
         }
         if (first.triangle == scene::no_triangle || passing.t < first.t ||
@@ -166,7 +166,7 @@ inline bool is_crossed(const scene::TriangleScene& scene, const scene::View& vie
     for (const Passing& passing :
          passings(scene, point, step, [&](int side) { return culling_leaves(cull, side); })) {
         if (passing.t > 0 && (is_directional || passing.t < 1) &&
-            is_between_near_and_far(view.frustum, point + passing.t * step)) {
+            is_between_near_and_far(view.first_map(), point + passing.t * step)) {
             return true;
         }
     }

@@ -138,13 +138,13 @@ TEST(ComparisonJson, WritesExactInputsThatReadBackToTheSameBits)
     EXPECT_EQ(vector(inputs["up"]), view.camera.up);
     EXPECT_EQ(number(inputs["half_height"]), view.camera.half_height);
     EXPECT_EQ(vector(inputs["light_direction"]), view.light.direction);
-    EXPECT_EQ(number(inputs["near"]), view.frustum.near_m);
-    EXPECT_EQ(number(inputs["far"]), view.frustum.far_m);
+    EXPECT_EQ(number(inputs["near"]), view.first_map().near_m);
+    EXPECT_EQ(number(inputs["far"]), view.first_map().far_m);
     EXPECT_EQ(static_cast<float>(number(inputs["bias_constant"])), view.bias.constant);
     ASSERT_EQ(inputs["light_clip_from_world"].size(), 16U);
     for (int i = 0; i < 16; ++i) {
         EXPECT_EQ(number(inputs["light_clip_from_world"][static_cast<std::size_t>(i)]),
-                  static_cast<double>(view.frustum.light_clip_from_world[i % 4][i / 4]))
+                  static_cast<double>(view.first_map().light_clip_from_world[i % 4][i / 4]))
             << "row " << i / 4 << ", column " << i % 4;
     }
 }

@@ -199,7 +199,7 @@ TEST(Report, HoldsTheLayersOfAKeptImageBitByBit)
         ASSERT_EQ(depths[i], std::bit_cast<std::uint32_t>(comparison.lookup.samples[i].map_depth));
         ASSERT_EQ(verdicts[i], comparison.lookup.samples[i].verdict);
     }
-    EXPECT_EQ(image.at("frustum").at("near_m"), comparison.view.frustum.near_m);
+    EXPECT_EQ(image.at("frustum").at("near_m"), comparison.view.first_map().near_m);
 }
 
 /// The example with a critical bias for each pixel: any at all.

@@ -155,7 +155,8 @@ TEST(WriteAov, WritesExactInputsThatReadBackToTheSameBits)
     for (std::size_t i = 0; i < 16; ++i) {
         const auto row = static_cast<int>(i / 4);
         const auto column = static_cast<int>(i % 4);
-        EXPECT_EQ(matrix[i], static_cast<double>(view.frustum.light_clip_from_world[column][row]));
+        EXPECT_EQ(matrix[i],
+                  static_cast<double>(view.first_map().light_clip_from_world[column][row]));
     }
 }
 
@@ -215,11 +216,11 @@ TEST(WriteDepthMap, HoldsDepthsAndTheDistancesThatTheyStandFor)
     const scene::Image<float> depths = ramp();
     for (const bool is_reversed : {false, true}) {
         Example changed;
-        changed.comparison.view.frustum.reversed = is_reversed;
+        changed.comparison.view.maps.front().reversed = is_reversed;
         write_depth_map(folder / "map.exr", changed.comparison, depths);
         const ReadLayers map{folder / "map.exr"};
         EXPECT_THAT(map.spec().channelnames, UnorderedElementsAre("depth", "light_distance_m"));
-        const analysis::DepthMapping mapping{changed.comparison.view.frustum.depth_range()};
+        const analysis::DepthMapping mapping{changed.comparison.view.first_map().depth_range()};
         const std::size_t last = depths.pixel_count() - 1;
         const std::size_t farthest = is_reversed ? 0 : last;
         for (std::size_t i = 0; i <= last; ++i) {

@@ -185,7 +185,7 @@ private:
     scene::LookupSample sample(const scene::Job& job, const scene::View& view,
                                const Vec3d& point) const
     {
-        const scene::LightFrustum& frustum = view.frustum;
+        const scene::LightFrustum& frustum = view.first_map();
         const double texel_m =
             (frustum.right_side - frustum.left) / job.shadow_map.resolution_texels;
         const auto centre = [&](double offset_m) {

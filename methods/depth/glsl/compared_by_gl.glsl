@@ -8,5 +8,5 @@ float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 #else
     precise float reference = r - bias;
 #endif
-    return textureLod(map_compare, vec3(uv, reference), 0.0);
+    return compared_by_gl(uv, reference);
 }

@@ -3,6 +3,6 @@
 // @param d  the interpolated depth
 float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 {
-    d = textureLod(map, uv, 0.0).r;
+    d = interpolated_depth(uv);
     return is_lit(r, bias, d) ? 1.0 : 0.0;
 }

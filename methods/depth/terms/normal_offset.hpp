@@ -5,23 +5,25 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace gnomon::methods {
 
 inline constexpr auto normal_offset_keys = std::to_array<std::string_view>({"bias.normal_texels"});
 
 inline constexpr std::string_view normal_offset_glsl =
-    R"(uniform float normal_offset_m; // for SPOT at ζ = 1
+    R"(uniform float normal_offset_m[MAPS]; // for SPOT at ζ = 1
 
 vec4 normal_offset(Receiver receiver, vec4 clip)
 {
 #if SPOT
-    float offset = normal_offset_m * receiver.clip.w;
+    float offset = normal_offset_m[map_index] * receiver.clip.w;
 #else
-    float offset = normal_offset_m;
+    float offset = normal_offset_m[map_index];
 #endif
     vec3 towards_light = receiver.cosine >= 0.0 ? receiver.normal : -receiver.normal;
-    precise vec4 moved = clip + light_clip_from_world * vec4(offset * towards_light, 0.0);
+    precise vec4 moved = clip + light_clip_from_world[map_index] * vec4(offset * towards_light, 0.0);
     return moved;
 }
 )";
@@ -32,9 +34,12 @@ inline std::optional<Piece> normal_offset_piece(const scene::Job& job, const sce
     if (texels == 0) {
         return std::nullopt;
     }
-    const double texel_m = view.frustum.texel_width_m(1.0, job.shadow_map.resolution_texels);
-    return Piece{
-        normal_offset_glsl, {}, {{"normal_offset_m", {static_cast<float>(texels * texel_m)}}}};
+    std::vector<float> offsets_m;
+    for (const scene::LightFrustum& map : view.maps) {
+        const double texel_m = map.texel_width_m(1.0, job.shadow_map.resolution_texels);
+        offsets_m.push_back(static_cast<float>(texels * texel_m));
+    }
+    return Piece{normal_offset_glsl, {}, {{"normal_offset_m", std::move(offsets_m)}}};
 }
 
 /// Looks up a point above the surface.

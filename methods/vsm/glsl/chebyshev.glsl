@@ -8,11 +8,7 @@ uniform float stretch;            // 1 / (1 − bleeding_reduction)
 float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 {
     fetch_depth(floor(texel), d);
-#if GRADIENTS
-    vec2 moments = textureGrad(filtered_map, uv, uv_dx, uv_dy).rg;
-#else
-    vec2 moments = textureLod(filtered_map, uv, 0.0).rg;
-#endif
+    vec2 moments = filtered(uv).rg;
     // Each step is monotone in the bias, so that the verdict rises with it.
 #if REVERSED
     precise float reference = r + bias;

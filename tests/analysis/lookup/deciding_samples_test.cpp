@@ -32,7 +32,7 @@ struct Pcf {
     [[nodiscard]] float deciding(scene::LookupSample sample, scene::Vec2f texel) const
     {
         const scene::Image<scene::Vec2f> texels{{1, 1}, texel};
-        return deciding_samples(layers_of({sample}), texels, map, rule).samples[0].map_depth;
+        return deciding_samples(layers_of({sample}), {{}, texels}, map, rule).samples[0].map_depth;
     }
 };
 
@@ -133,7 +133,7 @@ TEST(DecidingSamples, AgreeWithCountingLitTaps)
         // With a map depth that is no NaN, a receiver inside near and far never is the border's.
         const scene::Image<scene::Vec2f> texels{{1, 1}, texel};
         const auto decided =
-            deciding_samples(layers_of({{r, 0.5F, 0, 0}}), texels, pcf.map, pcf.rule);
+            deciding_samples(layers_of({{r, 0.5F, 0, 0}}), {{}, texels}, pcf.map, pcf.rule);
         const float critical = critical_biases(decided, pcf.rule)[0];
         const int width = pcf.rule.promises.width_texels;
         const int lit = count_lit_taps(pcf, texel, r, bias);
@@ -159,12 +159,13 @@ TEST(DecidingSamples, RejectHardwareAndImagesThatDoNotFit)
     const auto lookup = layers_of({receiver});
     const scene::Image<scene::Vec2f> texels{{1, 1}};
     const scene::Image<float> map{{4, 4}};
-    EXPECT_THROW((void)deciding_samples(lookup, texels, map, rule_of(scene::Filter::hardware)),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        (void)deciding_samples(lookup, {{}, texels}, map, rule_of(scene::Filter::hardware)),
+        std::invalid_argument);
     const LookupRule pcf = rule_of(scene::Filter::pcf3);
     EXPECT_THROW((void)deciding_samples(lookup, {}, map, pcf), std::invalid_argument);
-    EXPECT_THROW((void)deciding_samples(lookup, texels, {}, pcf), std::invalid_argument);
-    EXPECT_THROW((void)deciding_samples(lookup, texels, scene::Image<float>{{4, 2}}, pcf),
+    EXPECT_THROW((void)deciding_samples(lookup, {{}, texels}, {}, pcf), std::invalid_argument);
+    EXPECT_THROW((void)deciding_samples(lookup, {{}, texels}, scene::Image<float>{{4, 2}}, pcf),
                  std::invalid_argument);
 }
 

@@ -41,13 +41,13 @@ double total_weight(const std::vector<Tap>& taps)
 TEST(Footprint, NearestReadsTheFloor)
 {
     const Footprint footprint = footprint_of(Filter::nearest, Outside::lit, 8);
-    EXPECT_THAT(texels_of(footprint.taps({3.0F, 4.99F})), ElementsAre(std::pair{3, 4}));
+    EXPECT_THAT(texels_of(footprint.taps({{3.0F, 4.99F}})), ElementsAre(std::pair{3, 4}));
 }
 
 TEST(Footprint, PcfReadsASquareAroundTheCentreTexelInEqualParts)
 {
     const Footprint footprint = footprint_of(Filter::pcf3, Outside::lit, 8);
-    const auto taps = footprint.taps({3.5F, 4.5F});
+    const auto taps = footprint.taps({{3.5F, 4.5F}});
     EXPECT_THAT(texels_of(taps), ElementsAre(std::pair{2, 3}, std::pair{3, 3}, std::pair{4, 3},
                                              std::pair{2, 4}, std::pair{3, 4}, std::pair{4, 4},
                                              std::pair{2, 5}, std::pair{3, 5}, std::pair{4, 5}));
@@ -57,7 +57,7 @@ TEST(Footprint, PcfReadsASquareAroundTheCentreTexelInEqualParts)
 TEST(Footprint, LinearWeighsItsFourTexelsByTheDistanceOfTheirCentres)
 {
     const Footprint footprint = footprint_of(Filter::linear, Outside::lit, 8);
-    const auto taps = footprint.taps({3.75F, 4.5F}); // ¼ texel right of a centre, level with it
+    const auto taps = footprint.taps({{3.75F, 4.5F}}); // ¼ texel right of a centre, level with it
     EXPECT_THAT(texels_of(taps),
                 ElementsAre(std::pair{3, 4}, std::pair{4, 4}, std::pair{3, 5}, std::pair{4, 5}));
     EXPECT_EQ(taps[0].weight, 0.75);
@@ -69,10 +69,10 @@ TEST(Footprint, LinearWeighsItsFourTexelsByTheDistanceOfTheirCentres)
 TEST(Footprint, TapsBeyondTheBorderAreOutsideUnlessClamped)
 {
     const Footprint open = footprint_of(Filter::pcf3, Outside::shadowed, 8);
-    const auto taps = open.taps({0.5F, 7.5F});
+    const auto taps = open.taps({{0.5F, 7.5F}});
     EXPECT_EQ(std::ranges::count(taps, true, &Tap::is_inside), 4);
     const Footprint clamped = footprint_of(Filter::pcf3, Outside::clamp, 8);
-    const auto limited = clamped.taps({0.5F, 7.5F});
+    const auto limited = clamped.taps({{0.5F, 7.5F}});
     EXPECT_EQ(std::ranges::count(limited, true, &Tap::is_inside), 9);
     EXPECT_EQ(texels_of(limited).front(), std::pair(0, 6));
     EXPECT_EQ(texels_of(limited).back(), std::pair(1, 7));
@@ -85,16 +85,16 @@ TEST(Footprint, RingSurroundsTheTapsWithinTheMap)
     for (const auto& [filter, size] : sizes) {
         const Footprint footprint = footprint_of(filter, Outside::lit, 64);
         std::set<std::pair<int, int>> texels;
-        for (const scene::Texel& texel : footprint.ring({30.25F, 31.75F})) {
+        for (const scene::Texel& texel : footprint.ring({{30.25F, 31.75F}})) {
             texels.emplace(texel.x, texel.y);
         }
         EXPECT_EQ(texels.size(), size) << scene::filter_name(filter);
-        for (const auto& tap : texels_of(footprint.taps({30.25F, 31.75F}))) {
+        for (const auto& tap : texels_of(footprint.taps({{30.25F, 31.75F}}))) {
             EXPECT_FALSE(texels.contains(tap)) << scene::filter_name(filter);
         }
     }
     const Footprint corner = footprint_of(Filter::nearest, Outside::lit, 64);
-    EXPECT_EQ(corner.ring({0.5F, 0.5F}).size(), 3U);
+    EXPECT_EQ(corner.ring({{0.5F, 0.5F}}).size(), 3U);
 }
 
 /// Of a method that interpolates means by a kernel.
@@ -121,11 +121,11 @@ TEST(FootprintOfAKernel, InterpolatesTheWeightsOfTheTwoMeansAroundThePoint)
 {
     const Footprint footprint{promises_of(gaussian), Outside::lit, 8};
     // ¼ texel right of a centre: ¾ of (¼, ½, ¼, 0) and ¼ of (0, ¼, ½, ¼); level with it: the first.
-    const auto taps = footprint.taps({3.75F, 4.5F});
+    const auto taps = footprint.taps({{3.75F, 4.5F}});
     expect_weights(taps, {3 / 16.0, 7 / 16.0, 5 / 16.0, 1 / 16.0}, {0.25, 0.5, 0.25, 0});
     EXPECT_EQ(total_weight(taps), 1);
     // Halfway between centres.
-    expect_weights(footprint.taps({3.0F, 4.0F}), {0.125, 0.375, 0.375, 0.125},
+    expect_weights(footprint.taps({{3.0F, 4.0F}}), {0.125, 0.375, 0.375, 0.125},
                    {0.125, 0.375, 0.375, 0.125});
 }
 
@@ -133,24 +133,24 @@ TEST(FootprintOfAKernel, BeginsTheKernelsRadiusBeforeTheNearestCentres)
 {
     const Footprint footprint{promises_of(gaussian), Outside::lit, 8};
     EXPECT_EQ(footprint.width_texels(), 4);
-    const auto texels = texels_of(footprint.taps({3.75F, 4.5F}));
+    const auto texels = texels_of(footprint.taps({{3.75F, 4.5F}}));
     EXPECT_EQ(texels.front(), std::pair(2, 3));
     EXPECT_EQ(texels.back(), std::pair(5, 6));
-    EXPECT_EQ(texels_of(footprint.taps({3.25F, 4.25F})).front(), std::pair(1, 2));
+    EXPECT_EQ(texels_of(footprint.taps({{3.25F, 4.25F}})).front(), std::pair(1, 2));
     // The point lies in texel (3, 4) both times.
-    EXPECT_EQ(footprint.centre_tap({3.75F, 4.5F}), 5U);
-    EXPECT_EQ(footprint.centre_tap({3.25F, 4.25F}), 10U);
+    EXPECT_EQ(footprint.centre_tap({{3.75F, 4.5F}}), 5U);
+    EXPECT_EQ(footprint.centre_tap({{3.25F, 4.25F}}), 10U);
 }
 
 TEST(FootprintOfAKernel, KeepsItsWeightsBeyondTheBorder)
 {
     const Footprint open{promises_of(gaussian), Outside::shadowed, 8};
-    const auto taps = open.taps({0.5F, 0.5F}); // around texel (0, 0)
+    const auto taps = open.taps({{0.5F, 0.5F}}); // around texel (0, 0)
     EXPECT_EQ(texels_of(taps).front(), std::pair(-1, -1));
     EXPECT_EQ(std::ranges::count(taps, true, &Tap::is_inside), 9);
     EXPECT_EQ(total_weight(taps), 1);
     const Footprint clamped{promises_of(gaussian), Outside::clamp, 8};
-    const auto limited = clamped.taps({0.5F, 0.5F});
+    const auto limited = clamped.taps({{0.5F, 0.5F}});
     EXPECT_EQ(std::ranges::count(limited, true, &Tap::is_inside), 16);
     EXPECT_EQ(texels_of(limited).front(), std::pair(0, 0));
     expect_weights(limited, {0.25, 0.5, 0.25, 0}, {0.25, 0.5, 0.25, 0});
@@ -160,16 +160,16 @@ TEST(FootprintOfAKernel, HasItsRingAroundAllTaps)
 {
     const Footprint footprint{promises_of(gaussian), Outside::lit, 64};
     std::set<std::pair<int, int>> texels;
-    for (const scene::Texel& texel : footprint.ring({30.25F, 31.75F})) {
+    for (const scene::Texel& texel : footprint.ring({{30.25F, 31.75F}})) {
         texels.emplace(texel.x, texel.y);
     }
     EXPECT_EQ(texels.size(), 20U); // 6 × 6 but 4 × 4
     EXPECT_EQ(*texels.begin(), std::pair(27, 29));
     EXPECT_EQ(*texels.rbegin(), std::pair(32, 34));
-    for (const auto& tap : texels_of(footprint.taps({30.25F, 31.75F}))) {
+    for (const auto& tap : texels_of(footprint.taps({{30.25F, 31.75F}}))) {
         EXPECT_FALSE(texels.contains(tap));
     }
-    EXPECT_EQ(footprint.ring({0.5F, 0.5F}).size(), 7U) << "texels 3 of four columns and rows";
+    EXPECT_EQ(footprint.ring({{0.5F, 0.5F}}).size(), 7U) << "texels 3 of four columns and rows";
 }
 
 TEST(FootprintOfAKernel, OfOneTexelIsThatOfAnInterpolatedMap)
@@ -178,8 +178,8 @@ TEST(FootprintOfAKernel, OfOneTexelIsThatOfAnInterpolatedMap)
     const Footprint footprint{promises_of(one), Outside::lit, 8};
     const Footprint linear = footprint_of(Filter::linear, Outside::lit, 8);
     for (const scene::Vec2f& point : {scene::Vec2f{3.75F, 4.5F}, {0.25F, 7.9375F}, {5.1F, 2.7F}}) {
-        const auto taps = footprint.taps(point);
-        const auto expected = linear.taps(point);
+        const auto taps = footprint.taps({point});
+        const auto expected = linear.taps({point});
         EXPECT_EQ(texels_of(taps), texels_of(expected));
         for (std::size_t i = 0; i < taps.size(); ++i) {
             EXPECT_EQ(taps[i].weight, expected[i].weight) << "tap " << i;
@@ -192,7 +192,7 @@ TEST(FootprintOfAKernel, SumsToOneUpToTheKernelsRounding)
     constexpr std::array<float, 9> box{1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F,
                                        1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F};
     const Footprint footprint{promises_of(box), Outside::lit, 64};
-    const auto taps = footprint.taps({30.3F, 31.7F});
+    const auto taps = footprint.taps({{30.3F, 31.7F}});
     EXPECT_EQ(taps.size(), methods::most_taps);
     // Each weight is off by at most half an ulp, 2^-28, of the float32s from 1/16 on: a line's sum
     // by 9 · 2^-28, and the product of two by twice that; sums of doubles round far below.
@@ -204,9 +204,9 @@ TEST(Footprint, PointsThatCannotBeCountedAreOutside)
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const Footprint footprint = footprint_of(Filter::pcf9, Outside::lit, 16384);
     for (const float x : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity, 3e38F}) {
-        const auto taps = footprint.taps({x, 5.0F});
+        const auto taps = footprint.taps({{x, 5.0F}});
         EXPECT_TRUE(std::ranges::none_of(taps, &Tap::is_inside)) << x;
-        EXPECT_FALSE(footprint.is_inside({x, 5.0F})) << x;
+        EXPECT_FALSE(footprint.is_inside({{x, 5.0F}})) << x;
     }
 }
 

@@ -48,7 +48,8 @@ struct FourPixels {
     {
         const CauseInputs inputs{
             rule_of(scene::Filter::nearest), 8, truth, lookup, lookup, no_depths, light};
-        return map_depth_errors_m(inputs, CentreHits{inputs}, orthographic_frustum(),
+        const scene::LightFrustum map = orthographic_frustum();
+        return map_depth_errors_m(inputs, CentreHits{inputs}, {&map, 1},
                                   {scene::DepthFormat::Kind::unorm, 8});
     }
 };

@@ -30,9 +30,11 @@ struct Wall {
         view.camera.forward = {0, 0, -1};
         view.camera.right = {1, 0, 0};
         view.camera.up = {0, 1, 0};
-        view.frustum.projection = scene::Projection::perspective;
-        view.frustum.origin = {0, 0, 0};
-        view.frustum.forward = {0, 0, -1};
+        view.maps.resize(1);
+        scene::LightFrustum& map = view.maps.front();
+        map.projection = scene::Projection::perspective;
+        map.origin = {0, 0, 0};
+        map.forward = {0, 0, -1};
     }
     [[nodiscard]] ReceiverGeometry geometry() const { return {triangles, view, receivers}; }
 };
@@ -46,14 +48,14 @@ TEST(GapsOfPixels, AreInMetresAndInTexelsAtTheReceiver)
     const std::vector<std::size_t> pixels{0, 1};
     BlockerGapCache known{wall.view.image};
     known.find(light, pixels);
-    const auto gaps = gaps_of_pixels(known, pixels, wall.geometry(), wall.view.frustum, 16);
+    const auto gaps = gaps_of_pixels(known, pixels, wall.geometry(), {wall.view.maps, {}, 16});
     ASSERT_EQ(gaps.size(), 2U);
     // A texel is 2·4/16 = 0.5 m wide there.
     EXPECT_EQ(gaps[0].metres, 0.5F);
     EXPECT_EQ(gaps[0].texels, 1.0F);
     EXPECT_EQ(gaps[1].metres, 1.5F);
     EXPECT_EQ(gaps[1].texels, 3.0F);
-    EXPECT_TRUE(gaps_of_pixels(known, {}, wall.geometry(), wall.view.frustum, 16).empty());
+    EXPECT_TRUE(gaps_of_pixels(known, {}, wall.geometry(), {wall.view.maps, {}, 16}).empty());
 }
 
 TEST(BlockerGapCache, AreFoundOnce)

@@ -141,7 +141,7 @@ TEST(SceneIdentity, IsEqualOnlyWhereTheJobSeesAndLightsAlike)
         EXPECT_EQ(of_a.light.type, of_b.light.type);
         EXPECT_EQ(of_a.light.direction, of_b.light.direction);
         EXPECT_EQ(of_a.light.cos_half_cone, of_b.light.cos_half_cone);
-        EXPECT_EQ(of_a.frustum.far_m, of_b.frustum.far_m);
+        EXPECT_EQ(of_a.first_map().far_m, of_b.first_map().far_m);
     }
     EXPECT_GT(equal_names, 100);
 }

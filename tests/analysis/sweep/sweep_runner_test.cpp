@@ -132,7 +132,7 @@ TEST(SweepRunner, DescribesTheCurveAtTheJobsOwnBias)
         EXPECT_EQ(curve.best->errors.total(), answers.best.errors.total());
         EXPECT_EQ(curve.bounds->strict.acne_free, answers.bounds.strict.acne_free);
         EXPECT_EQ(curve.bounds->strict.panning_free, answers.bounds.strict.panning_free);
-        EXPECT_EQ(curve.near_m, own.view.frustum.near_m);
+        EXPECT_EQ(curve.near_m, own.view.first_map().near_m);
         // Without a bias of its own the job has none, whatever its axis asks for.
         EXPECT_EQ(biases.curves.at(curve.id).by_distance[0].bias, 0.0F);
     }

@@ -28,21 +28,22 @@ TEST(FirstHits, AreThoseOfBruteForceInRationals)
                 if (first.triangle == no_triangle) {
                     EXPECT_EQ(bounded[i].depth, found[i].depth);
                     EXPECT_EQ(bounded[i].depth_error, 0);
-                    EXPECT_EQ(found[i].depth, lit.view.frustum.reversed ? 0 : 1);
+                    EXPECT_EQ(found[i].depth, lit.view.first_map().reversed ? 0 : 1);
                     EXPECT_EQ(found[i].light_distance_m, std::numeric_limits<double>::infinity());
                     continue;
                 }
                 ++hits;
                 const RationalVec point =
                     RationalVec{ray.origin} + first.t * RationalVec{ray.direction};
-                const Rational depth = *matrix_depth(lit.view.frustum, point);
+                const Rational depth = *matrix_depth(lit.view.first_map(), point);
                 EXPECT_LE(abs(depth - Rational{found[i].depth}), Rational{found[i].depth_error});
                 EXPECT_LE(found[i].depth_error, 0x1p-48);
                 EXPECT_LE(abs(depth - Rational{bounded[i].depth}),
                           Rational{bounded[i].depth_error});
                 EXPECT_LE(bounded[i].depth_error, 0x1p-40);
-                const Rational light_distance = dot(RationalVec{lit.view.frustum.forward},
-                                                    point - RationalVec{lit.view.frustum.origin});
+                const Rational light_distance =
+                    dot(RationalVec{lit.view.first_map().forward},
+                        point - RationalVec{lit.view.first_map().origin});
                 EXPECT_LE(abs(light_distance - Rational{found[i].light_distance_m}),
                           0x1p-44 * abs(light_distance));
             }
@@ -58,7 +59,7 @@ TEST(AreCrossed, IsWhatBruteForceInRationalsSays)
     for_each_case([&](const LitScene& lit) {
         const auto pixels = lit.scored_pixels();
         for (const Cull cull : culls) {
-            const auto answers = lit.exact_light(cull)->are_crossed(pixels);
+            const auto answers = lit.exact_light(cull)->are_crossed(pixels, {});
             for (std::size_t i = 0; i < pixels.size(); i += 3) {
                 const bool expected =
                     is_crossed(lit.triangles, lit.view, lit.point(pixels[i]), cull);
@@ -83,11 +84,11 @@ ExactTap tap_of(Texel texel, const TexelHit& hit, bool is_known)
 
 float expected_bias(const LitScene& lit, std::size_t pixel, const Rational& depth, bool clamps)
 {
-    Rational r = *matrix_depth(lit.view.frustum, lit.point(pixel));
+    Rational r = *matrix_depth(lit.view.first_map(), lit.point(pixel));
     if (clamps) {
         r = r < 0 ? Rational{0} : r > 1 ? Rational{1} : r;
     }
-    return smallest_bias(lit.view.frustum.reversed ? Rational{depth - r} : Rational{r - depth});
+    return smallest_bias(lit.view.first_map().reversed ? Rational{depth - r} : Rational{r - depth});
 }
 
 TEST(CriticalBiases, AreThoseOfRationalsForOneTap)
@@ -116,7 +117,7 @@ TEST(CriticalBiases, AreThoseOfRationalsForOneTap)
 /// uv·n of a pixel's point.
 std::array<Rational, 2> place_on_map(const LitScene& lit, std::size_t pixel)
 {
-    const ClipRows rows{lit.view.frustum};
+    const ClipRows rows{lit.view.first_map()};
     const RationalVec point = lit.point(pixel);
     const auto at = [&](const scene::Vec4d& row) {
         return dot(RationalVec{scene::Vec3d{row}}, point) + Rational{row.w};
@@ -207,7 +208,7 @@ TEST(FindBlockers, MeasuresTheGapThatRationalsGive)
                 << "pixel " << pixels[i];
             // ζ is a sum of terms below 16 m with a few roundings, and the way's error: 16·2^-42.
             const auto light_distance = [&](const RationalVec& x) {
-                const auto& frustum = lit.view.frustum;
+                const auto& frustum = lit.view.first_map();
                 return dot(RationalVec{frustum.forward}, x - RationalVec{frustum.origin});
             };
             EXPECT_LE(abs(Rational{blockers[i].receiver_light_distance_m} - light_distance(point)),
@@ -244,7 +245,7 @@ TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
     EXPECT_EQ(one->critical_biases(std::span{biases}, true),
               three->critical_biases(std::span{biases}, true));
     EXPECT_EQ(one->are_self_shadowing(sheets), three->are_self_shadowing(sheets));
-    EXPECT_EQ(one->are_crossed(pixels), three->are_crossed(pixels));
+    EXPECT_EQ(one->are_crossed(pixels, {}), three->are_crossed(pixels, {}));
 }
 
 TEST(ExactLight, AnswersTheSameWithAnyInstructionSet)

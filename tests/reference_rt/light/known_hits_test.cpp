@@ -56,9 +56,8 @@ TEST(KnownHits, GiveWhatTracingGives)
                     const LightCase to = with_near(light, near_m);
                     const LitScene lit{random_sheets(seed, seed % 2 == 0), to.light, to.frustum};
                     const auto exact = lit.exact_light();
-                    expect_same(
-                        exact->first_hits(texels, KnownHits{before.view.frustum, triangles}),
-                        exact->first_hits(texels, HitDetail::placed));
+                    expect_same(exact->first_hits(texels, KnownHits{before.view.maps, triangles}),
+                                exact->first_hits(texels, HitDetail::placed));
                 }
             }
         }
@@ -78,12 +77,12 @@ TEST(KnownHits, HoldForASpotFurtherFromTheNearPlaneOn)
         const View far = frustum(2.5);
         const bool is_spot = near.light.type == scene::LightType::spot;
         spots += is_spot ? 1 : 0;
-        EXPECT_EQ(keeps_first_hits(near.light, near.frustum, far.frustum), is_spot);
-        EXPECT_FALSE(keeps_first_hits(near.light, far.frustum, near.frustum));
-        EXPECT_TRUE(keeps_first_hits(near.light, near.frustum, near.frustum));
-        scene::LightFrustum turned = far.frustum;
+        EXPECT_EQ(keeps_first_hits(near.light, near.first_map(), far.first_map()), is_spot);
+        EXPECT_FALSE(keeps_first_hits(near.light, far.first_map(), near.first_map()));
+        EXPECT_TRUE(keeps_first_hits(near.light, near.first_map(), near.first_map()));
+        scene::LightFrustum turned = far.first_map();
         turned.light_clip_from_world[0][0] *= 1.0000002F;
-        EXPECT_FALSE(keeps_first_hits(near.light, near.frustum, turned));
+        EXPECT_FALSE(keeps_first_hits(near.light, near.first_map(), turned));
     }
     EXPECT_GT(spots, 0);
 }
@@ -95,10 +94,10 @@ TEST(KnownHits, AreRefusedWhereTheyAreNone)
     const auto exact = lit.exact_light();
     const auto texels = lit.all_texels();
     const std::vector<std::uint32_t> too_few(texels.size() - 1, no_triangle);
-    EXPECT_THROW((void)exact->first_hits(texels, KnownHits{lit.view.frustum, too_few}),
+    EXPECT_THROW((void)exact->first_hits(texels, KnownHits{lit.view.maps, too_few}),
                  std::invalid_argument);
     const std::vector<std::uint32_t> strange(texels.size(), 1'000'000);
-    EXPECT_THROW((void)exact->first_hits(texels, KnownHits{lit.view.frustum, strange}),
+    EXPECT_THROW((void)exact->first_hits(texels, KnownHits{lit.view.maps, strange}),
                  std::invalid_argument);
 }
 

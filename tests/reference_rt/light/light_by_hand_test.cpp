@@ -261,7 +261,7 @@ TEST(AreCrossed, CountWhatIsBetweenNearAndFar)
             const Noon noon{table_at(height), reversed};
             const auto pixels = noon.ground_below_the_table();
             ASSERT_FALSE(pixels.empty());
-            const auto crossed = noon.exact_light()->are_crossed(pixels);
+            const auto crossed = noon.exact_light()->are_crossed(pixels, {});
             EXPECT_EQ(std::ranges::count(crossed, expected), std::ssize(pixels)) << height;
         }
     }
@@ -272,7 +272,7 @@ TEST(AreCrossed, LeaveOutWhatIsCulled)
     const Noon noon{table_at(1)};
     const auto pixels = noon.ground_below_the_table();
     const auto count = [&](Cull cull) {
-        return std::ranges::count(noon.exact_light(cull)->are_crossed(pixels), 1);
+        return std::ranges::count(noon.exact_light(cull)->are_crossed(pixels, {}), 1);
     };
     EXPECT_EQ(count(Cull::none), std::ssize(pixels));
     EXPECT_EQ(count(Cull::back), std::ssize(pixels));
@@ -305,7 +305,7 @@ TEST(ExactLight, RejectsWhatIsOutsideTheMapAndTheScene)
     const std::size_t background = noon.pixel_of(no_triangle);
     const std::vector<std::size_t> beyond{noon.receivers.pixel_count()};
     EXPECT_THROW((void)noon.bias(background, {{0, 0}, 0, 1}), std::invalid_argument);
-    EXPECT_THROW((void)light->are_crossed({&background, 1}), std::invalid_argument);
+    EXPECT_THROW((void)light->are_crossed({&background, 1}, {}), std::invalid_argument);
     EXPECT_THROW((void)light->find_blockers(beyond), std::invalid_argument);
 }
 

@@ -162,7 +162,7 @@ struct TiltedTable : LitScene {
     }
     [[nodiscard]] float receiver_depth(int threads = 0) const
     {
-        return exact_light(Cull::none, threads)->receiver_depths({&pixel, 1})[0];
+        return exact_light(Cull::none, threads)->receiver_depths({&pixel, 1}, {})[0];
     }
     void expect_depths(float expected, int threads = 0) const
     {
@@ -235,7 +235,7 @@ TEST(RoundedDepths, AreThoseOfRationalsNearTies)
                                         << height << " + " << added);
         const TiltedTable lit{height, added, reversed};
         lit.expect_depths(
-            nearest_float(*matrix_depth(lit.view.frustum, lit.point(TiltedTable::pixel))));
+            nearest_float(*matrix_depth(lit.view.first_map(), lit.point(TiltedTable::pixel))));
     }
 }
 
@@ -245,11 +245,11 @@ TEST(ReceiverDepths, AreThoseOfRationals)
     for_each_case([&](const LitScene& lit) {
         auto pixels = lit.scored_pixels();
         std::ranges::shuffle(pixels, std::mt19937{3}); // answers come in the order of the questions
-        const auto depths = lit.exact_light()->receiver_depths(pixels);
+        const auto depths = lit.exact_light()->receiver_depths(pixels, {});
         ASSERT_EQ(depths.size(), pixels.size());
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            EXPECT_TRUE(is_same(
-                depths[i], nearest_float(*matrix_depth(lit.view.frustum, lit.point(pixels[i])))))
+            EXPECT_TRUE(is_same(depths[i], nearest_float(*matrix_depth(lit.view.first_map(),
+                                                                       lit.point(pixels[i])))))
                 << "pixel " << pixels[i];
             ++tried;
         }
@@ -263,8 +263,8 @@ TEST(TexelDepths, AreThoseOfRationals)
     for_each_case([&](const LitScene& lit) {
         auto texels = lit.all_texels();
         std::ranges::shuffle(texels, std::mt19937{4});
-        const TexelRays rays{lit.view.frustum, lit.view.light, lit.resolution};
-        const LightDepth light_depth{lit.view.frustum};
+        const TexelRays rays{lit.view.first_map(), lit.view.light, lit.resolution};
+        const LightDepth light_depth{lit.view.first_map()};
         const TapDepths taps{lit.triangles, rays, light_depth};
         for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
             const auto light = lit.exact_light(cull);
@@ -275,7 +275,7 @@ TEST(TexelDepths, AreThoseOfRationals)
                 SCOPED_TRACE(testing::Message() << "texel " << texels[i].x << ' ' << texels[i].y
                                                 << ", cull " << scene::cull_name(cull));
                 if (hits[i].triangle == no_triangle) {
-                    EXPECT_TRUE(is_same(depths[i], lit.view.frustum.reversed ? 0.0F : 1.0F));
+                    EXPECT_TRUE(is_same(depths[i], lit.view.first_map().reversed ? 0.0F : 1.0F));
                     continue;
                 }
                 const ExactTap unknown{texels[i], hits[i].triangle};
@@ -305,13 +305,13 @@ TEST(ReceiverDepths, AreNearestAlsoByTheCriticalBiases)
 {
     int tried = 0;
     for_each_case([&](const LitScene& lit) {
-        const bool reversed = lit.view.frustum.reversed;
+        const bool reversed = lit.view.first_map().reversed;
         const auto light = lit.exact_light();
         std::vector<std::size_t> pixels;
         std::vector<float> nearest;
         std::vector<float> nearer; // the next one: r exceeds it by more than half of the gap
         for (const std::size_t pixel : lit.scored_pixels()) {
-            const float depth = light->receiver_depths({&pixel, 1})[0];
+            const float depth = light->receiver_depths({&pixel, 1}, {})[0];
             if (depth > 0 && depth < 1) {
                 pixels.push_back(pixel);
                 nearest.push_back(depth);
@@ -338,14 +338,14 @@ TEST(RoundedDepths, AreInTheOrderThatTheCriticalBiasesSay)
 {
     int in_order = 0;
     for_each_case([&](const LitScene& lit) {
-        const bool reversed = lit.view.frustum.reversed;
+        const bool reversed = lit.view.first_map().reversed;
         std::mt19937 random{5};
         const auto light = lit.exact_light();
         const auto texels = lit.all_texels();
         const auto hits = light->first_hits(texels, HitDetail::bounded);
         const auto depths = light->texel_depths(texels);
         const auto pixels = lit.scored_pixels();
-        const auto receivers = light->receiver_depths(pixels);
+        const auto receivers = light->receiver_depths(pixels, {});
         std::vector<NearestQuery> queries;
         std::vector<std::size_t> asked;
         for (const std::size_t pixel : pixels) {
@@ -390,7 +390,7 @@ TEST(ReceiverDepths, AreNoNumberInTheCameraPlaneOfTheLight)
     int tried = 0;
     for (std::size_t pixel = 0; pixel < lit.receivers.pixel_count(); ++pixel) {
         if (lit.receivers[pixel] != no_triangle) {
-            EXPECT_TRUE(std::isnan(lit.exact_light()->receiver_depths({&pixel, 1})[0]))
+            EXPECT_TRUE(std::isnan(lit.exact_light()->receiver_depths({&pixel, 1}, {})[0]))
                 << "pixel " << pixel;
             ++tried;
         }
@@ -421,7 +421,7 @@ TEST(RoundedDepths, AreTheSameWithAnyNumberOfThreads)
     const auto texels = lit.all_texels();
     const auto pixels = lit.scored_pixels();
     EXPECT_EQ(one->texel_depths(texels), three->texel_depths(texels));
-    EXPECT_EQ(one->receiver_depths(pixels), three->receiver_depths(pixels));
+    EXPECT_EQ(one->receiver_depths(pixels, {}), three->receiver_depths(pixels, {}));
 }
 
 TEST(RoundedDepths, RejectWhatIsOutsideTheMapAndTheImage)
@@ -432,7 +432,7 @@ TEST(RoundedDepths, RejectWhatIsOutsideTheMapAndTheImage)
         EXPECT_THROW((void)light->texel_depths({&outside, 1}), std::invalid_argument);
     }
     const std::size_t beyond = lit.receivers.pixel_count();
-    EXPECT_THROW((void)light->receiver_depths({&beyond, 1}), std::invalid_argument);
+    EXPECT_THROW((void)light->receiver_depths({&beyond, 1}, {}), std::invalid_argument);
 }
 
 } // namespace

@@ -120,7 +120,7 @@ TEST(BuiltinScenes, DefaultJobsSeeTheScene)
         const Job job = job_of(builtin);
         ASSERT_TRUE(job.camera && job.light) << builtin.name;
         const View view = resolve_view(job, scene, {});
-        EXPECT_LT(view.frustum.near_m, view.frustum.far_m) << builtin.name;
+        EXPECT_LT(view.first_map().near_m, view.first_map().far_m) << builtin.name;
         const Vec3d towards = scene.bounds().centre() - view.camera.eye;
         const double depth = glm::dot(towards, view.camera.forward);
         const double half_height = view.camera.half_height * depth;
@@ -192,7 +192,7 @@ TEST(TwoDistances, LiesBetweenNearAndFarOfItsLight)
             continue;
         }
         for (const Vec3f& corner : scene.corners(i)) {
-            const double light_distance_m = view.frustum.light_distance_m(Vec3d{corner});
+            const double light_distance_m = view.first_map().light_distance_m(Vec3d{corner});
             nearest_m = std::min(nearest_m, light_distance_m);
             farthest_m = std::max(farthest_m, light_distance_m);
         }
@@ -229,7 +229,7 @@ TEST(TiltedPlane, FillsTheViewWithThePlaneInsideTheMap)
                        // 5 of 6.5 m: the widest filter's footprint stays inside as well.
                        EXPECT_LT(std::abs(p.x), 6.0) << angle_deg;
                        EXPECT_LT(std::abs(p.z), 6.0) << angle_deg;
-                       EXPECT_EQ(view.frustum.top, 6.5);
+                       EXPECT_EQ(view.first_map().top, 6.5);
                        EXPECT_GT(glm::dot(view.camera.eye - p, normal), 4.0) << angle_deg;
                    });
     }

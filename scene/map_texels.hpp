@@ -1,0 +1,60 @@
+#pragma once
+
+#include "scene/image.hpp"
+#include "scene/vec.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gnomon::scene {
+
+/// A texel of a shadow map, counted as GL counts: (0, 0) has its centre next to u = v = −1.
+struct Texel {
+    int x = 0;
+    int y = 0;
+    int map = 0; ///< index among the light's maps
+
+    friend bool operator==(const Texel&, const Texel&) = default;
+};
+
+/// A point of one of a light's maps.
+struct MapPoint {
+    Vec2f texel; ///< uv · resolution: the origin is at the map's lower left
+    int map = 0;
+};
+
+/// Of each pixel the index of the map that its lookup reads; empty where the light has but one.
+using MapIndices = Image<std::uint8_t>;
+
+/// The map that a pixel reads.
+[[nodiscard]] inline int map_of(const MapIndices& maps, std::size_t pixel)
+{
+    return maps.empty() ? 0 : maps[pixel];
+}
+
+/// Size of an image of all texels of a light's maps: a square for each map, the first on top.
+[[nodiscard]] inline ImageSize maps_image_size(int resolution_texels, std::size_t maps)
+{
+    return {resolution_texels, resolution_texels * static_cast<int>(maps)};
+}
+
+/// The row of a texel in an image of all texels of a light's maps, whose rows are counted from the
+/// top: texels are from the bottom.
+[[nodiscard]] inline int image_row(const Texel& texel, int resolution_texels)
+{
+    return (texel.map + 1) * resolution_texels - 1 - texel.y;
+}
+
+/// A texel's pixel in an image of all texels of a light's maps (`maps_image_size`).
+template <typename Pixel>
+[[nodiscard]] const Pixel& at_texel(const Image<Pixel>& maps, const Texel& texel)
+{
+    return maps(texel.x, image_row(texel, maps.size().width_px));
+}
+template <typename Pixel>
+[[nodiscard]] Pixel& at_texel(Image<Pixel>& maps, const Texel& texel)
+{
+    return maps(texel.x, image_row(texel, maps.size().width_px));
+}
+
+} // namespace gnomon::scene

@@ -1,0 +1,280 @@
+// Four maps, the quarters of one, give texel for texel and pixel for pixel what the one gives.
+
+#include "analysis/comparison.hpp"
+#include "compared.hpp"
+#include "methods/list.hpp"
+#include "quadrants.hpp"
+#include "raster_gl/shadow_map.hpp"
+#include "reference_rt/light/exact_light.hpp"
+#include "scene/map_texels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gnomon::tests {
+namespace {
+
+using analysis::Comparison;
+using scene::Filter;
+using scene::Texel;
+
+scene::Job of_quarters(scene::Job job)
+{
+    job.shadow_map.resolution_texels /= 2;
+    return job;
+}
+
+/// Both layouts of a job's scene, compared.
+struct BothLayouts {
+    Comparison whole;
+    Comparison quarters;
+};
+
+BothLayouts compare_both(const Compared& scene, const scene::Job& job)
+{
+    const analysis::Renderers renderers = scene.renderers();
+    BothLayouts both{scene(job), begin_comparison(of_quarters(job), scene.file(), {}, renderers)};
+    both.quarters.view = in_quadrants(both.quarters.view);
+    finish_comparison(both.quarters, renderers);
+    return both;
+}
+
+/// Coordinates on a map are a few float32 roundings of numbers up to 1 from what they are on a map
+/// of other sides, times the texels.
+constexpr float coordinate_error = 0x1p-22F * 256;
+
+/// Whether everything that a lookup reads is of one quarter, and its texels certain.
+bool is_away_from_borders(const Comparison& whole, std::size_t pixel)
+{
+    const auto half = static_cast<float>(whole.job.shadow_map.resolution_texels) / 2;
+    const scene::Vec2f at = whole.lookup.texels[pixel];
+    const float reach = static_cast<float>(methods::promises(whole.job).width_texels) / 2 + 1 +
+                        whole.view.bias.normal_texels;
+    const auto is_away = [&](float x) {
+        const float from_edge = std::min({x, std::abs(x - half), 2 * half - x});
+        const float from_border = std::abs(2 * x - std::round(2 * x)) / 2; // of a texel or its half
+        return from_edge > reach && from_border > coordinate_error;
+    };
+    return is_away(at.x) && is_away(at.y);
+}
+
+/// How far a verdict, or a depth that is looked up, may differ.
+float tolerance_of(const scene::Job& job)
+{
+    if (!methods::promises(job).interpolates()) {
+        return 0;
+    }
+    // Weights differ by the coordinates' errors, and what is interpolated lies in [0, 1].
+    constexpr float interpolated = 2 * coordinate_error;
+    if (methods::promises(job).has_exact_causes()) {
+        return interpolated;
+    }
+    // p = V/(V + d²) with V >= 0.01: |∂p/∂V| <= 1/(4V) and |∂p/∂d| <= 3√3/(8√V); of V = m₂ − m₁²
+    // both moments differ.
+    return 3 * interpolated * 25 + interpolated * 6.5F;
+}
+
+struct Named {
+    std::string name;
+    scene::Job job;
+
+    friend void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
+};
+
+std::vector<Named> lookups()
+{
+    std::vector<Named> all;
+    const auto add = [&](std::string name) -> scene::Job& {
+        return all.emplace_back(std::move(name), looking_at_quadrangles()).job;
+    };
+    const auto add_from_aside = [&](std::string name, Filter filter) {
+        all.emplace_back(std::move(name), looking_at_quadrangles_from_aside()).job.lookup.filter =
+            filter;
+    };
+    add_from_aside("nearest from aside", Filter::nearest);
+    add_from_aside("pcf3 from aside", Filter::pcf3);
+    for (const auto& [name, filter] :
+         std::vector<std::pair<std::string, Filter>>{{"nearest", Filter::nearest},
+                                                     {"linear", Filter::linear},
+                                                     {"pcf3", Filter::pcf3},
+                                                     {"hardware", Filter::hardware}}) {
+        add(name).lookup.filter = filter;
+    }
+    scene::Job& moved = add("normal offset");
+    moved.lookup.filter = Filter::pcf3;
+    moved.bias.normal_texels = 1.5;
+    scene::Job& variances = add("variances");
+    variances.method.name = "vsm";
+    variances.method.values["method.min_variance"] = 0.01;
+    scene::Job& reversed = add("reversed, 16 bits");
+    reversed.shadow_map.frustum.reversed = true;
+    reversed.shadow_map.depth_format = {scene::DepthFormat::Kind::d16, 16};
+    return all;
+}
+
+class SeveralMaps : public testing::TestWithParam<Named> {};
+
+/// Expects of a pixel what does not depend on the layout.
+void expect_same(const BothLayouts& both, std::size_t pixel)
+{
+    const auto& [whole, quarters] = both;
+    const scene::MapPoint at = quarters.lookup.at(pixel);
+    const Texel texel{static_cast<int>(at.texel.x), static_cast<int>(at.texel.y), at.map};
+    const Texel in_whole{static_cast<int>(whole.lookup.texels[pixel].x),
+                         static_cast<int>(whole.lookup.texels[pixel].y), 0};
+    ASSERT_EQ(texel_of_whole(texel, quarters.job.shadow_map.resolution_texels), in_whole);
+    const scene::LookupSample& expected = whole.lookup.samples[pixel];
+    const scene::LookupSample& found = quarters.lookup.samples[pixel];
+    ASSERT_EQ(found.receiver_depth, expected.receiver_depth);
+    const float tolerance = tolerance_of(whole.job);
+    ASSERT_NEAR(found.map_depth, expected.map_depth, tolerance);
+    if (methods::promises(whole.job).has_fractions()) {
+        ASSERT_NEAR(found.verdict, expected.verdict, tolerance);
+    }
+    const float own_bias = whole.diagnosis->biases->critical_bias[pixel];
+    const bool is_certain =
+        std::abs(own_bias) > tolerance && std::abs(own_bias - whole.view.bias.constant) > tolerance;
+    const bool is_one_comparison = whole.job.lookup.filter != Filter::hardware &&
+                                   methods::promises(whole.job).has_exact_causes();
+    if (!is_one_comparison || !is_certain) {
+        return;
+    }
+    ASSERT_EQ(found.verdict, expected.verdict);
+    ASSERT_EQ(quarters.diagnosis->causes.cause[pixel], whole.diagnosis->causes.cause[pixel]);
+    ASSERT_EQ(quarters.diagnosis->causes.label[pixel], whole.diagnosis->causes.label[pixel]);
+    ASSERT_NEAR(quarters.diagnosis->biases->critical_bias[pixel], own_bias, tolerance);
+    if (!std::isnan(whole.diagnosis->map_error_m[pixel])) {
+        ASSERT_NEAR(quarters.diagnosis->map_error_m[pixel], whole.diagnosis->map_error_m[pixel],
+                    double{tolerance} * whole.view.first_map().range_m());
+    }
+}
+
+TEST_P(SeveralMaps, GiveWhatOneMapOfTheSameGridGives)
+{
+    GNOMON_REQUIRE_GL();
+    std::size_t compared = 0;
+    std::uint64_t errors = 0;
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        const Compared scene{tilted_quadrangles(seed)};
+        const BothLayouts both = compare_both(scene, GetParam().job);
+        for (std::size_t i = 0; i < both.whole.lookup.samples.pixel_count(); ++i) {
+            if (scene::is_scored(both.whole.truth.pixel_class[i]) &&
+                is_away_from_borders(both.whole, i)) {
+                SCOPED_TRACE(testing::Message() << "seed " << seed << ", pixel " << i);
+                expect_same(both, i);
+                ASSERT_FALSE(HasFatalFailure());
+                ++compared;
+            }
+        }
+        errors += both.quarters.metrics.false_shadow + both.quarters.metrics.false_lit;
+    }
+    EXPECT_GT(compared, 20'000U);
+    EXPECT_GT(errors, 50U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SeveralMaps, testing::ValuesIn(lookups()), [](const auto& named) {
+    std::string name = named.param.name;
+    std::erase_if(name, [](char c) { return !std::isalnum(c); });
+    return name;
+});
+
+TEST(SeveralMaps, StoreTheDepthsOfOneMapOfTheSameGrid)
+{
+    GNOMON_REQUIRE_GL();
+    const scene::Job job = looking_at_quadrangles();
+    const scene::SceneFile file = tilted_quadrangles(4);
+    const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
+    const raster_gl::GpuScene gpu{*shared_context(), file.scene};
+    raster_gl::ShadowMapPass pass{*shared_context()};
+    const auto depths_of = [&](const scene::Job& drawn, const scene::View& of) {
+        return read_shader_depths(*shared_context(), pass.render(gpu, of.maps, drawn.shadow_map));
+    };
+    const scene::Image<float> whole = depths_of(job, view);
+    const scene::Image<float> quarters = depths_of(of_quarters(job), in_quadrants(view));
+    const int half = job.shadow_map.resolution_texels / 2;
+    ASSERT_EQ(quarters.size(), scene::maps_image_size(half, 4));
+    std::size_t casters = 0;
+    for (int map = 0; map < 4; ++map) {
+        for (int y = 0; y < half; ++y) {
+            for (int x = 0; x < half; ++x) {
+                const Texel texel{x, y, map};
+                const float depth = at_texel(whole, texel_of_whole(texel, half));
+                ASSERT_EQ(at_texel(quarters, texel), depth)
+                    << "texel (" << x << ", " << y << ") of map " << map;
+                casters += depth < at_texel(whole, {0, 0, 0}) ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_GT(casters, 1000U);
+}
+
+TEST(SeveralMaps, HoldTheirVerdictsToTheCurve)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* builtin : {"sphere-plane", "columns"}) {
+        for (const char* filter : {"nearest", "pcf3", "hardware"}) {
+            SCOPED_TRACE(testing::Message() << builtin << ", " << filter);
+            const scene::Job job = scene::builtin_job(builtin, {{"shadow_map.resolution", "256"},
+                                                                {"lookup.filter", filter},
+                                                                {"lookup.position", "pixel"},
+                                                                {"image.width", "320"},
+                                                                {"image.height", "180"}})
+                                       .job;
+            const Compared scene{job};
+            const analysis::Renderers renderers = scene.renderers();
+            Comparison quarters = begin_comparison(job, scene.file(), {}, renderers);
+            quarters.view = in_quadrants(quarters.view);
+            finish_comparison(quarters, renderers);
+            const auto verified = verify_comparison(quarters, renderers);
+            ASSERT_TRUE(verified);
+            EXPECT_GT(verified->verdicts(), 0U);
+            EXPECT_EQ(verified->differences(), 0U);
+        }
+    }
+}
+
+TEST(SeveralMaps, AreRefusedWhereTheyAreLookedUpFromVertices)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"sphere-plane", {{"lookup.position", "vertex"}}};
+    c.view = in_quadrants(c.view);
+    c.draw_receivers();
+    c.draw_shadow_map();
+    EXPECT_THROW(c.look_up(), std::invalid_argument);
+}
+
+TEST(SeveralMaps, AreRefusedWhereOthersWereDrawn)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"sphere-plane", {{"lookup.position", "pixel"}}};
+    c.draw_receivers();
+    c.draw_shadow_map();
+    c.view = in_quadrants(c.view);
+    EXPECT_THROW(c.look_up(), std::invalid_argument);
+}
+
+TEST(AnExactLight, RefusesTexelsOfMapsThatItHasNot)
+{
+    const scene::Job job = looking_at_quadrangles();
+    const scene::SceneFile file = tilted_quadrangles(5);
+    const scene::View view = in_quadrants(scene::resolve_view(job, file.scene, file.defaults));
+    const reference_rt::ReferenceScene reference{file.scene};
+    const scene::Image<std::uint32_t> receivers{view.image, scene::no_triangle};
+    const auto light =
+        reference_rt::make_exact_light(reference, view, receivers, 8, scene::Cull::none);
+    constexpr std::array<Texel, 1> there{{{0, 0, 3}}};
+    constexpr std::array<Texel, 1> beyond{{{0, 0, 4}}};
+    EXPECT_EQ(light->first_hits(there, scene::HitDetail::placed).size(), 1U);
+    EXPECT_THROW((void)light->first_hits(beyond, scene::HitDetail::placed), std::invalid_argument);
+}
+
+} // namespace
+} // namespace gnomon::tests
