@@ -32,6 +32,8 @@ struct Environment {
 struct ExactDepths {
     const scene::Image<float>& map;       ///< of texels, as shaders see them (`maps_image_size`)
     const scene::Image<float>& receivers; ///< of pixels
+    /// Like `map`, of each sample of the texels; empty where the method asks for one, the centre.
+    std::span<const scene::Image<float>> samples;
 };
 
 /// What a prefilter's textures hold.
@@ -54,7 +56,10 @@ struct Renderers {
     std::function<void(const scene::Job&, const scene::View&)> draw_shadow_map;
     /// Makes of the map drawn last what the job's method looks up. Empty: methods that make nothing
     /// of it are the only ones.
-    std::function<void(const scene::Job&, FilteredContent)> prefilter_map;
+    std::function<void(const scene::Job&, const scene::View&, FilteredContent)> prefilter_map;
+    /// Where in a texel GL's samples are, of so many, from the texel's lower left [texels]. Empty:
+    /// methods that ask for one, the centre, are the only ones.
+    std::function<std::vector<scene::Vec2d>(int samples)> sample_places;
     std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
     /// The smallest constant bias of each pixel with which `look_up` lights it, of the same
     /// receivers and map, with the view's slope and normal offset: found by trying. 0 without a
@@ -86,7 +91,7 @@ struct Renderers {
     {
         draw_shadow_map(job, view);
         if (prefilter_map) {
-            prefilter_map(job, FilteredContent::of_method);
+            prefilter_map(job, view, FilteredContent::of_method);
         }
     }
 

@@ -132,9 +132,10 @@ private:
             gl_s += seconds_of([&] { subject_.gl->draw_shadow_map(job, view); });
             break;
         case Kind::prefilter:
-            subject_.gl->prefilter_map(job, analysis::FilteredContent::of_method);
-            gl_s += seconds_of(
-                [&] { subject_.gl->prefilter_map(job, analysis::FilteredContent::of_method); });
+            subject_.gl->prefilter_map(job, view, analysis::FilteredContent::of_method);
+            gl_s += seconds_of([&] {
+                subject_.gl->prefilter_map(job, view, analysis::FilteredContent::of_method);
+            });
             break;
         case Kind::look_up:
             gl_s += seconds_of(

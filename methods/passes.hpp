@@ -41,7 +41,8 @@ struct Piece {
 ///
 ///     vec4 texel(ivec2 at)
 ///
-/// what the texel holds; raster_gl/shaders/prefilter.frag is what it may call.
+/// what the texel holds; raster_gl/shaders/prefilter_source.glsl is what it may call, and SAMPLES
+/// is how many depths of each texel the first reads (`Passes::samples`), the others 1.
 struct PrefilterPass {
     Piece piece;
     TexelFormat format = TexelFormat::rg32f;
@@ -55,6 +56,7 @@ struct PrefilterPass {
 /// may call, and TAPS_ACROSS is `Promises::width_texels`.
 struct Passes {
     std::vector<PrefilterPass> prefilter;
+    int samples = 1; ///< of each texel, that the casters are drawn with for the first pass
     Piece lookup;
     Sampling sampling = Sampling::fetched; ///< of the last pass's texture, else of the depths
     bool makes_mipmaps = false;            ///< of the last pass's texture

@@ -88,6 +88,7 @@ struct Promises {
     /// What `weights` interpolates: means by this kernel. With `equal` it is empty.
     Kernel kernel;
     Reads reads = Reads::footprint;
+    int samples = 1; ///< depths of each of them: at its centre, or several at the driver's samples
     std::uint64_t map_bytes = 0; ///< memory that the map takes; 0 without a map
     bool has_map = true;         ///< else nothing is drawn from the light
 

@@ -87,6 +87,7 @@ GlFacts query_facts(std::string platform)
     glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
     facts.max_viewport_px = std::min(viewport[0], viewport[1]);
     glGetIntegerv(GL_SUBPIXEL_BITS, &facts.subpixel_bits);
+    glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &facts.max_depth_samples);
     if (epoxy_gl_version() >= 46 || epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic") ||
         epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
         glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &facts.max_anisotropy);

@@ -23,7 +23,8 @@ struct GlFacts {
     int max_texture_texels = 0;
     int max_viewport_px = 0;
     int subpixel_bits = 0;
-    float max_anisotropy = 1; ///< 1: the driver has none
+    float max_anisotropy = 1;  ///< 1: the driver has none
+    int max_depth_samples = 1; ///< of a texel of a depth texture
 };
 
 /// A headless OpenGL 4.5 core context, current on the thread that made it.

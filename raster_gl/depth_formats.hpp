@@ -4,6 +4,7 @@
 #include "raster_gl/gl_object.hpp"
 #include "scene/job/job.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@ namespace gnomon::raster_gl {
 /// GL's internal format of the depth texture that holds a map: u-formats keep their quantised depth
 /// in a float32 depth texture, beside the codes.
 [[nodiscard]] GLenum internal_format(scene::DepthFormat format);
+
+/// The largest code of a format of so many bits.
+[[nodiscard]] constexpr std::uint32_t largest_code(scene::DepthFormat format)
+{
+    return static_cast<std::uint32_t>((std::uint64_t{1} << format.bits) - 1);
+}
 
 /// @throws scene::InputError  if the driver substitutes another format for `format` in `texture`.
 void require_format(const Texture& texture, scene::DepthFormat format);

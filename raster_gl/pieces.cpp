@@ -81,15 +81,6 @@ std::string bias_functions(std::span<const ActiveBias> biases)
     return text;
 }
 
-std::string program_key(const methods::Piece& piece)
-{
-    std::string key{piece.glsl};
-    for (const methods::Definition& definition : piece.definitions) {
-        key += fmt::format(" {}={}", definition.name, definition.value);
-    }
-    return key;
-}
-
 void add_definitions(const methods::Piece& piece, Definitions& definitions)
 {
     for (const methods::Definition& definition : piece.definitions) {

@@ -21,9 +21,6 @@ namespace gnomon::raster_gl {
 /// raster_gl/shaders/lookup.frag, each term in the order of the list.
 [[nodiscard]] std::string bias_functions(std::span<const methods::ActiveBias> biases);
 
-/// A text that tells pieces apart whose programs differ: all but the uniforms.
-[[nodiscard]] std::string program_key(const methods::Piece& piece);
-
 /// Appends what the piece is compiled with.
 void add_definitions(const methods::Piece& piece, Definitions& definitions);
 

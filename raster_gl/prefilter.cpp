@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -63,44 +65,75 @@ PrefilterPass::PrefilterPass(const Context& context)
     context.check("preparing the prefilter");
 }
 
-const Program& PrefilterPass::program(const methods::Piece& piece)
+PrefilterPass::Source PrefilterPass::layers_of(const LayeredTexture& texture)
 {
-    const std::string key = program_key(piece);
+    Source source;
+    for (std::size_t i = 0; i < texture.layer_count(); ++i) {
+        source.of_maps.push_back(&texture.layer(i));
+    }
+    return source;
+}
+
+PrefilterPass::Source PrefilterPass::first_source(const ShadowMap& map,
+                                                  const methods::Passes& passes,
+                                                  const SampledDepths& samples)
+{
+    if (passes.samples == 1) {
+        return layers_of(map.depth);
+    }
+    if (samples.of_maps.size() != map.depth.layer_count()) {
+        throw std::invalid_argument("PrefilterPass: the passes ask for samples of each map");
+    }
+    Source source{{}, passes.samples, samples.are_layers};
+    for (const Texture& texture : samples.of_maps) {
+        source.of_maps.push_back(&texture);
+    }
+    return source;
+}
+
+const Program& PrefilterPass::program(const methods::Piece& piece, const Source& source)
+{
+    Definitions definitions{{"SAMPLES", std::to_string(source.samples)},
+                            {"SAMPLES_ARE_LAYERS", source.are_layers ? "1" : "0"}};
+    add_definitions(piece, definitions);
+    std::string key{piece.glsl};
+    for (const auto& [name, value] : definitions) {
+        key += fmt::format(" {}={}", name, value);
+    }
     const auto found = programs_.find(key);
     if (found != programs_.end()) {
         return found->second;
     }
-    Definitions definitions;
-    add_definitions(piece, definitions);
     Program made = make_program({"fullscreen.vert", "prefilter.frag", definitions, nullptr,
                                  pieces_before_shader("prefilter_source.glsl", piece)});
     return programs_.emplace(key, std::move(made)).first->second;
 }
 
-void PrefilterPass::draw(const methods::PrefilterPass& pass, const LayeredTexture& source,
+void PrefilterPass::draw(const methods::PrefilterPass& pass, const Source& source,
                          int resolution_texels, int levels, FilteredFormats formats, Made& made)
 {
     const GlTexelFormat format = gl_format(pass.format, formats);
+    const std::size_t maps = source.of_maps.size();
     if (made.format != format.internal || made.resolution_texels != resolution_texels ||
-        made.levels != levels || made.texture.layer_count() != source.layer_count()) {
+        made.levels != levels || made.texture.layer_count() != maps) {
         made = {}; // the old texture goes before the new one comes
-        made = {LayeredTexture{format.internal, resolution_texels, source.layer_count(), levels},
-                format.internal, resolution_texels, levels};
+        made = {LayeredTexture{format.internal, resolution_texels, maps, levels}, format.internal,
+                resolution_texels, levels};
         require_format(made.texture.layer(0), format);
     }
-    const Program& texel = program(pass.piece);
+    const Program& texel = program(pass.piece, source);
     set_uniforms(texel, pass.piece);
     glUseProgram(texel.name());
-    for (std::size_t i = 0; i < source.layer_count(); ++i) {
+    for (std::size_t i = 0; i < maps; ++i) {
         glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0,
                                   made.texture.layer(i).name(), 0);
-        glBindTextureUnit(0, source.layer(i).name());
+        glBindTextureUnit(0, source.of_maps[i]->name());
         glDrawArrays(GL_TRIANGLES, 0, 3);
     }
 }
 
 const LayeredTexture& PrefilterPass::render(const ShadowMap& map, const methods::Passes& passes,
-                                            FilteredFormats formats)
+                                            FilteredFormats formats, const SampledDepths& samples)
 {
     if (passes.prefilter.empty()) {
         forget();
@@ -114,19 +147,20 @@ const LayeredTexture& PrefilterPass::render(const ShadowMap& map, const methods:
     glBindSampler(0, 0);
     glBindVertexArray(no_attributes_.name());
     const auto all_levels = std::bit_width(static_cast<unsigned>(map.resolution_texels));
-    const LayeredTexture* source = &map.depth;
+    Source source = first_source(map, passes, samples);
     for (std::size_t i = 0; i < made_.size(); ++i) {
         const bool has_levels = passes.makes_mipmaps && i + 1 == made_.size();
-        draw(passes.prefilter[i], *source, map.resolution_texels,
+        draw(passes.prefilter[i], source, map.resolution_texels,
              has_levels ? static_cast<int>(all_levels) : 1, formats, made_[i]);
-        source = &made_[i].texture;
+        source = layers_of(made_[i].texture);
     }
+    const LayeredTexture& last = made_.back().texture;
     if (passes.makes_mipmaps) {
-        glGenerateTextureMipmap(source->name());
+        glGenerateTextureMipmap(last.name());
     }
     glFinish();
     context_.check(fmt::format("prefiltering a map of {0}×{0} texels", map.resolution_texels));
-    return *source;
+    return last;
 }
 
 void PrefilterPass::forget()

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,22 +21,40 @@ enum class FilteredFormats : std::uint8_t {
     float32,   ///< 32-bit floats in their place
 };
 
+/// Depths at several samples of each texel.
+struct SampledDepths {
+    /// Of each map: a multisampled texture, or a layer for each sample. Empty: texel centres alone.
+    std::span<const Texture> of_maps = {};
+    bool are_layers = false;
+};
+
 /// Runs the passes that a method makes of a map before it is looked up.
 class PrefilterPass {
 public:
     explicit PrefilterPass(const Context& context);
 
+    /// @param samples  what the first pass reads where the passes ask for samples.
     /// @return  What the last pass made of each map, the object's own; empty without passes. The
     ///          next call overwrites it.
     /// @throws scene::InputError        if the driver lacks a format.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
     const LayeredTexture& render(const ShadowMap& map, const methods::Passes& passes,
-                                 FilteredFormats formats = FilteredFormats::of_method);
+                                 FilteredFormats formats = FilteredFormats::of_method,
+                                 const SampledDepths& samples = {});
     /// Gives the memory back.
     void forget();
 
 private:
-    const Program& program(const methods::Piece& piece);
+    /// What a pass reads of each map.
+    struct Source {
+        std::vector<const Texture*> of_maps;
+        int samples = 1;
+        bool are_layers = false;
+    };
+    [[nodiscard]] static Source layers_of(const LayeredTexture& texture);
+    [[nodiscard]] static Source first_source(const ShadowMap& map, const methods::Passes& passes,
+                                             const SampledDepths& samples);
+    const Program& program(const methods::Piece& piece, const Source& source);
     struct Made {
         LayeredTexture texture;
         GLenum format = 0;
@@ -43,9 +62,8 @@ private:
         int levels = 0;
     };
     /// Draws the pass's texture, which is made first where it is not such a one.
-    /// @param source  of as many layers.
-    void draw(const methods::PrefilterPass& pass, const LayeredTexture& source,
-              int resolution_texels, int levels, FilteredFormats formats, Made& made);
+    void draw(const methods::PrefilterPass& pass, const Source& source, int resolution_texels,
+              int levels, FilteredFormats formats, Made& made);
 
     const Context& context_;
     std::map<std::string, Program> programs_;

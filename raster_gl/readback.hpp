@@ -4,6 +4,7 @@
 #include "scene/image.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace gnomon::raster_gl {
 
@@ -44,6 +45,23 @@ template <typename Pixel>
     glTextureSubImage2D(texture.name(), 0, 0, 0, size.width_px, size.height_px, GL_RED, GL_FLOAT,
                         image.data());
     return texture;
+}
+
+/// Images of one size as the layers of an array texture, bit for bit, lowest rows first.
+[[nodiscard]] inline Texture upload_layers(std::span<scene::Image<float>> images)
+{
+    const scene::ImageSize size = images.front().size();
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
+    glTextureStorage3D(name, 1, GL_R32F, size.width_px, size.height_px,
+                       static_cast<GLsizei>(images.size()));
+    GLint layer = 0;
+    for (scene::Image<float>& image : images) {
+        flip_rows(image);
+        glTextureSubImage3D(name, 0, 0, 0, layer++, size.width_px, size.height_px, 1, GL_RED,
+                            GL_FLOAT, image.data());
+    }
+    return Texture{name};
 }
 
 } // namespace gnomon::raster_gl

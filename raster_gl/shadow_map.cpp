@@ -1,5 +1,6 @@
 #include "raster_gl/shadow_map.hpp"
 
+#include "raster_gl/caster_state.hpp"
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/readback.hpp"
 #include "scene/error.hpp"
@@ -18,11 +19,6 @@ namespace {
 
 using Kind = scene::DepthFormat::Kind;
 
-std::uint32_t largest_code(scene::DepthFormat format)
-{
-    return static_cast<std::uint32_t>((std::uint64_t{1} << format.bits) - 1);
-}
-
 /// Clears all attachments to the far plane.
 void clear(const Framebuffer& target, const ShadowMap& map)
 {
@@ -34,17 +30,6 @@ void clear(const Framebuffer& target, const ShadowMap& map)
         glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, code.data());
         glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, z.data());
     }
-}
-
-void set_culling(scene::Cull cull)
-{
-    if (cull == scene::Cull::none) {
-        glDisable(GL_CULL_FACE);
-        return;
-    }
-    glEnable(GL_CULL_FACE);
-    glFrontFace(GL_CCW);
-    glCullFace(cull == scene::Cull::front ? GL_FRONT : GL_BACK);
 }
 
 /// GL widens an n-bit code to 32 bits by rounding or by bit replication; both are nearest to
@@ -110,25 +95,6 @@ scene::Image<Pixel> read_layers(const LayeredTexture& texture, int resolution_te
     return all;
 }
 
-/// One map of an image of all.
-scene::Image<float> take_map(scene::Image<float>& maps, std::size_t map)
-{
-    const int side = maps.size().width_px;
-    if (maps.size().height_px == side) {
-        return std::move(maps);
-    }
-    scene::Image<float> taken{{side, side}};
-    std::copy_n(maps.data() + static_cast<std::ptrdiff_t>(map * taken.pixel_count()),
-                taken.pixel_count(), taken.data());
-    return taken;
-}
-
-/// Maps that fill a quarter of a gigabyte and more.
-bool is_large(int resolution_texels)
-{
-    return resolution_texels > 4096;
-}
-
 /// While it lives, draws and clears touch these rows alone.
 class DrawnRows {
 public:
@@ -166,7 +132,7 @@ void ShadowMapPass::release(int largest_texels)
 {
     map_ = {};
     target_ = make_framebuffer();
-    if (is_large(largest_texels)) {
+    if (is_large_map(largest_texels)) {
         let_go_of_deleted_textures();
     }
 }
@@ -239,14 +205,7 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
     const bool unorm = map_.format.kind == Kind::unorm;
     const Program& program = unorm ? unorm_ : depth_only_;
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-    glViewport(0, 0, map_.resolution_texels, map_.resolution_texels);
-    glClipControl(GL_LOWER_LEFT, first.clip_range == scene::ClipRange::zero_to_one
-                                     ? GL_ZERO_TO_ONE
-                                     : GL_NEGATIVE_ONE_TO_ONE);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(first.reversed ? GL_GREATER : GL_LESS);
-    set_culling(settings.cull);
+    prepare_to_draw_casters(first, settings);
     if (unorm) {
         set_uniform(program, "largest_code", largest_code(map_.format));
     }
@@ -255,7 +214,7 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
         attach(i);
         clear(target_, map_);
         set_uniform(program, "clip_from_world", maps[i].light_clip_from_world);
-        if (is_large(map_.resolution_texels)) {
+        if (is_large_map(map_.resolution_texels)) {
             scene.draw_casters_in_parts();
         } else {
             scene.draw_casters();
@@ -275,7 +234,8 @@ const ShadowMap& ShadowMapPass::store(scene::Image<float> depths, bool reversed)
     allocate(settings, static_cast<std::size_t>(depths.size().height_px / side));
     map_.reversed = reversed;
     for (std::size_t i = 0; i < map_.depth.layer_count(); ++i) {
-        scene::Image<float> map = take_map(depths, i);
+        scene::Image<float> map =
+            map_.depth.layer_count() == 1 ? std::move(depths) : scene::image_of_map(depths, i);
         flip_rows(map);
         glTextureSubImage2D(map_.depth.layer(i).name(), 0, 0, 0, side, side, GL_DEPTH_COMPONENT,
                             GL_FLOAT, map.data());

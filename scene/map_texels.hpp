@@ -3,6 +3,7 @@
 #include "scene/image.hpp"
 #include "scene/vec.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,6 +17,9 @@ struct Texel {
 
     friend bool operator==(const Texel&, const Texel&) = default;
 };
+
+/// The place of a texel's centre in it.
+inline constexpr Vec2d texel_centre{0.5, 0.5};
 
 /// A point of one of a light's maps.
 struct MapPoint {
@@ -36,6 +40,17 @@ using MapIndices = Image<std::uint8_t>;
 [[nodiscard]] inline ImageSize maps_image_size(int resolution_texels, std::size_t maps)
 {
     return {resolution_texels, resolution_texels * static_cast<int>(maps)};
+}
+
+/// One map of an image of all texels of a light's maps.
+template <typename Pixel>
+[[nodiscard]] Image<Pixel> image_of_map(const Image<Pixel>& maps, std::size_t map)
+{
+    const int side = maps.size().width_px;
+    Image<Pixel> one{{side, side}};
+    std::copy_n(maps.data() + static_cast<std::ptrdiff_t>(map * one.pixel_count()),
+                one.pixel_count(), one.data());
+    return one;
 }
 
 /// The row of a texel in an image of all texels of a light's maps, whose rows are counted from the

@@ -42,27 +42,43 @@ std::vector<scene::Texel> unknown_texels(const scene::Image<std::uint8_t>& state
 } // namespace
 
 ExactDepthCache::ExactDepthCache(scene::ImageSize maps, scene::ImageSize image)
-    : map_{maps, 1.0F},
-      knows_texel_{map_.size()},
+    : maps_{maps},
       receivers_{image}
 {
 }
 
-ExactDepths ExactDepthCache::of(const CauseInputs& inputs)
+ExactDepths ExactDepthCache::of(const CauseInputs& inputs, std::span<const scene::Vec2d> places)
 {
-    want_texels(inputs);
-    trace_texels(inputs.light);
+    Traced& traced = traced_at(places);
+    want_texels(inputs, traced.knows_texel);
+    trace(inputs.light, traced);
     if (!knows_receivers_) {
         find_receivers(inputs);
     }
-    return {map_, receivers_};
+    const bool has_samples = places.size() > 1;
+    return {traced.depths.front(), receivers_,
+            has_samples ? std::span<const scene::Image<float>>{traced.depths}
+                        : std::span<const scene::Image<float>>{}};
 }
 
-void ExactDepthCache::want_texels(const CauseInputs& inputs)
+ExactDepthCache::Traced& ExactDepthCache::traced_at(std::span<const scene::Vec2d> places)
+{
+    const auto known = std::ranges::find_if(
+        traced_, [&](const Traced& traced) { return std::ranges::equal(traced.places, places); });
+    if (known != traced_.end()) {
+        return *known;
+    }
+    return traced_.emplace_back(
+        Traced{{places.begin(), places.end()},
+               std::vector<scene::Image<float>>(places.size(), scene::Image<float>{maps_, 1.0F}),
+               scene::Image<std::uint8_t>{maps_}});
+}
+
+void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::uint8_t>& texels)
 {
     if (inputs.rule.promises.reads == methods::Reads::whole_map) {
-        for (std::size_t i = 0; i < knows_texel_.pixel_count(); ++i) {
-            knows_texel_[i] |= is_wanted;
+        for (std::size_t i = 0; i < texels.pixel_count(); ++i) {
+            texels[i] |= is_wanted;
         }
         return;
     }
@@ -77,18 +93,22 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs)
             // Beyond the map's edge a prefilter reads the nearest texel on it.
             const int x = std::clamp(tap.texel.x, 0, last);
             const int y = std::clamp(tap.texel.y, 0, last);
-            at_texel(knows_texel_, {x, y, tap.texel.map}) |= is_wanted;
+            at_texel(texels, {x, y, tap.texel.map}) |= is_wanted;
         });
     }
 }
 
-void ExactDepthCache::trace_texels(const scene::ExactLight& light)
+void ExactDepthCache::trace(const scene::ExactLight& light, Traced& traced)
 {
-    const std::vector<scene::Texel> texels = unknown_texels(knows_texel_);
-    const std::vector<float> depths = light.texel_depths(texels);
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        at_texel(map_, texels[i]) = depths[i];
-        at_texel(knows_texel_, texels[i]) |= is_known;
+    const std::vector<scene::Texel> texels = unknown_texels(traced.knows_texel);
+    for (std::size_t place = 0; place < traced.places.size(); ++place) {
+        const std::vector<float> depths = light.texel_depths(texels, traced.places[place]);
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            at_texel(traced.depths[place], texels[i]) = depths[i];
+        }
+    }
+    for (const scene::Texel& texel : texels) {
+        at_texel(traced.knows_texel, texel) |= is_known;
     }
 }
 

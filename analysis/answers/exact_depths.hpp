@@ -4,8 +4,12 @@
 #include "analysis/renderers.hpp"
 #include "scene/image.hpp"
 #include "scene/light/exact_light.hpp"
+#include "scene/vec.hpp"
 
 #include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
 
 namespace gnomon::analysis {
 
@@ -18,16 +22,25 @@ public:
     ExactDepthCache(scene::ImageSize maps, scene::ImageSize image);
 
     /// What the inputs' scored receivers and their footprints need; others keep what they have.
+    /// @param places  in each texel (`ExactLight::texel_depths`); the centre alone: no samples.
     /// @return  Valid as long as this.
-    [[nodiscard]] ExactDepths of(const CauseInputs& inputs);
+    [[nodiscard]] ExactDepths of(const CauseInputs& inputs, std::span<const scene::Vec2d> places);
 
 private:
-    void want_texels(const CauseInputs& inputs);
-    void trace_texels(const scene::ExactLight& light);
+    /// Depths at some places of texels, the same of all.
+    struct Traced {
+        std::vector<scene::Vec2d> places;
+        std::vector<scene::Image<float>> depths; ///< by place, as shaders see them
+        scene::Image<std::uint8_t> knows_texel;
+    };
+
+    [[nodiscard]] Traced& traced_at(std::span<const scene::Vec2d> places);
+    static void want_texels(const CauseInputs& inputs, scene::Image<std::uint8_t>& texels);
+    static void trace(const scene::ExactLight& light, Traced& traced);
     void find_receivers(const CauseInputs& inputs);
 
-    scene::Image<float> map_; ///< as shaders see it, top left first
-    scene::Image<std::uint8_t> knows_texel_;
+    scene::ImageSize maps_;
+    std::deque<Traced> traced_; ///< those that are there stay where they are
     scene::Image<float> receivers_;
     bool knows_receivers_ = false;
 };

@@ -64,13 +64,14 @@ CauseCache* ExactLightCache::causes_of(const CauseInputs& inputs)
     return remembers ? &*causes_ : nullptr;
 }
 
-ExactDepths ExactLightCache::exact_depths(const CauseInputs& inputs)
+ExactDepths ExactLightCache::exact_depths(const CauseInputs& inputs,
+                                          std::span<const scene::Vec2d> places)
 {
     if (!exact_depths_) {
         exact_depths_.emplace(scene::maps_image_size(resolution_texels_, view_.maps.size()),
                               view_.image);
     }
-    return exact_depths_->of(inputs);
+    return exact_depths_->of(inputs, places);
 }
 
 CauseInputs ExactLightCache::with_known_hits(CauseInputs inputs)

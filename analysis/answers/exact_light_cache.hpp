@@ -64,7 +64,9 @@ public:
     /// What the light sees through each scored pixel's centre texel; traced when first asked for.
     [[nodiscard]] const CentreHits& centre_hits(const CauseInputs& inputs);
     /// What a method that compares no depths is run over.
-    [[nodiscard]] ExactDepths exact_depths(const CauseInputs& inputs);
+    /// @param places  in each texel, whose depths it reads.
+    [[nodiscard]] ExactDepths exact_depths(const CauseInputs& inputs,
+                                           std::span<const scene::Vec2d> places);
     /// Lets go of `centre_hits`; they are traced again if they are asked for.
     void forget_texels() { centre_hits_.reset(); }
 

@@ -70,6 +70,9 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
         lookup.reruns = reruns_of(job, view, renderers);
         if (!promised.has_exact_causes() && renderers.find_exact_critical_biases) {
             lookup.reruns->find_exact_critical_biases = exact_reruns_of(job, view, renderers);
+            if (promised.samples > 1) {
+                lookup.reruns->places = renderers.sample_places(promised.samples);
+            }
         }
     }
     return lookup;
@@ -101,8 +104,8 @@ void LookupAnswers::rerun_exactly()
     }
     constexpr float partial{partial_above};
     const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
-    auto criticals =
-        lookup_.reruns->find_exact_critical_biases(exact_->exact_depths(cause_inputs()), lit_from);
+    auto criticals = lookup_.reruns->find_exact_critical_biases(
+        exact_->exact_depths(cause_inputs(), lookup_.reruns->places), lit_from);
     exact_reruns_ = {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};
 }
 

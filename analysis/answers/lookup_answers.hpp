@@ -37,6 +37,8 @@ struct LookupReruns {
     std::function<std::vector<scene::Image<float>>(const ExactDepths&,
                                                    std::span<const float> lit_from)>
         find_exact_critical_biases;
+    /// Where in each texel (`ExactLight::texel_depths`) those depths are to be.
+    std::vector<scene::Vec2d> places = {scene::texel_centre};
 };
 
 /// One GL lookup, and what it was made with.

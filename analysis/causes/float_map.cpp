@@ -69,7 +69,7 @@ FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
 {
     const scene::Job floats = with_floats(job);
     renderers.draw_shadow_map(floats, view);
-    renderers.prefilter_map(floats, FilteredContent::float32);
+    renderers.prefilter_map(floats, view, FilteredContent::float32);
     return {renderers.look_up(floats, with_biases(view, view.bias.constant, view.bias.slope)),
             renderers.look_up(floats, with_biases(view, 0, 0))};
 }

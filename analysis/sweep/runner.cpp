@@ -194,7 +194,7 @@ private:
         ++counts_.prefilters;
         map_ = run_stage<bool>([&] {
             static_cast<void>(require_result(map_));
-            renderers().prefilter_map(task_.job, FilteredContent::of_method);
+            renderers().prefilter_map(task_.job, stage_view(), FilteredContent::of_method);
             return std::make_shared<bool>(true);
         });
     }

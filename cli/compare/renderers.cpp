@@ -2,17 +2,38 @@
 
 #include "methods/list.hpp"
 #include "raster_gl/clip_positions.hpp"
+#include "raster_gl/readback.hpp"
 #include "reference_rt/light/exact_light.hpp"
 
 #include <stdexcept>
 
 namespace gnomon::cli {
 
+namespace {
+
+/// Of each map a texture with a layer for each sample.
+std::vector<raster_gl::Texture> upload_samples(std::span<const scene::Image<float>> samples,
+                                               std::size_t maps)
+{
+    std::vector<raster_gl::Texture> textures;
+    for (std::size_t map = 0; map < maps; ++map) {
+        std::vector<scene::Image<float>> layers;
+        for (const scene::Image<float>& sample : samples) {
+            layers.push_back(scene::image_of_map(sample, map));
+        }
+        textures.push_back(raster_gl::upload_layers(layers));
+    }
+    return textures;
+}
+
+} // namespace
+
 GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleScene& triangles)
     : context_{context},
       box_{triangles.bounds()},
       scene_{context, triangles},
       shadow_map_pass_{context, raster_gl::UnormCodes::dropped},
+      sampled_casters_{context},
       prefilter_pass_{context},
       lookup_pass_{context}
 {
@@ -47,14 +68,32 @@ void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
     filtered_ = nullptr;
 }
 
-void GlRenderer::prefilter_map(const scene::Job& job, analysis::FilteredContent content)
+void GlRenderer::prefilter_map(const scene::Job& job, const scene::View& view,
+                               analysis::FilteredContent content)
+{
+    const int samples = methods::passes(job).samples;
+    if (samples == 1) {
+        prefilter(job, content, {});
+        return;
+    }
+    prefilter(job, content, {sampled_casters_.render(scene_, view.maps, job.shadow_map, samples)});
+    sampled_casters_.forget();
+}
+
+std::vector<scene::Vec2d> GlRenderer::sample_places(int samples)
+{
+    return sampled_casters_.places(samples);
+}
+
+void GlRenderer::prefilter(const scene::Job& job, analysis::FilteredContent content,
+                           const raster_gl::SampledDepths& samples)
 {
     using raster_gl::FilteredFormats;
-    const methods::Passes passes = methods::passes(job);
-    filtered_ = &prefilter_pass_.render(*shadow_map_, passes,
+    filtered_ = &prefilter_pass_.render(*shadow_map_, methods::passes(job),
                                         content == analysis::FilteredContent::float32
                                             ? FilteredFormats::float32
-                                            : FilteredFormats::of_method);
+                                            : FilteredFormats::of_method,
+                                        samples);
 }
 
 scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View& view)
@@ -74,7 +113,10 @@ GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View&
                                        std::span<const float> lit_from)
 {
     shadow_map_ = &shadow_map_pass_.store(depths.map, view.first_map().reversed);
-    prefilter_map(job, analysis::FilteredContent::float32);
+    const std::vector<raster_gl::Texture> samples =
+        depths.samples.empty() ? std::vector<raster_gl::Texture>{}
+                               : upload_samples(depths.samples, view.maps.size());
+    prefilter(job, analysis::FilteredContent::float32, {samples, true});
     scene::View unbiased = view;
     unbiased.bias = {};
     std::vector<scene::Image<float>> criticals;
@@ -135,9 +177,11 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     renderers.draw_shadow_map = [&gl](const scene::Job& job, const scene::View& view) {
         gl.draw_shadow_map(job, view);
     };
-    renderers.prefilter_map = [&gl](const scene::Job& job, analysis::FilteredContent content) {
-        gl.prefilter_map(job, content);
+    renderers.prefilter_map = [&gl](const scene::Job& job, const scene::View& view,
+                                    analysis::FilteredContent content) {
+        gl.prefilter_map(job, view, content);
     };
+    renderers.sample_places = [&gl](int samples) { return gl.sample_places(samples); };
     renderers.look_up = [&gl](const scene::Job& job, const scene::View& view) {
         return gl.look_up(job, view);
     };

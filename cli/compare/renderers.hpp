@@ -6,6 +6,7 @@
 #include "raster_gl/lookup.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/receivers.hpp"
+#include "raster_gl/sampled_casters.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "reference_rt/truth.hpp"
 
@@ -29,7 +30,10 @@ public:
     [[nodiscard]] std::vector<scene::Vec4f> receiver_clip_positions(const scene::View& view) const;
     void draw_shadow_map(const scene::Job& job, const scene::View& view);
     /// Makes of the last shadow map what the job's method looks up.
-    void prefilter_map(const scene::Job& job, analysis::FilteredContent content);
+    void prefilter_map(const scene::Job& job, const scene::View& view,
+                       analysis::FilteredContent content);
+    /// Where in a texel the driver's samples are.
+    [[nodiscard]] std::vector<scene::Vec2d> sample_places(int samples);
     /// Looks the selected receivers up in the last shadow map.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
     /// The smallest constant bias with which each of them is lit, found by trying.
@@ -53,6 +57,9 @@ private:
     /// The selected ones.
     /// @throws std::invalid_argument  if they, or the map, were not drawn.
     [[nodiscard]] const raster_gl::ReceiverBuffer& drawn_receivers() const;
+    /// Makes of the last shadow map, or of depths at samples, what the job's method looks up.
+    void prefilter(const scene::Job& job, analysis::FilteredContent content,
+                   const raster_gl::SampledDepths& samples);
     /// The selected ones, and what they are looked up in.
     [[nodiscard]] raster_gl::LookedUp looked_up() const;
 
@@ -67,6 +74,7 @@ private:
     std::vector<Receivers> receivers_; ///< by slot
     std::size_t slot_ = 0;
     raster_gl::ShadowMapPass shadow_map_pass_;
+    raster_gl::SampledCasters sampled_casters_;
     raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
     const raster_gl::ShadowMap* shadow_map_ = nullptr;

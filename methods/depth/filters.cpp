@@ -105,7 +105,7 @@ const Promises& filter_promises(Filter filter)
 Passes filter_passes(Filter filter)
 {
     const FilterRow& row = row_of(filter);
-    return {{}, {glsl_source(row.glsl)}, row.sampling};
+    return {.prefilter = {}, .lookup = {glsl_source(row.glsl)}, .sampling = row.sampling};
 }
 
 } // namespace gnomon::methods

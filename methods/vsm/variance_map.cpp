@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <string>
 
@@ -68,6 +69,15 @@ const HandedKey& width_key()
                                scene::IntegerDomain{1, 9, 2}, std::int64_t{5}};
     return key;
 }
+const HandedKey& samples_key()
+{
+    static const HandedKey key{scene::make_key("method.samples",
+                                               "depths of each texel that the moments are of, at "
+                                               "GL's places of so many",
+                                               "", scene::only(Stage::prefilter), "samples"),
+                               scene::IntegerDomain{1, 8}, std::int64_t{1}};
+    return key;
+}
 const HandedKey& mips_key()
 {
     static const HandedKey key{scene::make_key("method.mips",
@@ -124,8 +134,18 @@ TexelFormat format_of(const scene::Job& job)
                                 : TexelFormat::rg32f;
 }
 
+int samples_of(const scene::Job& job)
+{
+    return static_cast<int>(value_of<std::int64_t>(samples_key(), job));
+}
+
 void vsm_check(const scene::Job& job)
 {
+    const auto samples = static_cast<unsigned>(samples_of(job));
+    if (!std::has_single_bit(samples)) {
+        throw scene::InputError(
+            fmt::format("method.samples = {}: drivers have 1, 2, 4 or 8 samples", samples));
+    }
     const auto width = value_of<std::int64_t>(width_key(), job);
     if (width > job.shadow_map.resolution_texels) {
         throw scene::InputError(fmt::format(
@@ -143,6 +163,7 @@ Passes vsm_passes(const scene::Job& job)
     const Uniform weights{"kernel", {kernel.weights.begin(), kernel.weights.end()}};
     const TexelFormat format = format_of(job);
     Passes made;
+    made.samples = samples_of(job);
     made.prefilter.push_back({{glsl_source("moments_of_rows.glsl"), {across}, {weights}}, format});
     if (kernel.width_texels() > 1) {
         made.prefilter.push_back(
@@ -160,7 +181,7 @@ Passes vsm_passes(const scene::Job& job)
     return made;
 }
 
-/// The depths that were drawn, and a texture of each pass.
+/// The depths that were drawn, at centres and at samples, and a texture of each pass.
 std::uint64_t bytes_of(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
@@ -170,7 +191,10 @@ std::uint64_t bytes_of(const scene::Job& job)
     for (std::uint64_t level = side / 2; level > 0 && passes.makes_mipmaps; level /= 2) {
         texels += level * level;
     }
-    return map_bytes(job.shadow_map) + texels * texel;
+    const std::uint64_t drawn = map_bytes(job.shadow_map);
+    const std::uint64_t sampled =
+        passes.samples > 1 ? static_cast<std::uint64_t>(passes.samples) * drawn : 0;
+    return drawn + sampled + texels * texel;
 }
 
 Promises vsm_promises(const scene::Job& job)
@@ -184,6 +208,7 @@ Promises vsm_promises(const scene::Job& job)
             .weights = Weights::bilinear,
             .kernel = kernel,
             .reads = vsm_passes(job).has_gradients() ? Reads::whole_map : Reads::footprint,
+            .samples = samples_of(job),
             .map_bytes = bytes_of(job)};
 }
 
@@ -197,8 +222,8 @@ Method variance_map()
             .sources = vsm_sources,
             .page = "docs/methods/vsm.md",
             .key_tables = vsm_tables,
-            .keys = {content_key(), kernel_key(), width_key(), mips_key(), anisotropy_key(),
-                     reduction_key(), variance_key()},
+            .keys = {content_key(), kernel_key(), width_key(), samples_key(), mips_key(),
+                     anisotropy_key(), reduction_key(), variance_key()},
             .filters = {},
             .bias_terms = bias_terms(),
             .promises = vsm_promises,

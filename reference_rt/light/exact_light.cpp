@@ -115,10 +115,12 @@ public:
         return depths;
     }
 
-    std::vector<float> texel_depths(std::span<const Texel> texels) const override
+    std::vector<float> texel_depths(std::span<const Texel> texels,
+                                    const scene::Vec2d& place) const override
     {
-        const TexelFirstHits finder{reference_, rays_, depth_, cull_, HitDetail::bounded};
-        const TapDepths taps{reference_.triangles, rays_, depth_};
+        const TexelRays rays{view_.maps[map_], view_.light, rays_.resolution_texels(), place};
+        const TexelFirstHits finder{reference_, rays, depth_, cull_, HitDetail::bounded};
+        const TapDepths taps{reference_.triangles, rays, depth_};
         std::vector<float> depths(texels.size());
         for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
             std::vector<TexelHit> hits(run.size());

@@ -82,12 +82,13 @@ public:
             });
     }
 
-    std::vector<float> texel_depths(std::span<const Texel> texels) const override
+    std::vector<float> texel_depths(std::span<const Texel> texels,
+                                    const scene::Vec2d& place) const override
     {
         return ask_each<float>(
             texels, [](const Texel& texel) { return map_of(texel); },
             [&](std::size_t map, const Part<Texel>& part) {
-                return maps_[map]->texel_depths(part.questions);
+                return maps_[map]->texel_depths(part.questions, place);
             });
     }
 

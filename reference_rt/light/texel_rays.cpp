@@ -21,12 +21,13 @@ ClipRows::ClipRows(const scene::LightFrustum& frustum)
 }
 
 TexelRays::TexelRays(const scene::LightFrustum& frustum, const scene::Light& light,
-                     int resolution_texels)
+                     int resolution_texels, const scene::Vec2d& place)
     : rows_{frustum},
       near_{frustum.reversed ? rows_.w - rows_.z : rows_.z + rows_.w},
       crosses_{Vec3d{rows_.x}, Vec3d{rows_.y}, Vec3d{near_}},
       forward_{frustum.forward},
       resolution_{resolution_texels},
+      twice_place_{2.0 * place},
       light_{light}
 {
     if (!has_positional()) {
@@ -50,8 +51,8 @@ Vec3d TexelRays::direction(const Vec4d& a, const Vec4d& b) const
 
 Ray TexelRays::ray(scene::Texel texel) const
 {
-    const double u = double(2 * texel.x + 1 - resolution_) / resolution_;
-    const double v = double(2 * texel.y + 1 - resolution_) / resolution_;
+    const double u = (double(2 * texel.x - resolution_) + twice_place_.x) / resolution_;
+    const double v = (double(2 * texel.y - resolution_) + twice_place_.y) / resolution_;
     const Vec4d a = rows_.x - u * rows_.w;
     const Vec4d b = rows_.y - v * rows_.w;
     if (has_positional()) {

@@ -20,7 +20,8 @@ struct ClipRows {
 /// With X, Y, Z, W the rows of the float32 `light_clip_from_world`, evaluated in double in exactly
 /// this order and without contraction; then those bits are the ray:
 ///
-///     u = (2x + 1 − n)/n,  v alike;   A = X − uW,   B = Y − vW
+///     u = (2x + 1 − n)/n,  v alike;   A = X − uW,   B = Y − vW        (2x + 2p for another place p
+///                                                                      of the texel than its ½)
 ///     spot:         from the light's position
 ///     directional:  from −((A.w (B × N) + B.w (N × A)) + N.w (A × B))/(A·(B × N)), where A, B and
 ///                   the near plane N = Z + W (reversed: W − Z) meet
@@ -29,7 +30,9 @@ struct ClipRows {
 class TexelRays {
 public:
     /// @param light  the light that the frustum belongs to.
-    TexelRays(const scene::LightFrustum& frustum, const scene::Light& light, int resolution_texels);
+    /// @param place  of each texel, that its ray goes through.
+    TexelRays(const scene::LightFrustum& frustum, const scene::Light& light, int resolution_texels,
+              const scene::Vec2d& place = scene::texel_centre);
 
     [[nodiscard]] scene::Ray ray(scene::Texel texel) const;
 
@@ -57,6 +60,7 @@ private:
     Crosses crosses_;
     scene::Vec3d forward_;
     int resolution_;
+    scene::Vec2d twice_place_;
     scene::Light light_;
 };
 

@@ -70,6 +70,9 @@ std::string lookup_name(const scene::Job& job)
     std::string text{method.name};
     for (const scene::HandedKey& key : method.keys) {
         const scene::JobValue& value = key.value_of(job);
+        if (value == key.default_value) {
+            continue; // a method can have more keys than a picture has room
+        }
         const auto* word = std::get_if<std::string>(&value);
         text += fmt::format(", {} {}", scene::key_leaf(key.key.name),
                             word != nullptr ? *word : scene::to_toml(value));

@@ -108,11 +108,13 @@ public:
     [[nodiscard]] virtual std::vector<float> receiver_depths(std::span<const std::size_t> pixels,
                                                              const MapIndices& maps) const = 0;
 
-    /// The depth of the first hit of each texel-centre ray (`first_hits`), rounded alike; without a
-    /// hit the farthest, 1 (reversed: 0).
+    /// The depth of the first hit of the ray through a place of each texel (`first_hits`), rounded
+    /// alike; without a hit the farthest, 1 (reversed: 0).
     /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
+    /// @param place   of each, from its lower left [texels]; `texel_centre`, or in [0, 1).
     /// @return  In the order of the texels; [0, 1], within half an ulp.
-    [[nodiscard]] virtual std::vector<float> texel_depths(std::span<const Texel> texels) const = 0;
+    [[nodiscard]] virtual std::vector<float> texel_depths(std::span<const Texel> texels,
+                                                          const Vec2d& place) const = 0;
 
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).

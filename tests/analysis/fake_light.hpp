@@ -46,8 +46,8 @@ public:
         return answer<float>(pixels, [&](std::size_t p) { return pixel_depths.at(p); });
     }
 
-    [[nodiscard]] std::vector<float>
-    texel_depths(std::span<const scene::Texel> texels) const override
+    [[nodiscard]] std::vector<float> texel_depths(std::span<const scene::Texel> texels,
+                                                  const scene::Vec2d& /*place*/) const override
     {
         return answer<float>(texels, [&](const scene::Texel& t) { return hit(t).depth; });
     }

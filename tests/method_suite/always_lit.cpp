@@ -34,7 +34,7 @@ Promises promises_of_always(const scene::Job& job)
 
 Passes passes_of_always(const scene::Job& /*job*/)
 {
-    return {{}, {piece}, Sampling::fetched};
+    return {.prefilter = {}, .lookup = {piece}, .sampling = Sampling::fetched};
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "method_case.hpp"
 
 #include "methods/list.hpp"
+#include "raster_gl/readback.hpp"
 
 #include <utility>
 #include <variant>
@@ -14,6 +15,7 @@ MethodCase::MethodCase(scene::Job the_job, scene::SceneFile the_file)
       gpu_{*shared_context(), file.scene},
       receiver_pass_{*shared_context()},
       map_pass_{*shared_context()},
+      sampled_casters_{*shared_context()},
       prefilter_pass_{*shared_context()},
       lookup_pass_{*shared_context()}
 {
@@ -37,18 +39,25 @@ void MethodCase::set(scene::Job other)
 void MethodCase::draw_map()
 {
     map_ = &map_pass_.render(gpu_, view.maps, job.shadow_map);
-    prefilter();
+    const int samples = methods::passes(job).samples;
+    prefilter(samples == 1 ? raster_gl::SampledDepths{}
+                           : raster_gl::SampledDepths{sampled_casters_.render(
+                                 gpu_, view.maps, job.shadow_map, samples)});
 }
 
 void MethodCase::give_map(scene::Image<float> depths)
 {
+    std::vector<scene::Image<float>> of_samples(
+        static_cast<std::size_t>(methods::passes(job).samples), depths);
+    const raster_gl::Texture samples = raster_gl::upload_layers(of_samples);
     map_ = &map_pass_.store(std::move(depths), view.first_map().reversed);
-    prefilter();
+    prefilter({{&samples, 1}, true});
 }
 
-void MethodCase::prefilter()
+void MethodCase::prefilter(const raster_gl::SampledDepths& samples)
 {
-    filtered_ = &prefilter_pass_.render(*map_, methods::passes(job));
+    filtered_ = &prefilter_pass_.render(*map_, methods::passes(job),
+                                        raster_gl::FilteredFormats::of_method, samples);
 }
 
 raster_gl::LookedUp MethodCase::looked_up() const
@@ -77,7 +86,7 @@ scene::Image<std::uint32_t> MethodCase::triangles() const
 namespace {
 
 /// Those of a key's values that are tried beside its default: every other word, the other flag, the
-/// largest integer.
+/// largest integer, but of samples as many as drivers have.
 std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
 {
     std::vector<scene::JobValue> values;
@@ -86,7 +95,7 @@ std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
     } else if (std::holds_alternative<scene::FlagDomain>(key.domain)) {
         values = {true, false};
     } else if (const auto* const integers = std::get_if<scene::IntegerDomain>(&key.domain)) {
-        values = {integers->upper};
+        values = {key.key.name == "method.samples" ? 4 : integers->upper};
     }
     std::erase(values, key.default_value);
     return values;

@@ -2,6 +2,7 @@
 
 #include "gl_case.hpp"
 #include "raster_gl/prefilter.hpp"
+#include "raster_gl/sampled_casters.hpp"
 #include "scene/image.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
@@ -37,11 +38,12 @@ public:
 
 private:
     [[nodiscard]] raster_gl::LookedUp looked_up() const;
-    void prefilter();
+    void prefilter(const raster_gl::SampledDepths& samples);
 
     raster_gl::GpuScene gpu_;
     raster_gl::ReceiverPass receiver_pass_;
     raster_gl::ShadowMapPass map_pass_;
+    raster_gl::SampledCasters sampled_casters_;
     raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
     const raster_gl::ReceiverBuffer* receivers_ = nullptr;
@@ -58,7 +60,8 @@ struct Configuration {
 };
 
 /// All methods of the list: each with its defaults, each filter, and each of its own keys at other
-/// values: each word, the other flag, the largest integer.
+/// values: each word, the other flag, the largest integer;
+/// of samples as many as drivers have.
 [[nodiscard]] std::vector<Configuration> configurations();
 
 /// Both lists of keys, the second over the first.

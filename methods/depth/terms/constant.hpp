@@ -29,8 +29,9 @@ inline constexpr BiasTerm constant_bias{
     .name = "constant",
     .keys = constant_bias_keys,
     .place = BiasPlace::receiver_depth,
-    .sentence = "b = constant, or constant_m / (far − near): lit if fl(r − fl(b + s)) ≤ d, with s "
-                "the slope term",
+    .sentence =
+        "b = constant, or constant_m / (far − near): in place of r stands fl(r − fl(b + s)), "
+        "with s the slope term",
     .function = "constant_bias",
     .piece = constant_bias_piece};
 

@@ -2,11 +2,16 @@
 // map gives a mirrored texture.
 uniform float kernel[KERNEL_ACROSS];
 
+// The mean over the texel's samples.
 vec2 moments(ivec2 at)
 {
-    precise float z = source(at).r;
-    precise vec2 both = vec2(z, z * z);
-    return both;
+    precise vec2 sum = vec2(0.0);
+    for (int i = 0; i < SAMPLES; ++i) {
+        precise float z = source(at, i).r;
+        sum += vec2(z, z * z);
+    }
+    precise vec2 mean = sum / float(SAMPLES);
+    return mean;
 }
 
 vec4 texel(ivec2 at)

@@ -169,7 +169,7 @@ struct TiltedTable : LitScene {
         const auto light = exact_light(Cull::none, threads);
         EXPECT_EQ(light->first_hits({&texel, 1}, HitDetail::bounded)[0].triangle, table_triangle);
         EXPECT_TRUE(is_same(receiver_depth(threads), expected));
-        EXPECT_TRUE(is_same(light->texel_depths({&texel, 1})[0], expected));
+        EXPECT_TRUE(is_same(light->texel_depths({&texel, 1}, scene::texel_centre)[0], expected));
     }
 
     static constexpr std::uint32_t table_triangle = 2;
@@ -269,7 +269,7 @@ TEST(TexelDepths, AreThoseOfRationals)
         for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
             const auto light = lit.exact_light(cull);
             const auto hits = light->first_hits(texels, HitDetail::bounded);
-            const auto depths = light->texel_depths(texels);
+            const auto depths = light->texel_depths(texels, scene::texel_centre);
             ASSERT_EQ(depths.size(), texels.size());
             for (std::size_t i = 0; i < texels.size(); ++i) {
                 SCOPED_TRACE(testing::Message() << "texel " << texels[i].x << ' ' << texels[i].y
@@ -343,7 +343,7 @@ TEST(RoundedDepths, AreInTheOrderThatTheCriticalBiasesSay)
         const auto light = lit.exact_light();
         const auto texels = lit.all_texels();
         const auto hits = light->first_hits(texels, HitDetail::bounded);
-        const auto depths = light->texel_depths(texels);
+        const auto depths = light->texel_depths(texels, scene::texel_centre);
         const auto pixels = lit.scored_pixels();
         const auto receivers = light->receiver_depths(pixels, {});
         std::vector<NearestQuery> queries;
@@ -420,7 +420,8 @@ TEST(RoundedDepths, AreTheSameWithAnyNumberOfThreads)
     const auto three = lit.exact_light(Cull::none, 3);
     const auto texels = lit.all_texels();
     const auto pixels = lit.scored_pixels();
-    EXPECT_EQ(one->texel_depths(texels), three->texel_depths(texels));
+    EXPECT_EQ(one->texel_depths(texels, scene::texel_centre),
+              three->texel_depths(texels, scene::texel_centre));
     EXPECT_EQ(one->receiver_depths(pixels, {}), three->receiver_depths(pixels, {}));
 }
 
@@ -429,7 +430,8 @@ TEST(RoundedDepths, RejectWhatIsOutsideTheMapAndTheImage)
     const TiltedTable lit{1, 0, false};
     const auto light = lit.exact_light();
     for (const Texel outside : {Texel{4, 0}, Texel{0, 4}, Texel{-1, 0}, Texel{0, -1}}) {
-        EXPECT_THROW((void)light->texel_depths({&outside, 1}), std::invalid_argument);
+        EXPECT_THROW((void)light->texel_depths({&outside, 1}, scene::texel_centre),
+                     std::invalid_argument);
     }
     const std::size_t beyond = lit.receivers.pixel_count();
     EXPECT_THROW((void)light->receiver_depths({&beyond, 1}, {}), std::invalid_argument);

@@ -1,0 +1,116 @@
+#include "raster_gl/sampled_casters.hpp"
+
+#include "raster_gl/caster_state.hpp"
+#include "raster_gl/depth_formats.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace gnomon::raster_gl {
+namespace {
+
+/// While it lives, a fragment shader that writes depths runs for each sample.
+class PerSample {
+public:
+    PerSample()
+    {
+        glEnable(GL_SAMPLE_SHADING);
+        glMinSampleShading(1.0F);
+    }
+    PerSample(const PerSample&) = delete;
+    PerSample& operator=(const PerSample&) = delete;
+    ~PerSample() { glDisable(GL_SAMPLE_SHADING); }
+};
+
+} // namespace
+
+SampledCasters::SampledCasters(const Context& context)
+    : context_{context},
+      depth_only_{make_program({"shadow_map.vert", {}, {}, nullptr})},
+      unorm_{make_program({"shadow_map.vert", "shadow_map_unorm.frag", {}, nullptr})},
+      target_{make_framebuffer()}
+{
+    glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
+    context.check("compiling the programs of multisampled shadow maps");
+}
+
+void SampledCasters::require_samples(int samples) const
+{
+    const int largest = context_.facts().max_depth_samples;
+    if (samples > largest) {
+        throw scene::InputError(fmt::format(
+            "{} samples of each texel: this driver has at most {}; lower them", samples, largest));
+    }
+}
+
+Texture SampledCasters::make_depths(const scene::ShadowMapSettings& settings, int samples) const
+{
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &name);
+    Texture texture{name};
+    glTextureStorage2DMultisample(name, samples, internal_format(settings.depth_format),
+                                  settings.resolution_texels, settings.resolution_texels, GL_TRUE);
+    context_.check(fmt::format("allocating a {0}×{0} shadow map of {1} samples",
+                               settings.resolution_texels, samples));
+    GLint given = 0;
+    glGetTextureLevelParameteriv(name, 0, GL_TEXTURE_SAMPLES, &given);
+    if (given != samples) {
+        throw scene::InputError(
+            fmt::format("{} samples of each texel: this driver gives {} in their place; choose "
+                        "another number",
+                        samples, given));
+    }
+    return texture;
+}
+
+std::span<const Texture> SampledCasters::render(const GpuScene& scene,
+                                                std::span<const scene::LightFrustum> maps,
+                                                const scene::ShadowMapSettings& settings,
+                                                int samples)
+{
+    require_samples(samples);
+    depths_.clear();
+    const bool is_unorm = settings.depth_format.kind == scene::DepthFormat::Kind::unorm;
+    const Program& program = is_unorm ? unorm_ : depth_only_;
+    if (is_unorm) {
+        set_uniform(program, "largest_code", largest_code(settings.depth_format));
+    }
+    const PerSample shading;
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    prepare_to_draw_casters(maps.front(), settings);
+    glUseProgram(program.name());
+    for (const scene::LightFrustum& map : maps) {
+        const Texture& depths = depths_.emplace_back(make_depths(settings, samples));
+        glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, depths.name(), 0);
+        const float far_depth = map.reversed ? 0.0F : 1.0F;
+        glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &far_depth);
+        set_uniform(program, "clip_from_world", map.light_clip_from_world);
+        scene.draw_casters();
+    }
+    glFinish();
+    context_.check("rendering a multisampled shadow map");
+    return depths_;
+}
+
+std::vector<scene::Vec2d> SampledCasters::places(int samples)
+{
+    require_samples(samples);
+    scene::ShadowMapSettings smallest;
+    smallest.resolution_texels = 1;
+    const Texture depths = make_depths(smallest, samples);
+    glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, depths.name(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+    std::vector<scene::Vec2d> places;
+    for (int i = 0; i < samples; ++i) {
+        std::array<GLfloat, 2> place{};
+        glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), place.data());
+        places.emplace_back(place[0], place[1]);
+    }
+    glNamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, 0, 0);
+    context_.check("asking where samples are");
+    return places;
+}
+
+} // namespace gnomon::raster_gl
