@@ -72,6 +72,12 @@ struct Renderers {
     std::function<std::vector<scene::Image<float>>(
         const scene::Job&, const scene::View&, const ExactDepths&, std::span<const float> lit_from)>
         find_exact_critical_biases;
+    /// The verdicts of such lookups with each of the biases, where no bias can be found by trying.
+    /// What was drawn and prefiltered last is lost. Empty: there are no such methods.
+    std::function<std::vector<scene::Image<float>>(const scene::Job&, const scene::View&,
+                                                   const ExactDepths&,
+                                                   std::span<const scene::Bias> biases)>
+        look_up_exactly;
     std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
     /// The depths of the maps drawn last, as shaders see them (`scene::maps_image_size`).
     std::function<scene::Image<float>()> read_map_depths;

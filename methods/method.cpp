@@ -31,6 +31,14 @@ std::vector<scene::HandedKey> own_keys(const Method& method)
     return keys;
 }
 
+bool is_same_row(const scene::HandedKey& a, const scene::HandedKey& b)
+{
+    const scene::JobKey row_a = a.row();
+    const scene::JobKey row_b = b.row();
+    return row_a.description == row_b.description && row_a.range_text == row_b.range_text &&
+           row_a.default_text == row_b.default_text && row_a.stages == row_b.stages;
+}
+
 /// The keys of all methods, each once, with the names of all methods that have it.
 std::vector<scene::HandedKey> all_keys()
 {
@@ -39,6 +47,11 @@ std::vector<scene::HandedKey> all_keys()
         for (const scene::HandedKey& key : own_keys(method)) {
             const auto same = std::ranges::find(
                 all, key.key.name, [](const scene::HandedKey& known) { return known.key.name; });
+            if (same != all.end() && !is_same_row(*same, key)) {
+                throw std::invalid_argument(
+                    fmt::format("methods: {} of {} is another key than that of another method",
+                                key.key.name, method.name));
+            }
             auto& of = same == all.end() ? all.emplace_back(key) : *same;
             of.methods.emplace_back(method.name);
         }

@@ -106,7 +106,8 @@ LookupPass::LookupPass(const Context& context)
 }
 
 const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
-                                   const scene::View& view, const Pieces& pieces, Computes computes)
+                                   const scene::View& view, const Pieces& pieces,
+                                   const Computes& computes)
 {
     const methods::Promises promised = methods::promises(job);
     const scene::LookupSettings& settings = job.lookup;
@@ -120,9 +121,9 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"REVERSED", flag(from.map.reversed)},
         {"SPOT", flag(view.light.type == scene::LightType::spot)},
         {"POSITION_OF_PIXEL", flag(settings.position == scene::LookupPosition::pixel)},
-        {"BISECTS", flag(computes != Computes::verdict)},
+        {"BISECTS", flag(computes.critical_bias)},
         {"GRADIENTS", flag(pieces.passes.has_gradients())},
-        {"DEPTH_IS_GIVEN", flag(computes == Computes::critical_bias_of_given_depth)},
+        {"DEPTH_IS_GIVEN", flag(computes.depths != nullptr)},
     };
     add_definitions(pieces.passes.lookup, definitions);
     for (const methods::ActiveBias& bias : pieces.biases) {
@@ -198,11 +199,12 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
     }
 }
 
-void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view)
+void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view,
+                        const scene::Image<float>* receiver_depths)
 {
     allocate(view.image, view.maps.size());
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-    draw(from, job, view, Computes::verdict, {});
+    draw(from, job, view, {.depths = receiver_depths});
     context_.check("looking up the shadow map");
 }
 
@@ -215,22 +217,15 @@ scene::Image<float> LookupPass::find_critical_biases(const LookedUp& from, const
     const Framebuffer target = make_framebuffer();
     glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, criticals.name(), 0);
     glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-    const bool is_given = asked.receiver_depths != nullptr;
-    Texture depths;
-    if (is_given) {
-        depths = upload(*asked.receiver_depths);
-        glBindTextureUnit(7, depths.name());
-    }
     draw(from, job, view,
-         is_given ? Computes::critical_bias_of_given_depth : Computes::critical_bias,
-         asked.lit_from);
+         {.critical_bias = true, .depths = asked.receiver_depths, .lit_from = asked.lit_from});
     auto found = read_texture<float>(criticals, size, GL_RED, GL_FLOAT);
     context_.check("finding critical biases");
     return found;
 }
 
 void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                      Computes computes, float lit_from)
+                      const Computes& computes)
 {
     if (!(from.receivers.size == view.image)) {
         throw std::invalid_argument("LookupPass: receivers are not of the view's size");
@@ -242,7 +237,7 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     set_uniform(lookup, "light_clip_from_world", matrices_of(view));
     set_uniform(lookup, "light", light_uniform(view.light));
     set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
-    set_uniform(lookup, "lit_from", lit_from);
+    set_uniform(lookup, "lit_from", computes.lit_from);
     set_uniforms(lookup, passes.lookup);
     for (const methods::ActiveBias& bias : biases) {
         set_uniforms(lookup, bias.piece);
@@ -257,6 +252,11 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
                                        from.receivers.world_position.name()};
     glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
     bind_map(from, passes, job.lookup.outside);
+    Texture depths;
+    if (computes.depths != nullptr) {
+        depths = upload(*computes.depths);
+        glBindTextureUnit(7, depths.name());
+    }
     glBindVertexArray(no_attributes_.name());
     glUseProgram(lookup.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -47,10 +47,12 @@ public:
     explicit LookupPass(const Context& context);
 
     /// Draws the lookup; read the result with `read`.
+    /// @param receiver_depths  of each pixel, in place of the one that GL computes; nullptr: GL's.
     /// @throws std::invalid_argument  if the receivers are not of the view's size, there are not
     ///                                as many maps as the view has, or several are looked up from
     ///                                vertices.
-    void render(const LookedUp& from, const scene::Job& job, const scene::View& view);
+    void render(const LookedUp& from, const scene::Job& job, const scene::View& view,
+                const scene::Image<float>* receiver_depths = nullptr);
 
     /// What `render` drew last, in images of the view's size, top left first.
     [[nodiscard]] scene::LookupLayers read() const;
@@ -70,10 +72,10 @@ public:
 
 private:
     /// What is computed of each pixel.
-    enum class Computes : std::uint8_t {
-        verdict,
-        critical_bias,
-        critical_bias_of_given_depth, ///< of receivers whose depths are given
+    struct Computes {
+        bool critical_bias = false;                  ///< else the verdict
+        const scene::Image<float>* depths = nullptr; ///< of receivers; nullptr: GL's
+        float lit_from = {};                         ///< of a critical bias
     };
     /// What a program is compiled with for a job.
     struct Pieces {
@@ -81,12 +83,12 @@ private:
         std::span<const methods::ActiveBias> biases;
     };
     const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                           const Pieces& pieces, Computes computes);
+                           const Pieces& pieces, const Computes& computes);
     /// @param maps  of the light.
     void allocate(scene::ImageSize size, std::size_t maps);
     /// Draws to the bound framebuffer.
     void draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
-              Computes computes, float lit_from);
+              const Computes& computes);
     void bind_map(const LookedUp& from, const methods::Passes& passes,
                   scene::Outside outside) const;
 

@@ -37,18 +37,43 @@ LookupReruns reruns_of(const scene::Job& job, const scene::View& view, const Ren
             },
             [with, job, &renderers](float slope) {
                 return renderers.find_critical_biases(job, with(0, slope));
-            },
-            {}};
+            }};
 }
 
-/// Draws the job's map again afterwards: other reruns ask for it.
-auto exact_reruns_of(const scene::Job& job, const scene::View& view, const Renderers& renderers)
+ExactRun exact_run_of(const scene::Job& job, const scene::View& view, const Renderers& renderers)
 {
-    return [job, view, &renderers](const ExactDepths& depths, std::span<const float> lit_from) {
-        auto criticals = renderers.find_exact_critical_biases(job, view, depths, lit_from);
-        renderers.draw_map(job, view);
-        return criticals;
-    };
+    const methods::Promises promised = methods::promises(job);
+    ExactRun run;
+    if (promised.has_curve() && renderers.find_exact_critical_biases) {
+        run.find_critical_biases = [job, view, &renderers](const ExactDepths& depths,
+                                                           std::span<const float> lit_from) {
+            auto criticals = renderers.find_exact_critical_biases(job, view, depths, lit_from);
+            renderers.draw_map(job, view);
+            return criticals;
+        };
+    }
+    if (renderers.look_up_exactly) {
+        run.look_up = [job, view, &renderers](const ExactDepths& depths,
+                                              std::span<const scene::Bias> biases) {
+            auto verdicts = renderers.look_up_exactly(job, view, depths, biases);
+            renderers.draw_map(job, view);
+            return verdicts;
+        };
+    }
+    if (promised.samples > 1) {
+        run.places = renderers.sample_places(promised.samples);
+    }
+    return run;
+}
+
+/// Critical biases that say nothing but whether verdicts are so high: −∞ or +∞.
+scene::Image<float> criticals_of(const scene::Image<float>& verdicts, float lit_from)
+{
+    scene::Image<float> criticals{verdicts.size()};
+    for (std::size_t i = 0; i < verdicts.pixel_count(); ++i) {
+        criticals[i] = verdicts[i] >= lit_from ? -scene::infinity : scene::infinity;
+    }
+    return criticals;
 }
 
 } // namespace
@@ -56,7 +81,7 @@ auto exact_reruns_of(const scene::Job& job, const scene::View& view, const Rende
 ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                               scene::LookupLayers layers, const Renderers& renderers)
 {
-    ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}};
+    ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}, {}};
     const methods::Promises promised = methods::promises(job);
     if (!can_derive_unbiased(job, view)) {
         scene::View unbiased = view;
@@ -68,12 +93,9 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
     }
     if (promised.has_curve() && !promised.has_formula() && renderers.find_critical_biases) {
         lookup.reruns = reruns_of(job, view, renderers);
-        if (!promised.has_exact_causes() && renderers.find_exact_critical_biases) {
-            lookup.reruns->find_exact_critical_biases = exact_reruns_of(job, view, renderers);
-            if (promised.samples > 1) {
-                lookup.reruns->places = renderers.sample_places(promised.samples);
-            }
-        }
+    }
+    if (!promised.has_exact_causes()) {
+        lookup.exact_run = exact_run_of(job, view, renderers);
     }
     return lookup;
 }
@@ -98,15 +120,35 @@ void LookupAnswers::rerun_exactly()
     if (rule_.promises.has_exact_causes()) {
         return;
     }
-    if (!lookup_.reruns || !lookup_.reruns->find_exact_critical_biases) {
+    constexpr float partial{partial_above};
+    const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
+    const ExactRun& run = *lookup_.exact_run;
+    const ExactDepths depths = exact_->exact_depths(cause_inputs(), run.places);
+    if (run.find_critical_biases) {
+        auto criticals = run.find_critical_biases(depths, lit_from);
+        exact_reruns_ = {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};
+    } else if (run.look_up) {
+        const scene::Image<float> verdicts = exact_verdicts(depths);
+        exact_reruns_ = {criticals_of(verdicts, lit_from[0]), criticals_of(verdicts, lit_from[1]),
+                         criticals_of(verdicts, lit_from[2])};
+    } else {
         throw std::invalid_argument(
             "LookupAnswers: the renderers cannot run the job's method over exact depths");
     }
-    constexpr float partial{partial_above};
-    const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
-    auto criticals = lookup_.reruns->find_exact_critical_biases(
-        exact_->exact_depths(cause_inputs(), lookup_.reruns->places), lit_from);
-    exact_reruns_ = {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};
+}
+
+scene::Image<float> LookupAnswers::exact_verdicts(const ExactDepths& depths) const
+{
+    const scene::Bias& own = lookup_.view.bias;
+    const std::array<scene::Bias, 2> biases{{{.constant = own.constant, .slope = own.slope}, {}}};
+    const auto with_bias = lookup_.exact_run->look_up(depths, biases);
+    scene::Image<float> verdicts = with_bias[1];
+    for (std::size_t i = 0; i < verdicts.pixel_count(); ++i) {
+        if (classes()[i] == PixelClass::lit) {
+            verdicts[i] = with_bias[0][i];
+        }
+    }
+    return verdicts;
 }
 
 scene::LookupLayers LookupAnswers::make_deciding() const

@@ -32,12 +32,20 @@ struct LookupReruns {
     std::function<scene::LookupLayers(float constant, float slope)> look_up;
     /// The critical bias of each pixel, with another slope.
     std::function<scene::Image<float>(float slope)> find_critical_biases;
-    /// Those of the method itself run over exact depths (`ExactReruns`): one image for each of
-    /// `lit_from`. Empty where causes are exact.
+};
+
+/// The method itself, run over exact depths. What was drawn last is drawn again afterwards.
+struct ExactRun {
+    /// The critical biases (`ExactReruns`), one image for each of `lit_from`. Empty where the
+    /// verdict does not rise with the bias.
     std::function<std::vector<scene::Image<float>>(const ExactDepths&,
                                                    std::span<const float> lit_from)>
-        find_exact_critical_biases;
-    /// Where in each texel (`ExactLight::texel_depths`) those depths are to be.
+        find_critical_biases;
+    /// The verdicts with each of the biases.
+    std::function<std::vector<scene::Image<float>>(const ExactDepths&,
+                                                   std::span<const scene::Bias>)>
+        look_up;
+    /// Where in each texel (`ExactLight::texel_depths`) the depths are to be.
     std::vector<scene::Vec2d> places = {scene::texel_centre};
 };
 
@@ -50,6 +58,8 @@ struct ObservedLookup {
     scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
     /// Empty where a formula tells of other biases, or nothing does.
     std::optional<LookupReruns> reruns;
+    /// Empty where causes are exact.
+    std::optional<ExactRun> exact_run;
 };
 
 /// What one constant bias gives.
@@ -115,6 +125,8 @@ private:
     [[nodiscard]] PixelCauses no_causes() const;
     /// Runs the method over exact depths, where it compares none itself.
     void rerun_exactly();
+    /// Over exact depths: of lit pixels with the constant and slope bias, of others without any.
+    [[nodiscard]] scene::Image<float> exact_verdicts(const ExactDepths& depths) const;
     /// Makes the lookup one without bias, where it is not moved.
     void remove_bias();
     /// Finds them anew where what is known is of other biases: below 0, or not.

@@ -107,16 +107,22 @@ scene::Image<float> GlRenderer::find_critical_biases(const scene::Job& job, cons
     return lookup_pass_.find_critical_biases(looked_up(), job, view);
 }
 
-std::vector<scene::Image<float>>
-GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View& view,
-                                       const analysis::ExactDepths& depths,
-                                       std::span<const float> lit_from)
+void GlRenderer::take_exact(const scene::Job& job, const scene::View& view,
+                            const analysis::ExactDepths& depths)
 {
     shadow_map_ = &shadow_map_pass_.store(depths.map, view.first_map().reversed);
     const std::vector<raster_gl::Texture> samples =
         depths.samples.empty() ? std::vector<raster_gl::Texture>{}
                                : upload_samples(depths.samples, view.maps.size());
     prefilter(job, analysis::FilteredContent::float32, {samples, true});
+}
+
+std::vector<scene::Image<float>>
+GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View& view,
+                                       const analysis::ExactDepths& depths,
+                                       std::span<const float> lit_from)
+{
+    take_exact(job, view, depths);
     scene::View unbiased = view;
     unbiased.bias = {};
     std::vector<scene::Image<float>> criticals;
@@ -125,6 +131,26 @@ GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View&
                                                               {least, &depths.receivers}));
     }
     return criticals;
+}
+
+std::vector<scene::Image<float>> GlRenderer::look_up_exactly(const scene::Job& job,
+                                                             const scene::View& view,
+                                                             const analysis::ExactDepths& depths,
+                                                             std::span<const scene::Bias> biases)
+{
+    take_exact(job, view, depths);
+    std::vector<scene::Image<float>> verdicts;
+    for (const scene::Bias& bias : biases) {
+        scene::View biased = view;
+        biased.bias = bias;
+        lookup_pass_.render(looked_up(), job, biased, &depths.receivers);
+        const auto samples = lookup_pass_.read().samples;
+        scene::Image<float>& of_bias = verdicts.emplace_back(samples.size());
+        for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
+            of_bias[i] = samples[i].verdict;
+        }
+    }
+    return verdicts;
 }
 
 raster_gl::LookedUp GlRenderer::looked_up() const
@@ -192,6 +218,11 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
                                                  const analysis::ExactDepths& depths,
                                                  std::span<const float> lit_from) {
         return gl.find_exact_critical_biases(job, view, depths, lit_from);
+    };
+    renderers.look_up_exactly = [&gl](const scene::Job& job, const scene::View& view,
+                                      const analysis::ExactDepths& depths,
+                                      std::span<const scene::Bias> biases) {
+        return gl.look_up_exactly(job, view, depths, biases);
     };
     renderers.find_truth = [&gl, &reference, subpixel_bits = facts.subpixel_bits, options](
                                const scene::View& view, const scene::ReceiverLayers& receivers) {

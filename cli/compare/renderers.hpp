@@ -45,6 +45,10 @@ public:
     find_exact_critical_biases(const scene::Job& job, const scene::View& view,
                                const analysis::ExactDepths& depths,
                                std::span<const float> lit_from);
+    /// The verdicts there with each of `biases`.
+    [[nodiscard]] std::vector<scene::Image<float>>
+    look_up_exactly(const scene::Job& job, const scene::View& view,
+                    const analysis::ExactDepths& depths, std::span<const scene::Bias> biases);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
     /// Gives the last shadow map's memory back: it is to be drawn again before it is asked.
@@ -57,6 +61,9 @@ private:
     /// The selected ones.
     /// @throws std::invalid_argument  if they, or the map, were not drawn.
     [[nodiscard]] const raster_gl::ReceiverBuffer& drawn_receivers() const;
+    /// Takes exact depths for the last shadow map, and makes of them what the method looks up.
+    void take_exact(const scene::Job& job, const scene::View& view,
+                    const analysis::ExactDepths& depths);
     /// Makes of the last shadow map, or of depths at samples, what the job's method looks up.
     void prefilter(const scene::Job& job, analysis::FilteredContent content,
                    const raster_gl::SampledDepths& samples);

@@ -16,15 +16,16 @@
 #if BISECTS
 uniform float lit_from;
 layout(location = 0) out float critical_out; // −∞: lit with every bias; +∞: with none
-#if DEPTH_IS_GIVEN
-layout(binding = 7) uniform sampler2D receiver_depth;
-#endif
 #else
 layout(location = 0) out vec4 sample_out; // r, d, tan θ, verdict
 layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lower left
 #if MAPS > 1
 layout(location = 2) out uint map_out;
 #endif
+#endif
+
+#if DEPTH_IS_GIVEN
+layout(binding = 7) uniform sampler2D receiver_depth;
 #endif
 
 // Is the whole footprint of an interpolating lookup, the kernels about 2 × 2 texels, beyond the map?

@@ -213,6 +213,35 @@ TEST_P(CausesByRerun, AreTheExactOnesButWhereFloat32Decides)
     }
 }
 
+/// At the job's bias a verdict is so high iff the bias is no smaller than the critical one.
+TEST_P(CausesByRerun, NeedNoVerdictsThatRiseWithTheBias)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* const builtin : {"sphere-plane", "wall"}) {
+        const auto keys = with(small, {{"lookup.filter", GetParam()}});
+        const Compared scene{job_of_builtin(builtin, keys)};
+        for (const auto& [bias, slope] : {std::pair{"0.0005", "0"}, {"0.0002", "0.0003"}}) {
+            SCOPED_TRACE(fmt::format("{} bias {} slope {}", builtin, bias, slope));
+            scene::Job job = job_of_builtin(
+                builtin, with(keys, {{"bias.constant", bias}, {"bias.slope", slope}}));
+            job.method.name = "depth_by_rerun";
+            const auto rising = scene(job);
+            job.method.name = "depth_by_look_up";
+            const auto other = scene(job);
+            EXPECT_FALSE(other.diagnosis->biases);
+            EXPECT_GT(other.metrics.false_shadow + other.metrics.false_lit, 100U);
+            const auto& expected = rising.diagnosis->causes;
+            const auto& found = other.diagnosis->causes;
+            EXPECT_EQ(found.counts.by_cause, expected.counts.by_cause);
+            EXPECT_EQ(found.counts.by_label, expected.counts.by_label);
+            for (std::size_t i = 0; i < expected.cause.pixel_count(); ++i) {
+                ASSERT_EQ(found.cause[i], expected.cause[i]) << "pixel " << i;
+                ASSERT_EQ(found.label[i], expected.label[i]) << "pixel " << i;
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Filters, CausesByRerun, testing::Values("nearest", "pcf3"));
 
 } // namespace

@@ -3,19 +3,36 @@
 
 #include <array>
 
-// The depth method twice: as it is, and as if it compared no depths, so that its causes are found
-// by running it again. This takes the place of methods/list.cpp.
+// The depth method three times: as it is, and as if it compared no depths, so that its causes are
+// found by running it again: with verdicts that rise with the bias, and as if they did not. This
+// takes the place of methods/list.cpp.
 namespace gnomon::methods {
 namespace {
+
+Promises without_comparisons(const scene::Job& job)
+{
+    Promises promised = depth_map().promises(job);
+    promised.compares = Compares::none;
+    promised.curve = Curve::by_bisection;
+    return promised;
+}
 
 Method rerun()
 {
     Method method = depth_map();
     method.name = "depth_by_rerun";
+    method.promises = without_comparisons;
+    return method;
+}
+
+Method looked_up_again()
+{
+    Method method = depth_map();
+    method.name = "depth_by_look_up";
     method.promises = [](const scene::Job& job) {
-        Promises promised = depth_map().promises(job);
-        promised.compares = Compares::none;
-        promised.curve = Curve::by_bisection;
+        Promises promised = without_comparisons(job);
+        promised.rises = {Rise::no, 0};
+        promised.curve = Curve::none;
         return promised;
     };
     return method;
@@ -25,7 +42,7 @@ Method rerun()
 
 std::span<const Method> methods()
 {
-    static const std::array list{depth_map(), rerun()};
+    static const std::array list{depth_map(), rerun(), looked_up_again()};
     return list;
 }
 
