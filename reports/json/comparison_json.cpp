@@ -58,8 +58,13 @@ store::Json scene_object(const analysis::SceneSummary& scene)
             {"notes", scene_notes_json(scene.notes)}};
 }
 
-store::Json frustum_object(const scene::LightFrustum& frustum, int resolution_texels)
+/// Null of a light without a map.
+store::Json frustum_value(const scene::View& view, int resolution_texels)
 {
+    if (view.maps.empty()) {
+        return nullptr;
+    }
+    const scene::LightFrustum& frustum = view.first_map();
     const bool is_perspective = frustum.projection == scene::Projection::perspective;
     return {{"projection", is_perspective ? "perspective" : "orthographic"},
             {"near_m", frustum.near_m},
@@ -89,8 +94,7 @@ std::string comparison_json(const analysis::Comparison& comparison)
     json["seconds"] = seconds(comparison.seconds);
     json["scene"] = scene_object(comparison.scene);
     json["job"] = store::job_object(comparison);
-    json["frustum"] =
-        frustum_object(comparison.view.first_map(), comparison.job.shadow_map.resolution_texels);
+    json["frustum"] = frustum_value(comparison.view, comparison.job.shadow_map.resolution_texels);
     json["truth_method"] = comparison.truth_method;
     json["truth_signs"] = truth_signs(comparison.truth.signs);
     json["float_audit"] = float_audit(comparison.float_audit);

@@ -90,7 +90,8 @@ Description describe(const analysis::Comparison& comparison)
         .size = describe_size(comparison.scene),
         .light = describe_light(view.light),
         .map = describe_map(job.shadow_map),
-        .range = describe_range(view.first_map(), job.shadow_map.cull),
+        .range = view.maps.empty() ? std::string{}
+                                   : describe_range(view.first_map(), job.shadow_map.cull),
         .lookup = fmt::format("{}, outside {}", lookup_name(job),
                               scene::outside_name(job.lookup.outside)),
         .bias = describe_bias(job.bias, view.bias),

@@ -187,9 +187,12 @@ std::string softened_too(const analysis::Comparison& comparison)
                        percent(analysis::ratio(softening, comparison.metrics.pixels.scored())));
 }
 
-/// Light distances of the scored receivers [m].
+/// Light distances of the scored receivers [m]; empty without a map.
 std::optional<analysis::Quantiles> distances_m(const analysis::Comparison& comparison)
 {
+    if (comparison.view.maps.empty()) {
+        return std::nullopt;
+    }
     const auto& light_distance_m = comparison.diagnosis->light_distance_m;
     return analysis::find_quantiles(
         std::vector<float>(light_distance_m.begin(), light_distance_m.end()));

@@ -114,6 +114,35 @@ TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)
     }
 }
 
+/// Its light has no shadow map that Gnomon knows of: nothing may ask for one.
+TEST(Evaluate, JudgesAPointLightInEveryFormat)
+{
+    CaseFolder folder{"sphere-plane"};
+    folder.keep_level_0();
+    folder.toml = R"(schema = 1
+renderer = "By hand"
+[mesh]
+file = "mesh.glb"
+[light]
+type = "point"
+position = [2.5, 4.8, 4.3]
+)"; // the scene's spot's
+    folder.write();
+    const Ending table = folder.evaluate();
+    EXPECT_EQ(table.exit_code, 0) << table.err;
+    EXPECT_THAT(table.out, HasSubstr("point"));
+    const CaseJson json = evaluated(folder);
+    EXPECT_TRUE(json.at("frustum").is_null());
+    EXPECT_GT(json.at("pixels").at("lit"), 1000);
+    EXPECT_GT(json.at("pixels").at("blocked"), 100);
+    const std::string picture = folder.at("point.png");
+    EXPECT_EQ(folder.evaluate({"--picture", picture}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::exists(picture));
+    const std::string run = folder.at("run");
+    expect_done(folder.evaluate({"--out", run}));
+    EXPECT_EQ(gnomon({"report", run}).exit_code, 0);
+}
+
 TEST(Evaluate, LeavesARunForReportGateAndBaseline)
 {
     CaseFolder folder{"sphere-plane"};
