@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <cstdint>
+
 namespace gnomon::raster_gl {
 namespace {
 
@@ -31,9 +33,19 @@ void prepare_to_draw_casters(const scene::LightFrustum& map,
     set_culling(settings.cull);
 }
 
-bool is_large_map(int resolution_texels)
+bool is_large_map(int resolution_texels, int samples)
 {
-    return resolution_texels > 4096;
+    constexpr std::int64_t largest = std::int64_t{4096} * 4096;
+    return std::int64_t{resolution_texels} * resolution_texels * samples > largest;
+}
+
+void draw_casters(const GpuScene& scene, int resolution_texels, int samples)
+{
+    if (is_large_map(resolution_texels, samples)) {
+        scene.draw_casters_in_parts();
+    } else {
+        scene.draw_casters();
+    }
 }
 
 } // namespace gnomon::raster_gl

@@ -76,8 +76,14 @@ void require_maps(const ShadowMap& map, const scene::Job& job, const scene::View
 /// Source of the choice among a light's maps; nothing where there is but one.
 std::string map_choice(const scene::View& view)
 {
-    return view.maps.size() > 1 ? fmt::format("#line 1 3\n{}", shader_source("map_choice.glsl"))
-                                : std::string{};
+    if (view.maps.size() == 1) {
+        return {};
+    }
+    switch (view.map_choice) {
+    case scene::MapChoice::containing:
+        return fmt::format("#line 1 3\n{}", shader_source("map_choice.glsl"));
+    }
+    return {};
 }
 
 void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& context)
@@ -130,10 +136,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         add_definitions(bias.piece, definitions);
     }
     const std::string biases = map_choice(view) + bias_functions(pieces.biases);
-    std::string key = biases + std::string{pieces.passes.lookup.glsl};
-    for (const auto& [name, value] : definitions) {
-        key += fmt::format(" {}={}", name, value);
-    }
+    std::string key = program_key(biases + std::string{pieces.passes.lookup.glsl}, definitions);
     const auto found = programs_.find(key);
     if (found != programs_.end()) {
         return found->second;

@@ -81,6 +81,15 @@ std::string bias_functions(std::span<const ActiveBias> biases)
     return text;
 }
 
+std::string program_key(std::string_view text, const Definitions& definitions)
+{
+    std::string key{text};
+    for (const auto& [name, value] : definitions) {
+        key += fmt::format(" {}={}", name, value);
+    }
+    return key;
+}
+
 void add_definitions(const methods::Piece& piece, Definitions& definitions)
 {
     for (const methods::Definition& definition : piece.definitions) {

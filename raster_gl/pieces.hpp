@@ -17,7 +17,10 @@ namespace gnomon::raster_gl {
 [[nodiscard]] std::string pieces_before_shader(std::string_view source, const methods::Piece& piece,
                                                std::string_view biases = {});
 
-/// The pieces of bias terms, each a text of its own from 3 on, and the functions that call them for
+/// A text that tells programs apart: what they are made of, and what it is compiled with.
+[[nodiscard]] std::string program_key(std::string_view text, const Definitions& definitions);
+
+/// The pieces of bias terms, each a text of its own from 4 on, and the functions that call them for
 /// raster_gl/shaders/lookup.frag, each term in the order of the list.
 [[nodiscard]] std::string bias_functions(std::span<const methods::ActiveBias> biases);
 

@@ -96,10 +96,7 @@ const Program& PrefilterPass::program(const methods::Piece& piece, const Source&
     Definitions definitions{{"SAMPLES", std::to_string(source.samples)},
                             {"SAMPLES_ARE_LAYERS", source.are_layers ? "1" : "0"}};
     add_definitions(piece, definitions);
-    std::string key{piece.glsl};
-    for (const auto& [name, value] : definitions) {
-        key += fmt::format(" {}={}", name, value);
-    }
+    const std::string key = program_key(piece.glsl, definitions);
     const auto found = programs_.find(key);
     if (found != programs_.end()) {
         return found->second;
@@ -117,9 +114,9 @@ void PrefilterPass::draw(const methods::PrefilterPass& pass, const Source& sourc
     if (made.format != format.internal || made.resolution_texels != resolution_texels ||
         made.levels != levels || made.texture.layer_count() != maps) {
         made = {}; // the old texture goes before the new one comes
-        made = {LayeredTexture{format.internal, resolution_texels, maps, levels}, format.internal,
-                resolution_texels, levels};
-        require_format(made.texture.layer(0), format);
+        LayeredTexture texture{format.internal, resolution_texels, maps, levels};
+        require_format(texture.layer(0), format);
+        made = {std::move(texture), format.internal, resolution_texels, levels};
     }
     const Program& texel = program(pass.piece, source);
     set_uniforms(texel, pass.piece);
@@ -165,6 +162,7 @@ const LayeredTexture& PrefilterPass::render(const ShadowMap& map, const methods:
 
 void PrefilterPass::forget()
 {
+    target_ = make_framebuffer(); // a framebuffer keeps what is attached to it
     made_.clear();
 }
 

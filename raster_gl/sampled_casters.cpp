@@ -40,8 +40,9 @@ void SampledCasters::require_samples(int samples) const
 {
     const int largest = context_.facts().max_depth_samples;
     if (samples > largest) {
-        throw scene::InputError(fmt::format(
-            "{} samples of each texel: this driver has at most {}; lower them", samples, largest));
+        throw scene::InputError(
+            fmt::format("method.samples = {}: this driver has at most {} of a texel; lower them",
+                        samples, largest));
     }
 }
 
@@ -58,8 +59,8 @@ Texture SampledCasters::make_depths(const scene::ShadowMapSettings& settings, in
     glGetTextureLevelParameteriv(name, 0, GL_TEXTURE_SAMPLES, &given);
     if (given != samples) {
         throw scene::InputError(
-            fmt::format("{} samples of each texel: this driver gives {} in their place; choose "
-                        "another number",
+            fmt::format("method.samples = {}: this driver gives {} in their place; choose another "
+                        "number",
                         samples, given));
     }
     return texture;
@@ -71,7 +72,7 @@ std::span<const Texture> SampledCasters::render(const GpuScene& scene,
                                                 int samples)
 {
     require_samples(samples);
-    depths_.clear();
+    forget();
     const bool is_unorm = settings.depth_format.kind == scene::DepthFormat::Kind::unorm;
     const Program& program = is_unorm ? unorm_ : depth_only_;
     if (is_unorm) {
@@ -87,11 +88,18 @@ std::span<const Texture> SampledCasters::render(const GpuScene& scene,
         const float far_depth = map.reversed ? 0.0F : 1.0F;
         glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &far_depth);
         set_uniform(program, "clip_from_world", map.light_clip_from_world);
-        scene.draw_casters();
+        draw_casters(scene, settings.resolution_texels, samples);
     }
     glFinish();
     context_.check("rendering a multisampled shadow map");
     return depths_;
+}
+
+void SampledCasters::forget()
+{
+    target_ = make_framebuffer(); // a framebuffer keeps what is attached to it
+    glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
+    depths_.clear();
 }
 
 std::vector<scene::Vec2d> SampledCasters::places(int samples)

@@ -20,9 +20,7 @@ public:
     explicit SampledCasters(const Context& context);
 
     /// @param samples  of each texel; at least 2.
-    /// @return  A multisampled depth texture of each map, the object's own; the next call
-    /// overwrites
-    ///          them.
+    /// @return  A multisampled depth texture of each map, the object's own until the next call.
     /// @throws scene::InputError        if the driver has fewer samples, or another number in their
     ///                                  place.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
@@ -33,7 +31,7 @@ public:
     /// @throws scene::InputError  as `render`.
     [[nodiscard]] std::vector<scene::Vec2d> places(int samples);
     /// Gives the memory back.
-    void forget() { depths_.clear(); }
+    void forget();
 
 private:
     void require_samples(int samples) const;

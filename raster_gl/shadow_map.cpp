@@ -214,11 +214,7 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
         attach(i);
         clear(target_, map_);
         set_uniform(program, "clip_from_world", maps[i].light_clip_from_world);
-        if (is_large_map(map_.resolution_texels)) {
-            scene.draw_casters_in_parts();
-        } else {
-            scene.draw_casters();
-        }
+        draw_casters(scene, map_.resolution_texels);
     }
     glFinish();
     context_.check("rendering the shadow map");

@@ -192,11 +192,17 @@ private:
     void prefilter()
     {
         ++counts_.prefilters;
-        map_ = run_stage<bool>([&] {
+        filtered_ = run_stage<bool>([&] {
             static_cast<void>(require_result(map_));
             renderers().prefilter_map(task_.job, stage_view(), FilteredContent::of_method);
             return std::make_shared<bool>(true);
         });
+    }
+
+    /// What lookups of the task's job read: the map, or what its method made of it.
+    [[nodiscard]] const StageResult<bool>& looked_up() const
+    {
+        return methods::passes(task_.job).prefilter.empty() ? map_ : filtered_;
     }
 
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
@@ -217,7 +223,7 @@ private:
         }
         make_room_for_depths();
         lookup_ = run_stage<LookupStage>([&] {
-            static_cast<void>(require_result(map_));
+            static_cast<void>(require_result(looked_up()));
             static_cast<void>(require_result(receivers_[slot]));
             auto subject = require_result(subjects_[slot]);
             select(slot);
@@ -228,7 +234,7 @@ private:
         });
     }
 
-    /// The lookup at the job's normal offset; no other bias matters to its answers.
+    /// The lookup where the job's biases move it; no other bias matters to its answers.
     ObservedLookup look_up_for_every_bias()
     {
         const scene::View view = stage_view();
@@ -336,7 +342,7 @@ private:
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
     {
-        static_cast<void>(require_result(map_));
+        static_cast<void>(require_result(looked_up()));
         static_cast<void>(require_result(receivers_[slot]));
         const auto subject = require_result(subjects_[slot]);
         const auto scene = require_result(scene_);
@@ -382,7 +388,8 @@ private:
     std::vector<StageResult<scene::ReceiverLayers>> receivers_; ///< by slot
     std::vector<StageResult<SweepSubject>> subjects_;           ///< by slot
     StageResult<bool> map_;
-    ExactLightCaches caches_; ///< the lanes'
+    StageResult<bool> filtered_; ///< of the map; fails where it does
+    ExactLightCaches caches_;    ///< the lanes'
     StageResult<LookupStage> lookup_;
     /// The curve of the comparison before; empty where it is found at once.
     std::optional<std::pair<CurveName, KnownCurve>> known_;

@@ -150,6 +150,31 @@ TEST(Sweep, IsNotReplacedByAComparison)
     EXPECT_EQ(kept_images(single), 1U);
 }
 
+/// What a method makes of a map fails by itself: the map and what others make of it stand.
+TEST(Sweep, LosesNoOtherConfigurationWhereAMethodsPassesFail)
+{
+    const TemporaryFolder folder;
+    const std::vector<std::string> small{"--builtin",      "wall",           "--set",
+                                         "image.width=64", "--set",          "image.height=36",
+                                         "--set",          "method.name=vsm"};
+    if (gnomon(with(with({"compare"}, small), {"--set", "method.samples=8"})).exit_code == 0) {
+        GTEST_SKIP() << "this driver has 8 samples of a texel";
+    }
+    const path run = folder.path() / "run";
+    const Ending ending =
+        gnomon(with(with({"sweep", "--out", run.string()}, small),
+                    {"--axis", "method.kernel_width=1,3", "--axis", "method.samples=1,8"}));
+    EXPECT_EQ(ending.exit_code, incomplete) << ending.err;
+    const auto rows = csv_rows(run / "results.csv");
+    ASSERT_EQ(rows.size(), 4U);
+    for (const auto& row : rows) {
+        const bool fails = row.at("method.samples") == "8";
+        EXPECT_EQ(row.at("status"), fails ? "failed" : "done") << row.at("message");
+        EXPECT_THAT(row.at("message"),
+                    HasSubstr(fails ? "method.samples = 8: this driver has" : ""));
+    }
+}
+
 TEST(Sweep, RecordsWhatFails)
 {
     const TemporaryFolder folder;
