@@ -168,8 +168,7 @@ void finish_comparison(Comparison& begun, const Renderers& renderers)
     begun.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });
     timed(seconds.shadow_map, [&] { renderers.draw_map(job, view); });
     begun.lookup = timed(seconds.lookup, [&] { return renderers.look_up(job, view); });
-    begun.truth =
-        timed(seconds.truth, [&] { return renderers.find_truth(view, begun.receivers); });
+    begun.truth = timed(seconds.truth, [&] { return renderers.find_truth(view, begun.receivers); });
 
     timed(seconds.analysis, [&] {
         measure_comparison(begun, renderers, {view.bias.constant, MapAfterDiagnosis::given_back});

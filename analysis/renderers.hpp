@@ -62,11 +62,11 @@ struct Renderers {
     std::function<std::vector<scene::Vec2d>(int samples)> sample_places;
     std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
     /// The smallest constant bias of each pixel with which `look_up` lights it, of the same
-    /// receivers and map, with the view's slope and normal offset: found by trying. 0 without a
+    /// receivers and map, with the view's other biases: found by trying. 0 without a
     /// receiver. Empty: what no formula tells of other biases is not known.
     std::function<scene::Image<float>(const scene::Job&, const scene::View&)> find_critical_biases;
     /// The same of a map of exact depths, with 32-bit floats whatever the method asks for, and of
-    /// receivers of exact depths, without slope and normal offset: for each of `lit_from` the
+    /// receivers of exact depths, without the other biases: for each of `lit_from` the
     /// smallest bias with which the verdict is no less. What was drawn and prefiltered last is
     /// lost. Empty: methods that compare depths are the only ones.
     std::function<std::vector<scene::Image<float>>(

@@ -93,6 +93,17 @@ void check(const BiasTerm& term)
     }
 }
 
+void check(std::span<const BiasTerm> terms)
+{
+    std::ranges::for_each(terms, [](const BiasTerm& term) { check(term); });
+    const auto varied = std::ranges::find_if(terms, is_of_curve);
+    if (varied != terms.end() &&
+        std::ranges::find(varied->keys, "bias.constant") == varied->keys.end()) {
+        refuse(*varied, "the bias curve varies the first of its terms, which must be the constant "
+                        "bias");
+    }
+}
+
 std::vector<ActiveBias> active_biases(std::span<const BiasTerm> terms, const scene::Job& job,
                                       const scene::View& view)
 {

@@ -68,6 +68,12 @@ struct BiasTerm {
 /// @throws std::invalid_argument  if no lookup does what the term says, or it does not say enough.
 void check(const BiasTerm& term);
 
+/// The terms of a method.
+/// @throws std::invalid_argument  for one of them; if the first of the bias curve's, which the
+/// curve
+///                                varies, is not the constant bias.
+void check(std::span<const BiasTerm> terms);
+
 /// A bias term at work.
 struct ActiveBias {
     const BiasTerm* term = nullptr;

@@ -35,8 +35,9 @@ bool is_same_row(const scene::HandedKey& a, const scene::HandedKey& b)
 {
     const scene::JobKey row_a = a.row();
     const scene::JobKey row_b = b.row();
-    return row_a.description == row_b.description && row_a.range_text == row_b.range_text &&
-           row_a.default_text == row_b.default_text && row_a.stages == row_b.stages;
+    return row_a.description == row_b.description && row_a.unit == row_b.unit &&
+           row_a.range_text == row_b.range_text && row_a.default_text == row_b.default_text &&
+           row_a.stages == row_b.stages;
 }
 
 /// The keys of all methods, each once, with the names of all methods that have it.
@@ -148,7 +149,7 @@ void hand_keys_to_scene()
     }
     scene::hand_over_methods(std::move(all), all_keys());
     for (const Method& method : methods()) {
-        std::ranges::for_each(method.bias_terms, [](const BiasTerm& term) { check(term); });
+        check(method.bias_terms);
     }
 }
 

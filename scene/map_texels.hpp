@@ -9,6 +9,9 @@
 
 namespace gnomon::scene {
 
+/// No light has more maps than this.
+inline constexpr std::size_t most_maps = 16;
+
 /// A texel of a shadow map, counted as GL counts: (0, 0) has its centre next to u = v = −1.
 struct Texel {
     int x = 0;

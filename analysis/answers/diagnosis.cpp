@@ -18,7 +18,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
     const bool gives_map_back =
         request.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map;
-    const bool asks_map = lookup.reruns.has_value();
+    const bool asks_map = lookup.reruns || lookup.exact_run;
     if (gives_map_back && !asks_map) {
         renderers.forget_shadow_map(); // before what takes the most memory
     }

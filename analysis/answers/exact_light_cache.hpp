@@ -28,7 +28,7 @@ namespace gnomon::analysis {
 /// format, and what methods and filters make of them: found once, when it is first asked for.
 class ExactLightCache {
 public:
-    /// @param view  of any of the jobs; no bias matters but a normal offset.
+    /// @param view  of any of the jobs; no bias matters but those that move lookups.
     ExactLightCache(const scene::TriangleScene& triangles,
                     std::shared_ptr<JudgedReceivers> receivers, const scene::Job& job,
                     const scene::View& view, const Renderers& renderers);

@@ -33,7 +33,8 @@ struct BiasInterval {
     friend bool operator==(const BiasInterval&, const BiasInterval&) = default;
 };
 
-/// The error counts of every constant bias, exactly: the curve of one slope and one normal offset.
+/// The error counts of every constant bias, exactly: the curve of one slope, and of
+/// one lookup where other biases move it.
 ///
 ///     false shadow(b) = scored lit pixels with critical bias > b
 ///     false lit(b)    = scored blocked pixels with critical bias <= b

@@ -55,7 +55,7 @@ void add_reruns(std::optional<BiasVerification>& known, BiasVerification more);
 ///
 /// Receivers and map must be those drawn last. Afterwards GL's last lookup is that of the last
 /// bias.
-/// @param view  the slope and normal offset of its bias are kept.
+/// @param view  its other biases are kept.
 /// @throws std::invalid_argument  if the images, or a lookup, differ in size.
 [[nodiscard]] BiasVerification verify_biases(const scene::Job& job, const scene::View& view,
                                              const scene::Image<std::uint32_t>& triangles,

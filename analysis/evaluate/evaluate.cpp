@@ -137,7 +137,7 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
         return;
     }
     if (!knows_unbiased(comparison, subject.layers)) {
-        cannot("unmoved.*: the lookup without a normal offset");
+        cannot("unmoved.*: the lookup that no bias moves");
         return;
     }
     const std::string disagreement = find_disagreement(

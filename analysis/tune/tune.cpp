@@ -83,7 +83,8 @@ private:
                     Job job = with_view_of(job_, judged.view.job);
                     job.shadow_map.frustum = frustum;
                     matrices.push_back(scene::resolve_view(job, file_.scene, file_.defaults)
-                                           .first_map().light_clip_from_world);
+                                           .first_map()
+                                           .light_clip_from_world);
                 }
             } catch (const scene::InputError&) {
                 continue; // planes that do not go together there

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <string>
 
@@ -71,11 +70,12 @@ const HandedKey& width_key()
 }
 const HandedKey& samples_key()
 {
-    static const HandedKey key{scene::make_key("method.samples",
-                                               "depths of each texel that the moments are of, at "
-                                               "GL's places of so many",
-                                               "", scene::only(Stage::prefilter), "samples"),
-                               scene::IntegerDomain{1, 8}, std::int64_t{1}};
+    static const HandedKey key{
+        scene::make_key("method.samples",
+                        "depths of each texel that the moments are of, at "
+                        "GL's places of so many",
+                        "", scene::only(Stage::prefilter), "samples"),
+        scene::IntegerDomain{.lower = 1, .upper = 8, .is_power_of_two = true}, std::int64_t{1}};
     return key;
 }
 const HandedKey& mips_key()
@@ -141,11 +141,6 @@ int samples_of(const scene::Job& job)
 
 void vsm_check(const scene::Job& job)
 {
-    const auto samples = static_cast<unsigned>(samples_of(job));
-    if (!std::has_single_bit(samples)) {
-        throw scene::InputError(
-            fmt::format("method.samples = {}: drivers have 1, 2, 4 or 8 samples", samples));
-    }
     const auto width = value_of<std::int64_t>(width_key(), job);
     if (width > job.shadow_map.resolution_texels) {
         throw scene::InputError(fmt::format(

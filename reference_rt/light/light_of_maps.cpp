@@ -23,22 +23,13 @@ using scene::TexelHit;
 
 namespace {
 
-int map_of(const Texel& texel)
-{
-    return texel.map;
-}
-int map_of(const NearestQuery& query)
-{
-    return query.tap.texel.map;
-}
-int map_of(const LinearQuery& query)
-{
-    return query.first.map;
-}
-int map_of(const SelfShadowingQuery& query)
-{
-    return query.texel.map;
-}
+/// The map that answers a question.
+struct MapOfQuestion {
+    int operator()(const Texel& texel) const { return texel.map; }
+    int operator()(const NearestQuery& query) const { return query.tap.texel.map; }
+    int operator()(const LinearQuery& query) const { return query.first.map; }
+    int operator()(const SelfShadowingQuery& query) const { return query.texel.map; }
+};
 
 class LightOfMaps final : public ExactLight {
 public:
@@ -46,11 +37,10 @@ public:
 
     std::vector<TexelHit> first_hits(std::span<const Texel> texels, HitDetail detail) const override
     {
-        return ask_each<TexelHit>(
-            texels, [](const Texel& texel) { return map_of(texel); },
-            [&](std::size_t map, const Part<Texel>& part) {
-                return maps_[map]->first_hits(part.questions, detail);
-            });
+        return ask_each<TexelHit>(texels, MapOfQuestion{},
+                                  [&](std::size_t map, const Part<Texel>& part) {
+                                      return maps_[map]->first_hits(part.questions, detail);
+                                  });
     }
 
     std::vector<TexelHit> first_hits(std::span<const Texel> texels,
@@ -60,8 +50,7 @@ public:
             throw std::invalid_argument{"first_hits: known: not of these texels"};
         }
         return ask_each<TexelHit>(
-            texels, [](const Texel& texel) { return map_of(texel); },
-            [&](std::size_t map, const Part<Texel>& part) {
+            texels, MapOfQuestion{}, [&](std::size_t map, const Part<Texel>& part) {
                 std::vector<std::uint32_t> triangles;
                 triangles.reserve(part.places.size());
                 for (const std::size_t place : part.places) {
@@ -85,11 +74,10 @@ public:
     std::vector<float> texel_depths(std::span<const Texel> texels,
                                     const scene::Vec2d& place) const override
     {
-        return ask_each<float>(
-            texels, [](const Texel& texel) { return map_of(texel); },
-            [&](std::size_t map, const Part<Texel>& part) {
-                return maps_[map]->texel_depths(part.questions, place);
-            });
+        return ask_each<float>(texels, MapOfQuestion{},
+                               [&](std::size_t map, const Part<Texel>& part) {
+                                   return maps_[map]->texel_depths(part.questions, place);
+                               });
     }
 
     std::vector<float> critical_biases(std::span<const NearestQuery> queries,
@@ -116,11 +104,10 @@ public:
     std::vector<std::uint8_t>
     are_self_shadowing(std::span<const SelfShadowingQuery> queries) const override
     {
-        return ask_each<std::uint8_t>(
-            queries, [](const SelfShadowingQuery& query) { return map_of(query); },
-            [&](std::size_t map, const Part<SelfShadowingQuery>& part) {
-                return maps_[map]->are_self_shadowing(part.questions);
-            });
+        return ask_each<std::uint8_t>(queries, MapOfQuestion{},
+                                      [&](std::size_t map, const Part<SelfShadowingQuery>& part) {
+                                          return maps_[map]->are_self_shadowing(part.questions);
+                                      });
     }
 
     std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels) const override
@@ -168,8 +155,7 @@ private:
     [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
     {
         return ask_each<float>(
-            queries, [](const Query& query) { return map_of(query); },
-            [&](std::size_t map, const Part<Query>& part) {
+            queries, MapOfQuestion{}, [&](std::size_t map, const Part<Query>& part) {
                 return maps_[map]->critical_biases(std::span{part.questions}, clamps);
             });
     }
@@ -183,6 +169,10 @@ std::unique_ptr<ExactLight> light_of_maps(std::vector<std::unique_ptr<ExactLight
 {
     if (maps.empty()) {
         throw std::invalid_argument{"light_of_maps: a light without shadow maps"};
+    }
+    if (maps.size() > scene::most_maps) {
+        throw std::invalid_argument{fmt::format("light_of_maps: {} maps; a light has at most {}",
+                                                maps.size(), scene::most_maps)};
     }
     if (maps.size() == 1) {
         return std::move(maps.front());

@@ -11,7 +11,8 @@ namespace gnomon::reference_rt {
 /// texel is of, or that its pixel reads. Blockers are the first's to find, for light distances are
 /// those of all maps.
 /// @param maps  by index; one is returned as it is.
-/// @throws std::invalid_argument  if there is none; the answers throw it for a map that is not
+/// @throws std::invalid_argument  if there is none, or more than `most_maps`; the answers throw it
+/// for a map that is not
 ///                                there.
 [[nodiscard]] std::unique_ptr<scene::ExactLight>
 light_of_maps(std::vector<std::unique_ptr<scene::ExactLight>> maps);

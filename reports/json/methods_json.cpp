@@ -46,6 +46,7 @@ store::Json promises_object(const methods::Promises& promises)
             {"curve", methods::name(promises.curve)},
             {"footprint_texels", promises.width_texels},
             {"reads", methods::name(promises.reads)},
+            {"samples", promises.samples},
             {"map_bytes", promises.map_bytes},
             {"has_map", promises.has_map}};
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -31,6 +32,9 @@ std::string range_of(const FlagDomain&)
 }
 std::string range_of(const IntegerDomain& domain)
 {
+    if (domain.is_power_of_two) {
+        return fmt::format("a power of two from {} to {}", domain.lower, domain.upper);
+    }
     return fmt::format("an {}integer from {} to {}", domain.step == 2 ? "odd " : "", domain.lower,
                        domain.upper);
 }
@@ -71,6 +75,9 @@ std::optional<JobValue> value_in(const IntegerDomain& domain, const TomlNode& no
     const auto* integer = std::get_if<std::int64_t>(&node.value);
     if (integer == nullptr || *integer < domain.lower || *integer > domain.upper ||
         (*integer - domain.lower) % domain.step != 0) {
+        return std::nullopt;
+    }
+    if (domain.is_power_of_two && !std::has_single_bit(static_cast<std::uint64_t>(*integer))) {
         return std::nullopt;
     }
     return *integer;

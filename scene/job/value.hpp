@@ -24,7 +24,8 @@ struct FlagDomain {};
 struct IntegerDomain {
     std::int64_t lower = 0;
     std::int64_t upper = 0;
-    std::int64_t step = 1; ///< from one to the next: 1, or 2 for odd numbers
+    std::int64_t step = 1;        ///< from one to the next: 1, or 2 for odd numbers
+    bool is_power_of_two = false; ///< 1, 2, 4, … alone; with step 1 and a positive `lower`
 };
 
 /// Finite numbers from `lower` to `upper`, both included.

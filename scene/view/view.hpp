@@ -36,7 +36,8 @@ struct View {
     Camera camera;
     ImageSize image;
     Light light;
-    std::vector<LightFrustum> maps; ///< what each shadow map sees, as large; a point light has none
+    /// What each shadow map sees, all of one size, at most `most_maps`; a point light has none.
+    std::vector<LightFrustum> maps;
     Bias bias;
     MapChoice map_choice = MapChoice::containing; ///< which of several maps a receiver reads
 

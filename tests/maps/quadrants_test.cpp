@@ -111,9 +111,13 @@ std::vector<Named> lookups()
     scene::Job& moved = add("normal offset");
     moved.lookup.filter = Filter::pcf3;
     moved.bias.normal_texels = 1.5;
-    scene::Job& variances = add("variances");
-    variances.method.name = "vsm";
-    variances.method.values["method.min_variance"] = 0.01;
+    scene::MethodSettings variances{.name = "vsm"};
+    variances.values["method.min_variance"] = 0.01;
+    add("variances").method = variances;
+    scene::Job& sampled = add("variances of samples");
+    sampled.method = variances;
+    sampled.method.values["method.samples"] = std::int64_t{4};
+    sampled.method.values["method.mips"] = true;
     scene::Job& reversed = add("reversed, 16 bits");
     reversed.shadow_map.frustum.reversed = true;
     reversed.shadow_map.depth_format = {scene::DepthFormat::Kind::d16, 16};

@@ -37,6 +37,13 @@ const std::vector<scene::Override> small{{"image.width", "160"},
 
 class ListedMethod : public testing::TestWithParam<Configuration> {
 protected:
+    void SetUp() override
+    {
+        const int samples = methods::passes(job_of_builtin("wall", keys())).samples;
+        if (shared_context() != nullptr && samples > shared_context()->facts().max_depth_samples) {
+            GTEST_SKIP() << "no depth textures of " << samples << " samples";
+        }
+    }
     [[nodiscard]] static std::vector<scene::Override>
     keys(const std::vector<scene::Override>& more = {})
     {
@@ -114,6 +121,12 @@ std::vector<float> ascending_biases()
     }
     std::ranges::sort(biases);
     return biases;
+}
+
+TEST_P(ListedMethod, PromisesTheSamplesThatItsPassesAskFor)
+{
+    const scene::Job job = job_of_builtin("wall", keys());
+    EXPECT_EQ(methods::promises(job).samples, methods::passes(job).samples);
 }
 
 TEST_P(ListedMethod, RisesWithTheBiasAsPromised)

@@ -171,6 +171,16 @@ TEST(BiasTerms, AreRefusedWithoutGlsl)
     EXPECT_EQ(refusal(term), "bias term normal offset: it has no GLSL");
 }
 
+TEST(BiasTerms, AreRefusedWhereTheCurveWouldVaryAnotherThanTheConstantBias)
+{
+    const std::array swapped{bias_terms()[1], bias_terms()[0]};
+    const std::array without{bias_terms()[2], bias_terms()[1]};
+    EXPECT_THROW(check(std::span<const BiasTerm>{swapped}), std::invalid_argument);
+    EXPECT_THROW(check(std::span<const BiasTerm>{without}), std::invalid_argument);
+    EXPECT_NO_THROW(check(bias_terms()));
+    EXPECT_NO_THROW(check(bias_terms().subspan(2)));
+}
+
 TEST(BiasTerms, AreRefusedWithKeysOfAnotherTableOrNotListed)
 {
     BiasTerm term = bias_terms()[2];

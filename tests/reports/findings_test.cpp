@@ -19,6 +19,7 @@ using testing::Not;
 analysis::Comparison comparison_of(std::uint64_t false_shadow, std::uint64_t false_lit)
 {
     analysis::Comparison comparison;
+    comparison.view.maps.resize(1);
     analysis::Metrics& metrics = comparison.metrics;
     metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::lit)] = 100;
     metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::blocked)] = 100;

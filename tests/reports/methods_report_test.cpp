@@ -84,14 +84,14 @@ TEST(MethodsJson, SaysWhatIsPromisedWithEachFilter)
     const auto json = Json::parse(methods_json(std::vector{made_up()}));
     const Json with_nearest = Json::parse(R"({"verdict": "binary", "compares": "each_tap",
         "rises": "exactly", "largest_fall": null, "curve": "by_formula",
-        "footprint_texels": 1, "reads": "footprint", "map_bytes": 0, "has_map": true})");
+        "footprint_texels": 1, "reads": "footprint", "samples": 1, "map_bytes": 0, "has_map": true})");
     EXPECT_EQ(json[0]["promises"], with_nearest);
     ASSERT_EQ(json[0]["filters"].size(), 2U);
     EXPECT_EQ(json[0]["filters"][0]["promises"], with_nearest);
     EXPECT_EQ(json[0]["filters"][1], Json::parse(R"({"name": "pcf3", "sentence": "nine texels",
         "width_texels": 3, "promises": {"verdict": "fraction", "compares": "none",
         "rises": "up_to_rounding", "largest_fall": 0.125, "curve": "by_bisection",
-        "footprint_texels": 3, "reads": "footprint", "map_bytes": 4096, "has_map": false}})"));
+        "footprint_texels": 3, "reads": "footprint", "samples": 1, "map_bytes": 4096, "has_map": false}})"));
 }
 
 TEST(MethodsJson, TakesUnitsDefaultsAndStagesFromTheKeyTable)

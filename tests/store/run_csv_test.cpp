@@ -28,6 +28,7 @@ using nlohmann::json;
 Comparison example_comparison()
 {
     Comparison comparison;
+    comparison.view.maps.resize(1);
     analysis::Metrics& metrics = comparison.metrics;
     metrics.pixels.total = 1001;
     metrics.pixels.by_class = {11, 12, 13, 14, 15, 403, 307};
