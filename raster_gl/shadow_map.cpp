@@ -229,12 +229,17 @@ const ShadowMap& ShadowMapPass::store(scene::Image<float> depths, bool reversed)
     const int side = settings.resolution_texels;
     allocate(settings, static_cast<std::size_t>(depths.size().height_px / side));
     map_.reversed = reversed;
-    for (std::size_t i = 0; i < map_.depth.layer_count(); ++i) {
-        scene::Image<float> map =
-            map_.depth.layer_count() == 1 ? std::move(depths) : scene::image_of_map(depths, i);
+    const auto store_map = [&](std::size_t i, scene::Image<float> map) {
         flip_rows(map);
         glTextureSubImage2D(map_.depth.layer(i).name(), 0, 0, 0, side, side, GL_DEPTH_COMPONENT,
                             GL_FLOAT, map.data());
+    };
+    if (map_.depth.layer_count() == 1) {
+        store_map(0, std::move(depths));
+    } else {
+        for (std::size_t i = 0; i < map_.depth.layer_count(); ++i) {
+            store_map(i, scene::image_of_map(depths, i));
+        }
     }
     context_.check("storing a shadow map");
     return map_;
