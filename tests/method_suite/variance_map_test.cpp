@@ -154,7 +154,8 @@ TEST(VarianceMap, BoundsTheLightOfATiltedPlaneAsInClosedForm)
             c.give_map(Plane::image());
             const auto lookup = c.look_up();
             const BoundOfPlane bound{kernel, 1e-6};
-            const float reach = static_cast<float>(kernel.width / 2 + 1);
+            const int reach_texels = kernel.width / 2 + 1;
+            const auto reach = static_cast<float>(reach_texels);
             std::size_t fractions = 0;
             for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
                 const scene::Vec2f texel = lookup.texels[i];
@@ -309,8 +310,9 @@ std::vector<float> biases_to_try(const scene::Image<float>& criticals, std::size
     std::ranges::copy_if(criticals, std::back_inserter(finite),
                          [](float critical) { return std::isfinite(critical) && critical != 0; });
     std::vector<float> biases;
-    for (std::size_t i = 0; i < count / 2; ++i) {
-        const double share = static_cast<double>(i + 1) / static_cast<double>(count / 2);
+    const std::size_t half = count / 2;
+    for (std::size_t i = 0; i < half; ++i) {
+        const double share = static_cast<double>(i + 1) / static_cast<double>(half);
         biases.push_back(static_cast<float>(std::pow(1e-7, 1 - share)));
     }
     std::mt19937 random{3};
