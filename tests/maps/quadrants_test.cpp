@@ -165,6 +165,8 @@ TEST_P(SeveralMaps, GiveWhatOneMapOfTheSameGridGives)
 {
     GNOMON_REQUIRE_GL();
     std::size_t compared = 0;
+    std::size_t wrong = 0;
+    std::size_t otherwise_explained = 0;
     std::uint64_t errors = 0;
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const Compared scene{tilted_quadrangles(seed)};
@@ -176,12 +178,21 @@ TEST_P(SeveralMaps, GiveWhatOneMapOfTheSameGridGives)
                 expect_same(both, i);
                 ASSERT_FALSE(HasFatalFailure());
                 ++compared;
+                const auto& expected = both.whole.diagnosis->causes;
+                const auto& found = both.quarters.diagnosis->causes;
+                wrong += expected.cause[i] != analysis::Cause::none ? 1U : 0U;
+                otherwise_explained +=
+                    expected.cause[i] != found.cause[i] || expected.label[i] != found.label[i] ? 1U
+                                                                                               : 0U;
             }
         }
         errors += both.quarters.metrics.false_shadow + both.quarters.metrics.false_lit;
     }
     EXPECT_GT(compared, 20'000U);
     EXPECT_GT(errors, 50U);
+    // Only verdicts within the tolerance of a threshold can have other causes: very few.
+    EXPECT_GT(wrong, 25U);
+    EXPECT_LE(otherwise_explained, wrong / 50) << wrong << " pixels with a cause";
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SeveralMaps, testing::ValuesIn(lookups()), [](const auto& named) {
