@@ -126,7 +126,7 @@ Caption error_caption(const analysis::Metrics& metrics)
     };
     return {
         has_fractions(metrics)
-            ? fmt::format("Errors: {} of pixels, {} by amount", percent(metrics.error_rate),
+            ? fmt::format("Errors: {} wrong, {} by amount", percent(metrics.error_rate),
                           percent(metrics.mean_abs_error))
             : fmt::format("Errors: {} of scored pixels", percent(metrics.error_rate)),
         {{"false shadow", percent(metrics.false_shadow_rate),
