@@ -14,8 +14,9 @@ namespace {
 int texel_coordinate(float x, int resolution)
 {
     const auto limit = static_cast<float>(resolution + 64);
-    const float at_least = x > -limit ? std::floor(x) : -limit; // NaN included
-    return static_cast<int>(std::min(at_least, limit));
+    const float limited = std::min(x > -limit ? x : -limit, limit); // NaN included
+    const auto towards_zero = static_cast<int>(limited);
+    return static_cast<float>(towards_zero) > limited ? towards_zero - 1 : towards_zero;
 }
 
 bool is_on_map(const Texel& texel, int resolution)
@@ -65,15 +66,6 @@ Footprint::LineWeights Footprint::weights(float x) const
         line[i + 1] += weight * upper;
     }
     return line;
-}
-
-Tap Footprint::tap_at(Texel texel, double weight) const
-{
-    if (clamps_) {
-        texel = {std::clamp(texel.x, 0, resolution_ - 1), std::clamp(texel.y, 0, resolution_ - 1),
-                 texel.map};
-    }
-    return {texel, is_on_map(texel, resolution_), weight};
 }
 
 std::size_t Footprint::centre_tap(const MapPoint& point) const

@@ -5,6 +5,7 @@
 #include "scene/light/exact_light.hpp"
 #include "scene/vec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -51,7 +52,7 @@ public:
                 const double weight = interpolates_ ? columns[static_cast<std::size_t>(x)] *
                                                           rows[static_cast<std::size_t>(y)]
                                                     : 1;
-                visit(tap_at({first.x + x, first.y + y, first.map}, weight));
+                visit(tap_at(first.x + x, first.y + y, first.map, weight));
             }
         }
     }
@@ -92,7 +93,15 @@ private:
     /// Of the parts that the kernel around the two nearest texels' centres has in a point between
     /// them; without interpolation they are not read.
     [[nodiscard]] LineWeights weights(float x) const;
-    [[nodiscard]] Tap tap_at(scene::Texel texel, double weight) const;
+    [[nodiscard]] Tap tap_at(int x, int y, int map, double weight) const
+    {
+        if (clamps_) {
+            x = std::clamp(x, 0, resolution_ - 1);
+            y = std::clamp(y, 0, resolution_ - 1);
+        }
+        const bool is_inside = x >= 0 && y >= 0 && x < resolution_ && y < resolution_;
+        return {{x, y, map}, is_inside, weight};
+    }
 
     methods::Kernel kernel_;
     bool interpolates_;
