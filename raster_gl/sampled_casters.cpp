@@ -55,6 +55,7 @@ Texture SampledCasters::make_depths(const scene::ShadowMapSettings& settings, in
                                   settings.resolution_texels, settings.resolution_texels, GL_TRUE);
     context_.check(fmt::format("allocating a {0}×{0} shadow map of {1} samples",
                                settings.resolution_texels, samples));
+    require_format(texture, settings.depth_format);
     GLint given = 0;
     glGetTextureLevelParameteriv(name, 0, GL_TEXTURE_SAMPLES, &given);
     if (given != samples) {

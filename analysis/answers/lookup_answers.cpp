@@ -66,16 +66,6 @@ ExactRun exact_run_of(const scene::Job& job, const scene::View& view, const Rend
     return run;
 }
 
-/// Critical biases that say nothing but whether verdicts are so high: −∞ or +∞.
-scene::Image<float> criticals_of(const scene::Image<float>& verdicts, float lit_from)
-{
-    scene::Image<float> criticals{verdicts.size()};
-    for (std::size_t i = 0; i < verdicts.pixel_count(); ++i) {
-        criticals[i] = verdicts[i] >= lit_from ? -scene::infinity : scene::infinity;
-    }
-    return criticals;
-}
-
 } // namespace
 
 ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
@@ -113,42 +103,6 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
     remove_bias();
     rerun_exactly();
     find_lit_causes(false);
-}
-
-void LookupAnswers::rerun_exactly()
-{
-    if (rule_.promises.has_exact_causes()) {
-        return;
-    }
-    constexpr float partial{partial_above};
-    const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
-    const ExactRun& run = *lookup_.exact_run;
-    const ExactDepths depths = exact_->exact_depths(cause_inputs(), run.places);
-    if (run.find_critical_biases) {
-        auto criticals = run.find_critical_biases(depths, lit_from);
-        exact_reruns_ = {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};
-    } else if (run.look_up) {
-        const scene::Image<float> verdicts = exact_verdicts(depths);
-        exact_reruns_ = {criticals_of(verdicts, lit_from[0]), criticals_of(verdicts, lit_from[1]),
-                         criticals_of(verdicts, lit_from[2])};
-    } else {
-        throw std::invalid_argument(
-            "LookupAnswers: the renderers cannot run the job's method over exact depths");
-    }
-}
-
-scene::Image<float> LookupAnswers::exact_verdicts(const ExactDepths& depths) const
-{
-    const scene::Bias& own = lookup_.view.bias;
-    const std::array<scene::Bias, 2> biases{{{.constant = own.constant, .slope = own.slope}, {}}};
-    const auto with_bias = lookup_.exact_run->look_up(depths, biases);
-    scene::Image<float> verdicts = with_bias[1];
-    for (std::size_t i = 0; i < verdicts.pixel_count(); ++i) {
-        if (classes()[i] == PixelClass::lit) {
-            verdicts[i] = with_bias[0][i];
-        }
-    }
-    return verdicts;
 }
 
 scene::LookupLayers LookupAnswers::make_deciding() const
