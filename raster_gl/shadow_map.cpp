@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -39,15 +40,27 @@ std::uint32_t narrow_code(std::uint32_t widened, double scale)
     return static_cast<std::uint32_t>(std::llround(widened * scale));
 }
 
+/// A texture of floats that is drawn into.
+class FloatTarget {
+public:
+    FloatTarget(int width_px, int height_px) : texture_{make_texture(GL_R32F, width_px, height_px)}
+    {
+        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, texture_.name(), 0);
+    }
+    void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, target_.name()); }
+    [[nodiscard]] const Texture& texture() const { return texture_; }
+
+private:
+    Texture texture_;
+    Framebuffer target_ = make_framebuffer();
+};
+
 /// Copies depths, as shaders see them, into a band of rows.
 class DepthCopy {
 public:
-    DepthCopy(int width_texels, int rows)
-        : copy_{make_texture(GL_R32F, width_texels, rows)},
-          size_{width_texels, rows}
+    DepthCopy(int width_texels, int rows) : band_{width_texels, rows}, size_{width_texels, rows}
     {
-        glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, copy_.name(), 0);
-        glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+        band_.bind();
         glDisable(GL_DEPTH_TEST);
         glDisable(GL_CULL_FACE);
         glUseProgram(program_.name());
@@ -66,13 +79,12 @@ public:
     /// The band, its last row first.
     [[nodiscard]] scene::Image<float> read() const
     {
-        return read_texture<float>(copy_, size_, GL_RED, GL_FLOAT);
+        return read_texture<float>(band_.texture(), size_, GL_RED, GL_FLOAT);
     }
 
 private:
-    Texture copy_;
+    FloatTarget band_;
     scene::ImageSize size_;
-    Framebuffer target_ = make_framebuffer();
     VertexArray no_attributes_ = make_vertex_array();
     Program program_ = make_program({"fullscreen.vert", "map_depths.frag", {}, nullptr});
 };
@@ -108,12 +120,25 @@ public:
     ~DrawnRows() { glDisable(GL_SCISSOR_TEST); }
 };
 
-/// Copies one pixel. Drivers keep a deleted texture until a draw samples another one in its place.
+/// Drivers keep a deleted texture until a draw samples another one in its place. Mesa's software
+/// renderer keeps, too, what a finished draw used, its target and its triangles, until another draw
+/// takes its slot, and looks for a slot from the first on: the later ones are taken only while the
+/// earlier ones' draws are at work.
 void let_go_of_deleted_textures()
 {
+    constexpr int slots = 64; // of Mesa 22 and 25
+    constexpr int side_px = 2048;
     const Texture pixel = make_texture(GL_R32F, 1, 1);
-    const DepthCopy copy{1, 1};
-    copy.draw(pixel, 0, 1);
+    const DepthCopy long_copy{side_px, side_px};
+    std::vector<FloatTarget> targets;
+    for (int i = 1; i < slots; ++i) {
+        targets.emplace_back(1, 1);
+    }
+    long_copy.draw(pixel, 0, side_px);
+    for (const FloatTarget& target : targets) {
+        target.bind();
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
     glFinish();
 }
 

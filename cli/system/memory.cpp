@@ -68,14 +68,16 @@ std::uint64_t resident_bytes()
     return resident_pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// @param is_kept  else only so much as glibc's own limits grow to.
+/// @param is_kept  else images and textures go back as they are freed, and what is small then.
 void keep_freed_memory([[maybe_unused]] bool is_kept)
 {
 #if defined(__GLIBC__)
-    constexpr int most_mappings = 65'536;             // glibc's own
-    constexpr int largest_unmapped = 32 << 20;        // the largest that glibc takes
-    constexpr int trim_threshold = 64 << 20;          // twice that, as glibc has it
-    mallopt(M_MMAP_MAX, is_kept ? 0 : most_mappings); // a mapping goes back when it is freed
+    constexpr int most_mappings = 65'536; // glibc's own
+    // Fixed: else it grows with what is freed, to 32 MiB, and one small block that is allocated
+    // behind images keeps all of them.
+    constexpr int largest_unmapped = 2 << 20;
+    constexpr int trim_threshold = 2 * largest_unmapped; // as glibc has it
+    mallopt(M_MMAP_MAX, is_kept ? 0 : most_mappings);    // a mapping goes back when it is freed
     mallopt(M_MMAP_THRESHOLD, largest_unmapped);
     mallopt(M_TRIM_THRESHOLD, is_kept ? std::numeric_limits<int>::max() : trim_threshold);
     if (!is_kept) {
@@ -96,9 +98,9 @@ FreedMemoryKeeper::~FreedMemoryKeeper()
 void FreedMemoryKeeper::keep(std::uint64_t needed_bytes)
 {
     constexpr auto most_bytes = static_cast<std::uint64_t>(0.6 * gibibyte);
-    if (!keeps_ && resident_bytes() + needed_bytes <= most_bytes) {
-        keep_freed_memory(true);
-        keeps_ = true;
+    if (!keeps_) {
+        keeps_ = resident_bytes() + needed_bytes <= most_bytes;
+        keep_freed_memory(keeps_);
     }
 }
 

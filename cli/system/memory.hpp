@@ -13,9 +13,10 @@ namespace gnomon::cli {
 /// Memory that an image and a shadow map of the job's sizes take, on the GPU and off it [bytes].
 [[nodiscard]] std::uint64_t needed_memory_bytes(const scene::Job& job);
 
-/// Lets memory that is freed stay with the process, for what is allocated next. GL by software
+/// Lets memory that is freed stay with a small process, for what is allocated next. GL by software
 /// makes a texture for every shadow map, and the system clears what it hands out page by page: of a
-/// long sweep that took a tenth. Does nothing where the C library is not glibc.
+/// long sweep that took a tenth. A large process gives back what it frees, also after this. Does
+/// nothing where the C library is not glibc.
 class FreedMemoryKeeper {
 public:
     FreedMemoryKeeper() = default;
@@ -25,7 +26,7 @@ public:
     ~FreedMemoryKeeper();
 
     /// Keeps freed memory from now on if the process will be small: if what it holds and what it
-    /// needs is at most 0.6 GiB together.
+    /// needs is at most 0.6 GiB together. Else gives it back from now on.
     void keep(std::uint64_t needed_bytes);
     /// Gives everything back, and keeps no more, once the process holds more than 1.2 GiB. To be
     /// called now and then.
