@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -96,6 +97,18 @@ void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& conte
     if (largest > 1) {
         glSamplerParameterf(sampler.name(), GL_TEXTURE_MAX_ANISOTROPY,
                             static_cast<float>(anisotropy));
+    }
+}
+
+/// The share that a count of taps has.
+void round_to_taps(scene::Image<scene::LookupSample>& samples, int taps)
+{
+    const auto whole = static_cast<float>(taps);
+    for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
+        float& verdict = samples[i].verdict;
+        if (verdict > 0 && verdict < 1) {
+            verdict = std::round(verdict * whole) / whole;
+        }
     }
 }
 
@@ -208,6 +221,7 @@ void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene
     allocate(view.image, view.maps.size());
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     draw(from, job, view, {.depths = receiver_depths});
+    equal_taps_ = methods::promises(job).equal_taps();
     context_.check("looking up the shadow map");
 }
 
@@ -266,6 +280,7 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     for (const GLuint unit : {3U, 4U, 6U}) {
         glBindSampler(unit, 0);
     }
+    glUseProgram(0); // else drivers hold what is bound next to its samplers, even for a clear
     glFinish();
 }
 
@@ -274,6 +289,9 @@ scene::LookupLayers LookupPass::read() const
     scene::LookupLayers layers{
         read_texture<scene::LookupSample>(samples_, size_, GL_RGBA, GL_FLOAT),
         read_texture<scene::Vec2f>(texels_, size_, GL_RG, GL_FLOAT)};
+    if (equal_taps_ > 1) {
+        round_to_taps(layers.samples, equal_taps_);
+    }
     if (!maps_.empty()) {
         layers.maps = read_texture<std::uint8_t>(maps_, size_, GL_RED_INTEGER, GL_UNSIGNED_BYTE);
     }

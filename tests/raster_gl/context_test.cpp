@@ -66,8 +66,11 @@ TEST(Program, ReportsABadDefinitionInOneLine)
     } catch (const scene::EnvironmentError& error) {
         EXPECT_EQ(std::string{error.what()}.find('\n'), std::string::npos);
     }
-    // The driver reported it as debug output too.
-    EXPECT_THROW(tests::shared_context()->check("compiling"), scene::EnvironmentError);
+    try { // Some drivers report it as debug output, too, which is not the next test's.
+        tests::shared_context()->check("compiling");
+    } catch (const scene::EnvironmentError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("compiling"));
+    }
 }
 
 } // namespace

@@ -44,6 +44,12 @@ bool shader_arithmetic_is_ieee()
     return shared_context()->facts().renderer.find("llvmpipe") != std::string::npos;
 }
 
+scene::RasterModel raster_model()
+{
+    return {.subpixel_bits = shared_context()->facts().subpixel_bits,
+            .interpolates_from_snapped = !shader_arithmetic_is_ieee()};
+}
+
 GlCase::GlCase(const std::string& builtin, const std::vector<scene::Override>& keys)
     : job{scene::builtin_job(builtin, keys).job},
       file{scene::load_scene(job.scene)},

@@ -5,6 +5,7 @@
 #include "raster_gl/lookup.hpp"
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
+#include "scene/depth/driver_bound.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
 
@@ -22,6 +23,10 @@ const std::string& gl_is_missing();
 
 /// Is every float32 operation of this driver's shaders IEEE, division included? Known of llvmpipe.
 bool shader_arithmetic_is_ieee();
+
+/// What the shared driver does, as far as it is known: of llvmpipe, that it interpolates between
+/// corners before they are snapped; of others the worse is assumed.
+scene::RasterModel raster_model();
 
 /// A job resolved against its scene, uploaded, with one of each pass.
 class GlCase {

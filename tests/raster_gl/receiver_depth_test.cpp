@@ -128,7 +128,7 @@ double interpolation_bound(const TriangleFacts& t, const std::array<double, 3>& 
         largest_over_w = std::max(largest_over_w, std::abs(over_w.depth.at(k)));
         largest_one_over_w = std::max(largest_one_over_w, one_over_w.depth.at(k));
     }
-    const scene::RasterModel model{};
+    const scene::RasterModel model = tests::raster_model();
     // 2·u32: reciprocal and product at each corner.
     const double a = scene::driver_depth_bound(over_w, model, 2 * u32 * largest_over_w, centre_px);
     const double b =

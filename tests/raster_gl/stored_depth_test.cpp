@@ -107,7 +107,7 @@ void include(scene::Image<Interval>& bounds, const scene::WindowTriangle& t, dou
                 continue;
             }
             const double bound =
-                scene::driver_depth_bound(t, {.subpixel_bits = 8}, corner_error, centre);
+                scene::driver_depth_bound(t, tests::raster_model(), corner_error, centre);
             Interval& interval = bounds(x, resolution_texels - 1 - y);
             const double z = plane.depth(centre);
             interval.lower = std::min(interval.lower, z - bound);
