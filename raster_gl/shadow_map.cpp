@@ -126,7 +126,7 @@ public:
 /// earlier ones' draws are at work.
 void let_go_of_deleted_textures()
 {
-    constexpr int slots = 64; // of Mesa 22 and 25
+    constexpr int slots = 64; // MAX_SCENES of Mesa's lp_setup_context.h
     constexpr int side_px = 2048;
     const Texture pixel = make_texture(GL_R32F, 1, 1);
     const DepthCopy long_copy{side_px, side_px};

@@ -4,6 +4,8 @@
 #include "raster_gl/program.hpp"
 #include "scene/error.hpp"
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 
 namespace gnomon::raster_gl {
