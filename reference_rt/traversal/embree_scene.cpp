@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <tbb/task_arena.h>
 
 #include <cstring>
 #include <limits>
@@ -281,8 +282,11 @@ void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Rol
 
 const CornerFans& ReferenceScene::Implementation::corner_fans() const
 {
-    std::call_once(corner_fans_made_,
-                   [&] { corner_fans_ = std::make_unique<const CornerFans>(triangles); });
+    // Isolated: a thread that waits for its sort must not take up a task that asks for the fans.
+    std::call_once(corner_fans_made_, [&] {
+        tbb::this_task_arena::isolate(
+            [&] { corner_fans_ = std::make_unique<const CornerFans>(triangles); });
+    });
     return *corner_fans_;
 }
 
