@@ -1,0 +1,72 @@
+#include "reference_rt/traversal/embree_scene.hpp"
+#include "scene/triangles.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <atomic>
+#include <chrono>
+#include <random>
+#include <thread>
+
+namespace gnomon::reference_rt {
+namespace {
+
+/// So many that sorting them takes long; of little else.
+scene::TriangleScene many_vertices()
+{
+    scene::TriangleScene scene;
+    std::minstd_rand random{7};
+    std::uniform_real_distribution<float> place{-1, 1};
+    for (int i = 0; i < 3'000'000; ++i) {
+        scene.vertices.emplace_back(place(random), place(random), place(random));
+    }
+    scene.triangles.push_back({0, 1, 2});
+    scene.objects.push_back({"triangle", 0, 1});
+    return scene;
+}
+
+/// A thread that makes them sorts in parallel, and must not take up a task that asks for them while
+/// it waits for the others' parts: this test would not end. One thread offers such tasks and does
+/// none of them; so many help to sort that some are in the middle when the first has done its part.
+TEST(CornerFans, AreMadeWhileTasksThatAskForThemWait)
+{
+    constexpr int threads = 32;
+    const tbb::global_control at_most{tbb::global_control::max_allowed_parallelism, threads};
+    const scene::TriangleScene vertices = many_vertices();
+    const ReferenceScene reference{vertices};
+    std::atomic<bool> are_made = false;
+    std::atomic<int> asked = 0;
+    const auto ask = [&] {
+        (void)reference.implementation().corner_fans();
+        ++asked;
+    };
+    const auto offer = [&] {
+        tbb::task_group offered;
+        for (int i = 0; i < 64; ++i) {
+            offered.run(ask);
+        }
+        while (!are_made) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        }
+        offered.wait();
+    };
+    tbb::task_arena arena{threads};
+    arena.execute([&] {
+        tbb::task_group group;
+        group.run([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds{60});
+            offer();
+        });
+        std::this_thread::sleep_for(std::chrono::milliseconds{10}); // another thread takes that up
+        ask();
+        are_made = true;
+        group.wait();
+    });
+    EXPECT_EQ(asked, 65);
+}
+
+} // namespace
+} // namespace gnomon::reference_rt
