@@ -25,8 +25,8 @@ constexpr double rounding = 0x1p-25 + 4 * 0x1p-24;
 /// by the part of texels that the picture's border cuts.
 constexpr double phase_sampling = 0.005;
 
-/// What a driver that interpolates between snapped corners adds to a plane's depths: those of half
-/// a step of its grid along both axes.
+/// What a driver that interpolates between snapped corners adds to the difference of receiver and
+/// tap: of each the depth of half a step of its grid along both axes.
 double snapping(double depth_per_texel)
 {
     const scene::RasterModel model = raster_model();
@@ -167,12 +167,11 @@ void expect_linear_ends_at_rounding(const TiltedPlaneSetting& setting, const Com
 {
     SCOPED_TRACE(text(setting));
     const auto result = compared(job_of(setting, Filter::linear, 0));
-    // Where GL interpolates with 8 bits of fraction, the depth is off by 1/512 of a texel's.
-    const double weights =
-        shader_arithmetic_is_ieee()
-            ? 0.0
-            : std::ldexp(4 * half_texel_slope(setting, result.view.first_map()), -9);
-    EXPECT_LE(double{result.diagnosis->biases->bounds.strict.acne_free}, 4 * rounding + weights);
+    // GL's weights have at least 8 bits of fraction: rounded, the place is off by 1/512 of a texel.
+    const double per_texel = 2 * half_texel_slope(setting, result.view.first_map());
+    const double weights = shader_arithmetic_is_ieee() ? 0.0 : std::ldexp(per_texel, -9);
+    EXPECT_LE(double{result.diagnosis->biases->bounds.strict.acne_free},
+              4 * rounding + weights + snapping(per_texel));
 }
 
 void expect_hardware(const TiltedPlaneSetting& setting, const Compared& compared)

@@ -97,7 +97,8 @@ TEST(Samples, OfATexelThatAnEdgeCrossesAreCoveredWhereTheyLieBeforeIt)
     }
 }
 
-/// What rays through a place and half a step of GL's grid around it find.
+/// What rays through a place find, and where the driver interpolates between snapped corners, those
+/// half a step of its grid around it.
 struct DepthsAround {
     std::vector<float> lowest;
     std::vector<float> highest;
@@ -105,9 +106,13 @@ struct DepthsAround {
 DepthsAround depths_around(const scene::ExactLight& light, const std::vector<scene::Texel>& texels,
                            const Vec2d& place)
 {
-    const double half_step = std::ldexp(0.5, -shared_context()->facts().subpixel_bits);
+    const scene::RasterModel model = raster_model();
+    const double half_step = std::ldexp(0.5, -model.subpixel_bits);
     DepthsAround found{light.texel_depths(texels, place), {}};
     found.highest = found.lowest;
+    if (!model.interpolates_from_snapped) {
+        return found;
+    }
     for (const double dx : {-half_step, half_step}) {
         for (const double dy : {-half_step, half_step}) {
             const auto depths = light.texel_depths(texels, place + Vec2d{dx, dy});
@@ -120,9 +125,7 @@ DepthsAround depths_around(const scene::ExactLight& light, const std::vector<sce
     return found;
 }
 
-/// GL rounds vertices to its grid, and may interpolate between the rounded ones: each depth is that
-/// of a place within half a step, but at edges of triangles, whose neighbours are shifted
-/// otherwise: few.
+/// GL rounds vertices to its grid, so that samples next to an edge may be on its other side: few.
 TEST(Samples, HaveTheDepthsThatExactRaysThroughTheirPlacesFind)
 {
     GNOMON_REQUIRE_SAMPLES();

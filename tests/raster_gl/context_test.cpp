@@ -4,6 +4,7 @@
 #include "raster_gl/program.hpp"
 #include "scene/error.hpp"
 
+#include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -68,11 +69,21 @@ TEST(Program, ReportsABadDefinitionInOneLine)
     } catch (const scene::EnvironmentError& error) {
         EXPECT_EQ(std::string{error.what()}.find('\n'), std::string::npos);
     }
-    try { // Some drivers report it as debug output, too, which is not the next test's.
+    // Mesa reports it as debug output, too, which is not the next test's; NVIDIA's driver does not.
+    try {
         tests::shared_context()->check("compiling");
+        EXPECT_FALSE(tests::is_mesa());
     } catch (const scene::EnvironmentError& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("compiling"));
     }
+}
+
+TEST(Context, ReportsWhatGlReportsOnce)
+{
+    GNOMON_REQUIRE_GL();
+    glEnable(GL_TEXTURE_2D_ARRAY); // no such capability
+    EXPECT_THROW(tests::shared_context()->check("enabling"), scene::EnvironmentError);
+    EXPECT_NO_THROW(tests::shared_context()->check("nothing"));
 }
 
 } // namespace

@@ -44,6 +44,11 @@ bool shader_arithmetic_is_ieee()
     return shared_context()->facts().renderer.find("llvmpipe") != std::string::npos;
 }
 
+bool is_mesa()
+{
+    return shared_context()->facts().version.find("Mesa") != std::string::npos;
+}
+
 scene::RasterModel raster_model()
 {
     return {.subpixel_bits = shared_context()->facts().subpixel_bits,

@@ -24,6 +24,9 @@ const std::string& gl_is_missing();
 /// Is every float32 operation of this driver's shaders IEEE, division included? Known of llvmpipe.
 bool shader_arithmetic_is_ieee();
 
+/// Does Mesa drive the shared context?
+bool is_mesa();
+
 /// What the shared driver does, as far as it is known: of llvmpipe, that it interpolates between
 /// corners before they are snapped; of others the worse is assumed.
 scene::RasterModel raster_model();
