@@ -68,7 +68,8 @@ std::uint64_t resident_bytes()
     return resident_pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// @param is_kept  else images and textures go back as they are freed, and what is small then.
+/// @param is_kept  else images and textures go back as they are freed, and the rest of what is free
+///                 goes back now.
 void keep_freed_memory([[maybe_unused]] bool is_kept)
 {
 #if defined(__GLIBC__)
