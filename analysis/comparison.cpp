@@ -117,9 +117,9 @@ Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
 {
     require_renderers(renderers);
     Comparison comparison;
-    comparison.job = job;
-    methods::check(job);
-    comparison.view = scene::resolve_view(job, file.scene, file.defaults);
+    comparison.job = scene::with_layout(job, file.defaults);
+    methods::check(comparison.job);
+    comparison.view = scene::resolve_view(comparison.job, file.scene, file.defaults);
     comparison.scene = std::move(summary);
     comparison.scene.notes =
         scene::scene_notes(file.scene, file.defaults, scene::left_to_file(job));

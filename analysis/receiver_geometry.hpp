@@ -27,7 +27,7 @@ public:
     /// Light distance of P [m].
     [[nodiscard]] double light_distance_m(std::size_t pixel) const
     {
-        return view_.first_map().light_distance_m(point(pixel));
+        return view_.light_distance_m(point(pixel));
     }
     /// Width of the pixel at P, across the view [m].
     [[nodiscard]] double footprint_m(std::size_t pixel) const;

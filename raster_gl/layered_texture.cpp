@@ -19,13 +19,18 @@ Texture make_array(GLenum internal_format, int side_texels, std::size_t layers, 
     return Texture{name};
 }
 
-/// The first level of a layer.
-Texture view_of_layer(const Texture& all, GLenum internal_format, std::size_t layer)
+struct Layers {
+    std::size_t first;
+    std::size_t count;
+};
+
+/// The first level of layers, as a texture of another kind.
+Texture view_of(const Texture& all, GLenum kind, GLenum internal_format, const Layers& layers)
 {
     GLuint name = 0;
     glGenTextures(1, &name);
-    glTextureView(name, GL_TEXTURE_2D, all.name(), internal_format, 0, 1,
-                  static_cast<GLuint>(layer), 1);
+    glTextureView(name, kind, all.name(), internal_format, 0, 1, static_cast<GLuint>(layers.first),
+                  static_cast<GLuint>(layers.count));
     sample_nearest(name);
     return Texture{name};
 }
@@ -34,6 +39,7 @@ Texture view_of_layer(const Texture& all, GLenum internal_format, std::size_t la
 
 LayeredTexture::LayeredTexture(GLenum internal_format, int side_texels, std::size_t layers,
                                int levels)
+    : internal_format_{internal_format}
 {
     if (layers == 1) {
         all_ = make_texture(internal_format, side_texels, side_texels, levels);
@@ -41,8 +47,13 @@ LayeredTexture::LayeredTexture(GLenum internal_format, int side_texels, std::siz
     }
     all_ = make_array(internal_format, side_texels, layers, levels);
     for (std::size_t i = 0; i < layers; ++i) {
-        layers_.push_back(view_of_layer(all_, internal_format, i));
+        layers_.push_back(view_of(all_, GL_TEXTURE_2D, internal_format, {i, 1}));
     }
+}
+
+Texture LayeredTexture::cube_view() const
+{
+    return view_of(all_, GL_TEXTURE_CUBE_MAP, internal_format_, {0, layers_.size()});
 }
 
 } // namespace gnomon::raster_gl

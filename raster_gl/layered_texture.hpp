@@ -26,9 +26,14 @@ public:
         return is_array() ? layers_.at(i) : all_;
     }
 
+    /// The same six layers as a cube map, sampled across its seams where that is enabled; it must
+    /// not outlive this.
+    [[nodiscard]] Texture cube_view() const;
+
 private:
     [[nodiscard]] bool is_array() const { return !layers_.empty(); }
 
+    GLenum internal_format_ = 0;
     Texture all_;
     std::vector<Texture> layers_; ///< views of it; none of one layer
 };

@@ -4,8 +4,11 @@
 #include "raster_gl/pieces.hpp"
 #include "raster_gl/readback.hpp"
 #include "scene/error.hpp"
+#include "scene/light/cube_faces.hpp"
+#include "scene/light/depth_range.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include <array>
@@ -24,11 +27,11 @@ const char* flag(bool on)
     return on ? "1" : "0";
 }
 
-/// Towards a directional light, or a spot's position.
+/// Where the light is, or towards a directional one.
 scene::Vec3f light_uniform(const scene::Light& light)
 {
-    return light.type == scene::LightType::spot ? scene::Vec3f{light.position}
-                                                : scene::Vec3f{-glm::normalize(light.direction)};
+    return light.has_position() ? scene::Vec3f{light.position}
+                                : scene::Vec3f{-glm::normalize(light.direction)};
 }
 
 /// A texel outside the map is as far as can be where it shall count as lit, else as near.
@@ -58,6 +61,16 @@ std::vector<scene::Mat4f> matrices_of(const scene::View& view)
     return matrices;
 }
 
+bool is_position_of_pixel(const scene::Job& job)
+{
+    return scene::lookup_position(job) == scene::LookupPosition::pixel;
+}
+
+bool is_cube(const scene::View& view)
+{
+    return view.map_choice == scene::MapChoice::cube_face;
+}
+
 void require_maps(const ShadowMap& map, const scene::Job& job, const scene::View& view)
 {
     for (const scene::LightFrustum& frustum : view.maps) {
@@ -69,9 +82,25 @@ void require_maps(const ShadowMap& map, const scene::Job& job, const scene::View
     if (map.depth.layer_count() != view.maps.size()) {
         throw std::invalid_argument("LookupPass: other maps were drawn than the view has");
     }
-    if (view.maps.size() > 1 && job.lookup.position != scene::LookupPosition::pixel) {
+    if (view.maps.size() > 1 && !is_position_of_pixel(job)) {
         throw std::invalid_argument("LookupPass: several maps are looked up from pixels alone");
     }
+}
+
+std::string face_table(std::string_view name, scene::WorldAxis scene::CubeFace::*axis)
+{
+    std::vector<std::string> vectors;
+    for (const scene::CubeFace& face : scene::cube_faces) {
+        vectors.push_back(fmt::format("ivec3({})", fmt::join(face.*axis, ", ")));
+    }
+    return fmt::format("const ivec3 {}[6] = ivec3[6]({});\n", name, fmt::join(vectors, ", "));
+}
+
+std::string face_tables()
+{
+    return face_table("face_forward", &scene::CubeFace::forward) +
+           face_table("face_right", &scene::CubeFace::right) +
+           face_table("face_up", &scene::CubeFace::up);
 }
 
 /// Source of the choice among a light's maps; nothing where there is but one.
@@ -80,9 +109,14 @@ std::string map_choice(const scene::View& view)
     if (view.maps.size() == 1) {
         return {};
     }
+    const auto source = [](std::string_view name) {
+        return fmt::format("#line 1 3\n{}", shader_source(name));
+    };
     switch (view.map_choice) {
     case scene::MapChoice::containing:
-        return fmt::format("#line 1 3\n{}", shader_source("map_choice.glsl"));
+        return source("map_choice.glsl");
+    case scene::MapChoice::cube_face:
+        return face_tables() + source("cube_faces.glsl");
     }
     return {};
 }
@@ -121,6 +155,7 @@ LookupPass::LookupPass(const Context& context)
       compare_sampler_{make_sampler()},
       filtered_sampler_{make_sampler()}
 {
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     context.check("preparing the lookup");
 }
 
@@ -138,8 +173,9 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"OUTSIDE_CLAMP", flag(settings.outside == Outside::clamp)},
         {"OUTSIDE_VERDICT", settings.outside == Outside::shadowed ? "0.0" : "1.0"},
         {"REVERSED", flag(from.map.reversed)},
-        {"SPOT", flag(view.light.type == scene::LightType::spot)},
-        {"POSITION_OF_PIXEL", flag(settings.position == scene::LookupPosition::pixel)},
+        {"POSITIONAL", flag(view.light.has_position())},
+        {"CUBE", flag(is_cube(view))},
+        {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
         {"BISECTS", flag(computes.critical_bias)},
         {"GRADIENTS", flag(pieces.passes.has_gradients())},
         {"DEPTH_IS_GIVEN", flag(computes.depths != nullptr)},
@@ -178,6 +214,16 @@ void LookupPass::allocate(scene::ImageSize size, std::size_t maps)
     glNamedFramebufferDrawBuffers(target_.name(), has_maps ? 3 : 2, outputs.data());
     context_.check(fmt::format("allocating a {}×{} lookup", size.width_px, size.height_px));
     size_ = size;
+}
+
+void LookupPass::bind_cube(const Texture& faces, const methods::Passes& passes) const
+{
+    if (passes.sampling == Sampling::compared) {
+        glBindTextureUnit(4, faces.name());
+    } else {
+        glBindTextureUnit(8, faces.name());
+        glBindSampler(8, map_sampler_.name());
+    }
 }
 
 void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
@@ -269,6 +315,16 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
                                        from.receivers.world_position.name()};
     glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
     bind_map(from, passes, job.lookup.outside);
+    Texture faces;
+    if (is_cube(view)) {
+        const scene::Vec2d row = clip_depth_row(view.first_map().depth_range());
+        set_uniform(lookup, "clip_depth_row",
+                    std::array{static_cast<float>(row.x), static_cast<float>(row.y)});
+        if (passes.sampling != Sampling::fetched) {
+            faces = from.map.depth.cube_view();
+            bind_cube(faces, passes);
+        }
+    }
     Texture depths;
     if (computes.depths != nullptr) {
         depths = upload(*computes.depths);
@@ -277,7 +333,7 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     glBindVertexArray(no_attributes_.name());
     glUseProgram(lookup.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    for (const GLuint unit : {3U, 4U, 6U}) {
+    for (const GLuint unit : {3U, 4U, 6U, 8U}) {
         glBindSampler(unit, 0);
     }
     glUseProgram(0); // else drivers hold what is bound next to its samplers, even for a clear

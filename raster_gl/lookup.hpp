@@ -92,6 +92,8 @@ private:
               const Computes& computes);
     void bind_map(const LookedUp& from, const methods::Passes& passes,
                   scene::Outside outside) const;
+    /// @param faces  of a cube, as a cube map: what GL filters.
+    void bind_cube(const Texture& faces, const methods::Passes& passes) const;
 
     const Context& context_;
     std::map<std::string, Program> programs_;

@@ -51,9 +51,9 @@ void note_light(Notes& notes, std::uint64_t lights, const SceneDefaults& default
 {
     if (!defaults.light) {
         note(notes, "unused_lights", lights,
-             fmt::format("{} of the file cannot be used (point lights, and spots of 180 degrees "
-                         "and more, have no single shadow map): the default sun shines instead; "
-                         "give a light under [light]",
+             fmt::format("{} of the file cannot be used (spots of 180 degrees and more have no "
+                         "shadow map, and areas are no lights here): the default sun shines "
+                         "instead; give a light under [light]",
                          counted(lights, "light")));
         return;
     }

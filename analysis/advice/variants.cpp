@@ -95,7 +95,8 @@ void add_finer_maps(Variants& variants)
         variants.add({fmt::format("shadow_map.resolution = {}", resolution)},
                      [resolution](Job& job) { job.shadow_map.resolution_texels = resolution; });
     }
-    if (is_coarse && variants.job().shadow_map.frustum.fit == scene::Fit::scene) {
+    const bool can_fit = scene::map_layout(variants.job()) == scene::MapLayout::single;
+    if (is_coarse && can_fit && variants.job().shadow_map.frustum.fit == scene::Fit::scene) {
         variants.add({"shadow_map." + fit_setting(scene::Fit::scene, scene::Fit::camera)},
                      [](Job& job) { job.shadow_map.frustum.fit = scene::Fit::camera; });
     }

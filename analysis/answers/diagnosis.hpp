@@ -28,8 +28,9 @@ struct Diagnosis {
     std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below
     std::vector<ErrorBin> by_angle;
     std::vector<ObjectErrors> by_object;
-    std::vector<ErrorCell> cells; ///< by object and light distance; empty: too many
-    CurveResult curve;            ///< what a sweep keeps of it; without its id
+    std::vector<MapErrors> by_map; ///< of several maps, in their order
+    std::vector<ErrorCell> cells;  ///< by object and light distance; empty: too many
+    CurveResult curve;             ///< what a sweep keeps of it; without its id
 };
 
 /// What becomes of a shadow map when its lookup is diagnosed.

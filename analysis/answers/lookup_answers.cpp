@@ -276,6 +276,8 @@ void LookupAnswers::break_down(const scene::LookupLayers& own, int verdict_taps,
     diagnosis.by_angle = errors_by_bin(bin_by_angle(classes(), own), inputs);
     diagnosis.by_object = errors_by_object(classes(), own, exact_->receivers().receivers().triangle,
                                            exact_->triangles(), verdict_taps);
+    diagnosis.by_map = errors_by_map({classes(), own, lookup_.layers.maps, lookup_.view.maps.size(),
+                                      diagnosis.causes, verdict_taps});
 }
 
 CauseLayers LookupAnswers::causes_of(const scene::LookupLayers& own, float constant, float slope)

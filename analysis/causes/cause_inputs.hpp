@@ -39,7 +39,7 @@ struct CauseInputs {
 
     [[nodiscard]] Footprint footprint() const
     {
-        return {rule.promises, rule.outside, resolution_texels};
+        return {rule.promises, rule.edge(), resolution_texels};
     }
     /// The depth that GL stored in a texel that the pixel's lookup reads.
     /// @param layers  the lookup: `job` or `unbiased`.

@@ -11,11 +11,12 @@ namespace gnomon::analysis {
 namespace {
 
 /// The rows that the pixels' taps are in; at least one.
-scene::TexelRows rows_of(const scene::Job& job, const scene::LookupLayers& lookup,
-                         std::span<const std::size_t> pixels)
+scene::TexelRows rows_of(const scene::Job& job, const scene::View& view,
+                         const scene::LookupLayers& lookup, std::span<const std::size_t> pixels)
 {
     const int resolution = job.shadow_map.resolution_texels;
-    const Footprint footprint{methods::promises(job), job.lookup.outside, resolution};
+    const LookupRule rule = lookup_rule(job, view);
+    const Footprint footprint{rule.promises, rule.edge(), resolution};
     int first = resolution - 1;
     int last = 0;
     for (const std::size_t pixel : pixels) {
@@ -52,7 +53,7 @@ FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
     const methods::Promises promised = methods::promises(job);
     if (can_derive_unbiased(job, view) && !promised.interpolates()) {
         // Where the receivers are in the map does not depend on its format.
-        return {{}, renderers.read_float_depths(job, view, rows_of(job, lookup, pixels))};
+        return {{}, renderers.read_float_depths(job, view, rows_of(job, view, lookup, pixels))};
     }
     const scene::Job floats = with_floats(job);
     const scene::View unbiased = with_biases(view, 0, 0);

@@ -54,9 +54,11 @@ Image<Vec3f> seen_sides(const Case& subject, const CheckedCase& checked)
 }
 
 /// The lookup as far as the case tells it.
-scene::LookupLayers lookup_of(const scene::CaseLayers& layers)
+/// @param has_maps  the light has several.
+scene::LookupLayers lookup_of(const scene::CaseLayers& layers, bool has_maps)
 {
-    scene::LookupLayers lookup{Image<scene::LookupSample>{layers.size()}, layers.texels};
+    scene::LookupLayers lookup{Image<scene::LookupSample>{layers.size()}, layers.texels,
+                               has_maps ? layers.maps : scene::MapIndices{}};
     for (std::size_t i = 0; i < lookup.samples.pixel_count(); ++i) {
         scene::LookupSample& sample = lookup.samples[i];
         sample.verdict = layers.mask[i];
@@ -127,10 +129,6 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
     const auto cannot = [&](std::string needs) {
         evaluation.cannot_know.push_back({"causes, labels, bias curve", std::move(needs)});
     };
-    if (comparison.view.light.type == scene::LightType::point) {
-        cannot("a directional or spot light: a point light's shadow map is not understood");
-        return;
-    }
     const auto missing = missing_for_causes(subject.file, subject.layers);
     if (!missing.empty()) {
         cannot(listed(missing));
@@ -270,7 +268,7 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.scene.notes = scene::scene_notes(subject.mesh, {}, {}); // the case has its own light
     result.triangles = &subject.mesh;
     result.receivers.triangle = checked.truth.triangle;
-    result.lookup = lookup_of(subject.layers);
+    result.lookup = lookup_of(subject.layers, result.view.maps.size() > 1);
     result.truth = checked.truth.truth;
     result.truth_method = "exact for all positions that round to P";
     result.environment = {subject.file.renderer, std::string{Environment::other_renderer},

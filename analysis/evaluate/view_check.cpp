@@ -77,6 +77,15 @@ double median_off_ray(const View& view, const scene::CaseLayers& layers, bool ro
     return *middle;
 }
 
+bool is_cube(const scene::CaseFile& file)
+{
+    return std::ranges::any_of(file.source.file, [](const scene::Setting& setting) {
+        const auto* word = std::get_if<std::string>(&setting.value);
+        return setting.spec->key.name == "light.type" && word != nullptr &&
+               *word == scene::light_type_name(scene::LightType::point);
+    });
+}
+
 std::vector<std::string> missing_layers(const scene::CaseFile& file,
                                         const scene::CaseLayers& layers)
 {
@@ -89,6 +98,7 @@ std::vector<std::string> missing_layers(const scene::CaseFile& file,
     need(!layers.z_light.empty(), "z.light");
     need(!layers.z_map.empty(), "z.map");
     need(!layers.texels.empty(), "texel.X and texel.Y");
+    need(!layers.maps.empty() || !is_cube(file), "map_index");
     const bool has_filter = std::ranges::any_of(file.source.file, [](const scene::Setting& key) {
         const auto* word = std::get_if<std::string>(&key.value);
         return key.spec->key.name == "lookup.filter" && word != nullptr && *word != "nearest";
@@ -106,7 +116,8 @@ std::vector<std::string> missing_for_causes(const scene::CaseFile& file,
     for (const std::string_view key :
          {"camera.target", "shadow_map.resolution", "shadow_map.depth_format", "shadow_map.fit",
           "shadow_map.near", "shadow_map.far", "lookup.filter", "lookup.outside"}) {
-        if (!file.says(key)) {
+        const bool is_needed = key != "shadow_map.fit" || !is_cube(file);
+        if (is_needed && !file.says(key)) {
             missing.emplace_back(key);
         }
     }
@@ -128,6 +139,14 @@ std::string find_disagreement(const View& view, const scene::CaseLayers& layers,
 {
     // Depths of float32 matrices and positions; what another projection or range gives is far off.
     constexpr double depth_tolerance = 1e-4;
+    const scene::MapIndices& maps =
+        layers.unmoved.samples.empty() ? layers.maps : layers.unmoved.maps;
+    if (view.maps.size() > 1 && (maps.empty() || std::ranges::max(maps) >= view.maps.size())) {
+        return fmt::format(
+            "unmoved.map_index, or without it map_index, from 0 to {}: of the cube's "
+            "faces +x −x +y −y +z −z",
+            view.maps.size() - 1);
+    }
     const ReceiverGeometry geometry{triangles, view, receivers};
     std::vector<double> lengths_m;
     std::vector<double> depths;
@@ -142,7 +161,8 @@ std::string find_disagreement(const View& view, const scene::CaseLayers& layers,
         const double r{layers.unmoved.samples.empty() ? layers.z_light[i]
                                                       : layers.unmoved.samples[i].receiver_depth};
         if (r > 0 && r < 1) {
-            depths.push_back(std::abs(depth_of(view.first_map(), point) - r));
+            const std::size_t map = view.maps.size() > 1 ? maps[i] : 0;
+            depths.push_back(std::abs(depth_of(view.maps[map], point) - r));
         }
     }
     if (!lengths_m.empty()) {

@@ -78,7 +78,7 @@ private:
     }
     [[nodiscard]] NearestQuery query(std::size_t lookup, std::size_t tap) const
     {
-        return {lookups_.pixel(lookup), exact_tap(lookup, tap)};
+        return {lookups_.pixel(lookup), exact_tap(lookup, tap), lookups_.first_tap(lookup).map};
     }
     [[nodiscard]] ExactTap exact_tap(std::size_t lookup, std::size_t tap) const
     {

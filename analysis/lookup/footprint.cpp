@@ -1,5 +1,7 @@
 #include "analysis/lookup/footprint.hpp"
 
+#include "scene/cube_texels.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,11 +19,6 @@ int texel_coordinate(float x, int resolution)
     const float limited = std::min(x > -limit ? x : -limit, limit); // NaN included
     const auto towards_zero = static_cast<int>(limited);
     return static_cast<float>(towards_zero) > limited ? towards_zero - 1 : towards_zero;
-}
-
-bool is_on_map(const Texel& texel, int resolution)
-{
-    return texel.x >= 0 && texel.y >= 0 && texel.x < resolution && texel.y < resolution;
 }
 
 } // namespace
@@ -68,6 +65,31 @@ Footprint::LineWeights Footprint::weights(float x) const
     return line;
 }
 
+double Footprint::missing_weight(const Texel& first, const LineWeights& columns,
+                                 const LineWeights& rows) const
+{
+    if (edge_ != MapEdge::seam || width_ != 2) {
+        return 0;
+    }
+    for (int y = 0; y < 2; ++y) {
+        for (int x = 0; x < 2; ++x) {
+            if (is_missing(first.x + x, first.y + y)) {
+                return columns[static_cast<std::size_t>(x)] * rows[static_cast<std::size_t>(y)];
+            }
+        }
+    }
+    return 0;
+}
+
+Texel Footprint::texel_beyond(const Texel& texel) const
+{
+    if (edge_ == MapEdge::seam) {
+        return scene::texel_across_seams(texel, resolution_);
+    }
+    return {std::clamp(texel.x, 0, resolution_ - 1), std::clamp(texel.y, 0, resolution_ - 1),
+            texel.map};
+}
+
 std::size_t Footprint::centre_tap(const MapPoint& point) const
 {
     const Texel first = first_tap(point);
@@ -83,8 +105,7 @@ std::optional<Texel> Footprint::first_if_on_map(const MapPoint& point) const
 {
     const Texel first = first_tap(point);
     const Texel last{first.x + width_ - 1, first.y + width_ - 1, first.map};
-    return is_on_map(first, resolution_) && is_on_map(last, resolution_) ? std::optional{first}
-                                                                         : std::nullopt;
+    return is_on_map(first) && is_on_map(last) ? std::optional{first} : std::nullopt;
 }
 
 std::vector<Texel> Footprint::ring(const MapPoint& point) const
@@ -95,8 +116,13 @@ std::vector<Texel> Footprint::ring(const MapPoint& point) const
         for (int x = -1; x <= width_; ++x) {
             const bool is_tap = x >= 0 && y >= 0 && x < width_ && y < width_;
             const Texel texel{first.x + x, first.y + y, first.map};
-            if (!is_tap && is_on_map(texel, resolution_)) {
+            if (is_tap) {
+                continue;
+            }
+            if (is_on_map(texel)) {
                 texels.push_back(texel);
+            } else if (edge_ == MapEdge::seam) {
+                texels.push_back(texel_beyond(texel));
             }
         }
     }
@@ -106,8 +132,8 @@ std::vector<Texel> Footprint::ring(const MapPoint& point) const
 bool Footprint::is_inside(const MapPoint& point) const
 {
     const auto resolution = static_cast<float>(resolution_);
-    return point.texel.x >= 0 && point.texel.y >= 0 && point.texel.x < resolution &&
-           point.texel.y < resolution;
+    return edge_ == MapEdge::seam || (point.texel.x >= 0 && point.texel.y >= 0 &&
+                                      point.texel.x < resolution && point.texel.y < resolution);
 }
 
 } // namespace gnomon::analysis

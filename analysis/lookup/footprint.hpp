@@ -21,17 +21,32 @@ struct Tap {
     double weight = 1;     ///< exact: sums of a lookup's weights do not round
 };
 
+/// What a tap beyond a map's sides reads.
+enum class MapEdge : std::uint8_t {
+    border, ///< no texel: the border mode decides
+    clamp,  ///< the nearest texel on the map
+    seam,   ///< the neighbouring map's (`scene::texel_across_seams`)
+};
+/// @param has_seams  The light's maps are the faces of a cube.
+[[nodiscard]] constexpr MapEdge map_edge(scene::Outside outside, bool has_seams)
+{
+    if (has_seams) {
+        return MapEdge::seam;
+    }
+    return outside == scene::Outside::clamp ? MapEdge::clamp : MapEdge::border;
+}
+
 /// Some of a lookup's taps, in the order of its footprint.
 using TapSet = std::bitset<methods::most_taps>;
 
-/// Which texels a lookup reads around a point of a map, exactly as the method does: all of that
-/// map.
+/// Which texels a lookup reads around a point of a map, exactly as the method does: of that map, or
+/// beyond its seams of its neighbours.
 class Footprint {
 public:
-    Footprint(const methods::Promises& promises, scene::Outside outside, int resolution_texels)
+    Footprint(const methods::Promises& promises, MapEdge edge, int resolution_texels)
         : kernel_{promises.kernel},
           interpolates_{promises.interpolates()},
-          clamps_{outside == scene::Outside::clamp},
+          edge_{edge},
           width_{promises.width_texels},
           resolution_{resolution_texels}
     {
@@ -40,19 +55,25 @@ public:
     /// Calls `visit(tap)` for the taps of a lookup at the point, row by row from the lower left.
     ///
     /// Equal weights are 1 each. Those that interpolate are from fract(uv·resolution − ½) in
-    /// float32, and 1 in all; with a kernel, whose means are interpolated, up to its rounding.
+    /// float32, and 1 in all; with a kernel, whose means are interpolated, up to its rounding. At a
+    /// cube's corner, where three texels meet, a fourth that would interpolate has weight 0, and
+    /// the three share what it had, as GL recommends.
     template <typename Visit>
     void visit_taps(const scene::MapPoint& point, const Visit& visit) const
     {
         const scene::Texel first = first_tap(point);
         const LineWeights columns = weights(point.texel.x);
         const LineWeights rows = weights(point.texel.y);
+        const double missing = interpolates_ ? missing_weight(first, columns, rows) : 0;
         for (int y = 0; y < width_; ++y) {
             for (int x = 0; x < width_; ++x) {
-                const double weight = interpolates_ ? columns[static_cast<std::size_t>(x)] *
-                                                          rows[static_cast<std::size_t>(y)]
-                                                    : 1;
-                visit(tap_at(first.x + x, first.y + y, first.map, weight));
+                double weight = interpolates_ ? columns[static_cast<std::size_t>(x)] *
+                                                    rows[static_cast<std::size_t>(y)]
+                                              : 1;
+                if (missing > 0) {
+                    weight = is_missing(first.x + x, first.y + y) ? 0 : weight + missing / 3;
+                }
+                visit(tap_at({first.x + x, first.y + y, first.map}, weight));
             }
         }
     }
@@ -78,10 +99,10 @@ public:
     /// else empty.
     [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::MapPoint& point) const;
 
-    /// The texels of the map around the taps: the 4K + 4 around K × K; fewer at the map's border.
+    /// The texels around the taps: the 4K + 4 around K × K; fewer at a map's border.
     [[nodiscard]] std::vector<scene::Texel> ring(const scene::MapPoint& point) const;
 
-    /// True when the point lies on the map.
+    /// True when the point lies on the map; a cube's faces leave nothing out.
     [[nodiscard]] bool is_inside(const scene::MapPoint& point) const;
 
 private:
@@ -93,19 +114,33 @@ private:
     /// Of the parts that the kernel around the two nearest texels' centres has in a point between
     /// them; without interpolation they are not read.
     [[nodiscard]] LineWeights weights(float x) const;
-    [[nodiscard]] Tap tap_at(int x, int y, int map, double weight) const
+    /// Weight of the tap of a 2 × 2 footprint that a cube's corner has no texel for; else 0.
+    [[nodiscard]] double missing_weight(const scene::Texel& first, const LineWeights& columns,
+                                        const LineWeights& rows) const;
+    /// Whether there is no texel: beyond two sides of a cube's face.
+    [[nodiscard]] bool is_missing(int x, int y) const
     {
-        if (clamps_) {
-            x = std::clamp(x, 0, resolution_ - 1);
-            y = std::clamp(y, 0, resolution_ - 1);
-        }
-        const bool is_inside = x >= 0 && y >= 0 && x < resolution_ && y < resolution_;
-        return {{x, y, map}, is_inside, weight};
+        return (x < 0 || x >= resolution_) && (y < 0 || y >= resolution_);
     }
+    [[nodiscard]] bool is_on_map(const scene::Texel& texel) const
+    {
+        return texel.x >= 0 && texel.y >= 0 && texel.x < resolution_ && texel.y < resolution_;
+    }
+    /// @param texel  before any clamping.
+    [[nodiscard]] Tap tap_at(scene::Texel texel, double weight) const
+    {
+        if (is_on_map(texel)) {
+            return {texel, true, weight};
+        }
+        return edge_ == MapEdge::border ? Tap{texel, false, weight}
+                                        : Tap{texel_beyond(texel), true, weight};
+    }
+    /// What is read in place of a texel beyond the map's sides.
+    [[nodiscard]] scene::Texel texel_beyond(const scene::Texel& texel) const;
 
     methods::Kernel kernel_;
     bool interpolates_;
-    bool clamps_;
+    MapEdge edge_;
     int width_;
     int resolution_;
 };

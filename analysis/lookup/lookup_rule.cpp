@@ -33,7 +33,8 @@ bool LookupRule::border_decides(float r, std::span<const Tap> taps) const
 
 LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
 {
-    return {methods::promises(job), job.lookup.outside, view.first_map().reversed, view.bias.slope};
+    return {methods::promises(job), job.lookup.outside, view.first_map().reversed, view.bias.slope,
+            view.map_choice == scene::MapChoice::cube_face};
 }
 
 } // namespace gnomon::analysis

@@ -17,7 +17,8 @@ struct LookupRule {
     methods::Promises promises;
     scene::Outside outside = scene::Outside::lit;
     bool reversed = false;
-    float slope = 0; ///< depth units per unit of tan θ
+    float slope = 0;        ///< depth units per unit of tan θ
+    bool has_seams = false; ///< the maps are the faces of a cube
 
     /// The comparison of a receiver's depth with a map's.
     ///
@@ -28,6 +29,7 @@ struct LookupRule {
     {
         return reversed ? r + bias >= d : r - bias <= d;
     }
+    [[nodiscard]] MapEdge edge() const { return map_edge(outside, has_seams); }
     /// The depth of what a map cannot see: the far plane's.
     [[nodiscard]] float farthest_depth() const { return reversed ? 0.0F : 1.0F; }
     /// The depth that stands for a tap outside the map: that of GL's border where the filter

@@ -26,7 +26,7 @@ public:
         : lookup_{lookup},
           taps_{map_depths, rule},
           rule_{rule},
-          footprint_{rule.promises, rule.outside, map_depths.size().width_px},
+          footprint_{rule.promises, rule.edge(), map_depths.size().width_px},
           taps_each_{rule.promises.tap_count()}
     {
     }

@@ -315,4 +315,33 @@ std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& class
     return errors;
 }
 
+std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs)
+{
+    const auto& [classes, lookup, maps, map_count, causes, taps] = inputs;
+    if (map_count < 2) {
+        return {};
+    }
+    for (const scene::ImageSize size : {lookup.samples.size(), maps.size(), causes.cause.size()}) {
+        require_size("errors_by_map", size, classes.size());
+    }
+    std::vector<CellTally> tallies(map_count, CellTally{taps});
+    std::vector<MapErrors> errors(map_count);
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (!scene::is_scored(classes[i])) {
+            continue;
+        }
+        const float verdict = lookup.samples[i].verdict;
+        tallies.at(maps[i]).add(classes[i], verdict);
+        if (scene::is_lit(verdict) != (classes[i] == PixelClass::lit)) {
+            CauseCounts& counts = errors[maps[i]].causes;
+            ++counts.by_cause[static_cast<std::size_t>(causes.cause[i])];
+            ++counts.by_label[static_cast<std::size_t>(causes.label[i])];
+        }
+    }
+    for (std::size_t map = 0; map < map_count; ++map) {
+        errors[map].counts = tallies[map].counts();
+    }
+    return errors;
+}
+
 } // namespace gnomon::analysis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/bias/bias_rows.hpp"
 #include "analysis/metrics/quantiles.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_layers.hpp"
@@ -105,5 +106,25 @@ struct ObjectErrors {
 errors_by_object(const scene::Image<scene::PixelClass>& classes, const scene::LookupLayers& lookup,
                  const scene::Image<std::uint32_t>& triangles, const scene::TriangleScene& scene,
                  int taps);
+
+/// The errors of the pixels that read one of a light's maps.
+struct MapErrors {
+    SubsetCounts counts;
+    CauseCounts causes; ///< of the wrong ones
+};
+
+/// What a breakdown by map is made from; all images of one size.
+struct MapBreakdownInputs {
+    const scene::Image<scene::PixelClass>& classes;
+    const scene::LookupLayers& lookup;
+    const scene::MapIndices& maps; ///< that the pixels read; empty where the light has but one
+    std::size_t map_count = 1;     ///< of the light
+    const CauseLayers& causes;
+    int taps = 1; ///< as in `BreakdownInputs`
+};
+
+/// By map that the lookup read, where the light has several; none where it has one.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs);
 
 } // namespace gnomon::analysis

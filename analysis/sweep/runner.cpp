@@ -157,6 +157,13 @@ private:
         });
         scene_.retry = Retry::may_help; // a file may be mended
     }
+    /// The task's job, with what its scene decides.
+    [[nodiscard]] scene::Job job_in_scene() const
+    {
+        scene::Job job = scene::with_layout(task_.job, require_result(scene_)->open.file->defaults);
+        methods::check(job);
+        return job;
+    }
 
     void draw_receivers(std::size_t slot)
     {
@@ -184,7 +191,7 @@ private:
         ++counts_.shadow_maps;
         make_room_for_depths();
         map_ = run_stage<bool>([&] {
-            renderers().draw_shadow_map(task_.job, stage_view());
+            renderers().draw_shadow_map(job_in_scene(), stage_view());
             return std::make_shared<bool>(true);
         });
     }
@@ -194,7 +201,7 @@ private:
         ++counts_.prefilters;
         filtered_ = run_stage<bool>([&] {
             static_cast<void>(require_result(map_));
-            renderers().prefilter_map(task_.job, stage_view(), FilteredContent::of_method);
+            renderers().prefilter_map(job_in_scene(), stage_view(), FilteredContent::of_method);
             return std::make_shared<bool>(true);
         });
     }
@@ -208,8 +215,10 @@ private:
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
     void make_room_for_depths()
     {
+        constexpr std::size_t most_texels = 4096 * 4096;
+        const auto side = static_cast<std::size_t>(task_.job.shadow_map.resolution_texels);
         if (!methods::promises(task_.job).has_one_tap() &&
-            task_.job.shadow_map.resolution_texels > 4096) {
+            scene::map_count(task_.job) * side * side > most_texels) {
             lookup_ = {};
             finish_lanes();
         }
@@ -237,8 +246,9 @@ private:
     /// The lookup where the job's biases move it; no other bias matters to its answers.
     ObservedLookup look_up_for_every_bias()
     {
+        const scene::Job job = job_in_scene();
         const scene::View view = stage_view();
-        return observe_lookup(task_.job, view, renderers().look_up(task_.job, view), renderers());
+        return observe_lookup(job, view, renderers().look_up(job, view), renderers());
     }
 
     /// Whether every bias is looked up and compared by itself.
@@ -311,7 +321,7 @@ private:
         select(slot);
         add_reruns(
             curve.verification,
-            verify_biases(task_.job, stage_view(), triangles, criticals,
+            verify_biases(job_in_scene(), stage_view(), triangles, criticals,
                           biases_to_verify(criticals, triangles, wanted_biases(question, curve)),
                           renderers()));
     }

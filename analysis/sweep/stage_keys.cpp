@@ -98,7 +98,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.truth = keys.light + parts.camera;
     keys.frustum = (follows_camera ? keys.truth : keys.light) + parts.frustum;
     const std::string placed = keys.truth + parts.frustum;
-    const bool is_of_pixel = job.lookup.position == scene::LookupPosition::pixel;
+    const bool is_of_pixel = scene::lookup_position(job) == scene::LookupPosition::pixel;
     keys.receivers = is_of_pixel ? keys.truth : placed; // world positions serve every light matrix
     keys.texels = keys.frustum + parts.map;
     keys.map = keys.texels + parts.format;

@@ -166,7 +166,11 @@ private:
     {
         const std::size_t first = result_.considered.size();
         for (const scene::FrustumSettings& frustum : frusta_) {
-            try_map({size.resolution_texels, size.format, frustum, job_.shadow_map.cull}, filter);
+            scene::ShadowMapSettings map = job_.shadow_map;
+            map.resolution_texels = size.resolution_texels;
+            map.depth_format = size.format;
+            map.frustum = frustum;
+            try_map(map, filter);
         }
         const auto best = std::min_element(
             result_.considered.begin() + static_cast<std::ptrdiff_t>(first),

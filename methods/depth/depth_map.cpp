@@ -18,7 +18,7 @@ constexpr auto depth_tables = std::to_array<std::string_view>({"shadow_map", "lo
 Promises depth_promises(const scene::Job& job)
 {
     Promises promises = filter_promises(job.lookup.filter);
-    promises.map_bytes = map_bytes(job.shadow_map);
+    promises.map_bytes = map_bytes(job);
     return promises;
 }
 
@@ -50,10 +50,10 @@ Method depth_map()
             .passes = depth_passes};
 }
 
-std::uint64_t map_bytes(const scene::ShadowMapSettings& map)
+std::uint64_t map_bytes(const scene::Job& job)
 {
-    const auto side = static_cast<std::uint64_t>(map.resolution_texels);
-    return side * side * texel_bytes(map.depth_format);
+    const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
+    return scene::map_count(job) * side * side * texel_bytes(job.shadow_map.depth_format);
 }
 
 } // namespace gnomon::methods

@@ -10,6 +10,6 @@ namespace gnomon::methods {
 [[nodiscard]] Method depth_map();
 
 /// Memory that a map takes [bytes]; u-formats as if GL had them.
-[[nodiscard]] std::uint64_t map_bytes(const scene::ShadowMapSettings& map);
+[[nodiscard]] std::uint64_t map_bytes(const scene::Job& job);
 
 } // namespace gnomon::methods

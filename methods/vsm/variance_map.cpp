@@ -141,6 +141,11 @@ int samples_of(const scene::Job& job)
 
 void vsm_check(const scene::Job& job)
 {
+    if (scene::map_layout(job) == scene::MapLayout::cube) {
+        throw scene::InputError(
+            "method.name = \"vsm\": its kernels do not lead over a cube's seams, "
+            "so that a point light's maps have none; use \"depth\"");
+    }
     const auto width = value_of<std::int64_t>(width_key(), job);
     if (width > job.shadow_map.resolution_texels) {
         throw scene::InputError(fmt::format(
@@ -186,7 +191,7 @@ std::uint64_t bytes_of(const scene::Job& job)
     for (std::uint64_t level = side / 2; level > 0 && passes.makes_mipmaps; level /= 2) {
         texels += level * level;
     }
-    const std::uint64_t drawn = map_bytes(job.shadow_map);
+    const std::uint64_t drawn = map_bytes(job);
     const std::uint64_t sampled =
         passes.samples > 1 ? static_cast<std::uint64_t>(passes.samples) * drawn : 0;
     return drawn + sampled + texels * texel;

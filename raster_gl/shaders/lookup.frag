@@ -9,8 +9,8 @@
 //
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
-// MAPS, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT, POSITION_OF_PIXEL,
-// BISECTS and DEPTH_IS_GIVEN are defined by the program that compiles this. Where no formula tells of
+// MAPS, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
+// POSITION_OF_PIXEL, BISECTS and DEPTH_IS_GIVEN are defined by the program that compiles this. Where no formula tells of
 // other biases, BISECTS finds the smallest bias with which the very same verdict is at least
 // `lit_from`: it rises with the bias.
 #if BISECTS
@@ -31,6 +31,9 @@ layout(binding = 7) uniform sampler2D receiver_depth;
 // Is the whole footprint of an interpolating lookup, the kernels about 2 × 2 texels, beyond the map?
 bool footprint_is_outside(vec2 texel)
 {
+#if CUBE
+    return false;
+#endif
     const float reach = float(KERNEL_ACROSS / 2);
     vec2 first = floor(texel - 0.5);
     return any(lessThan(first, vec2(-1.0 - reach))) ||
@@ -148,9 +151,6 @@ void main()
     receiver.position = texelFetch(receiver_world_position, pixel, 0).xyz;
 #if MAPS > 1
     map_index = chosen_map(receiver.position);
-#if !BISECTS
-    map_out = uint(map_index);
-#endif
 #endif
     vec4 clip = light_clip_of(pixel);
 #if GRADIENTS
@@ -158,7 +158,7 @@ void main()
     uv_dy = uv_change(pixel, ivec2(0, 1), triangle);
 #endif
     receiver.normal = texelFetch(normals, int(triangle)).xyz;
-#if SPOT
+#if POSITIONAL
     receiver.to_light = normalize(light - receiver.position);
 #else
     receiver.to_light = light;
@@ -169,10 +169,20 @@ void main()
         length(cross(receiver.normal, receiver.to_light)) / abs(receiver.cosine), 3.0e38);
     receiver.tan_theta = tan_theta;
     clip = moved_position(receiver);
+#if CUBE
+    clip = on_its_face(clip);
+#endif
+#if MAPS > 1 && !BISECTS
+    map_out = uint(map_index);
+#endif
 
     precise vec3 ndc = clip.xyz / clip.w;
     precise vec2 uv = ndc.xy * 0.5 + 0.5;
     precise vec2 texel = uv * resolution;
+#if CUBE
+    // The seam itself is this face's.
+    texel = min(texel, uintBitsToFloat(floatBitsToUint(resolution) - 1u));
+#endif
 #if REVERSED
     precise float r = ndc.z;
     r = moved_depth(receiver, r);

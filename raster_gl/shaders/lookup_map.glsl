@@ -1,6 +1,6 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. MAPS, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, SPOT and GRADIENTS are defined by the
-// program that compiles this.
+// comparison. MAPS, CUBE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL and GRADIENTS are
+// defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
@@ -9,10 +9,15 @@ layout(binding = 1) uniform sampler2D receiver_light_clip;
 layout(binding = 2) uniform sampler2D receiver_world_position;
 layout(binding = 5) uniform samplerBuffer normals; // unit, by triangle
 // The light's map, or its maps as layers: as the filter samples it, for filters that GL compares, and
-// what a prefilter made of it.
+// what a prefilter made of it. A cube's faces are sampled as a cube map where GL filters them.
 #if MAPS > 1
 layout(binding = 3) uniform sampler2DArray map;
+#if CUBE
+layout(binding = 4) uniform samplerCubeShadow map_compare;
+layout(binding = 8) uniform samplerCube map_interpolated;
+#else
 layout(binding = 4) uniform sampler2DArrayShadow map_compare;
+#endif
 layout(binding = 6) uniform sampler2DArray filtered_map;
 int map_index; // of the map that the pixel reads
 #else
@@ -23,7 +28,7 @@ const int map_index = 0;
 #endif
 
 uniform mat4 light_clip_from_world[MAPS];
-uniform vec3 light; // SPOT: its position, else the unit vector towards it
+uniform vec3 light; // POSITIONAL: its position, else the unit vector towards it
 uniform float resolution; // in texels
 
 #if GRADIENTS
@@ -41,7 +46,24 @@ vec4 clip_position(mat4 clip_from_world, vec3 position)
     return clip;
 }
 
-#if MAPS > 1
+#if CUBE
+vec3 direction_of(vec3 on_face);
+ivec3 texel_across_seams(ivec2 texel);
+
+float depth_of_texel(ivec2 texel)
+{
+    return texelFetch(map, texel_across_seams(texel), 0).r;
+}
+float interpolated_depth(vec2 uv)
+{
+    return textureLod(map_interpolated, direction_of(vec3(uv * 2.0 - 1.0, 1.0)), 0.0).r;
+}
+float compared_by_gl(vec2 uv, float reference)
+{
+    return textureGrad(map_compare, vec4(direction_of(vec3(uv * 2.0 - 1.0, 1.0)), reference),
+                       vec3(0.0), vec3(0.0));
+}
+#elif MAPS > 1
 float depth_of_texel(ivec2 texel)
 {
     return texelFetch(map, ivec3(texel, map_index), 0).r;
@@ -112,10 +134,12 @@ bool is_inside(vec2 texel)
     return all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(resolution)));
 }
 
-// Depth of the texel whose integer coordinates are `texel`; false where the border mode decides.
+// Depth of the texel whose integer coordinates are `texel`, of a cube across its seams, too; false
+// where the border mode decides.
 bool fetch_depth(vec2 texel, out float d)
 {
-#if OUTSIDE_CLAMP
+#if CUBE
+#elif OUTSIDE_CLAMP
     texel = clamp(texel, vec2(0.0), vec2(resolution - 1.0));
 #else
     if (!is_inside(texel)) {

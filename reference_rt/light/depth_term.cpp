@@ -52,10 +52,11 @@ DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
         return DepthTerm{tap.depth};
     }
     SignCounts counts;
-    hit.ray = CameraRay{rays_.ray(tap.texel)};
+    const auto map = static_cast<std::size_t>(tap.texel.map);
+    hit.ray = CameraRay{maps_.rays[map].ray(tap.texel)};
     hit.face = ExactTriangle{tap.triangle, corners_of(triangles_, tap.triangle)};
     hit.hit = Receiver{hit.face, hit.ray, counts};
-    return DepthTerm{depth_, hit.hit, known(tap)};
+    return DepthTerm{maps_.depths[map], hit.hit, known(tap)};
 }
 
 float TapDepths::nearest_float(const scene::ExactTap& tap) const

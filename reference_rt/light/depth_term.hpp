@@ -2,6 +2,7 @@
 
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/triangles.hpp"
@@ -44,14 +45,14 @@ struct TapHit {
     Receiver hit;
 };
 
-/// Finds the depths of taps: those of triangles along the rays of texels, or constants.
+/// Finds the depths of taps: those of triangles along the rays of texels, in the maps that these
+/// are of, or constants.
 class TapDepths {
 public:
     /// All arguments must outlive it.
-    TapDepths(const scene::TriangleScene& triangles, const TexelRays& rays, const LightDepth& depth)
+    TapDepths(const scene::TriangleScene& triangles, const MapsOfLight& maps)
         : triangles_{triangles},
-          rays_{rays},
-          depth_{depth}
+          maps_{maps}
     {
     }
 
@@ -65,12 +66,11 @@ public:
     /// Rounded once to float32 by `ToNearest`.
     [[nodiscard]] float nearest_float(const scene::ExactTap& tap) const;
 
-    [[nodiscard]] bool is_reversed() const { return depth_.is_reversed(); }
+    [[nodiscard]] bool is_reversed() const { return maps_.depths.front().is_reversed(); }
 
 private:
     const scene::TriangleScene& triangles_;
-    const TexelRays& rays_;
-    const LightDepth& depth_;
+    const MapsOfLight& maps_;
 };
 
 } // namespace gnomon::reference_rt

@@ -7,6 +7,7 @@
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/light_of_maps.hpp"
 #include "reference_rt/light/lit_point.hpp"
+#include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/light/self_shadowing.hpp"
 #include "reference_rt/light/texel_first_hits.hpp"
 #include "reference_rt/light/texel_rays.hpp"
@@ -52,15 +53,16 @@ const std::array<ExactTap, 4>& taps_of(const LinearQuery& query)
 /// Answers about one of the light's maps.
 class LightRays final : public scene::ExactLight {
 public:
-    LightRays(const ReferenceScene& reference, const View& view, std::size_t map,
-              const Image<std::uint32_t>& receivers, int resolution_texels, scene::Cull cull,
-              int threads)
+    LightRays(const ReferenceScene& reference, const View& view,
+              std::shared_ptr<const MapsOfLight> maps, std::size_t map,
+              const Image<std::uint32_t>& receivers, scene::Cull cull, int threads)
         : reference_{reference.implementation()},
           view_{view},
+          maps_{std::move(maps)},
           map_{map},
           seen_{reference_.triangles, view, receivers},
-          rays_{view.maps[map], view.light, resolution_texels},
-          depth_{view.maps[map]},
+          rays_{maps_->rays[map]},
+          depth_{maps_->depths[map]},
           cull_{cull},
           segments_{reference_, view.light},
           threads_{threads}
@@ -118,9 +120,9 @@ public:
     std::vector<float> texel_depths(std::span<const Texel> texels,
                                     const scene::Vec2d& place) const override
     {
-        const TexelRays rays{view_.maps[map_], view_.light, rays_.resolution_texels(), place};
-        const TexelFirstHits finder{reference_, rays, depth_, cull_, HitDetail::bounded};
-        const TapDepths taps{reference_.triangles, rays, depth_};
+        const MapsOfLight maps{view_, rays_.resolution_texels(), place};
+        const TexelFirstHits finder{reference_, maps.rays[map_], depth_, cull_, HitDetail::bounded};
+        const TapDepths taps{reference_.triangles, maps};
         std::vector<float> depths(texels.size());
         for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
             std::vector<TexelHit> hits(run.size());
@@ -269,7 +271,7 @@ private:
     template <typename Query>
     [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
     {
-        const CriticalBias critical{TapDepths{reference_.triangles, rays_, depth_}};
+        const CriticalBias critical{TapDepths{reference_.triangles, *maps_}};
         std::vector<float> biases(queries.size());
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
             check(queries[i]);
@@ -298,19 +300,21 @@ private:
         seen_.check({&query.pixel, 1}, "critical_biases");
         for (const ExactTap& tap : taps_of(query)) {
             if (tap.triangle != no_triangle) {
-                check(tap.texel);
+                check(tap.texel, tap.texel.map); // a cube's seams lead to other maps' texels
                 check(tap.triangle);
             }
         }
     }
-    void check(Texel texel) const
+    void check(Texel texel) const { check(texel, static_cast<int>(map_)); }
+    void check(Texel texel, int map) const
     {
         const int n = rays_.resolution_texels();
-        const bool is_of_map = static_cast<std::size_t>(texel.map) == map_;
+        const bool is_of_map =
+            texel.map == map && map >= 0 && static_cast<std::size_t>(map) < maps_->rays.size();
         if (!is_of_map || texel.x < 0 || texel.y < 0 || texel.x >= n || texel.y >= n) {
             throw std::invalid_argument{
                 fmt::format("ExactLight: texel ({}, {}) of map {} is outside map {} of {} texels",
-                            texel.x, texel.y, texel.map, map_, n)};
+                            texel.x, texel.y, texel.map, map, n)};
         }
     }
     void check(std::uint32_t triangle) const
@@ -330,17 +334,17 @@ private:
             is_directional ? -light.direction : -exact_offset(receiver, light.position);
         const double way =
             way_to_crossing(receiver, corners_of(reference_.triangles, blocker), light);
-        return {blocker, way * glm::length(towards),
-                view_.first_map().light_distance_m(point + way * towards),
-                view_.first_map().light_distance_m(point)};
+        return {blocker, way * glm::length(towards), view_.light_distance_m(point + way * towards),
+                view_.light_distance_m(point)};
     }
 
     const ReferenceScene::Implementation& reference_;
     const View& view_;
+    std::shared_ptr<const MapsOfLight> maps_;
     std::size_t map_;
     SeenPixels seen_;
-    TexelRays rays_;
-    LightDepth depth_;
+    const TexelRays& rays_;
+    const LightDepth& depth_;
     scene::Cull cull_;
     SegmentLight segments_;
     int threads_;
@@ -363,9 +367,10 @@ std::unique_ptr<scene::ExactLight> make_exact_light(const ReferenceScene& refere
             "make_exact_light: resolution_texels = {} is not in [1, 16384]", resolution_texels)};
     }
     std::vector<std::unique_ptr<scene::ExactLight>> maps;
+    const auto of_light = std::make_shared<const MapsOfLight>(view, resolution_texels);
     for (std::size_t map = 0; map < view.maps.size(); ++map) {
-        maps.push_back(std::make_unique<LightRays>(reference, view, map, receivers,
-                                                   resolution_texels, cull, threads));
+        maps.push_back(
+            std::make_unique<LightRays>(reference, view, of_light, map, receivers, cull, threads));
     }
     return light_of_maps(std::move(maps));
 }

@@ -67,7 +67,7 @@ bool keeps_first_hits(const scene::Light& light, const LightFrustum& from, const
     if (has_same_view(from, to)) {
         return true;
     }
-    if (light.type != scene::LightType::spot || !has_same_rays(from, to)) {
+    if (!light.has_position() || !has_same_rays(from, to)) {
         return false;
     }
     constexpr std::array<std::array<double, 2>, 4> corners{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};

@@ -26,7 +26,7 @@ namespace {
 /// The map that answers a question.
 struct MapOfQuestion {
     int operator()(const Texel& texel) const { return texel.map; }
-    int operator()(const NearestQuery& query) const { return query.tap.texel.map; }
+    int operator()(const NearestQuery& query) const { return query.map; }
     int operator()(const LinearQuery& query) const { return query.first.map; }
     int operator()(const SelfShadowingQuery& query) const { return query.texel.map; }
 };

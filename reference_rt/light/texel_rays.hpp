@@ -41,7 +41,7 @@ public:
     /// differs from the job's in the last bits of a float32.
     [[nodiscard]] const scene::Light& light() const { return light_; }
     /// True when all rays begin at one point.
-    [[nodiscard]] bool has_positional() const { return light_.type == scene::LightType::spot; }
+    [[nodiscard]] bool has_positional() const { return light_.has_position(); }
 
 private:
     [[nodiscard]] scene::Vec3d direction(const scene::Vec4d& a, const scene::Vec4d& b) const;

@@ -7,7 +7,9 @@
 #include "reports/words/findings.hpp"
 #include "store/json_values.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -126,6 +128,39 @@ store::Json by_object(const std::vector<analysis::ObjectErrors>& objects)
     return json;
 }
 
+/// Wrong pixels by name; the first, "none", is left out.
+template <std::size_t size>
+store::Json counts_by_name(const std::array<std::string_view, size>& names,
+                           const std::array<std::uint64_t, size>& counts)
+{
+    store::Json json = store::Json::object();
+    for (std::size_t i = 1; i < size; ++i) {
+        json[std::string{names.at(i)}] = counts.at(i);
+    }
+    return json;
+}
+
+/// An entry a map.
+store::Json by_map(const analysis::Comparison& comparison)
+{
+    const auto& of_maps = comparison.diagnosis->by_map;
+    const int resolution_texels = comparison.job.shadow_map.resolution_texels;
+    store::Json json = store::Json::array();
+    for (std::size_t i = 0; i < of_maps.size(); ++i) {
+        const scene::LightFrustum& map = comparison.view.maps[i];
+        store::Json entry{{"map", comparison.view.map_name(i)},
+                          {"near_m", map.near_m},
+                          {"far_m", map.far_m},
+                          {"texel_m", map.texel_width_m(1.0, resolution_texels)}};
+        entry.update(subset_json(of_maps[i].counts));
+        const analysis::CauseCounts& causes = of_maps[i].causes;
+        entry["causes"] = counts_by_name(analysis::cause_names, causes.by_cause);
+        entry["labels"] = counts_by_name(analysis::label_names, causes.by_label);
+        json.push_back(std::move(entry));
+    }
+    return json;
+}
+
 /// What GL's own lookups with other biases measured; null where a formula knows them.
 store::Json reruns(const analysis::CurveResult& curve)
 {
@@ -189,6 +224,9 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
     json["by_light_distance_m"] = bins(diagnosis->by_distance);
     json["by_receiver_angle_rad"] = bins(diagnosis->by_angle);
     json["by_object"] = by_object(diagnosis->by_object);
+    if (!diagnosis->by_map.empty()) {
+        json["by_map"] = by_map(comparison);
+    }
     json["findings"] = findings(comparison);
     add_advice(json, comparison);
 }

@@ -58,6 +58,23 @@ std::string named_amounts(std::string_view head, std::span<const std::string_vie
     return text;
 }
 
+/// Of several maps, one a line.
+std::string map_table(const analysis::Comparison& comparison)
+{
+    const auto& maps = comparison.diagnosis->by_map;
+    if (maps.empty()) {
+        return "";
+    }
+    std::string text = "\n";
+    text += count_line("in map", "false shadow", "false lit", "of scored");
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const analysis::SubsetCounts& counts = maps[i].counts;
+        text += count_line(comparison.view.map_name(i), grouped(counts.false_shadow),
+                           grouped(counts.false_lit), grouped(counts.lit + counts.blocked));
+    }
+    return text;
+}
+
 std::string causes(const analysis::Comparison& comparison)
 {
     if (!comparison.diagnosis) {
@@ -92,7 +109,7 @@ std::string causes(const analysis::Comparison& comparison)
                             counted(gap->count, "pixel"), gap->median, gap->p95, gap->max,
                             gap_texels->max));
     }
-    return text + object_table(diagnosis.by_object);
+    return text + object_table(diagnosis.by_object) + map_table(comparison);
 }
 
 /// A limit that need not exist.

@@ -34,11 +34,16 @@ std::string describe_light(const scene::Light& light)
     return fmt::format("spot, cone {:.4g} deg", 2 * std::acos(light.cos_half_cone) * deg_from_rad);
 }
 
-std::string describe_map(const scene::ShadowMapSettings& map)
+std::string describe_map(const scene::Job& job)
 {
-    return fmt::format("{0}x{0} {1}, fit {2}", map.resolution_texels,
-                       scene::depth_format_name(map.depth_format),
-                       scene::fit_name(map.frustum.fit));
+    const scene::ShadowMapSettings& map = job.shadow_map;
+    const std::string size = fmt::format("{0}x{0} {1}", map.resolution_texels,
+                                         scene::depth_format_name(map.depth_format));
+    const scene::MapLayout layout = scene::map_layout(job);
+    return layout == scene::MapLayout::single
+               ? fmt::format("{}, fit {}", size, scene::fit_name(map.frustum.fit))
+               : fmt::format("{} of {}, {}", scene::map_count(job), size,
+                             scene::map_layout_name(layout));
 }
 
 std::string describe_range(const scene::LightFrustum& frustum, scene::Cull cull)
@@ -89,7 +94,7 @@ Description describe(const analysis::Comparison& comparison)
     return {
         .size = describe_size(comparison.scene),
         .light = describe_light(view.light),
-        .map = describe_map(job.shadow_map),
+        .map = describe_map(job),
         .range = view.maps.empty() ? std::string{}
                                    : describe_range(view.first_map(), job.shadow_map.cull),
         .lookup = fmt::format("{}, outside {}", lookup_name(job),

@@ -45,14 +45,16 @@ std::string_view words(Cause cause)
 }
 
 /// What of the map to look at for a cause; empty for the bias, which is not the map's.
-std::string_view to_try(Cause cause)
+std::string_view to_try(Cause cause, scene::MapLayout layout)
 {
     switch (cause) {
     case Cause::precision:
         return "For precision, try a format with more bits, or near and far closer together";
     case Cause::resolution:
-        return "For resolution, try more texels on what the camera sees: a larger map or a tighter "
-               "fit";
+        return layout == scene::MapLayout::cube
+                   ? "For resolution, try larger maps: a cube's faces have no tighter fit"
+                   : "For resolution, try more texels on what the camera sees: a larger map or a "
+                     "tighter fit";
     case Cause::coverage:
         return "For coverage, look at near, far, the frustum and culling: the light's camera "
                "misses casters";
@@ -382,7 +384,8 @@ std::string what_to_try(const analysis::Comparison& comparison)
         return "";
     }
     const auto cause = static_cast<Cause>(causes.front());
-    return cause == Cause::bias ? other_biases(comparison.view.bias) : std::string{to_try(cause)};
+    return cause == Cause::bias ? other_biases(comparison.view.bias)
+                                : std::string{to_try(cause, scene::map_layout(comparison.job))};
 }
 
 std::string why_none_serves(const analysis::Comparison& comparison)

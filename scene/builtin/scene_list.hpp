@@ -17,6 +17,8 @@ namespace gnomon::scene {
 [[nodiscard]] BuiltinScene fence_scene();
 // columns.cpp
 [[nodiscard]] BuiltinScene columns_scene();
+// indoors.cpp
+[[nodiscard]] BuiltinScene lamp_room_scene();
 // large_scenes.cpp
 [[nodiscard]] BuiltinScene terrain_scene();
 [[nodiscard]] BuiltinScene sphere_field_scene();

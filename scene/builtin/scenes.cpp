@@ -13,10 +13,11 @@ namespace gnomon::scene {
 
 std::span<const BuiltinScene> builtin_scenes()
 {
-    static const std::array<BuiltinScene, 12> scenes{
+    static const std::array<BuiltinScene, 13> scenes{
         sphere_cube_scene(),   sphere_plane_scene(), yard_scene(),    playground_scene(),
         two_distances_scene(), tilted_plane_scene(), wall_scene(),    room_scene(),
-        fence_scene(),         terrain_scene(),      columns_scene(), sphere_field_scene()};
+        lamp_room_scene(),     fence_scene(),        terrain_scene(), columns_scene(),
+        sphere_field_scene()};
     return scenes;
 }
 

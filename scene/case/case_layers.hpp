@@ -18,9 +18,10 @@ struct CaseLayers {
     Image<float> z_light;               ///< r, before any bias
     Image<float> z_map;                 ///< d; NaN where the border mode decided
     Image<Vec2f> texels;                ///< as `LookupLayers::texels`
+    MapIndices maps;                    ///< as `LookupLayers::maps`
     Image<float> tan_theta;             ///< as `LookupSample::tan_theta`
     LookupLayers unmoved;    ///< the lookup at the receiver itself without any bias; may be empty
-    Image<float> map_depths; ///< the shadow map, top left first
+    Image<float> map_depths; ///< the shadow maps (`maps_image_size`), top left first
 
     [[nodiscard]] ImageSize size() const { return position.size(); }
 };

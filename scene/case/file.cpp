@@ -149,16 +149,10 @@ private:
         }
     }
 
-    /// A job has no point light, and its camera is whole.
+    /// Those of a job; the camera is whole, or not there.
     void read_job_keys()
     {
         Layer& own = draft_.file.source.file;
-        for (TomlMember& member : job_keys_) {
-            if (auto* table = std::get_if<TomlTable>(&member.node.value);
-                member.key == "light" && table != nullptr) {
-                take_point(*table, own);
-            }
-        }
         Layer layer = layer_from_table(job_keys_, source_, "", {"mesh", "conventions", "channels"});
         require_whole_camera(layer);
         if (find(layer, "camera.target") == nullptr) {
@@ -167,28 +161,6 @@ private:
             });
         }
         own.insert(own.end(), layer.begin(), layer.end());
-    }
-
-    void take_point(TomlTable& light, Layer& layer) const
-    {
-        const auto type = std::ranges::find(light, "type", &TomlMember::key);
-        const auto* word =
-            type == light.end() ? nullptr : std::get_if<std::string>(&type->node.value);
-        if (word == nullptr) {
-            return;
-        }
-        const std::string label = fmt::format(
-            "{}light.type = {}", KeyPlace{source_, type->line}.text(), toml_excerpt(type->node));
-        const WordDomain types{{std::string{light_type_name(LightType::directional)},
-                                std::string{light_type_name(LightType::spot)},
-                                std::string{light_type_name(LightType::point)}}};
-        if (!read_value(types, type->node)) {
-            throw InputError(fmt::format("{}: {}", label, refusal_text(types, type->node)));
-        }
-        if (*word == light_type_name(LightType::point)) {
-            layer.push_back({find_key("light.type"), JobValue{*word}, label});
-            light.erase(type);
-        }
     }
 
     static const Setting* find(const Layer& layer, std::string_view key)

@@ -117,6 +117,10 @@ std::optional<ImportedLight> light_at(const aiLight& light, const PlacedNode& no
     if (light.mType == aiLightSource_DIRECTIONAL) {
         return result;
     }
+    if (light.mType == aiLightSource_POINT) {
+        result.is_point = 1;
+        return result;
+    }
     result.outer_cone_rad = static_cast<double>(light.mAngleOuterCone);
     // A cone of 180 degrees and more has no shadow map of one camera.
     const bool is_usable = light.mType == aiLightSource_SPOT && result.outer_cone_rad > 0 &&

@@ -103,10 +103,15 @@ std::optional<CameraSettings> camera_settings(const ImportedCamera& camera)
 
 std::optional<LightSettings> light_settings(const ImportedLight& light)
 {
+    LightSettings settings;
+    if (light.is_point != 0) {
+        settings.type = LightType::point;
+        settings.position = rounded_to_float32(light.position);
+        return is_usable_point(light.position) ? std::optional{settings} : std::nullopt;
+    }
     if (!is_usable_direction(light.direction)) {
         return std::nullopt;
     }
-    LightSettings settings;
     const Vec3d direction = glm::normalize(light.direction);
     if (light.outer_cone_rad == 0) {
         settings.direction = direction;

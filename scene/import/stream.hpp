@@ -32,9 +32,10 @@ struct ImportedCamera {
 
 /// A light in world space, shining along `direction`.
 struct ImportedLight {
-    Vec3d position;            ///< [m]; spot
+    Vec3d position;            ///< [m]; spot, point
     Vec3d direction;           ///< any length
-    double outer_cone_rad = 0; ///< half the opening angle; 0: directional
+    double outer_cone_rad = 0; ///< half the opening angle; 0: directional, or a point light
+    std::uint64_t is_point = 0;
 };
 
 inline constexpr std::uint64_t import_magic = 0x31'6e'6f'6d'6f'6e'67ULL;

@@ -61,7 +61,6 @@ void check_spot(const Settings& settings)
     }
 }
 
-/// Of other renderers' cases: a job's light is no point.
 void check_point(const Settings& settings)
 {
     for (const std::string_view needless : {"light.direction", "light.target", "light.cone_deg"}) {
@@ -106,6 +105,39 @@ void check_fit(const Settings& settings, KnownLight light)
     }
 }
 
+/// Refuses maps that the light cannot have, and keys that they have no use for.
+void check_layout(const Settings& settings, KnownLight light)
+{
+    const Setting* layout = find_setting(settings, "shadow_map.layout");
+    const bool is_single = layout != nullptr && std::get<std::string>(layout->value) == "single";
+    if (layout != nullptr && is_single && light == KnownLight::point) {
+        refuse(*layout, "a point light's maps are the faces of a cube; remove it, or set "
+                        "light.type = \"spot\"");
+    }
+    if (layout != nullptr && !is_single && light != KnownLight::point &&
+        light != KnownLight::unknown) {
+        refuse(*layout, "only a point light's maps are the faces of a cube; remove it, or set "
+                        "light.type = \"point\"");
+    }
+    if (light != KnownLight::point) {
+        return;
+    }
+    for (const auto& [key, word] :
+         {std::pair{"shadow_map.fit", "scene"}, {"lookup.position", "pixel"}}) {
+        const Setting* setting = find_setting(settings, key);
+        if (setting != nullptr && std::get<std::string>(setting->value) != word) {
+            refuse(*setting, fmt::format("with a point light it is \"{}\", for its six maps "
+                                         "see all around; remove it",
+                                         word));
+        }
+    }
+    const Setting* roll = find_setting(settings, "shadow_map.roll_deg");
+    if (roll != nullptr && std::get<double>(roll->value) != 0) {
+        refuse(*roll, "a point light's maps look along the world's axes; remove it, or turn the "
+                      "scene");
+    }
+}
+
 void check_planes(const Settings& settings, KnownLight light)
 {
     const auto number = [&](std::string_view key) -> const double* {
@@ -114,11 +146,13 @@ void check_planes(const Settings& settings, KnownLight light)
     };
     const double* near_m = number("shadow_map.near");
     const double* far_m = number("shadow_map.far");
-    if (near_m != nullptr && light == KnownLight::spot && !(*near_m > 0)) {
-        refuse(settings.at("shadow_map.near"), "must be above 0 for a spot");
-    }
-    if (far_m != nullptr && light == KnownLight::spot && !(*far_m > 0)) {
-        refuse(settings.at("shadow_map.far"), "must be above 0 for a spot");
+    const bool is_positional = light == KnownLight::spot || light == KnownLight::point;
+    const std::string_view light_name = light == KnownLight::spot ? "spot" : "point light";
+    for (const auto& [key, plane_m] :
+         {std::pair{"shadow_map.near", near_m}, {"shadow_map.far", far_m}}) {
+        if (plane_m != nullptr && is_positional && !(*plane_m > 0)) {
+            refuse(settings.at(key), fmt::format("must be above 0 for a {}", light_name));
+        }
     }
     if (near_m != nullptr && far_m != nullptr && !(*near_m < *far_m)) {
         refuse(settings.at("shadow_map.near"), fmt::format("must be less than shadow_map.far ({})",
@@ -130,8 +164,9 @@ void check_bias(const Settings& settings, KnownLight light)
 {
     check_exclusive(settings, "bias.constant", "bias.constant_m");
     const Setting* constant_m = find_setting(settings, "bias.constant_m");
-    if (constant_m != nullptr && light == KnownLight::spot) {
-        refuse(*constant_m, "a spot's depth is not linear in metres; use bias.constant");
+    if (constant_m != nullptr && (light == KnownLight::spot || light == KnownLight::point)) {
+        refuse(*constant_m, fmt::format("a {}'s depth is not linear in metres; use bias.constant",
+                                        light == KnownLight::spot ? "spot" : "point light"));
     }
 }
 
@@ -208,6 +243,7 @@ void check_settings(const Settings& settings, const std::string& source)
     } else if (light == KnownLight::directional) {
         check_directional(settings);
     }
+    check_layout(settings, light);
     check_fit(settings, light);
     check_planes(settings, light);
     check_bias(settings, light);

@@ -1,5 +1,7 @@
 #include "scene/job/job.hpp"
 
+#include "scene/light/cube_faces.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -19,6 +21,7 @@ constexpr std::array<std::pair<std::string_view, DepthFormat>, 4> gl_depth_forma
 constexpr std::array<std::string_view, 3> outside_names{"lit", "shadowed", "clamp"};
 constexpr std::array<std::string_view, 2> position_names{"vertex", "pixel"};
 constexpr std::array<std::string_view, 3> cull_names{"none", "front", "back"};
+constexpr std::array<std::string_view, 2> layout_names{"single", "cube"};
 constexpr std::array<std::string_view, 3> fit_names{"scene", "camera", "fixed"};
 
 } // namespace
@@ -66,6 +69,28 @@ std::string_view cull_name(Cull cull)
 std::string_view fit_name(Fit fit)
 {
     return fit_names.at(static_cast<std::size_t>(fit));
+}
+
+std::string_view map_layout_name(MapLayout layout)
+{
+    return layout_names.at(static_cast<std::size_t>(layout));
+}
+
+MapLayout map_layout(const Job& job)
+{
+    const bool is_point = job.light && job.light->type == LightType::point;
+    return job.shadow_map.layout.value_or(is_point ? MapLayout::cube : MapLayout::single);
+}
+
+std::size_t map_count(const Job& job)
+{
+    return map_layout(job) == MapLayout::cube ? cube_face_count : 1;
+}
+
+LookupPosition lookup_position(const Job& job)
+{
+    return job.lookup.position.value_or(map_count(job) > 1 ? LookupPosition::pixel
+                                                           : LookupPosition::vertex);
 }
 
 } // namespace gnomon::scene

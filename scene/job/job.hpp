@@ -45,6 +45,12 @@ struct DepthFormat {
 [[nodiscard]] std::string depth_format_name(DepthFormat format);
 
 enum class Cull : std::uint8_t { none, front, back };
+
+/// How many maps a light has, and what each of them sees.
+enum class MapLayout : std::uint8_t {
+    single, ///< one
+    cube,   ///< of a point light the six faces of a cube (`cube_faces`)
+};
 enum class Outside : std::uint8_t { lit, shadowed, clamp };
 
 /// Where the light's clip position of a receiver is computed.
@@ -56,6 +62,7 @@ enum class LookupPosition : std::uint8_t {
 [[nodiscard]] std::string_view outside_name(Outside outside);
 [[nodiscard]] std::string_view lookup_position_name(LookupPosition position);
 [[nodiscard]] std::string_view cull_name(Cull cull);
+[[nodiscard]] std::string_view map_layout_name(MapLayout layout);
 [[nodiscard]] std::string_view fit_name(Fit fit);
 
 /// The job's `[method]` table: what decides verdicts, and how.
@@ -68,7 +75,8 @@ struct MethodSettings {
 };
 
 struct ShadowMapSettings {
-    int resolution_texels = 1024; ///< [1, 16384]
+    std::optional<MapLayout> layout; ///< empty: the light's own (`map_layout`)
+    int resolution_texels = 1024;    ///< [1, 16384]
     DepthFormat depth_format;
     FrustumSettings frustum;
     Cull cull = Cull::none;
@@ -77,7 +85,7 @@ struct ShadowMapSettings {
 struct LookupSettings {
     Filter filter = Filter::nearest;
     Outside outside = Outside::lit;
-    LookupPosition position = LookupPosition::vertex;
+    std::optional<LookupPosition> position; ///< empty: the layout's own (`lookup_position`)
 };
 
 struct BiasSettings {
@@ -99,5 +107,12 @@ struct Job {
     LookupSettings lookup;
     BiasSettings bias;
 };
+
+/// The layout of a job's maps: what it says, or `cube` for a point light, else `single`.
+[[nodiscard]] MapLayout map_layout(const Job& job);
+/// How many maps its light has.
+[[nodiscard]] std::size_t map_count(const Job& job);
+/// What the job says, or `pixel` for several maps, else `vertex`.
+[[nodiscard]] LookupPosition lookup_position(const Job& job);
 
 } // namespace gnomon::scene

@@ -210,10 +210,7 @@ std::vector<KeySpec> image_keys()
 KeySpec light_type_key()
 {
     return {.key = make_key("light.type", "the kind of light", "\"directional\"", light_stages),
-            .domain = WordDomain{{"directional", "spot"},
-                                 {},
-                                 "point",
-                                 "point lights are for `evaluate` only, for now"},
+            .domain = WordDomain{{"directional", "spot", "point"}},
             .set =
                 [](Job& job, const JobValue& value) {
                     LightType& type = light_of(job).type;
@@ -274,8 +271,8 @@ std::vector<KeySpec> light_keys()
                                   "[-0.4, -1, -0.3]", light_stages),
                          false, &LightSettings::direction, {}),
         light_vector_key(make_key("light.position",
-                                  "spot: where it stands [{unit}]; directional: where its camera "
-                                  "stands",
+                                  "spot, point: where it stands [{unit}]; directional: where its "
+                                  "camera stands",
                                   "", light_stages, "m"),
                          true, &LightSettings::position, "[4, 6, 4]"),
         light_vector_key(make_key("light.target",
@@ -332,6 +329,7 @@ std::optional<JobValue> default_of(const KeySpec& spec, const Job& job)
 {
     Job defaults;
     defaults.method.name = job.method.name;
+    defaults.shadow_map.layout = map_layout(job);
     return spec.get(defaults);
 }
 

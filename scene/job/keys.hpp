@@ -35,7 +35,7 @@ struct KeySpec {
 /// The row of that name, or nullptr.
 [[nodiscard]] const KeySpec* find_key(std::string_view name);
 
-/// What a job of defaults has the key at, of the same method as the job.
+/// What a job of defaults has the key at, of the same method and layout as the job.
 [[nodiscard]] std::optional<JobValue> default_of(const KeySpec& spec, const Job& job);
 
 /// True if a known key is `name` followed by a dot and more.
@@ -99,9 +99,11 @@ template <typename Value, typename Access>
 }
 
 /// A row for one of a few words that stand for an enumeration's values, which count from 0.
-template <typename Enum, typename Access>
+/// @param access  Returns by reference what the word is written to.
+/// @param read    Returns the value that the job has.
+template <typename Enum, typename Access, typename Read>
 [[nodiscard]] KeySpec word_key(JobKey key, int word_count, std::string_view (*name)(Enum),
-                               Access access)
+                               Access access, Read read)
 {
     WordDomain domain;
     for (int i = 0; i < word_count; ++i) {
@@ -115,10 +117,19 @@ template <typename Enum, typename Access>
         }
         access(job) = candidate;
     };
-    spec.get = [access, name](const Job& job) -> std::optional<JobValue> {
-        return held(std::string{name(access(job))});
+    spec.get = [read, name](const Job& job) -> std::optional<JobValue> {
+        return held(std::string{name(read(job))});
     };
     return spec;
+}
+
+/// The same, of a member that every job holds.
+/// @param access  Returns it by reference, for a const job and for one that is not.
+template <typename Enum, typename Access>
+[[nodiscard]] KeySpec word_key(JobKey key, int word_count, std::string_view (*name)(Enum),
+                               Access access)
+{
+    return word_key(std::move(key), word_count, name, access, access);
 }
 
 } // namespace gnomon::scene

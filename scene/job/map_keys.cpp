@@ -38,6 +38,23 @@ KeySpec depth_format_key()
             .example = {}};
 }
 
+/// Left out where there is one map, as it was before there were layouts.
+KeySpec layout_key()
+{
+    KeySpec spec = word_key<MapLayout>(
+        make_key("shadow_map.layout",
+                 "how many maps, and what they see: one, or of a point light, which has no other, "
+                 "the six faces of a cube",
+                 "\"single\"", light_matrix),
+        2, map_layout_name, [](Job & job) -> auto& { return job.shadow_map.layout; }, map_layout);
+    spec.get = [](const Job& job) -> std::optional<JobValue> {
+        const MapLayout layout = map_layout(job);
+        return layout == MapLayout::single ? std::nullopt
+                                           : held(std::string{map_layout_name(layout)});
+    };
+    return spec;
+}
+
 /// `near` or `far`: metres from the light's camera, or "auto".
 KeySpec plane_key(std::string name, std::string description,
                   std::optional<double> FrustumSettings::*plane)
@@ -184,9 +201,11 @@ std::vector<KeySpec> lookup_and_bias_keys()
             word_key<LookupPosition>(
                 make_key("lookup.position",
                          "where a receiver's light clip position is computed: at the vertices, and "
-                         "interpolated, or at each pixel from its world position",
+                         "interpolated, or at each pixel from its world position, which several "
+                         "maps need",
                          "\"vertex\"", only(Stage::lookup)),
-                2, lookup_position_name, [](auto& job) -> auto& { return job.lookup.position; }),
+                2, lookup_position_name, [](Job & job) -> auto& { return job.lookup.position; },
+                lookup_position),
             constant_key(),
             constant_m_key(),
             bias_key(
@@ -213,6 +232,7 @@ std::vector<KeySpec> map_key_specs()
                  only(Stage::shadow_map), "texels"),
         IntegerDomain{1, largest_side},
         [](auto& job) -> auto& { return job.shadow_map.resolution_texels; }));
+    specs.push_back(layout_key());
     specs.push_back(depth_format_key());
     for (KeySpec& spec : frustum_keys()) {
         specs.push_back(std::move(spec));

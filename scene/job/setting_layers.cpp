@@ -18,16 +18,23 @@ namespace {
 struct Replacement {
     std::string_view key;
     std::string_view word;
-    std::array<std::string_view, 2> drops;
+    std::array<std::string_view, 10> drops;
 };
 
-constexpr std::array<Replacement, 11> replacements{{
+constexpr std::array<Replacement, 12> replacements{{
     {"scene.builtin", "", {"scene.file"}},
     {"scene.file", "", {"scene.builtin"}},
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
     {"camera.orthographic_height", "", {"camera.vertical_fov_deg"}},
-    {"light.type", "directional", {"light.cone_deg", "shadow_map.fov_deg"}},
-    {"light.type", "spot", {"light.direction", "shadow_map.half_extent"}},
+    {"light.type", "directional", {"light.cone_deg", "shadow_map.fov_deg", "shadow_map.layout"}},
+    {"light.type",
+     "spot",
+     {"light.direction", "shadow_map.half_extent", "shadow_map.layout", "bias.constant_m"}},
+    {"light.type",
+     "point",
+     {"light.direction", "light.target", "light.cone_deg", "shadow_map.layout", "shadow_map.fit",
+      "shadow_map.half_extent", "shadow_map.fov_deg", "shadow_map.roll_deg", "lookup.position",
+      "bias.constant_m"}},
     {"light.target", "", {"light.direction"}},
     {"shadow_map.fit", "scene", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
     {"shadow_map.fit", "camera", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
@@ -218,7 +225,8 @@ Layer layer_from_job(const Job& job, std::string_view builtin)
 {
     Layer layer;
     for (const KeySpec& spec : key_specs()) {
-        if (auto value = spec.get(job)) {
+        // A default says nothing: it may be another once more is known.
+        if (auto value = spec.get(job); value && value != default_of(spec, job)) {
             std::string label =
                 fmt::format("built-in \"{}\": {} = {}", builtin, spec.key.name, to_toml(*value));
             layer.push_back({&spec, std::move(*value), std::move(label)});

@@ -61,7 +61,8 @@ void for_each_key(const TomlTable& table, const std::string& file,
 /// @throws InputError  naming the argument.
 [[nodiscard]] Layer layer_from_overrides(const std::vector<Override>& overrides);
 
-/// A setting for each key that the job holds, in the order of `key_specs`.
+/// A setting for each key that the job holds at another value than its default, in the order of
+/// `key_specs`.
 /// @param builtin  The scene whose default job it is, for messages.
 [[nodiscard]] Layer layer_from_job(const Job& job, std::string_view builtin);
 

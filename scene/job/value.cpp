@@ -215,9 +215,6 @@ std::string refusal_text(const Domain& domain, const TomlNode& node)
     if (words == nullptr || word == nullptr) {
         return text;
     }
-    if (!words->refused.empty() && *word == words->refused) {
-        return fmt::format("{}; {}", words->reason, text);
-    }
     return fmt::format("{}; the nearest is \"{}\"", text, nearest_word(*word, words->words));
 }
 

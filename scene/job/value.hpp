@@ -40,8 +40,6 @@ struct RealDomain {
 struct WordDomain {
     std::vector<std::string> words;
     std::string listing = {}; ///< how messages list the words; empty: one by one
-    std::string refused = {}; ///< a word that is refused for a reason of its own
-    std::string reason = {};
 };
 
 /// A text that is not empty.

@@ -51,13 +51,15 @@ struct ExactTap {
 struct NearestQuery {
     std::size_t pixel = 0;
     ExactTap tap;
+    int map = 0; ///< that the pixel reads; beyond a cube's seam the tap is of another
 };
 
 /// One receiver before a depth interpolated between four taps, weighted by where the receiver
 /// exactly is between their centres, or at the nearest place between them.
 struct LinearQuery {
     std::size_t pixel = 0;
-    Texel first;                  ///< of the lower left tap, before any clamping
+    Texel first;                  ///< of the lower left tap, before any clamping; of the map that
+                                  ///< the pixel reads
     std::array<ExactTap, 4> taps; ///< row by row from there
 };
 
@@ -79,9 +81,9 @@ struct BlockerHit {
 
 /// Exact answers about the light's rays, for one view, map resolution and culling (docs/causes.md).
 ///
-/// Pixels are row-major indices; each must be scored. Depths are those of the map that a texel or a
-/// query's texel is of, or else of the map that the pixel reads. All answers are the same for any
-/// number of threads.
+/// Pixels are row-major indices; each must be scored. Depths of texels are those of the map that
+/// they are of, depths of receivers those of the map that the pixel reads. All answers are the same
+/// for any number of threads.
 class ExactLight {
 public:
     ExactLight() = default;

@@ -9,13 +9,12 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace gnomon::scene {
 namespace {
-
-constexpr double smallest_relative_extent = 1e-4; // of the scene's diagonal; flat scenes
 
 /// Extent of points in light view: right, up, forward coordinates and the tangents seen from the
 /// origin.
@@ -38,6 +37,18 @@ struct LightViewExtent {
     [[nodiscard]] bool empty() const { return !(lower.x <= upper.x); }
 };
 
+/// Cosine and sine of an angle; of quarter turns exactly.
+Vec2d turn_by(double angle_deg)
+{
+    const double quarters = angle_deg / 90;
+    if (quarters != std::round(quarters)) {
+        return {std::cos(glm::radians(angle_deg)), std::sin(glm::radians(angle_deg))};
+    }
+    constexpr std::array<std::array<double, 2>, 4> turns{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    const auto& turn = turns.at(static_cast<std::size_t>(static_cast<int>(quarters) & 3));
+    return {turn[0], turn[1]};
+}
+
 /// Axes of the light's view: v grows upwards (towards +z for a light that travels vertically), then
 /// the roll turns both.
 void set_axes(LightFrustum& frustum, const Vec3d& direction, double roll_deg)
@@ -48,9 +59,9 @@ void set_axes(LightFrustum& frustum, const Vec3d& direction, double roll_deg)
     const Vec3d hint = vertical ? Vec3d{0, 0, 1} : world_up;
     const Vec3d right = glm::normalize(glm::cross(frustum.forward, hint));
     const Vec3d up = glm::cross(right, frustum.forward);
-    const double roll_rad = glm::radians(roll_deg);
-    frustum.right = std::cos(roll_rad) * right + std::sin(roll_rad) * up;
-    frustum.up = std::cos(roll_rad) * up - std::sin(roll_rad) * right;
+    const Vec2d roll = turn_by(roll_deg);
+    frustum.right = roll.x * right + roll.y * up;
+    frustum.up = roll.x * up - roll.y * right;
 }
 
 LightViewExtent extent_of_scene(const LightFrustum& frustum, const TriangleScene& scene)
@@ -104,6 +115,12 @@ Vec3d camera_position(const LightSettings& settings, const Light& light, const B
 
 } // namespace
 
+ClipRange clip_range_of(const FrustumSettings& settings)
+{
+    return settings.clip_range.value_or(settings.reversed ? ClipRange::zero_to_one
+                                                          : ClipRange::minus_one_to_one);
+}
+
 void compose_matrix(LightFrustum& f)
 {
     const bool perspective = f.projection == Projection::perspective;
@@ -140,8 +157,7 @@ LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSetti
     frustum.projection =
         light.type == LightType::spot ? Projection::perspective : Projection::orthographic;
     frustum.reversed = settings.reversed;
-    frustum.clip_range = settings.clip_range.value_or(
-        settings.reversed ? ClipRange::zero_to_one : ClipRange::minus_one_to_one);
+    frustum.clip_range = clip_range_of(settings);
     frustum.origin = camera_position(light_settings, light, box);
     set_axes(frustum, light.direction, settings.roll_deg);
 
@@ -161,7 +177,7 @@ LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSetti
         range.farthest_m = box.diagonal_m(); // everything is behind the spot
     }
     set_sides(frustum, settings, light_settings, sides);
-    set_near_far(frustum, settings, scene, {range, !seen.empty(), smallest_m});
+    set_near_far({&frustum, 1}, settings, scene, {range, !seen.empty(), smallest_m});
     compose_matrix(frustum);
     return frustum;
 }

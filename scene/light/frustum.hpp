@@ -24,6 +24,9 @@ struct FrustumSettings {
     std::optional<ClipRange> clip_range; ///< empty: [0, 1] if reversed, else [−1, 1]
 };
 
+/// The clip range that the settings mean.
+[[nodiscard]] ClipRange clip_range_of(const FrustumSettings& settings);
+
 /// The light's camera: what the shadow map sees.
 struct LightFrustum {
     Projection projection = Projection::orthographic;

@@ -11,7 +11,7 @@ namespace gnomon::scene {
 enum class LightType : std::uint8_t {
     directional,
     spot,
-    point, ///< of other renderers only: it has no shadow map
+    point, ///< shines everywhere alike: its shadow maps are the faces of a cube
 };
 
 /// "directional", "spot", "point".
@@ -35,6 +35,9 @@ struct Light {
                      ///< point: unused
     Vec3d position;  ///< spot, point: L [m]. directional: unused
     double cos_half_cone = -1.0; ///< spot: the double cos(cone/2)
+
+    /// Whether its rays come from one point.
+    [[nodiscard]] bool has_position() const { return type != LightType::directional; }
 };
 
 /// Rounds to float32 once.

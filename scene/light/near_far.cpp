@@ -74,7 +74,8 @@ void check_planes(const NearFar& planes, Projection projection)
 {
     if (projection == Projection::perspective && !(planes.near_m > 0)) {
         throw InputError(
-            fmt::format("shadow_map.near = {}: a spot's near plane must be in front of it, above 0",
+            fmt::format("shadow_map.near = {}: the near plane of a spot or point light must be in "
+                        "front of it, above 0",
                         planes.near_m));
     }
     if (!(planes.near_m < planes.far_m)) {
@@ -97,38 +98,54 @@ void check_planes(const NearFar& planes, Projection projection)
     }
 }
 
+/// What the scene has within the sides of any of the maps.
+ClippedRange range_within(std::span<LightFrustum> maps, const TriangleScene& scene)
+{
+    ClippedRange all;
+    for (LightFrustum& map : maps) {
+        compose_matrix(map); // for its rows of x, y and w: they do not depend on near and far
+        const ClippedRange inside = clipped_range(map, scene);
+        all.nearest_m = std::min(all.nearest_m, inside.nearest_m);
+        all.farthest_m = std::max(all.farthest_m, inside.farthest_m);
+        all.largest_terms_m = std::max(all.largest_terms_m, inside.largest_terms_m);
+    }
+    return all;
+}
+
 /// The auto planes around what the scene has within the sides, which are set; none where that is
 /// nothing, or nothing on the right side of a given plane.
-std::optional<NearFar> clipped_planes(LightFrustum& frustum, const FrustumSettings& settings,
+std::optional<NearFar> clipped_planes(std::span<LightFrustum> maps, const FrustumSettings& settings,
                                       const TriangleScene& scene, const WholeScene& whole)
 {
-    compose_matrix(frustum); // for its rows of x, y and w: they do not depend on near and far
-    const ClippedRange inside = clipped_range(frustum, scene);
+    const ClippedRange inside = range_within(maps, scene);
     LightDistanceRange range{inside.nearest_m,
                              whole.keeps_far ? whole.range.farthest_m : inside.farthest_m};
-    const bool spot = frustum.projection == Projection::perspective;
-    if (!(range.nearest_m <= range.farthest_m) || (spot && range.farthest_m <= 0)) {
+    const Projection projection = maps.front().projection;
+    const bool is_before_light = projection == Projection::orthographic || range.farthest_m > 0;
+    if (!(range.nearest_m <= range.farthest_m) || !is_before_light) {
         return {};
     }
     widen(range.nearest_m, range.farthest_m, whole.smallest_range_m);
-    const auto planes =
-        planes_around(settings, frustum.projection, whole, range, inside.largest_terms_m);
-    const NearFar chosen = chosen_planes(settings, frustum.projection, planes);
+    const auto planes = planes_around(settings, projection, whole, range, inside.largest_terms_m);
+    const NearFar chosen = chosen_planes(settings, projection, planes);
     return chosen.near_m < chosen.far_m ? std::optional{chosen} : std::nullopt;
 }
 
 } // namespace
 
-void set_near_far(LightFrustum& frustum, const FrustumSettings& settings,
+void set_near_far(std::span<LightFrustum> maps, const FrustumSettings& settings,
                   const TriangleScene& scene, const WholeScene& whole)
 {
+    const Projection projection = maps.front().projection;
     const bool has_both = settings.near_m && settings.far_m;
-    const auto clipped = has_both ? std::nullopt : clipped_planes(frustum, settings, scene, whole);
+    const auto clipped = has_both ? std::nullopt : clipped_planes(maps, settings, scene, whole);
     const NearFar planes =
-        clipped ? *clipped : chosen_planes(settings, frustum.projection, padded(whole.range));
-    check_planes(planes, frustum.projection);
-    frustum.near_m = planes.near_m;
-    frustum.far_m = planes.far_m;
+        clipped ? *clipped : chosen_planes(settings, projection, padded(whole.range));
+    check_planes(planes, projection);
+    for (LightFrustum& map : maps) {
+        map.near_m = planes.near_m;
+        map.far_m = planes.far_m;
+    }
 }
 
 void widen(double& lower, double& upper, double smallest)

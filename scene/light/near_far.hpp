@@ -3,7 +3,12 @@
 #include "scene/light/frustum.hpp"
 #include "scene/triangles.hpp"
 
+#include <span>
+
 namespace gnomon::scene {
+
+/// Share of the scene's diagonal that a range of ζ or a map's side is at least, for flat scenes.
+inline constexpr double smallest_relative_extent = 1e-4;
 
 /// A range of ζ [m].
 struct LightDistanceRange {
@@ -21,11 +26,12 @@ struct WholeScene {
 /// Moves the ends of a range apart until it is at least that long.
 void widen(double& lower, double& upper, double smallest);
 
-/// Sets the frustum's near and far: those of the settings, else around the triangles within the
-/// sides, else around the whole scene. Its axes, origin and sides are set before.
-/// @throws InputError  if near >= far, if they are too close for float32 depths, or if a spot's
-///                     near is not above 0.
-void set_near_far(LightFrustum& frustum, const FrustumSettings& settings,
+/// Sets near and far of a light's maps, the same for all: those of the settings, else around the
+/// triangles within the sides of any, else around the whole scene. Axes, origin and sides are set
+/// before, of one projection.
+/// @throws InputError  if near >= far, if they are too close for float32 depths, or if a
+///                     perspective's near is not above 0.
+void set_near_far(std::span<LightFrustum> maps, const FrustumSettings& settings,
                   const TriangleScene& scene, const WholeScene& whole);
 
 } // namespace gnomon::scene

@@ -1,5 +1,7 @@
 #include "scene/view/map_choice.hpp"
 
+#include "scene/light/cube_faces.hpp"
+
 namespace gnomon::scene {
 
 namespace {
@@ -43,6 +45,8 @@ std::size_t chosen_map(std::span<const LightFrustum> maps, MapChoice choice, con
     switch (choice) {
     case MapChoice::containing:
         return first_that_contains(maps, point);
+    case MapChoice::cube_face:
+        return cube_face_towards(point - Vec3f{maps.front().origin});
     }
     return 0;
 }

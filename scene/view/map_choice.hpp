@@ -9,10 +9,11 @@
 
 namespace gnomon::scene {
 
-/// Which of a light's maps a receiver reads. raster_gl/shaders/map_choice.glsl is the same rule in
-/// GLSL, equal to the bit.
+/// Which of a light's maps a receiver reads. raster_gl/shaders/map_choice.glsl and cube_faces.glsl
+/// are the same rules in GLSL, equal to the bit.
 enum class MapChoice : std::uint8_t {
     containing, ///< the first that contains it; the last where none does
+    cube_face,  ///< the face of `cube_faces` that fl(P − L) meets (`cube_face_towards`)
 };
 
 /// The clip position of a point, in float32, each product and each sum rounded, in the order

@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/light/cube_faces.hpp"
 
 #include <fmt/format.h>
 
@@ -34,8 +35,8 @@ float constant_bias(const BiasSettings& settings, const LightFrustum& frustum)
         return rounded_bias(settings.constant, "bias.constant");
     }
     if (frustum.projection == Projection::perspective) {
-        throw InputError("bias.constant_m needs a directional light: a spot's depth is not linear "
-                         "in metres; use bias.constant");
+        throw InputError("bias.constant_m needs a directional light: the depth of a spot or point "
+                         "light is not linear in metres; use bias.constant");
     }
     return rounded_bias(*settings.constant_m / frustum.range_m(), "bias.constant_m");
 }
@@ -86,6 +87,23 @@ Box framed_box(const TriangleScene& scene)
     return box;
 }
 
+/// A scene's own light is known no earlier.
+void require_layout(const Job& job, LightType light)
+{
+    const bool is_cube = map_layout(job) == MapLayout::cube;
+    if (is_cube != (light == LightType::point)) {
+        throw InputError(fmt::format(
+            "shadow_map.layout = \"{}\": the scene's light is a {} light; remove the key, or give "
+            "a light under [light]",
+            map_layout_name(map_layout(job)), light_type_name(light)));
+    }
+    if (is_cube && lookup_position(job) != LookupPosition::pixel) {
+        throw InputError(
+            "lookup.position = \"vertex\": the scene's light is a point light, whose six "
+            "maps are looked up from pixels; remove the key");
+    }
+}
+
 LightSettings default_light()
 {
     LightSettings light;
@@ -109,6 +127,19 @@ const LightFrustum& View::first_map() const
     return maps.front();
 }
 
+double View::light_distance_m(const Vec3d& point) const
+{
+    const std::size_t map = maps.size() > 1 ? chosen_map(maps, map_choice, Vec3f{point}) : 0;
+    return map < maps.size() ? maps[map].light_distance_m(point)
+                             : first_map().light_distance_m(point);
+}
+
+std::string View::map_name(std::size_t map) const
+{
+    return map_choice == MapChoice::cube_face ? std::string{cube_faces.at(map).name}
+                                              : std::to_string(map);
+}
+
 Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum)
 {
     return {constant_bias(settings, frustum), rounded_bias(settings.slope, "bias.slope"),
@@ -128,18 +159,36 @@ LightSettings resolve_light(const Job& job, const SceneDefaults& defaults)
     return light ? *light : default_light();
 }
 
-View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefaults& defaults)
+Job with_layout(Job job, const SceneDefaults& defaults)
+{
+    if (!job.shadow_map.layout && resolve_light(job, defaults).type == LightType::point) {
+        job.shadow_map.layout = MapLayout::cube;
+    }
+    return job;
+}
+
+View resolve_view_without_maps(const Job& job, const TriangleScene& scene,
+                               const SceneDefaults& defaults)
 {
     View view;
     view.image = job.image;
     view.camera = make_camera(resolve_camera(job, scene, defaults));
-    const LightSettings light = resolve_light(job, defaults);
-    view.light = make_light(light);
-    if (light.type == LightType::point) {
-        return view; // it has no shadow map
+    view.light = make_light(resolve_light(job, defaults));
+    return view;
+}
+
+View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefaults& defaults)
+{
+    View view = resolve_view_without_maps(job, scene, defaults);
+    const FrustumSettings& settings = job.shadow_map.frustum;
+    require_layout(with_layout(job, defaults), view.light.type);
+    if (view.light.type == LightType::point) {
+        view.maps = fit_cube_faces(settings, view.light, scene);
+        view.map_choice = MapChoice::cube_face;
+    } else {
+        view.maps = {fit_light_frustum(settings, resolve_light(job, defaults), view.light, scene,
+                                       view.camera, job.image)};
     }
-    view.maps = {fit_light_frustum(job.shadow_map.frustum, light, view.light, scene, view.camera,
-                                   job.image)};
     view.bias = resolve_bias(job.bias, view.first_map());
     view.bias.handed = resolve_handed_biases(job);
     return view;

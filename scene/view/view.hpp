@@ -36,21 +36,34 @@ struct View {
     Camera camera;
     ImageSize image;
     Light light;
-    /// What each shadow map sees, all of one size, at most `most_maps`; a point light has none.
+    /// What each shadow map sees, all of one size, at most `most_maps`; another renderer's point
+    /// light has none.
     std::vector<LightFrustum> maps;
     Bias bias;
     MapChoice map_choice = MapChoice::containing; ///< which of several maps a receiver reads
 
-    /// The first map's, and of a light with one map the only one: whose light distances and ranges
-    /// are those of all.
+    /// The first map's, and of a light with one map the only one: whose ranges are those of all.
     /// @throws std::logic_error  if there is no map.
     [[nodiscard]] const LightFrustum& first_map() const;
+    /// Light distance of a point in the map that a receiver there reads [m].
+    /// @throws std::logic_error  if there is no map.
+    [[nodiscard]] double light_distance_m(const Vec3d& point) const;
+    /// What people call a map: a cube's face "+x", another by its index.
+    [[nodiscard]] std::string map_name(std::size_t map) const;
 };
 
-/// Resolves camera, light, its map and bias; of a point light camera and light alone.
+/// The job with its maps' layout said: that of the scene's light, where the job leaves both to the
+/// scene.
+[[nodiscard]] Job with_layout(Job job, const SceneDefaults& defaults);
+
+/// Resolves camera, light, its maps and bias.
 /// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
 [[nodiscard]] View resolve_view(const Job& job, const TriangleScene& scene,
                                 const SceneDefaults& defaults);
+
+/// Resolves camera and light alone, as for another renderer's shadows.
+[[nodiscard]] View resolve_view_without_maps(const Job& job, const TriangleScene& scene,
+                                             const SceneDefaults& defaults);
 
 /// The camera that a job means: its own, the scene file's, or one that frames the scene.
 [[nodiscard]] CameraSettings resolve_camera(const Job& job, const TriangleScene& scene,

@@ -180,7 +180,31 @@ scene::Image<scene::Vec2f> read_texels(CaseImageFile& file, const std::string& n
     return texels;
 }
 
-scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>& tan_theta)
+/// Which of several maps each judged pixel reads.
+scene::MapIndices read_map_indices(CaseImageFile& file, const std::string& name,
+                                   const scene::Image<Vec3f>& position)
+{
+    if (file.find({name}).empty()) {
+        return {};
+    }
+    const scene::Image<std::uint32_t> numbers = file.whole_numbers(name, position);
+    scene::MapIndices maps{file.size()};
+    for (std::size_t i = 0; i < maps.pixel_count(); ++i) {
+        if (std::isnan(position[i].x)) {
+            continue;
+        }
+        if (numbers[i] >= scene::most_maps) {
+            file.refuse_pixel(
+                fmt::format("{} = {}", name, numbers[i]), i,
+                fmt::format("a light has at most {} maps, counted from 0", scene::most_maps));
+        }
+        maps[i] = static_cast<std::uint8_t>(numbers[i]);
+    }
+    return maps;
+}
+
+scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>& tan_theta,
+                                 const scene::Image<Vec3f>& position)
 {
     if (file.find({"unmoved.V"}).empty()) {
         return {};
@@ -189,7 +213,8 @@ scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>&
     const auto d = file.exact_numbers("unmoved.z.map", why_depths);
     const auto verdict = file.numbers("unmoved.V");
     scene::LookupLayers unmoved{scene::Image<scene::LookupSample>{file.size()},
-                                read_texels(file, "unmoved.texel")};
+                                read_texels(file, "unmoved.texel"),
+                                read_map_indices(file, "unmoved.map_index", position)};
     for (std::size_t i = 0; i < verdict.pixel_count(); ++i) {
         unmoved.samples[i] = {r[i], d[i], tan_theta.empty() ? 0.0F : tan_theta[i], verdict[i]};
     }
@@ -199,9 +224,11 @@ scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>&
 scene::Image<float> read_map(const std::filesystem::path& path, std::uint64_t memory_bytes)
 {
     CaseImageFile file{path, memory_bytes};
-    if (file.size().width_px != file.size().height_px) {
-        file.refuse(fmt::format("the shadow map is {}x{} texels: it must be square",
-                                file.size().width_px, file.size().height_px));
+    if (file.size().height_px % file.size().width_px != 0) {
+        file.refuse(
+            fmt::format("the shadow map is {}x{} texels: it must be square, or squares below "
+                        "each other, the first map on top",
+                        file.size().width_px, file.size().height_px));
     }
     return file.exact_numbers("map.d", why_depths);
 }
@@ -233,7 +260,8 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
         read_receiver_depths(file, file.find(names.z_light), layers.position, layers.z_map);
     layers.texels = read_texels(file, "texel");
     layers.tan_theta = read_optional(file, file.find({"tan_theta"}));
-    layers.unmoved = read_unmoved(file, layers.tan_theta);
+    layers.maps = read_map_indices(file, "map_index", layers.position);
+    layers.unmoved = read_unmoved(file, layers.tan_theta, layers.position);
     if (!description.map.empty()) {
         layers.map_depths = read_map(description.map, memory_bytes);
     }

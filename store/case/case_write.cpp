@@ -75,6 +75,10 @@ public:
         add(prefix + "z.light", [&samples](std::size_t i) { return samples[i].receiver_depth; });
         add(prefix + "z.map", [&samples](std::size_t i) { return samples[i].map_depth; });
         add_vector(prefix + "texel", lookup.texels);
+        if (const auto& maps = lookup.maps; !maps.empty()) {
+            add_integer(prefix + "map_index",
+                        [&maps](std::size_t i) -> std::uint32_t { return maps[i]; });
+        }
     }
 
     [[nodiscard]] const std::vector<ExrChannel>& all() const { return channels_; }

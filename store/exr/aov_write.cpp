@@ -18,6 +18,7 @@ namespace gnomon::store {
 namespace {
 
 constexpr float not_a_bias = std::numeric_limits<float>::quiet_NaN();
+constexpr std::uint32_t no_map = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t no_object = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t bits(float value)
@@ -127,6 +128,12 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
     if (!texels.empty()) { // another renderer's mask has none
         channels.push_back({"texel.X", float32, [&](std::size_t i) { return bits(texels[i].x); }});
         channels.push_back({"texel.Y", float32, [&](std::size_t i) { return bits(texels[i].y); }});
+    }
+    const scene::MapIndices& maps = comparison.lookup.maps;
+    if (!maps.empty()) { // of several
+        channels.push_back({"map_index", uint32, [&](std::size_t i) {
+                                return is_scored(classes[i]) ? std::uint32_t{maps[i]} : no_map;
+                            }});
     }
     add_surface(channels, surface);
     if (comparison.diagnosis) {

@@ -66,7 +66,11 @@ void add_camera(std::vector<ExactInput>& inputs, const scene::Camera& camera)
 
 void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
 {
-    inputs.push_back({"light_clip_from_world", row_major(view.first_map().light_clip_from_world)});
+    for (std::size_t i = 0; i < view.maps.size(); ++i) {
+        inputs.push_back({view.maps.size() == 1 ? "light_clip_from_world"
+                                                : fmt::format("light_clip_from_world_{}", i),
+                          row_major(view.maps[i].light_clip_from_world)});
+    }
     inputs.push_back({"near", numbers({view.first_map().near_m})});
     inputs.push_back({"far", numbers({view.first_map().far_m})});
     inputs.push_back({"bias_constant", numbers({static_cast<double>(view.bias.constant)})});

@@ -33,6 +33,14 @@ struct ExrAttribute {
     std::string value;
 };
 
+/// An image of an EXR file to write.
+struct ExrPart {
+    scene::ImageSize size;
+    std::span<const ExrChannel> channels;
+    std::span<const ExrAttribute> attributes;
+    std::string name = {}; ///< of several
+};
+
 /// How the numbers of a channel are kept in a file.
 enum class LayerType : std::uint8_t { missing, float16, float32, uint32, other };
 
@@ -88,10 +96,10 @@ public:
     [[nodiscard]] virtual std::vector<std::byte>
     encode_png(scene::ImageSize size, int channel_count, const std::uint8_t* samples) const = 0;
     /// ZIP-compressed scanlines; no time stamp, so that equal input gives equal bytes.
+    /// @param parts  at least one; several have names.
     /// @throws scene::EnvironmentError  if the encoder fails.
     [[nodiscard]] virtual std::vector<std::byte>
-    encode_exr(scene::ImageSize size, std::span<const ExrChannel> channels,
-               std::span<const ExrAttribute> attributes) const = 0;
+    encode_exr(std::span<const ExrPart> parts) const = 0;
 
     /// The grey values of a PNG file of one 8-bit channel and the given size.
     /// @throws scene::InputError  saying what is wrong, without the file's name.

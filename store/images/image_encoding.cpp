@@ -26,7 +26,13 @@ std::vector<std::byte> encode_png(const scene::Image<std::uint8_t>& grey)
 std::vector<std::byte> encode_exr(scene::ImageSize size, std::span<const ExrChannel> channels,
                                   std::span<const ExrAttribute> attributes)
 {
-    return image_codec().encode_exr(size, channels, attributes);
+    const ExrPart part{size, channels, attributes};
+    return encode_exr({&part, 1});
+}
+
+std::vector<std::byte> encode_exr(std::span<const ExrPart> parts)
+{
+    return image_codec().encode_exr(parts);
 }
 
 } // namespace gnomon::store

@@ -28,5 +28,7 @@ using RgbImage = scene::Image<Rgb>;
 [[nodiscard]] std::vector<std::byte> encode_exr(scene::ImageSize size,
                                                 std::span<const ExrChannel> channels,
                                                 std::span<const ExrAttribute> attributes);
+/// The same of several images in one file.
+[[nodiscard]] std::vector<std::byte> encode_exr(std::span<const ExrPart> parts);
 
 } // namespace gnomon::store

@@ -8,40 +8,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
 #include <utility>
+
+#include <cstdlib>
+#include <unistd.h>
 
 namespace gnomon::store {
 
 namespace {
 
-/// An OpenImageIO writer into memory.
-class MemoryOutput {
+/// An OpenImageIO writer.
+class Output {
 public:
-    /// @param name  a file name whose extension selects the format; nothing of that name is made.
-    MemoryOutput(const std::string& name, const OIIO::ImageSpec& spec)
-        : output_{OIIO::ImageOutput::create(name)}
+    /// @param name  a file name whose extension selects the format.
+    explicit Output(const std::string& name) : output_{OIIO::ImageOutput::create(name)}
     {
         if (output_ == nullptr) {
             throw scene::EnvironmentError(
                 fmt::format("OpenImageIO cannot write {}: {}; install OpenImageIO with its plugins",
                             name, OIIO::geterror()));
         }
-        require("open", output_->set_ioproxy(&memory_) && output_->open(name, spec));
     }
 
-    void write_rows(int first, int last, const OIIO::TypeDesc& type, const void* rows)
+    [[nodiscard]] OIIO::ImageOutput* operator->() const { return output_.get(); }
+
+    void write_rows(int first, int last, const OIIO::TypeDesc& type, const void* rows) const
     {
         require("write_scanlines", output_->write_scanlines(first, last, 0, type, rows));
     }
-
-    [[nodiscard]] std::vector<std::byte> take()
-    {
-        require("close", output_->close());
-        const auto bytes = std::as_bytes(std::span{memory_.buffer()});
-        return {bytes.begin(), bytes.end()};
-    }
-
-private:
     void require(std::string_view call, bool succeeded) const
     {
         if (!succeeded) {
@@ -52,17 +51,65 @@ private:
         }
     }
 
-    OIIO::Filesystem::IOVecOutput memory_; // outlives the writer that points to it
+private:
     std::unique_ptr<OIIO::ImageOutput> output_;
 };
 
-OIIO::ImageSpec exr_spec(scene::ImageSize size, std::span<const ExrChannel> channels,
-                         std::span<const ExrAttribute> attributes)
+/// Writes one image into memory.
+/// @param name   whose extension selects the format; nothing of that name is made.
+/// @param write  writes the image's rows.
+template <typename Write>
+std::vector<std::byte> encode_image(const std::string& name, const OIIO::ImageSpec& spec,
+                                    const Write& write)
 {
-    OIIO::ImageSpec spec{size.width_px, size.height_px, static_cast<int>(channels.size()),
-                         OIIO::TypeDesc::FLOAT};
+    OIIO::Filesystem::IOVecOutput memory; // outlives the writer that points to it
+    const Output output{name};
+    output.require("open", output->set_ioproxy(&memory) && output->open(name, spec));
+    write(output);
+    output.require("close", output->close());
+    const auto bytes = std::as_bytes(std::span{memory.buffer()});
+    return {bytes.begin(), bytes.end()};
+}
+
+/// A file of a name of its own that is gone with it.
+class ScratchFile {
+public:
+    /// @throws scene::EnvironmentError  if it cannot be made.
+    explicit ScratchFile(std::string_view extension)
+        : path_{(std::filesystem::temp_directory_path() / "gnomon-XXXXXX").string()}
+    {
+        path_ += extension;
+        const int file = ::mkstemps(path_.data(), static_cast<int>(extension.size()));
+        if (file < 0) {
+            throw scene::EnvironmentError(
+                fmt::format("{}: {}; free space there, or set TMPDIR to another folder", path_,
+                            std::generic_category().message(errno)));
+        }
+        ::close(file);
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    ~ScratchFile() { ::unlink(path_.c_str()); }
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::vector<std::byte> bytes() const
+    {
+        std::ifstream file{path_, std::ios::binary};
+        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+        const auto bytes = std::as_bytes(std::span{text});
+        return {bytes.begin(), bytes.end()};
+    }
+
+private:
+    std::string path_;
+};
+
+OIIO::ImageSpec exr_spec(const ExrPart& part)
+{
+    OIIO::ImageSpec spec{part.size.width_px, part.size.height_px,
+                         static_cast<int>(part.channels.size()), OIIO::TypeDesc::FLOAT};
     spec.channelnames.clear();
-    for (const ExrChannel& channel : channels) {
+    for (const ExrChannel& channel : part.channels) {
         spec.channelnames.push_back(channel.name);
         spec.channelformats.emplace_back(
             channel.type == ChannelType::float32 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32);
@@ -70,10 +117,53 @@ OIIO::ImageSpec exr_spec(scene::ImageSize size, std::span<const ExrChannel> chan
     spec.attribute("compression", "zip");
     // Left out, the writer would put the current time here.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
-    for (const ExrAttribute& attribute : attributes) {
+    if (!part.name.empty()) {
+        spec.attribute("oiio:subimagename", part.name);
+    }
+    for (const ExrAttribute& attribute : part.attributes) {
         spec.attribute(attribute.name, attribute.value);
     }
     return spec;
+}
+
+void write_part(const Output& output, const ExrPart& part)
+{
+    constexpr int rows_at_once = 128; // bounds the memory that interleaving takes
+    const auto& channels = part.channels;
+    const auto width = static_cast<std::size_t>(part.size.width_px);
+    std::vector<std::uint32_t> rows;
+    for (int first = 0; first < part.size.height_px; first += rows_at_once) {
+        const int last = std::min(first + rows_at_once, part.size.height_px);
+        const std::size_t first_pixel = static_cast<std::size_t>(first) * width;
+        const std::size_t pixel_count = static_cast<std::size_t>(last - first) * width;
+        rows.resize(pixel_count * channels.size());
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            for (std::size_t i = 0; i < pixel_count; ++i) {
+                rows[i * channels.size() + c] = channels[c].bits(first_pixel + i);
+            }
+        }
+        // UNKNOWN: the values are already in each channel's own type.
+        output.write_rows(first, last, OIIO::TypeDesc::UNKNOWN, rows.data());
+    }
+}
+
+/// Several images in one file, which OpenImageIO writes to no memory.
+std::vector<std::byte> encode_parts(std::span<const ExrPart> parts)
+{
+    const ScratchFile file{".exr"};
+    std::vector<OIIO::ImageSpec> specs(parts.size());
+    std::ranges::transform(parts, specs.begin(), exr_spec);
+    const Output output{file.path()};
+    output.require("open", output->open(file.path(), static_cast<int>(specs.size()), specs.data()));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (i > 0) {
+            output.require("open",
+                           output->open(file.path(), specs[i], OIIO::ImageOutput::AppendSubimage));
+        }
+        write_part(output, parts[i]);
+    }
+    output.require("close", output->close());
+    return file.bytes();
 }
 
 LayerType layer_type(const OIIO::TypeDesc& type)
@@ -145,34 +235,20 @@ public:
     [[nodiscard]] std::vector<std::byte> encode_png(scene::ImageSize size, int channel_count,
                                                     const std::uint8_t* samples) const override
     {
-        MemoryOutput output{"picture.png", OIIO::ImageSpec{size.width_px, size.height_px,
-                                                           channel_count, OIIO::TypeDesc::UINT8}};
-        output.write_rows(0, size.height_px, OIIO::TypeDesc::UINT8, samples);
-        return output.take();
+        const OIIO::ImageSpec spec{size.width_px, size.height_px, channel_count,
+                                   OIIO::TypeDesc::UINT8};
+        return encode_image("picture.png", spec, [&](const Output& output) {
+            output.write_rows(0, size.height_px, OIIO::TypeDesc::UINT8, samples);
+        });
     }
 
-    [[nodiscard]] std::vector<std::byte>
-    encode_exr(scene::ImageSize size, std::span<const ExrChannel> channels,
-               std::span<const ExrAttribute> attributes) const override
+    [[nodiscard]] std::vector<std::byte> encode_exr(std::span<const ExrPart> parts) const override
     {
-        constexpr int rows_at_once = 128; // bounds the memory that interleaving takes
-        MemoryOutput output{"layers.exr", exr_spec(size, channels, attributes)};
-        const auto width = static_cast<std::size_t>(size.width_px);
-        std::vector<std::uint32_t> rows;
-        for (int first = 0; first < size.height_px; first += rows_at_once) {
-            const int last = std::min(first + rows_at_once, size.height_px);
-            const std::size_t first_pixel = static_cast<std::size_t>(first) * width;
-            const std::size_t pixel_count = static_cast<std::size_t>(last - first) * width;
-            rows.resize(pixel_count * channels.size());
-            for (std::size_t c = 0; c < channels.size(); ++c) {
-                for (std::size_t i = 0; i < pixel_count; ++i) {
-                    rows[i * channels.size() + c] = channels[c].bits(first_pixel + i);
-                }
-            }
-            // UNKNOWN: the values are already in each channel's own type.
-            output.write_rows(first, last, OIIO::TypeDesc::UNKNOWN, rows.data());
+        if (parts.size() == 1) {
+            return encode_image("layers.exr", exr_spec(parts.front()),
+                                [&](const Output& output) { write_part(output, parts.front()); });
         }
-        return output.take();
+        return encode_parts(parts);
     }
 
     [[nodiscard]] scene::Image<std::uint8_t> decode_grey_png(std::string_view bytes,

@@ -129,7 +129,7 @@ void expect_tap_criticals(const Compared& compared, const analysis::Comparison& 
     const auto map = compared.renderers().read_map_depths();
     const auto rule = analysis::lookup_rule(result.job, result.view);
     const analysis::TapCriticals taps{result.lookup, map, rule};
-    const analysis::Footprint footprint{rule.promises, rule.outside, map.size().width_px};
+    const analysis::Footprint footprint{rule.promises, rule.edge(), map.size().width_px};
     double largest = 0;
     taps.visit(
         0, result.truth.pixel_class.pixel_count(),

@@ -15,7 +15,7 @@ inline LookupRule rule_of(scene::Filter filter, scene::Outside outside = scene::
 /// What a lookup with that filter reads.
 inline Footprint footprint_of(scene::Filter filter, scene::Outside outside, int resolution_texels)
 {
-    return {methods::filter_promises(filter), outside, resolution_texels};
+    return {methods::filter_promises(filter), map_edge(outside, false), resolution_texels};
 }
 
 } // namespace gnomon::analysis

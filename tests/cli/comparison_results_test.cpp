@@ -15,9 +15,9 @@ namespace {
 using std::filesystem::path;
 using Json = nlohmann::json;
 
-const std::vector<std::string> builtins{"sphere-cube",   "sphere-plane", "yard",    "playground",
-                                        "two-distances", "tilted-plane", "wall",    "room",
-                                        "fence",         "terrain",      "columns", "sphere-field"};
+const std::vector<std::string> builtins{
+    "sphere-cube", "sphere-plane", "yard",  "playground", "two-distances", "tilted-plane", "wall",
+    "room",        "lamp-room",    "fence", "terrain",    "columns",       "sphere-field"};
 
 Json compare(std::vector<std::string> arguments)
 {

@@ -129,9 +129,10 @@ TEST(Scenes, ListsEveryBuiltinWithItsParameters)
             expect_sound_parameter(parameter);
         }
     }
-    EXPECT_EQ(names, (std::set<std::string>{"sphere-cube", "sphere-plane", "yard", "playground",
-                                            "two-distances", "tilted-plane", "wall", "room",
-                                            "fence", "terrain", "columns", "sphere-field"}));
+    EXPECT_EQ(names,
+              (std::set<std::string>{"sphere-cube", "sphere-plane", "yard", "playground",
+                                     "two-distances", "tilted-plane", "wall", "room", "lamp-room",
+                                     "fence", "terrain", "columns", "sphere-field"}));
     const std::string table = gnomon({"scenes"}).out;
     for (const std::string& name : names) {
         EXPECT_THAT(table, HasSubstr(name));

@@ -61,7 +61,8 @@ public:
     Explained(const Compared& scene, const analysis::Comparison& exact, const RerunDepths& depths)
         : exact_{exact},
           depths_{depths},
-          footprint_{methods::promises(exact.job), exact.job.lookup.outside,
+          footprint_{methods::promises(exact.job),
+                     analysis::lookup_rule(exact.job, exact.view).edge(),
                      exact.job.shadow_map.resolution_texels},
           light_{scene.renderers().make_exact_light(exact.job, exact.view, exact.receivers)}
     {
@@ -183,7 +184,8 @@ TEST_P(CausesByRerun, AreTheExactOnesButWhereFloat32Decides)
     GNOMON_REQUIRE_GL();
     const std::string filter = GetParam();
     Differences all;
-    for (const char* const builtin : {"sphere-plane", "sphere-cube", "wall", "terrain"}) {
+    for (const char* const builtin :
+         {"sphere-plane", "sphere-cube", "wall", "terrain", "lamp-room"}) {
         const auto keys = with(small, {{"lookup.filter", filter}});
         const Compared scene{job_of_builtin(builtin, keys)};
         for (const auto& [format, bias] :

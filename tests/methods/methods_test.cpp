@@ -121,18 +121,26 @@ TEST(MapBytes, AreTwoOrFourATexel)
          {std::pair{"d16", 2U}, std::pair{"d24", 4U}, std::pair{"d32", 4U}, std::pair{"d32f", 4U},
           std::pair{"u8", 2U}, std::pair{"u16", 2U}, std::pair{"u17", 4U}, std::pair{"u24", 4U}}) {
         map.depth_format = scene::depth_format_from_name(format).value();
-        EXPECT_EQ(map_bytes(map), 512U * 512 * bytes) << format;
-        EXPECT_EQ(promises(job).map_bytes, map_bytes(map)) << format;
+        EXPECT_EQ(map_bytes(job), 512U * 512 * bytes) << format;
+        EXPECT_EQ(promises(job).map_bytes, map_bytes(job)) << format;
     }
 }
 
 TEST(MapBytes, OfTheSmallestAndTheLargestMap)
 {
-    scene::ShadowMapSettings map;
-    map.resolution_texels = 1;
-    EXPECT_EQ(map_bytes(map), 4U);
-    map.resolution_texels = 16384; // 2³⁰ bytes
-    EXPECT_EQ(map_bytes(map), std::uint64_t{1} << 30U);
+    scene::Job job;
+    job.shadow_map.resolution_texels = 1;
+    EXPECT_EQ(map_bytes(job), 4U);
+    job.shadow_map.resolution_texels = 16384; // 2³⁰ bytes
+    EXPECT_EQ(map_bytes(job), std::uint64_t{1} << 30U);
+}
+
+TEST(MapBytes, OfAPointLightAreThoseOfSixMaps)
+{
+    scene::Job job;
+    job.light.emplace().type = scene::LightType::point;
+    job.shadow_map.resolution_texels = 512;
+    EXPECT_EQ(map_bytes(job), 6U * 512 * 512 * 4);
 }
 
 TEST(TapCount, IsTheTexelsOfTheFootprint)

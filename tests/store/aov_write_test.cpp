@@ -237,6 +237,40 @@ TEST(WriteDepthMap, HoldsDepthsAndTheDistancesThatTheyStandFor)
     }
 }
 
+TEST(WriteDepthMap, HoldsAPartForEachOfSeveralMaps)
+{
+    const TemporaryFolder folder;
+    Example changed;
+    auto& maps = changed.comparison.view.maps;
+    maps.assign(3, maps.front());
+    maps[2].far_m *= 2;
+    const int side = changed.comparison.job.shadow_map.resolution_texels;
+    scene::Image<float> depths{scene::maps_image_size(side, 3), 0.25F};
+    const std::size_t texels = ramp().pixel_count();
+    std::fill(depths.data() + texels, depths.data() + 2 * texels, 0.5F);
+    std::fill(depths.data() + 2 * texels, depths.data() + 3 * texels, 0.75F);
+    write_depth_map(folder / "map.exr", changed.comparison, depths);
+    const auto input = OIIO::ImageInput::open((folder / "map.exr").string());
+    ASSERT_NE(input, nullptr);
+    for (int map = 0; map < 3; ++map) {
+        const OIIO::ImageSpec spec = input->spec(map);
+        EXPECT_EQ(spec.get_string_attribute("oiio:subimagename"), std::to_string(map));
+        EXPECT_EQ(spec.width, side);
+        EXPECT_EQ(spec.height, side);
+        std::vector<float> values(2 * texels);
+        ASSERT_TRUE(input->read_image(map, 0, 0, 2, OIIO::TypeDesc::FLOAT, values.data()));
+        const float depth = 0.25F * static_cast<float>(map + 1);
+        const analysis::DepthMapping mapping{maps[static_cast<std::size_t>(map)].depth_range()};
+        for (std::size_t i = 0; i < texels; ++i) {
+            ASSERT_EQ(values[2 * i], depth);
+            ASSERT_EQ(values[2 * i + 1],
+                      static_cast<float>(mapping.light_distance_m(double{depth})));
+        }
+    }
+    EXPECT_EQ(folder.entry_count(), 1U); // and nothing beside it
+    EXPECT_FALSE(std::filesystem::exists("layers.exr"));
+}
+
 TEST(WriteDepthMap, RefusesDepthsOfAnotherSize)
 {
     const TemporaryFolder folder;

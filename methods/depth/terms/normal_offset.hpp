@@ -13,11 +13,11 @@ namespace gnomon::methods {
 inline constexpr auto normal_offset_keys = std::to_array<std::string_view>({"bias.normal_texels"});
 
 inline constexpr std::string_view normal_offset_glsl =
-    R"(uniform float normal_offset_m[MAPS]; // for SPOT at ζ = 1
+    R"(uniform float normal_offset_m[MAPS]; // for POSITIONAL at ζ = 1
 
 vec4 normal_offset(Receiver receiver, vec4 clip)
 {
-#if SPOT
+#if POSITIONAL
     float offset = normal_offset_m[map_index] * receiver.clip.w;
 #else
     float offset = normal_offset_m[map_index];

@@ -119,7 +119,7 @@ void expect_weights(const std::vector<Tap>& taps, const std::array<double, 4>& c
 
 TEST(FootprintOfAKernel, InterpolatesTheWeightsOfTheTwoMeansAroundThePoint)
 {
-    const Footprint footprint{promises_of(gaussian), Outside::lit, 8};
+    const Footprint footprint{promises_of(gaussian), MapEdge::border, 8};
     // ¼ texel right of a centre: ¾ of (¼, ½, ¼, 0) and ¼ of (0, ¼, ½, ¼); level with it: the first.
     const auto taps = footprint.taps({{3.75F, 4.5F}});
     expect_weights(taps, {3 / 16.0, 7 / 16.0, 5 / 16.0, 1 / 16.0}, {0.25, 0.5, 0.25, 0});
@@ -131,7 +131,7 @@ TEST(FootprintOfAKernel, InterpolatesTheWeightsOfTheTwoMeansAroundThePoint)
 
 TEST(FootprintOfAKernel, BeginsTheKernelsRadiusBeforeTheNearestCentres)
 {
-    const Footprint footprint{promises_of(gaussian), Outside::lit, 8};
+    const Footprint footprint{promises_of(gaussian), MapEdge::border, 8};
     EXPECT_EQ(footprint.width_texels(), 4);
     const auto texels = texels_of(footprint.taps({{3.75F, 4.5F}}));
     EXPECT_EQ(texels.front(), std::pair(2, 3));
@@ -144,12 +144,12 @@ TEST(FootprintOfAKernel, BeginsTheKernelsRadiusBeforeTheNearestCentres)
 
 TEST(FootprintOfAKernel, KeepsItsWeightsBeyondTheBorder)
 {
-    const Footprint open{promises_of(gaussian), Outside::shadowed, 8};
+    const Footprint open{promises_of(gaussian), MapEdge::border, 8};
     const auto taps = open.taps({{0.5F, 0.5F}}); // around texel (0, 0)
     EXPECT_EQ(texels_of(taps).front(), std::pair(-1, -1));
     EXPECT_EQ(std::ranges::count(taps, true, &Tap::is_inside), 9);
     EXPECT_EQ(total_weight(taps), 1);
-    const Footprint clamped{promises_of(gaussian), Outside::clamp, 8};
+    const Footprint clamped{promises_of(gaussian), MapEdge::clamp, 8};
     const auto limited = clamped.taps({{0.5F, 0.5F}});
     EXPECT_EQ(std::ranges::count(limited, true, &Tap::is_inside), 16);
     EXPECT_EQ(texels_of(limited).front(), std::pair(0, 0));
@@ -158,7 +158,7 @@ TEST(FootprintOfAKernel, KeepsItsWeightsBeyondTheBorder)
 
 TEST(FootprintOfAKernel, HasItsRingAroundAllTaps)
 {
-    const Footprint footprint{promises_of(gaussian), Outside::lit, 64};
+    const Footprint footprint{promises_of(gaussian), MapEdge::border, 64};
     std::set<std::pair<int, int>> texels;
     for (const scene::Texel& texel : footprint.ring({{30.25F, 31.75F}})) {
         texels.emplace(texel.x, texel.y);
@@ -175,7 +175,7 @@ TEST(FootprintOfAKernel, HasItsRingAroundAllTaps)
 TEST(FootprintOfAKernel, OfOneTexelIsThatOfAnInterpolatedMap)
 {
     constexpr std::array<float, 1> one{1.0F};
-    const Footprint footprint{promises_of(one), Outside::lit, 8};
+    const Footprint footprint{promises_of(one), MapEdge::border, 8};
     const Footprint linear = footprint_of(Filter::linear, Outside::lit, 8);
     for (const scene::Vec2f& point : {scene::Vec2f{3.75F, 4.5F}, {0.25F, 7.9375F}, {5.1F, 2.7F}}) {
         const auto taps = footprint.taps({point});
@@ -191,7 +191,7 @@ TEST(FootprintOfAKernel, SumsToOneUpToTheKernelsRounding)
 {
     constexpr std::array<float, 9> box{1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F,
                                        1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F};
-    const Footprint footprint{promises_of(box), Outside::lit, 64};
+    const Footprint footprint{promises_of(box), MapEdge::border, 64};
     const auto taps = footprint.taps({{30.3F, 31.7F}});
     EXPECT_EQ(taps.size(), methods::most_taps);
     // Each weight is off by at most half an ulp, 2^-28, of the float32s from 1/16 on: a line's sum

@@ -265,7 +265,8 @@ TEST(TexelDepths, AreThoseOfRationals)
         std::ranges::shuffle(texels, std::mt19937{4});
         const TexelRays rays{lit.view.first_map(), lit.view.light, lit.resolution};
         const LightDepth light_depth{lit.view.first_map()};
-        const TapDepths taps{lit.triangles, rays, light_depth};
+        const MapsOfLight maps{lit.view, lit.resolution};
+        const TapDepths taps{lit.triangles, maps};
         for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
             const auto light = lit.exact_light(cull);
             const auto hits = light->first_hits(texels, HitDetail::bounded);

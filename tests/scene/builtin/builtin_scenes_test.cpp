@@ -73,7 +73,7 @@ void visit_view(const Job& job, const TriangleScene& scene, const Visit& visit)
     }
 }
 
-TEST(BuiltinScenes, AreTheTwelveInOrder)
+TEST(BuiltinScenes, AreTheThirteenInOrder)
 {
     std::vector<std::string> names;
     for (const BuiltinScene& builtin : builtin_scenes()) {
@@ -83,8 +83,8 @@ TEST(BuiltinScenes, AreTheTwelveInOrder)
         EXPECT_FALSE(builtin.origin.empty()) << builtin.name;
     }
     EXPECT_THAT(names, ElementsAre("sphere-cube", "sphere-plane", "yard", "playground",
-                                   "two-distances", "tilted-plane", "wall", "room", "fence",
-                                   "terrain", "columns", "sphere-field"));
+                                   "two-distances", "tilted-plane", "wall", "room", "lamp-room",
+                                   "fence", "terrain", "columns", "sphere-field"));
 }
 
 TEST(BuiltinScenes, BuildTheSameBitsTwice)

@@ -326,10 +326,29 @@ TEST(SceneFile, TakesADirectionalLightAlongItsNodesMinusZ)
     EXPECT_LT(glm::length(*light->direction - Vec3d(0, -1, 0)), 1e-6);
 }
 
-TEST(SceneFile, TakesASpotAndPassesOverPointLights)
+TEST(SceneFile, TakesAPointLightWhereItsNodeStands)
+{
+    const auto gltf =
+        gltf_with_lights(R"({"type":"point"},{"type":"spot","spot":{"outerConeAngle":0.4}})",
+                         R"([{"mesh":0},)" + light_node(0, R"("translation":[1,2.5,8],)") + "," +
+                             light_node(1) + "]",
+                         "[0,1,2]");
+    const TemporaryFolder folder;
+    for (const auto& path :
+         {folder.write("l.gltf", gltf.text()), folder.write("l.glb", gltf.binary())}) {
+        const auto light = load_scene_file(path).defaults.light;
+        ASSERT_TRUE(light) << path;
+        EXPECT_EQ(light->type, LightType::point);
+        EXPECT_EQ(light->position, Vec3d(1, 2.5, 8));
+        EXPECT_FALSE(light->target);
+        EXPECT_FALSE(light->direction);
+    }
+}
+
+TEST(SceneFile, TakesASpotAndPassesOverOnesOf180Degrees)
 {
     const auto gltf = gltf_with_lights(
-        R"({"type":"point"},{"type":"spot","spot":{"innerConeAngle":0.1,"outerConeAngle":0.4}})",
+        R"({"type":"spot","spot":{"outerConeAngle":1.6}},{"type":"spot","spot":{"innerConeAngle":0.1,"outerConeAngle":0.4}})",
         R"([{"mesh":0},)" + light_node(0) + "," + light_node(1, R"("translation":[0,0,8],)") + "]",
         "[0,1,2]");
     const TemporaryFolder folder;

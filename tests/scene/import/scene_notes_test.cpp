@@ -152,12 +152,15 @@ TEST(SceneNotes, TellWhatTheFileGaveUnlessTheJobGivesItself)
 
 TEST(SceneNotes, TellLightsThatCannotBeUsed)
 {
-    for (const char* const light :
-         {R"({"type":"point"})", R"({"type":"spot","spot":{"outerConeAngle":3.0}})"}) {
-        EXPECT_THAT(notes_of("a.gltf", with_lights(light, 1).text()),
-                    ElementsAre(HasSubstr("unused_lights 1: 1 light of the file cannot be used")))
-            << light;
-    }
+    const QuadGltf wide = with_lights(R"({"type":"spot","spot":{"outerConeAngle":3.0}})", 1);
+    EXPECT_THAT(notes_of("a.gltf", wide.text()),
+                ElementsAre(HasSubstr("unused_lights 1: 1 light of the file cannot be used")));
+}
+
+TEST(SceneNotes, TellOfAPointLight)
+{
+    EXPECT_THAT(notes_of("a.gltf", with_lights(R"({"type":"point"})", 1).text()),
+                ElementsAre("light_from_file 1: the light is the file's own, point"));
 }
 
 TEST(SceneNotes, AreAboutTheJobAsItIs)

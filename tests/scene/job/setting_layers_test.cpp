@@ -202,7 +202,51 @@ TEST(SettingLayers, RefuseKeysOfTheOtherLight)
     EXPECT_THAT(refusal(sphere_plane + "bias.constant_m = 0.1\n"),
                 HasSubstr("a spot's depth is not linear in metres; use bias.constant"));
     EXPECT_THAT(refusal(model + "light.type = \"point\"\n"),
-                HasSubstr("light.type = \"point\": point lights are for `evaluate` only, for now"));
+                HasSubstr("a point light needs light.position"));
+}
+
+const std::string lamp = "scene.builtin = \"lamp-room\"\n";
+
+TEST(SettingLayers, RefuseWhatAPointLightDoesNotHave)
+{
+    const auto refused = [](const std::string& keys) { return refusal(lamp + keys); };
+    const std::string point = "light.type = \"point\"\nlight.position = [0, 1, 0]\n";
+    EXPECT_THAT(refusal(model + point + "light.cone_deg = 30\n"),
+                HasSubstr("light.cone_deg = 30: a point light shines everywhere alike; remove it"));
+    EXPECT_THAT(refusal(model + point + "light.target = [0, 0, 0]\n"),
+                HasSubstr("a point light shines everywhere alike"));
+    EXPECT_THAT(refused("shadow_map.layout = \"single\"\n"),
+                HasSubstr("a point light's maps are the faces of a cube; remove it, or set "
+                          "light.type = \"spot\""));
+    EXPECT_THAT(refused("shadow_map.fit = \"camera\"\n"),
+                HasSubstr("with a point light it is \"scene\""));
+    EXPECT_THAT(refused("lookup.position = \"vertex\"\n"),
+                HasSubstr("with a point light it is \"pixel\""));
+    EXPECT_THAT(refused("shadow_map.roll_deg = 10\n"),
+                HasSubstr("a point light's maps look along the world's axes"));
+    EXPECT_THAT(refused("shadow_map.near = 0\n"), HasSubstr("must be above 0 for a point light"));
+    EXPECT_THAT(refused("bias.constant_m = 0.1\n"),
+                HasSubstr("a point light's depth is not linear in metres"));
+    EXPECT_THAT(refusal(sphere_plane + "shadow_map.layout = \"cube\"\n"),
+                HasSubstr("only a point light's maps are the faces of a cube; remove it, or set "
+                          "light.type = \"point\""));
+    EXPECT_THAT(refusal(sphere_plane + "shadow_map.layout = \"cubes\"\n"),
+                HasSubstr("the nearest is \"cube\""));
+}
+
+TEST(SettingLayers, LetAnotherKindOfLightReplaceWhatBelongedToTheOneBelow)
+{
+    const auto with = [](const std::string& text, const std::vector<Override>& overrides) {
+        return job_of(text, overrides).job;
+    };
+    const Job point = with(wall_job + "shadow_map.fit = \"camera\"\nlookup.position = \"vertex\"\n",
+                           {{"light.type", "point"}, {"light.position", "[0, 3, 1]"}});
+    EXPECT_EQ(map_layout(point), MapLayout::cube);
+    EXPECT_EQ(lookup_position(point), LookupPosition::pixel);
+    EXPECT_EQ(point.shadow_map.frustum.fit, Fit::scene);
+    const Job spot = with(lamp, {{"light.type", "spot"}, {"light.target", "[0, 0, 0]"}});
+    EXPECT_EQ(map_layout(spot), MapLayout::single);
+    EXPECT_EQ(lookup_position(spot), LookupPosition::vertex);
 }
 
 TEST(SettingLayers, RefuseAnExtentThatTheFitDoesNotUse)

@@ -1,0 +1,208 @@
+// The six maps of a point light: which of them a receiver reads, in GLSL as in C++, and that they
+// give what six spots give.
+
+#include "analysis/comparison.hpp"
+#include "compared.hpp"
+#include "gl_case.hpp"
+#include "methods/depth/filters.hpp"
+#include "scene/light/cube_faces.hpp"
+#include "scene/view/map_choice.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::tests {
+namespace {
+
+/// Keys of a point light in the middle of what a scene's camera sees, as a job of its own would
+/// have them.
+std::vector<scene::Override> lit_from(const scene::Vec3d& at, std::vector<scene::Override> keys)
+{
+    keys.push_back({"light.type", "point"});
+    keys.push_back({"light.position", fmt::format("[{}, {}, {}]", at.x, at.y, at.z)});
+    return keys;
+}
+
+TEST(TheFaceOfACube, IsTheSameInGlslToTheBit)
+{
+    GNOMON_REQUIRE_GL();
+    std::mt19937 random{21};
+    std::uniform_real_distribution<double> metres{-2, 2};
+    std::size_t compared = 0;
+    std::array<std::size_t, 6> chosen_of_map{};
+    for (const char* builtin : {"sphere-plane", "columns", "yard", "lamp-room", "terrain"}) {
+        for (int i = 0; i < 4; ++i) {
+            // The third stands where seams run through the room's corners, and others' ground.
+            const scene::Vec3d at =
+                i == 2 ? scene::Vec3d{0, 1, 0}
+                       : scene::Vec3d{metres(random), 2 + metres(random) / 2, metres(random)};
+            GlCase c{builtin, lit_from(at, {{"shadow_map.resolution", "64"},
+                                            {"shadow_map.reversed", i == 1 ? "true" : "false"},
+                                            {"image.width", "320"},
+                                            {"image.height", "180"}})};
+            c.draw_all();
+            const scene::LookupLayers lookup = c.lookup_pass.read();
+            const auto triangles = read_triangles(*shared_context(), *c.receivers);
+            const auto positions = read_world_positions(*shared_context(), *c.receivers);
+            ASSERT_EQ(lookup.maps.size(), c.view.image);
+            for (std::size_t p = 0; p < lookup.maps.pixel_count(); ++p) {
+                if (triangles[p] == scene::no_triangle) {
+                    continue;
+                }
+                const std::size_t expected =
+                    chosen_map(c.view.maps, c.view.map_choice, scene::Vec3f{positions[p]});
+                ASSERT_EQ(lookup.maps[p], expected) << builtin << ", pixel " << p;
+                // A cube has no outside.
+                ASSERT_TRUE(lookup.texels[p].x >= 0 && lookup.texels[p].x < 64 &&
+                            lookup.texels[p].y >= 0 && lookup.texels[p].y < 64);
+                ++chosen_of_map.at(expected);
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 500'000U);
+    for (const std::size_t pixels : chosen_of_map) {
+        EXPECT_GT(pixels, compared / 50); // all are asked for
+    }
+}
+
+bool same_bits(float a, float b)
+{
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+/// The same view, lit by a spot whose one map is a face of the cube, and whose cone holds the
+/// face's corners.
+scene::View of_face(const scene::View& cube, std::size_t face)
+{
+    scene::View view = cube;
+    view.light.type = scene::LightType::spot;
+    view.light.direction = view.maps[face].forward;
+    view.light.cos_half_cone = 0.1;
+    view.maps = {cube.maps[face]};
+    view.map_choice = scene::MapChoice::containing;
+    return view;
+}
+
+TEST(SixSpots, GiveTheVerdictsOfTheFacesToTheBit)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* format : {"d16", "d24", "d32f", "u12"}) {
+        for (const char* reversed : {"false", "true"}) {
+            GlCase c{"lamp-room",
+                     {{"image.width", "480"},
+                      {"image.height", "270"},
+                      {"shadow_map.resolution", "128"},
+                      {"shadow_map.depth_format", format},
+                      {"shadow_map.reversed", reversed},
+                      {"lookup.outside", "clamp"}, // the seam is the face's last texel
+                      {"bias.slope", "0.0003"}}};
+            c.draw_all();
+            const scene::LookupLayers of_cube = c.lookup_pass.read();
+            const scene::View cube = c.view;
+            // One map's receivers are looked up from the pixel, too.
+            c.job.lookup.position = scene::LookupPosition::pixel;
+            std::size_t compared = 0;
+            for (std::size_t face = 0; face < scene::cube_face_count; ++face) {
+                c.view = of_face(cube, face);
+                c.draw_shadow_map();
+                c.look_up();
+                const scene::LookupLayers of_spot = c.lookup_pass.read();
+                for (std::size_t p = 0; p < of_cube.maps.pixel_count(); ++p) {
+                    const auto& a = of_cube.samples[p];
+                    const auto& b = of_spot.samples[p];
+                    if (of_cube.maps[p] != face || a.tan_theta == 0) {
+                        continue;
+                    }
+                    ++compared;
+                    ASSERT_TRUE(same_bits(a.receiver_depth, b.receiver_depth) &&
+                                same_bits(a.map_depth, b.map_depth) && a.verdict == b.verdict)
+                        << format << ", face " << face << ", pixel " << p << ": r "
+                        << a.receiver_depth << " and " << b.receiver_depth << ", d " << a.map_depth
+                        << " and " << b.map_depth;
+                }
+            }
+            EXPECT_GT(compared, 100'000U);
+        }
+    }
+}
+
+/// What a normal offset moves over a seam is looked up on the face where it then lies.
+TEST(ACubesNormalOffset, LeadsOverSeams)
+{
+    GNOMON_REQUIRE_GL();
+    GlCase c{"lamp-room",
+             {{"image.width", "480"},
+              {"image.height", "270"},
+              {"shadow_map.resolution", "128"},
+              {"bias.normal_texels", "3"}}};
+    c.draw_all();
+    const scene::LookupLayers moved = c.lookup_pass.read();
+    const auto triangles = read_triangles(*shared_context(), *c.receivers);
+    const auto positions = read_world_positions(*shared_context(), *c.receivers);
+    std::size_t over_seams = 0;
+    for (std::size_t p = 0; p < moved.maps.pixel_count(); ++p) {
+        if (triangles[p] == scene::no_triangle) {
+            continue;
+        }
+        ASSERT_TRUE(moved.texels[p].x >= 0 && moved.texels[p].x < 128);
+        ASSERT_TRUE(moved.texels[p].y >= 0 && moved.texels[p].y < 128);
+        over_seams +=
+            moved.maps[p] != chosen_map(c.view.maps, c.view.map_choice, scene::Vec3f{positions[p]})
+                ? 1U
+                : 0U;
+    }
+    EXPECT_GT(over_seams, 100U);
+}
+
+/// The taps of lookups, which go over seams, follow the same rule on the CPU: K × K comparisons of
+/// the depths that were read back give GL's own verdict.
+TEST(ACubesTaps, AreTheSameInGlsl)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* filter : {"pcf3", "pcf9"}) {
+        GlCase c{"lamp-room",
+                 {{"image.width", "480"},
+                  {"image.height", "270"},
+                  {"shadow_map.resolution", "48"},
+                  {"lookup.filter", filter}}};
+        c.draw_all();
+        const scene::LookupLayers lookup = c.lookup_pass.read();
+        const auto depths = read_shader_depths(*shared_context(), *c.map);
+        const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
+        const analysis::Footprint footprint{rule.promises, rule.edge(), 48};
+        std::size_t over_seams = 0;
+        for (std::size_t p = 0; p < lookup.maps.pixel_count(); ++p) {
+            const scene::LookupSample& sample = lookup.samples[p];
+            if (sample.tan_theta == 0) {
+                continue;
+            }
+            int lit = 0;
+            bool is_over_seam = false;
+            footprint.visit_taps(lookup.at(p), [&](const analysis::Tap& tap) {
+                is_over_seam |= tap.texel.map != lookup.maps[p];
+                lit += rule.is_lit(sample.receiver_depth, at_texel(depths, tap.texel),
+                                   c.view.bias.constant)
+                           ? 1
+                           : 0;
+            });
+            over_seams += is_over_seam ? 1U : 0U;
+            const auto taps = static_cast<float>(footprint.tap_count());
+            ASSERT_EQ(sample.verdict, static_cast<float>(lit) / taps)
+                << filter << ", pixel " << p << ", face " << int{lookup.maps[p]} << " at "
+                << lookup.texels[p].x << ' ' << lookup.texels[p].y;
+        }
+        EXPECT_GT(over_seams, 2'000U);
+    }
+}
+
+} // namespace
+} // namespace gnomon::tests
