@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <cstdint>
+#include <string_view>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -19,6 +20,18 @@ void set_culling(scene::Cull cull)
 }
 
 } // namespace
+
+Program make_caster_program(const CasterOutput& output)
+{
+    const bool has_distances = output.content == scene::MapContent::distance;
+    const std::string_view fragment =
+        has_distances || output.is_unorm ? "shadow_map_written.frag" : std::string_view{};
+    return make_program(
+        {"shadow_map.vert",
+         fragment,
+         {{"DISTANCE", has_distances ? "1" : "0"}, {"UNORM", output.is_unorm ? "1" : "0"}},
+         nullptr});
+}
 
 void prepare_to_draw_casters(const scene::LightFrustum& map,
                              const scene::ShadowMapSettings& settings)

@@ -1,10 +1,21 @@
 #pragma once
 
 #include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/program.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
 
 namespace gnomon::raster_gl {
+
+/// What a pass of casters writes beside GL's own depth.
+struct CasterOutput {
+    scene::MapContent content = scene::MapContent::depth;
+    bool is_unorm = false; ///< quantised by the shader
+
+    friend bool operator==(const CasterOutput&, const CasterOutput&) = default;
+};
+/// Compiles the program that draws casters.
+[[nodiscard]] Program make_caster_program(const CasterOutput& output);
 
 /// Sets GL up to draw casters into the light's map: clip range, comparison, culling, viewport.
 void prepare_to_draw_casters(const scene::LightFrustum& map,

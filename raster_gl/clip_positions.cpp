@@ -8,7 +8,8 @@ namespace gnomon::raster_gl {
 std::vector<scene::Vec4f> capture_clip_positions(const Context& context, const GpuScene& scene,
                                                  const scene::Mat4f& clip_from_world)
 {
-    const Program program = make_program({"shadow_map.vert", {}, {}, "gl_Position"});
+    const Program program =
+        make_program({"shadow_map.vert", {}, {{"DISTANCE", "0"}}, "gl_Position"});
     std::vector<scene::Vec4f> positions(scene.vertex_count());
     const auto bytes = static_cast<GLsizeiptr>(positions.size() * sizeof(scene::Vec4f));
     const Framebuffer nothing = make_framebuffer(); // drawing needs a complete one all the same

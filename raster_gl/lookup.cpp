@@ -175,6 +175,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"REVERSED", flag(from.map.reversed)},
         {"POSITIONAL", flag(view.light.has_position())},
         {"CUBE", flag(is_cube(view))},
+        {"DISTANCE", flag(view.first_map().content == scene::MapContent::distance)},
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
         {"BISECTS", flag(computes.critical_bias)},
         {"GRADIENTS", flag(pieces.passes.has_gradients())},
@@ -315,9 +316,13 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
                                        from.receivers.world_position.name()};
     glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
     bind_map(from, passes, job.lookup.outside);
+    const scene::LightFrustum& first = view.first_map();
+    set_uniform(lookup, "far", static_cast<float>(first.far_m));
+    set_uniform(lookup, "half_side",
+                std::array{static_cast<float>(first.right_side), static_cast<float>(first.top)});
     Texture faces;
     if (is_cube(view)) {
-        const scene::Vec2d row = clip_depth_row(view.first_map().depth_range());
+        const scene::Vec2d row = clip_depth_row(first.depth_range());
         set_uniform(lookup, "clip_depth_row",
                     std::array{static_cast<float>(row.x), static_cast<float>(row.y)});
         if (passes.sampling != Sampling::fetched) {

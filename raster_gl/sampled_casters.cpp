@@ -28,8 +28,8 @@ public:
 
 SampledCasters::SampledCasters(const Context& context)
     : context_{context},
-      depth_only_{make_program({"shadow_map.vert", {}, {}, nullptr})},
-      unorm_{make_program({"shadow_map.vert", "shadow_map_unorm.frag", {}, nullptr})},
+      depth_only_{make_caster_program({})},
+      unorm_{make_caster_program({.is_unorm = true})},
       target_{make_framebuffer()}
 {
     glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);

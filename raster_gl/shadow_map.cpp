@@ -147,8 +147,8 @@ void let_go_of_deleted_textures()
 ShadowMapPass::ShadowMapPass(const Context& context, UnormCodes codes)
     : context_{context},
       codes_{codes},
-      depth_only_{make_program({"shadow_map.vert", {}, {}, nullptr})},
-      unorm_{make_program({"shadow_map.vert", "shadow_map_unorm.frag", {}, nullptr})}
+      depth_only_{make_caster_program({})},
+      unorm_{make_caster_program({.is_unorm = true})}
 {
     context.check("compiling the shadow map programs");
 }
@@ -199,6 +199,18 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size
     map_.resolution_texels = size;
 }
 
+const Program& ShadowMapPass::program_of(const CasterOutput& output)
+{
+    if (output.content == scene::MapContent::depth) {
+        return output.is_unorm ? unorm_ : depth_only_;
+    }
+    auto& program = output.is_unorm ? distance_unorm_ : distance_;
+    if (!program) {
+        program = make_caster_program(output);
+    }
+    return *program;
+}
+
 void ShadowMapPass::attach(std::size_t map)
 {
     const auto attach_layer = [&](GLenum attachment, const LayeredTexture& texture) {
@@ -228,7 +240,7 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
     const scene::LightFrustum& first = maps.front();
     map_.reversed = first.reversed;
     const bool unorm = map_.format.kind == Kind::unorm;
-    const Program& program = unorm ? unorm_ : depth_only_;
+    const Program& program = program_of({first.content, unorm});
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     prepare_to_draw_casters(first, settings);
     if (unorm) {
@@ -239,6 +251,8 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
         attach(i);
         clear(target_, map_);
         set_uniform(program, "clip_from_world", maps[i].light_clip_from_world);
+        set_uniform(program, "light", scene::Vec3f{maps[i].origin});
+        set_uniform(program, "far", static_cast<float>(maps[i].far_m));
         draw_casters(scene, map_.resolution_texels);
     }
     glFinish();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "raster_gl/caster_state.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
@@ -11,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace gnomon::raster_gl {
@@ -58,6 +60,7 @@ private:
     /// Gives the textures back; at once beside a map of so many texels a side that is large.
     void release(int largest_texels);
     void allocate(const scene::ShadowMapSettings& settings, std::size_t maps);
+    [[nodiscard]] const Program& program_of(const CasterOutput& output);
     /// Draws to that map from now on.
     void attach(std::size_t map);
 
@@ -65,6 +68,8 @@ private:
     UnormCodes codes_;
     Program depth_only_;
     Program unorm_;
+    std::optional<Program> distance_; ///< made when first asked for, as the next
+    std::optional<Program> distance_unorm_;
     Framebuffer target_;
     ShadowMap map_;
 };

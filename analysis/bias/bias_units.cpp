@@ -15,9 +15,17 @@ namespace {
 
 using scene::PixelClass;
 
+/// Whether what is stored is not linear in metres.
 bool is_perspective(const scene::LightFrustum& frustum)
 {
-    return frustum.projection == scene::Projection::perspective;
+    return frustum.stored_range().projection == scene::Projection::perspective;
+}
+
+/// What one unit of what is stored spans, where it is linear [m].
+double unit_m(const scene::LightFrustum& frustum)
+{
+    const scene::DepthRange stored = frustum.stored_range();
+    return stored.far_m - stored.near_m;
 }
 
 /// A of docs/depth_precision.md: 1/ζ = 1/near − A·depth [1/m].
@@ -43,7 +51,7 @@ double bias_length_m(const scene::LightFrustum& frustum, double bias, double lig
         return bias;
     }
     if (!is_perspective(frustum)) {
-        return bias * frustum.range_m();
+        return bias * unit_m(frustum);
     }
     const double relative = inverse_distance_range(frustum) * bias * light_distance_m;
     if (relative <= -1.0) {
@@ -55,7 +63,7 @@ double bias_length_m(const scene::LightFrustum& frustum, double bias, double lig
 double bias_of_length(const scene::LightFrustum& frustum, double length_m, double light_distance_m)
 {
     if (!is_perspective(frustum)) {
-        return length_m / frustum.range_m();
+        return length_m / unit_m(frustum);
     }
     return length_m < light_distance_m
                ? length_m / (inverse_distance_range(frustum) * light_distance_m *
@@ -67,7 +75,7 @@ double depth_per_metre(const scene::LightFrustum& frustum, double light_distance
 {
     return is_perspective(frustum)
                ? 1.0 / (inverse_distance_range(frustum) * light_distance_m * light_distance_m)
-               : 1.0 / frustum.range_m();
+               : 1.0 / unit_m(frustum);
 }
 
 double depth_step(scene::DepthFormat format, float depth)
@@ -82,7 +90,7 @@ double depth_step(scene::DepthFormat format, float depth)
 double depth_step_length_m(const scene::LightFrustum& frustum, scene::DepthFormat format,
                            double light_distance_m)
 {
-    const double depth = DepthMapping{frustum.depth_range()}.depth(light_distance_m);
+    const double depth = DepthMapping{frustum.stored_range()}.depth(light_distance_m);
     return bias_length_m(frustum, depth_step(format, static_cast<float>(depth)), light_distance_m);
 }
 

@@ -9,6 +9,7 @@ namespace gnomon::analysis {
 /// How many metres along the light's axis a constant bias moves a receiver at ζ towards the light.
 ///
 ///     directional:  b · (far − near)        spot:  A b ζ² / (1 + A b ζ),   A = 1/near − 1/far
+///     distances:    b · far, towards the light
 ///
 /// Reversed depth gives the same lengths.
 /// @param bias    Depth units; any sign; an infinite bias gives an infinite length.

@@ -2,6 +2,8 @@
 
 #include "analysis/depth/depth_error.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,13 +31,17 @@ double largest_in(const DepthMapping& mapping, const DepthCoding& coding, double
 void add_envelopes(std::vector<ErrorBin>& by_distance, const scene::LightFrustum& frustum,
                    scene::DepthFormat format)
 {
-    const DepthMapping mapping{frustum.depth_range()};
+    const DepthMapping mapping{frustum.stored_range()};
+    // A receiver is as far from the light as its ζ, or up to a map's corner farther.
+    const double corner = frustum.content == scene::MapContent::depth
+                              ? 1
+                              : glm::length(scene::Vec3d{frustum.right_side, frustum.top, 1});
     const DepthCoding coding = DepthCoding::of(format);
     const auto within = [&](double light_distance_m) {
         return std::clamp(light_distance_m, frustum.near_m, frustum.far_m);
     };
     for (ErrorBin& bin : by_distance) {
-        bin.envelope_m = largest_in(mapping, coding, within(bin.lower), within(bin.upper));
+        bin.envelope_m = largest_in(mapping, coding, within(bin.lower), within(corner * bin.upper));
     }
 }
 

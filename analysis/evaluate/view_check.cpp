@@ -33,9 +33,12 @@ double largest_but_few(std::vector<double>& values)
     return *nth;
 }
 
-/// Matrix depth of a point.
+/// What the map stores of a point: its matrix depth, or its distance over far.
 double depth_of(const scene::LightFrustum& frustum, const Vec3d& point)
 {
+    if (frustum.content == scene::MapContent::distance) {
+        return glm::length(point - frustum.origin) / frustum.far_m;
+    }
     const scene::Vec4d clip =
         scene::Mat4d{frustum.light_clip_from_world} * scene::Vec4d{point, 1.0};
     const double ndc = clip.z / clip.w;

@@ -66,8 +66,9 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
 {
     std::vector<DepthMapping> mappings;
     for (const scene::LightFrustum& map : maps) {
-        mappings.emplace_back(map.depth_range());
+        mappings.emplace_back(map.stored_range());
     }
+    const bool has_distances = maps.front().content == scene::MapContent::distance;
     const float farthest = inputs.rule.farthest_depth();
     scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
                                  std::numeric_limits<float>::quiet_NaN()};
@@ -82,8 +83,10 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
             const bool has_depth = stored != farthest || std::abs(hit.depth - double{farthest}) <=
                                                              depth_step(format, farthest);
             if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
-                errors_m[seen[i].pixel] = static_cast<float>(
-                    mapping.light_distance_m(double{stored}) - hit.light_distance_m);
+                const double exact_m =
+                    has_distances ? mapping.light_distance_m(hit.depth) : hit.light_distance_m;
+                errors_m[seen[i].pixel] =
+                    static_cast<float>(mapping.light_distance_m(double{stored}) - exact_m);
             }
         }
     });

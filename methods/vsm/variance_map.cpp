@@ -146,6 +146,10 @@ void vsm_check(const scene::Job& job)
             "method.name = \"vsm\": its kernels do not lead over a cube's seams, "
             "so that a point light's maps have none; use \"depth\"");
     }
+    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
+        throw scene::InputError("method.name = \"vsm\": its moments are of depths; remove "
+                                "shadow_map.content = \"distance\"");
+    }
     const auto width = value_of<std::int64_t>(width_key(), job);
     if (width > job.shadow_map.resolution_texels) {
         throw scene::InputError(fmt::format(

@@ -10,7 +10,7 @@
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
 // MAPS, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// POSITION_OF_PIXEL, BISECTS and DEPTH_IS_GIVEN are defined by the program that compiles this. Where no formula tells of
+// DISTANCE, POSITION_OF_PIXEL, BISECTS and DEPTH_IS_GIVEN are defined by the program that compiles this. Where no formula tells of
 // other biases, BISECTS finds the smallest bias with which the very same verdict is at least
 // `lit_from`: it rises with the bias.
 #if BISECTS
@@ -103,6 +103,17 @@ void write_border(float r, float tan_theta)
 #endif
 }
 
+#if DISTANCE
+float distance_over_far(vec4 clip)
+{
+    precise vec3 from_light = vec3(clip.x * half_side[0], clip.y * half_side[1], clip.w);
+    precise float square = from_light.x * from_light.x + from_light.y * from_light.y;
+    square = square + from_light.z * from_light.z;
+    precise float over_far = sqrt(square) / far;
+    return over_far;
+}
+#endif
+
 // Before any offset.
 vec4 light_clip_of(ivec2 pixel)
 {
@@ -183,7 +194,11 @@ void main()
     // The seam itself is this face's.
     texel = min(texel, uintBitsToFloat(floatBitsToUint(resolution) - 1u));
 #endif
-#if REVERSED
+#if DISTANCE
+    precise float r = distance_over_far(clip);
+    r = moved_depth(receiver, r);
+    bool beyond_far = !(r <= 1.0);
+#elif REVERSED
     precise float r = ndc.z;
     r = moved_depth(receiver, r);
     bool beyond_far = !(r >= 0.0);

@@ -1,5 +1,5 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. MAPS, CUBE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL and GRADIENTS are
+// comparison. MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL and GRADIENTS are
 // defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
@@ -30,6 +30,10 @@ const int map_index = 0;
 uniform mat4 light_clip_from_world[MAPS];
 uniform vec3 light; // POSITIONAL: its position, else the unit vector towards it
 uniform float resolution; // in texels
+#if DISTANCE
+uniform float far;         // what distances to the light are divided by
+uniform float half_side[2]; // of the map at ζ = 1, along u and v
+#endif
 
 #if GRADIENTS
 vec2 uv_dx; // change of uv to the next pixel along a row,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace gnomon::reference_rt {
 
@@ -130,7 +131,16 @@ float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::Exac
         return *bias;
     }
     const auto exact_depths = mapped(terms, [](const DepthTerm& term) { return term.exact(); });
-    const auto exact = mean_excess(receiver.exact(), exact_depths, weights(Exactly{}));
+    const ExactDepth exact_receiver = receiver.exact();
+    if (exact_receiver.is_square || std::ranges::any_of(exact_depths, &ExactDepth::is_square)) {
+        if (n > 1) {
+            throw std::logic_error{"CriticalBias: a mean of distances has no exact sign"};
+        }
+        return exactly_rounded<UpToBias>(
+            RootDifference{exact_receiver.square(), exact_depths.front().square()});
+    }
+    const auto numbers = mapped(exact_depths, [](const ExactDepth& depth) { return depth.number; });
+    const auto exact = mean_excess(exact_receiver.number, numbers, weights(Exactly{}));
     return exact.denominator.sign() == 0 ? infinity
                                          : exactly_rounded<UpToBias>(directed(exact, is_reversed));
 }

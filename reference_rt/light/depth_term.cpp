@@ -11,13 +11,19 @@ Wide DepthTerm::sharp() const
     if (hit_ == nullptr) {
         return {bounded_.value, 0, bounded_.error};
     }
-    return hit_->is_well_scaled() ? depth_->widely_at(*hit_)
-                                  : Wide{0, 0, std::numeric_limits<double>::infinity()};
+    if (!hit_->is_well_scaled()) {
+        return Wide{0, 0, std::numeric_limits<double>::infinity()};
+    }
+    return distance_ != nullptr ? distance_->widely_at(*hit_) : depth_->widely_at(*hit_);
 }
 
-Fraction DepthTerm::exact() const
+ExactDepth DepthTerm::exact() const
 {
-    return hit_ == nullptr ? Fraction::number(bounded_.value) : depth_->exactly_at(*hit_);
+    if (hit_ == nullptr) {
+        return {Fraction::number(bounded_.value), false};
+    }
+    return distance_ != nullptr ? ExactDepth{distance_->square_at(*hit_), true}
+                                : ExactDepth{depth_->exactly_at(*hit_), false};
 }
 
 DepthTerm DepthTerm::clamped() const
@@ -26,7 +32,7 @@ DepthTerm DepthTerm::clamped() const
     if (bounded_.is_certainly_positive() && rest.is_certainly_positive()) {
         return *this;
     }
-    const Fraction depth = exact();
+    const Fraction depth = exact().number; // or its square, which is on the same side of 0 and 1
     if (depth.sign() < 0) {
         return DepthTerm{0};
     }
@@ -41,7 +47,10 @@ float DepthTerm::nearest_float() const
     if (const auto depth = certainly_rounded<ToNearest>(sharp())) {
         return *depth;
     }
-    const Fraction depth = exact();
+    const auto [depth, is_square] = exact();
+    if (is_square) {
+        return exactly_rounded<ToNearest>(Root{depth});
+    }
     return depth.denominator.sign() == 0 ? std::numeric_limits<float>::quiet_NaN()
                                          : exactly_rounded<ToNearest>(depth);
 }
@@ -56,6 +65,10 @@ DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
     hit.ray = CameraRay{maps_.rays[map].ray(tap.texel)};
     hit.face = ExactTriangle{tap.triangle, corners_of(triangles_, tap.triangle)};
     hit.hit = Receiver{hit.face, hit.ray, counts};
+    if (const LightDistance* distance = maps_.distance(map)) {
+        return DepthTerm{*distance, hit.hit, distance->at(hit.hit)}
+            .clamped(); // beyond far is nothing
+    }
     return DepthTerm{maps_.depths[map], hit.hit, known(tap)};
 }
 

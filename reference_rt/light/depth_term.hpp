@@ -9,7 +9,15 @@
 
 namespace gnomon::reference_rt {
 
-/// The depth of a point: bounded, and what makes it exact.
+/// An exact depth, or its square.
+struct ExactDepth {
+    Fraction number;
+    bool is_square = false;
+
+    [[nodiscard]] Fraction square() const { return is_square ? number : number * number; }
+};
+
+/// The depth of a point, or what a map stores in its place: bounded, and what makes it exact.
 class DepthTerm {
 public:
     /// A constant.
@@ -22,11 +30,18 @@ public:
     {
     }
 
+    DepthTerm(const LightDistance& distance, const Receiver& hit, const Bounded& bounded)
+        : bounded_{bounded},
+          distance_{&distance},
+          hit_{&hit}
+    {
+    }
+
     [[nodiscard]] Bounded bounded() const { return bounded_; }
     /// Bounded far more closely, at a cost; with an infinite error where the hit is not well
     /// scaled.
     [[nodiscard]] Wide sharp() const;
-    [[nodiscard]] Fraction exact() const;
+    [[nodiscard]] ExactDepth exact() const;
     /// The same, limited to [0, 1].
     [[nodiscard]] DepthTerm clamped() const;
     /// Rounded once to float32 by `ToNearest`; NaN in the light's camera plane.
@@ -35,6 +50,7 @@ public:
 private:
     Bounded bounded_;
     const LightDepth* depth_ = nullptr;
+    const LightDistance* distance_ = nullptr;
     const Receiver* hit_ = nullptr;
 };
 

@@ -71,7 +71,7 @@ public:
 
     std::vector<TexelHit> first_hits(std::span<const Texel> texels, HitDetail detail) const override
     {
-        const TexelFirstHits finder{reference_, rays_, depth_, cull_, detail};
+        const TexelFirstHits finder{reference_, *maps_, map_, cull_, detail};
         std::vector<TexelHit> hits(texels.size());
         for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
             finder.find(run, std::span{hits}.subspan(first, run.size()));
@@ -90,7 +90,7 @@ public:
             !keeps_first_hits(view_.light, known.maps.front(), view_.maps[map_])) {
             return first_hits(texels, HitDetail::placed);
         }
-        const KnownHitPlacer placer{reference_.triangles, rays_, depth_};
+        const KnownHitPlacer placer{reference_.triangles, *maps_, map_};
         std::vector<TexelHit> hits(texels.size());
         for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
             const auto triangles = known.triangles.subspan(first, run.size());
@@ -121,7 +121,7 @@ public:
                                     const scene::Vec2d& place) const override
     {
         const MapsOfLight maps{view_, rays_.resolution_texels(), place};
-        const TexelFirstHits finder{reference_, maps.rays[map_], depth_, cull_, HitDetail::bounded};
+        const TexelFirstHits finder{reference_, maps, map_, cull_, HitDetail::bounded};
         const TapDepths taps{reference_.triangles, maps};
         std::vector<float> depths(texels.size());
         for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
@@ -260,7 +260,7 @@ private:
         with_threads(threads_, [&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>{0, queries.size(), 256},
                               [&](const tbb::blocked_range<std::size_t>& range) {
-                                  LitPoint point{seen_, depth_};
+                                  LitPoint point{seen_, depth_, maps_->distance(map_)};
                                   for (std::size_t i = range.begin(); i != range.end(); ++i) {
                                       run(i, point);
                                   }

@@ -88,22 +88,24 @@ template <typename Rule>
     return beyond.is_certainly_negative() ? std::optional{ends.lower} : std::nullopt;
 }
 
-/// The float32 that a quotient becomes. Precondition: its denominator is not 0.
-template <typename Rule>
-[[nodiscard]] float exactly_rounded(const Fraction& x)
+/// The float32 that an exact number becomes: a quotient, whose denominator is not 0, or made of
+/// roots.
+template <typename Rule, typename Number>
+[[nodiscard]] float exactly_rounded(const Number& x)
 {
     if (x.sign() == 0) {
         return Rule::of(0);
     }
     // Far beyond all float32s all numbers are alike; the summand pays for underflow.
     const double value = std::clamp(x.value(), -0x1p1000, 0x1p1000);
-    const RoundedEnds<Rule> ends{Bounded{value, 0x1p-51 * std::abs(value) + 0x1p-1000}};
+    const RoundedEnds<Rule> ends{
+        Bounded{value, Number::relative_error * std::abs(value) + 0x1p-1000}};
     if (ends.are_equal()) {
         return ends.lower;
     }
     // As above: there is no other boundary within the error.
     const double boundary = ends.boundary();
-    const Sign side = (x - Fraction::number(boundary)).sign();
+    const Sign side = x.sign_beyond(boundary);
     return side == 0 ? Rule::of(boundary) : side > 0 ? ends.upper : ends.lower;
 }
 

@@ -95,7 +95,10 @@ void KnownHitPlacer::place(std::span<const Texel> texels, std::span<const std::u
         const Receiver hit{face, ray, counts};
         const ClipLine line = depth_.plainly_along(ray.ray);
         if (depth_.is_in_range(line, hit, depth_.at(line, parameter_of(hit)))) {
-            const auto [depth, light_distance_m] = depth_.place(hit, memory);
+            auto [depth, light_distance_m] = depth_.place(hit, memory);
+            if (distance_ != nullptr) {
+                depth = distance_->place(hit);
+            }
             hits[i] = {triangles[i], depth.value, light_distance_m, depth.error};
         }
     }

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "reference_rt/light/light_depth.hpp"
-#include "reference_rt/light/texel_rays.hpp"
+#include "reference_rt/light/maps_of_light.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/light/frustum.hpp"
 
@@ -24,11 +23,11 @@ namespace gnomon::reference_rt {
 class KnownHitPlacer {
 public:
     /// All arguments must outlive it.
-    KnownHitPlacer(const scene::TriangleScene& triangles, const TexelRays& rays,
-                   const LightDepth& depth)
+    KnownHitPlacer(const scene::TriangleScene& triangles, const MapsOfLight& maps, std::size_t map)
         : triangles_{triangles},
-          rays_{rays},
-          depth_{depth}
+          rays_{maps.rays[map]},
+          depth_{maps.depths[map]},
+          distance_{maps.distance(map)}
     {
     }
 
@@ -42,6 +41,7 @@ private:
     const scene::TriangleScene& triangles_;
     const TexelRays& rays_;
     const LightDepth& depth_;
+    const LightDistance* distance_;
 };
 
 } // namespace gnomon::reference_rt

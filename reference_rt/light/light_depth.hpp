@@ -21,6 +21,8 @@ struct ClipLine {
 
 /// A number as a quotient.
 struct Fraction {
+    static constexpr double relative_error = 0x1p-51; ///< of `value()`
+
     Dyadic numerator;
     Dyadic denominator;
 
@@ -29,6 +31,8 @@ struct Fraction {
     [[nodiscard]] Sign sign() const { return numerator.sign() * denominator.sign(); }
     /// Within 2^-52 of its size.
     [[nodiscard]] double value() const { return Dyadic::quotient(numerator, denominator); }
+    /// Sign of it less a number.
+    [[nodiscard]] Sign sign_beyond(double x) const { return (*this - number(x)).sign(); }
     friend Fraction operator-(const Fraction& a, const Fraction& b)
     {
         return {a.numerator * b.denominator - b.numerator * a.denominator,

@@ -12,9 +12,11 @@ namespace gnomon::reference_rt {
 /// P as it stands to the light; made again only as far as it changes.
 class LitPoint {
 public:
-    LitPoint(const SeenPixels& seen, const LightDepth& depth)
+    /// @param distance  what maps hold in place of depths, or nullptr.
+    LitPoint(const SeenPixels& seen, const LightDepth& depth, const LightDistance* distance)
         : seen_{seen},
           depth_{depth},
+          distance_{distance},
           has_eye_{seen.view.camera.projection == scene::Projection::perspective}
     {
     }
@@ -42,19 +44,26 @@ public:
     [[nodiscard]] const DepthTerm& term()
     {
         if (!has_term_) {
-            term_ = receiver_.delta_sign == 0
-                        ? DepthTerm{}
-                        : DepthTerm{depth_, receiver_,
-                                    depth_.closely_at(depth_.plainly_along(ray_.ray),
-                                                      parameter_of(receiver_))};
+            term_ = receiver_.delta_sign == 0 ? DepthTerm{} : found_term();
             has_term_ = true;
         }
         return term_;
     }
 
 private:
+    [[nodiscard]] DepthTerm found_term() const
+    {
+        if (distance_ != nullptr) {
+            return DepthTerm{*distance_, receiver_, distance_->at(receiver_)};
+        }
+        return DepthTerm{
+            depth_, receiver_,
+            depth_.closely_at(depth_.plainly_along(ray_.ray), parameter_of(receiver_))};
+    }
+
     const SeenPixels& seen_;
     const LightDepth& depth_;
+    const LightDistance* distance_;
     bool has_eye_;
     std::size_t pixel_ = static_cast<std::size_t>(-1);
     ExactTriangle face_;

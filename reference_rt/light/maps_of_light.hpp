@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference_rt/light/light_depth.hpp"
+#include "reference_rt/light/light_distance.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/view/view.hpp"
@@ -10,7 +11,7 @@
 
 namespace gnomon::reference_rt {
 
-/// The texel rays and the depths of each of a light's maps, by index.
+/// The texel rays, and what is stored, of each of a light's maps, by index.
 struct MapsOfLight {
     /// @param view   must outlive it.
     /// @param place  of each texel, that its ray goes through.
@@ -20,11 +21,21 @@ struct MapsOfLight {
         for (const scene::LightFrustum& map : view.maps) {
             rays.emplace_back(map, view.light, resolution_texels, place);
             depths.emplace_back(map);
+            if (map.content == scene::MapContent::distance) {
+                distances.emplace_back(map);
+            }
         }
+    }
+
+    /// What the map stores in place of depths, or nullptr.
+    [[nodiscard]] const LightDistance* distance(std::size_t map) const
+    {
+        return distances.empty() ? nullptr : &distances[map];
     }
 
     std::vector<TexelRays> rays;
     std::vector<LightDepth> depths;
+    std::vector<LightDistance> distances; ///< empty where maps hold depths
 };
 
 } // namespace gnomon::reference_rt

@@ -75,6 +75,7 @@ public:
         const ReferenceScene::Implementation& reference;
         const TexelRays& rays;
         const LightDepth& depth;
+        const LightDistance* distance; ///< what maps hold in place of depths, or nullptr
         scene::Cull cull;
         const Pencil& pencil;
     };
@@ -119,13 +120,17 @@ public:
             return {no_triangle, setting_.depth.is_reversed() ? 0.0 : 1.0,
                     std::numeric_limits<double>::infinity()};
         }
-        if (detail == HitDetail::bounded && kept.depth.error <= 0x1p-40) {
+        const bool has_depth = setting_.distance == nullptr;
+        if (has_depth && detail == HitDetail::bounded && kept.depth.error <= 0x1p-40) {
             return {kept.triangle, kept.depth.value, std::numeric_limits<double>::quiet_NaN(),
                     kept.depth.error};
         }
         const ExactTriangle face = face_of(kept.triangle);
         const Receiver hit{face, rays_[lane], counts_};
-        const auto [depth, light_distance_m] = setting_.depth.place(hit, place_memory_);
+        auto [depth, light_distance_m] = setting_.depth.place(hit, place_memory_);
+        if (!has_depth) {
+            depth = setting_.distance->place(hit);
+        }
         return {kept.triangle, depth.value, light_distance_m, depth.error};
     }
 
@@ -243,7 +248,7 @@ private:
 
 void TexelFirstHits::find(std::span<const Texel> texels, std::span<TexelHit> hits) const
 {
-    TexelPacket packet{{reference_, rays_, depth_, cull_, pencil_}};
+    TexelPacket packet{{reference_, rays_, depth_, distance_, cull_, pencil_}};
     for (std::size_t first = 0; first < texels.size(); first += packet_size) {
         const std::size_t count = std::min(packet_size, texels.size() - first);
         packet.trace(texels.subspan(first, count));

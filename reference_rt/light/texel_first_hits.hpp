@@ -1,7 +1,6 @@
 #pragma once
 
-#include "reference_rt/light/light_depth.hpp"
-#include "reference_rt/light/texel_rays.hpp"
+#include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/float_line_filter.hpp"
 #include "scene/job/job.hpp"
@@ -15,14 +14,15 @@ namespace gnomon::reference_rt {
 class TexelFirstHits {
 public:
     /// All arguments must outlive it.
-    TexelFirstHits(const ReferenceScene::Implementation& reference, const TexelRays& rays,
-                   const LightDepth& depth, scene::Cull cull, scene::HitDetail detail)
+    TexelFirstHits(const ReferenceScene::Implementation& reference, const MapsOfLight& maps,
+                   std::size_t map, scene::Cull cull, scene::HitDetail detail)
         : reference_{reference},
-          rays_{rays},
-          depth_{depth},
+          rays_{maps.rays[map]},
+          depth_{maps.depths[map]},
+          distance_{maps.distance(map)},
           cull_{cull},
           detail_{detail},
-          pencil_{reference.frame, rays.light()}
+          pencil_{reference.frame, rays_.light()}
     {
     }
 
@@ -33,6 +33,7 @@ private:
     const ReferenceScene::Implementation& reference_;
     const TexelRays& rays_;
     const LightDepth& depth_;
+    const LightDistance* distance_;
     scene::Cull cull_;
     scene::HitDetail detail_;
     Pencil pencil_;

@@ -66,11 +66,15 @@ store::Json frustum_value(const scene::View& view, int resolution_texels)
     }
     const scene::LightFrustum& frustum = view.first_map();
     const bool is_perspective = frustum.projection == scene::Projection::perspective;
-    return {{"projection", is_perspective ? "perspective" : "orthographic"},
-            {"near_m", frustum.near_m},
-            {"far_m", frustum.far_m},
-            {"reversed", frustum.reversed},
-            {"texel_m", frustum.texel_width_m(1.0, resolution_texels)}};
+    store::Json json{{"projection", is_perspective ? "perspective" : "orthographic"},
+                     {"near_m", frustum.near_m},
+                     {"far_m", frustum.far_m},
+                     {"reversed", frustum.reversed},
+                     {"texel_m", frustum.texel_width_m(1.0, resolution_texels)}};
+    if (frustum.content == scene::MapContent::distance) {
+        json["content"] = scene::map_content_name(frustum.content);
+    }
+    return json;
 }
 
 store::Json exact_inputs_object(const analysis::Comparison& comparison)

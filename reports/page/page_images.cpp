@@ -201,7 +201,9 @@ store::Json image_entry(store::LayerFile& file, const store::Json& detail, int s
     const store::Json derive{{"needed_bias_m", derives_lengths},
                              {"needed_bias_texels", derives_lengths}};
     store::Json frustum = rules.frustum;
-    frustum["range_m"] = rules.light.range_m();
+    const scene::DepthRange stored = rules.light.stored_range();
+    frustum["is_linear"] = stored.projection == scene::Projection::orthographic;
+    frustum["range_m"] = stored.far_m - stored.near_m;
     frustum["inverse_range_per_m"] = 1.0 / rules.light.near_m - 1.0 / rules.light.far_m;
     std::vector<NamedLayer> layers = page_layers(file, image, derive);
     for (NamedLayer& layer : layers) {

@@ -37,8 +37,10 @@ std::string describe_light(const scene::Light& light)
 std::string describe_map(const scene::Job& job)
 {
     const scene::ShadowMapSettings& map = job.shadow_map;
-    const std::string size = fmt::format("{0}x{0} {1}", map.resolution_texels,
-                                         scene::depth_format_name(map.depth_format));
+    const bool has_distances = map.frustum.content == scene::MapContent::distance;
+    const std::string size =
+        fmt::format("{0}x{0} {1}{2}", map.resolution_texels,
+                    scene::depth_format_name(map.depth_format), has_distances ? ", distances" : "");
     const scene::MapLayout layout = scene::map_layout(job);
     return layout == scene::MapLayout::single
                ? fmt::format("{}, fit {}", size, scene::fit_name(map.frustum.fit))

@@ -105,6 +105,29 @@ void check_fit(const Settings& settings, KnownLight light)
     }
 }
 
+/// Refuses what maps of distances have no place for.
+void check_content(const Settings& settings, KnownLight light)
+{
+    const Setting* content = find_setting(settings, "shadow_map.content");
+    if (content == nullptr || std::get<std::string>(content->value) == "depth") {
+        return;
+    }
+    if (light == KnownLight::directional) {
+        refuse(*content, "a directional light is nowhere, and has no distances; remove it");
+    }
+    const Setting* reversed = find_setting(settings, "shadow_map.reversed");
+    if (reversed != nullptr && std::get<bool>(reversed->value)) {
+        refuse(*reversed,
+               fmt::format("distances are not reversed ({}); keep one of the two", content->label));
+    }
+    const Setting* filter = find_setting(settings, "lookup.filter");
+    if (filter != nullptr && std::get<std::string>(filter->value) == "linear") {
+        refuse(*filter, fmt::format("a mean of distances ({}) is not decided exactly; use nearest, "
+                                    "hardware or a pcf",
+                                    content->label));
+    }
+}
+
 /// Refuses maps that the light cannot have, and keys that they have no use for.
 void check_layout(const Settings& settings, KnownLight light)
 {
@@ -244,6 +267,7 @@ void check_settings(const Settings& settings, const std::string& source)
         check_directional(settings);
     }
     check_layout(settings, light);
+    check_content(settings, light);
     check_fit(settings, light);
     check_planes(settings, light);
     check_bias(settings, light);

@@ -55,6 +55,23 @@ KeySpec layout_key()
     return spec;
 }
 
+/// Left out where it is depth, as it was before there was another.
+KeySpec content_key()
+{
+    KeySpec spec = word_key<MapContent>(
+        make_key("shadow_map.content",
+                 "what the map stores: depth, or of a spot or point light the distance to it, over "
+                 "far",
+                 "\"depth\"", light_matrix),
+        2, map_content_name, [](auto& job) -> auto& { return job.shadow_map.frustum.content; });
+    spec.get = [](const Job& job) -> std::optional<JobValue> {
+        const MapContent content = job.shadow_map.frustum.content;
+        return content == MapContent::depth ? std::nullopt
+                                            : held(std::string{map_content_name(content)});
+    };
+    return spec;
+}
+
 /// `near` or `far`: metres from the light's camera, or "auto".
 KeySpec plane_key(std::string name, std::string description,
                   std::optional<double> FrustumSettings::*plane)
@@ -233,6 +250,7 @@ std::vector<KeySpec> map_key_specs()
         IntegerDomain{1, largest_side},
         [](auto& job) -> auto& { return job.shadow_map.resolution_texels; }));
     specs.push_back(layout_key());
+    specs.push_back(content_key());
     specs.push_back(depth_format_key());
     for (KeySpec& spec : frustum_keys()) {
         specs.push_back(std::move(spec));

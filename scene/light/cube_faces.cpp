@@ -18,6 +18,7 @@ LightFrustum face_of(const CubeFace& face, const FrustumSettings& settings, cons
 {
     LightFrustum frustum; // its sides, ±1 at ζ = 1, are those of 90°
     frustum.projection = Projection::perspective;
+    frustum.content = settings.content;
     frustum.origin = origin;
     frustum.forward = vector_along(face.forward);
     frustum.right = vector_along(face.right);
@@ -59,6 +60,7 @@ std::vector<LightFrustum> fit_cube_faces(const FrustumSettings& settings, const 
     LightDistanceRange range{0, farthest_vertex_m(scene, light.position)};
     widen(range.nearest_m, range.farthest_m, smallest_m);
     set_near_far(faces, settings, scene, {range, false, smallest_m});
+    make_room_for_distances(faces, settings, scene);
     for (LightFrustum& face : faces) {
         compose_matrix(face);
     }

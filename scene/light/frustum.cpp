@@ -156,6 +156,7 @@ LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSetti
     LightFrustum frustum;
     frustum.projection =
         light.type == LightType::spot ? Projection::perspective : Projection::orthographic;
+    frustum.content = settings.content;
     frustum.reversed = settings.reversed;
     frustum.clip_range = clip_range_of(settings);
     frustum.origin = camera_position(light_settings, light, box);
@@ -178,6 +179,7 @@ LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSetti
     }
     set_sides(frustum, settings, light_settings, sides);
     set_near_far({&frustum, 1}, settings, scene, {range, !seen.empty(), smallest_m});
+    make_room_for_distances({&frustum, 1}, settings, scene);
     compose_matrix(frustum);
     return frustum;
 }

@@ -12,8 +12,15 @@ namespace gnomon::scene {
 
 enum class Fit : std::uint8_t { scene, camera, fixed };
 
+/// What a map stores of the surface that the light sees first.
+enum class MapContent : std::uint8_t {
+    depth,    ///< by the map's matrix
+    distance, ///< to the light, over far
+};
+
 /// The part of `[shadow_map]` that decides the light's camera.
 struct FrustumSettings {
+    MapContent content = MapContent::depth;
     Fit fit = Fit::scene;
     double half_extent_m = 20;           ///< fit = fixed, directional; > 0
     std::optional<double> fov_deg;       ///< fit = fixed, spot; (0, 180); default: the cone
@@ -30,6 +37,7 @@ struct FrustumSettings {
 /// The light's camera: what the shadow map sees.
 struct LightFrustum {
     Projection projection = Projection::orthographic;
+    MapContent content = MapContent::depth;
     Vec3d origin;  ///< where the light's camera stands [m]; ζ is measured from its plane
     Vec3d forward; ///< unit
     Vec3d right;   ///< unit, the direction of growing u
@@ -55,6 +63,14 @@ struct LightFrustum {
     [[nodiscard]] DepthRange depth_range() const
     {
         return {projection, near_m, far_m, reversed, clip_range};
+    }
+    /// How what the map stores follows from what it stores it of: `depth_range()` of ζ, or of the
+    /// distance to the light 0 to far, evenly.
+    [[nodiscard]] DepthRange stored_range() const
+    {
+        return content == MapContent::depth
+                   ? depth_range()
+                   : DepthRange{Projection::orthographic, 0, far_m, false, clip_range};
     }
 };
 

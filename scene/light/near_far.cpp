@@ -4,6 +4,7 @@
 #include "scene/light/clipped_range.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -145,6 +146,26 @@ void set_near_far(std::span<LightFrustum> maps, const FrustumSettings& settings,
     for (LightFrustum& map : maps) {
         map.near_m = planes.near_m;
         map.far_m = planes.far_m;
+    }
+}
+
+void make_room_for_distances(std::span<LightFrustum> maps, const FrustumSettings& settings,
+                             const TriangleScene& scene)
+{
+    const LightFrustum& first = maps.front();
+    if (first.content == MapContent::depth || settings.far_m) {
+        return;
+    }
+    double farthest_m = 0;
+    for (const Vec3f& vertex : scene.vertices) {
+        farthest_m = std::max(farthest_m, glm::length(Vec3d{vertex} - first.origin));
+    }
+    // A corner of the map is the farthest at its ζ.
+    const double corner = glm::length(Vec3d{first.right_side, first.top, 1});
+    const double far_m = std::clamp((1 + auto_padding) * farthest_m, first.far_m,
+                                    (1 + auto_padding) * corner * first.far_m);
+    for (LightFrustum& map : maps) {
+        map.far_m = double{static_cast<float>((1 + 0x1p-23) * far_m)};
     }
 }
 

@@ -26,6 +26,11 @@ struct WholeScene {
 /// Moves the ends of a range apart until it is at least that long.
 void widen(double& lower, double& upper, double smallest);
 
+/// Moves far behind all that lies within the sides, by distance to the light, where maps hold
+/// distances and the settings leave far to us. Far is a float32 there: GL divides by it.
+void make_room_for_distances(std::span<LightFrustum> maps, const FrustumSettings& settings,
+                             const TriangleScene& scene);
+
 /// Sets near and far of a light's maps, the same for all: those of the settings, else around the
 /// triangles within the sides of any, else around the whole scene. Axes, origin and sides are set
 /// before, of one projection.

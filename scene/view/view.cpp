@@ -97,6 +97,12 @@ void require_layout(const Job& job, LightType light)
             "a light under [light]",
             map_layout_name(map_layout(job)), light_type_name(light)));
     }
+    const bool has_distances = job.shadow_map.frustum.content == MapContent::distance;
+    if (has_distances && light == LightType::directional) {
+        throw InputError(
+            "shadow_map.content = \"distance\": the scene's light is directional, and has "
+            "no distances; remove the key, or give a light under [light]");
+    }
     if (is_cube && lookup_position(job) != LookupPosition::pixel) {
         throw InputError(
             "lookup.position = \"vertex\": the scene's light is a point light, whose six "

@@ -27,7 +27,7 @@ std::vector<ExrChannel> channels_of(const scene::LightFrustum& frustum,
     const auto depth = [&depths, first = map * side * side](std::size_t i) {
         return depths[first + i];
     };
-    const auto distance_m = [depth, mapping = analysis::DepthMapping{frustum.depth_range()},
+    const auto distance_m = [depth, mapping = analysis::DepthMapping{frustum.stored_range()},
                              farthest = frustum.reversed ? 0.0F : 1.0F](std::size_t i) {
         return depth(i) == farthest
                    ? std::numeric_limits<float>::quiet_NaN()

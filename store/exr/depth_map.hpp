@@ -11,7 +11,8 @@ namespace gnomon::store {
 /// maps each into a part of that map's name.
 ///
 /// float32: `depth` as shaders see it, in [0, 1], and `light_distance_m`, the distance from the
-/// light's camera plane that it stands for [m], NaN where nothing was drawn.
+/// light's camera plane, or of a map of distances from the light, that it stands for [m], NaN where
+/// nothing was drawn.
 /// @param depths  Of the view's maps, top left first (`scene::maps_image_size`).
 /// @throws std::invalid_argument    if `depths` is not of their size.
 /// @throws scene::EnvironmentError  if the file cannot be written; what stood there then stays.

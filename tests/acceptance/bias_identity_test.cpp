@@ -222,6 +222,28 @@ INSTANTIATE_TEST_SUITE_P(ScenesAndFilters, BiasIdentity,
                                           testing::Values("nearest", "linear", "hardware", "pcf3",
                                                           "pcf5", "pcf9")));
 
+/// `linear` has no mean of distances.
+class BiasIdentityOfDistances : public testing::TestWithParam<const char*> {};
+
+TEST_P(BiasIdentityOfDistances, HoldsForGlsOwnRerunInEveryPixel)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* builtin : {"lamp-room", "sphere-plane"}) {
+        const Setting setting{builtin, {{"shadow_map.content", "distance"}}};
+        GlCase c{builtin, keys_of(setting, "d32f", GetParam(), "0")};
+        for (const char* format : {"d16", "d32f", "u12"}) {
+            for (const char* slope : {"0", "0.002"}) {
+                c.set(keys_of(setting, format, GetParam(), slope));
+                expect_identity(c, fmt::format("{} distances {} {} slope {}", builtin, GetParam(),
+                                               format, slope));
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, BiasIdentityOfDistances,
+                         testing::Values("nearest", "hardware", "pcf3", "pcf9"));
+
 class Bisection : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Bisection, FindsWhatTheFormulaSays)

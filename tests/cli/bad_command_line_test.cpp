@@ -114,7 +114,7 @@ TEST(JobSettings, RefusesCamerasAndLightsWithoutADirection)
     expect_settings_refused("sphere-cube", {"light.position=[1,2,3]", "light.target=[1,2,3]"},
                             "light.position equals light.target");
     expect_settings_refused("wall", {"light.direction=[0,0,0]"}, "light.direction");
-    expect_settings_refused("wall", {"light.type=point", "light.position=[0,5,0]"}, "point");
+    expect_settings_refused("wall", {"light.type=point"}, "a point light needs light.position");
 }
 
 TEST(JobSettings, RefusesUnknownKeysAndWrongTypes)

@@ -96,13 +96,15 @@ TEST(SixSpots, GiveTheVerdictsOfTheFacesToTheBit)
 {
     GNOMON_REQUIRE_GL();
     for (const char* format : {"d16", "d24", "d32f", "u12"}) {
-        for (const char* reversed : {"false", "true"}) {
+        for (const auto& [reversed, content] :
+             {std::pair{"false", "depth"}, {"true", "depth"}, {"false", "distance"}}) {
             GlCase c{"lamp-room",
                      {{"image.width", "480"},
                       {"image.height", "270"},
                       {"shadow_map.resolution", "128"},
                       {"shadow_map.depth_format", format},
                       {"shadow_map.reversed", reversed},
+                      {"shadow_map.content", content},
                       {"lookup.outside", "clamp"}, // the seam is the face's last texel
                       {"bias.slope", "0.0003"}}};
             c.draw_all();

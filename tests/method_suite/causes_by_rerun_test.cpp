@@ -184,13 +184,19 @@ TEST_P(CausesByRerun, AreTheExactOnesButWhereFloat32Decides)
     GNOMON_REQUIRE_GL();
     const std::string filter = GetParam();
     Differences all;
-    for (const char* const builtin :
-         {"sphere-plane", "sphere-cube", "wall", "terrain", "lamp-room"}) {
-        const auto keys = with(small, {{"lookup.filter", filter}});
+    for (const auto& [builtin, content] : {std::pair{"sphere-plane", "depth"},
+                                           {"sphere-cube", "depth"},
+                                           {"wall", "depth"},
+                                           {"terrain", "depth"},
+                                           {"lamp-room", "depth"},
+                                           {"lamp-room", "distance"},
+                                           {"sphere-plane", "distance"}}) {
+        const auto keys = with(small, {{"lookup.filter", filter}, {"shadow_map.content", content}});
         const Compared scene{job_of_builtin(builtin, keys)};
         for (const auto& [format, bias] :
              {std::pair{"d24", "0"}, {"d24", "0.0005"}, {"d24", "0.02"}, {"u8", "0.0005"}}) {
-            SCOPED_TRACE(fmt::format("{} {} {} bias {}", builtin, filter, format, bias));
+            SCOPED_TRACE(
+                fmt::format("{} {} {} {} bias {}", builtin, content, filter, format, bias));
             const Differences found = expect_same_causes(
                 scene, job_of_builtin(builtin, with(keys, {{"shadow_map.depth_format", format},
                                                            {"bias.slope", "0"},

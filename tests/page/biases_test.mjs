@@ -74,7 +74,7 @@ describe("The order of biases", () => {
 });
 
 describe("Lengths of biases", () => {
-  const orthographic = { projection: "orthographic", range_m: 20, texel_m: 0.5 };
+  const orthographic = { projection: "orthographic", is_linear: true, range_m: 20, texel_m: 0.5 };
   const perspective = { projection: "perspective", inverse_range_per_m: 2, texel_m: 0.01 };
 
   it("are the range's share of a directional light", () => {

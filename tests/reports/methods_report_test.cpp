@@ -158,7 +158,8 @@ TEST(MethodsTable, AlignsFiltersBiasTermsAndKeys)
               "  lookup.outside   \"lit\"      the verdict beyond the map's edge or its far plane\n"
               "  lookup.position  \"vertex\"   where a receiver's light clip position is computed: "
               "at the "
-              "vertices, and interpolated, or at each pixel from its world position\n");
+              "vertices, and interpolated, or at each pixel from its world position, which "
+              "several maps need\n");
 }
 
 TEST(MethodsTable, LeavesOutWhatAMethodDoesNotHave)

@@ -132,6 +132,24 @@ TEST(CubeMaps, EncloseAllTriangles)
     }
 }
 
+TEST(CubeMaps, OfDistancesHaveRoomForTheFarthestVertex)
+{
+    FrustumSettings settings;
+    settings.content = MapContent::distance;
+    const Light light = point_light({0.3, 1, 2});
+    const TriangleScene scene = some_triangles(light.position, 4);
+    const auto maps = fit_cube_faces(settings, light, scene);
+    double farthest_m = 0;
+    for (const Vec3f& vertex : scene.vertices) {
+        farthest_m = std::max(farthest_m, glm::length(Vec3d{vertex} - light.position));
+    }
+    EXPECT_GT(maps[0].far_m, farthest_m);
+    EXPECT_LT(maps[0].far_m, 1.001 * farthest_m);
+    EXPECT_EQ(maps[0].far_m, double{static_cast<float>(maps[0].far_m)}); // GL's own
+    EXPECT_EQ(maps[0].stored_range().near_m, 0);
+    EXPECT_EQ(maps[0].stored_range().far_m, maps[0].far_m);
+}
+
 TEST(CubeMaps, TakeTheGivenPlanes)
 {
     FrustumSettings settings;

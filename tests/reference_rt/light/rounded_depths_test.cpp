@@ -105,10 +105,10 @@ TEST(ToNearest, DecidesWhatIsFarCloserToATieThanDoubles)
 TEST(ToNearest, TakesQuotientsBeyondAllDoubles)
 {
     const Dyadic large = Dyadic{0x1p1000} * Dyadic{0x1p1000};
-    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>({large, Dyadic{3}}), scene::infinity));
-    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>({large, Dyadic{-3}}), -scene::infinity));
-    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>({Dyadic{-3}, large}), 0.0F));
-    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>({Dyadic{}, Dyadic{-3}}), 0.0F));
+    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>(Fraction{large, Dyadic{3}}), scene::infinity));
+    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>(Fraction{large, Dyadic{-3}}), -scene::infinity));
+    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>(Fraction{Dyadic{-3}, large}), 0.0F));
+    EXPECT_TRUE(is_same(exactly_rounded<ToNearest>(Fraction{Dyadic{}, Dyadic{-3}}), 0.0F));
 }
 
 TEST(CertainlyRounded, IsTheFloatOfTheWholeInterval)

@@ -95,6 +95,7 @@ const std::map<std::string, KeyCases> key_cases{
       {}}},
     {"shadow_map.layout",
      {{"\"cube\""}, {"\"ring\"", "6"}, {{"light.type", "point"}, {"light.position", "[0, 3, 1]"}}}},
+    {"shadow_map.content", {{"\"distance\""}, {"\"depths\"", "1"}, spot}},
     {"shadow_map.fit", {{"\"scene\"", "\"camera\"", "\"fixed\""}, {"\"tight\"", "0"}, {}}},
     {"shadow_map.half_extent",
      {{"1e-06", "20", "1e+15"}, {"0", "-1", "2e15"}, {{"shadow_map.fit", "fixed"}}}},

@@ -234,6 +234,16 @@ TEST(SettingLayers, RefuseWhatAPointLightDoesNotHave)
                 HasSubstr("the nearest is \"cube\""));
 }
 
+TEST(SettingLayers, RefuseDistancesWhereThereAreNone)
+{
+    const std::string distances = "shadow_map.content = \"distance\"\n";
+    EXPECT_THAT(refusal(wall_job + distances), HasSubstr("a directional light is nowhere"));
+    EXPECT_THAT(refusal(lamp + distances + "shadow_map.reversed = true\n"),
+                HasSubstr("distances are not reversed"));
+    EXPECT_THAT(refusal(lamp + distances + "lookup.filter = \"linear\"\n"),
+                HasSubstr("a mean of distances"));
+}
+
 TEST(SettingLayers, LetAnotherKindOfLightReplaceWhatBelongedToTheOneBelow)
 {
     const auto with = [](const std::string& text, const std::vector<Override>& overrides) {

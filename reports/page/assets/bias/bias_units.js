@@ -10,7 +10,7 @@ function biasLengthM(frustum, bias, lightDistanceM) {
   if (!Number.isFinite(bias)) {
     return bias;
   }
-  if (frustum.projection !== "perspective") {
+  if (frustum.is_linear) {
     return bias * frustum.range_m;
   }
   const relative = frustum.inverse_range_per_m * bias * lightDistanceM;
