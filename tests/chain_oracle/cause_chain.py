@@ -1,13 +1,12 @@
 """The cause chain and the labels of one pixel, by docs/causes.md, over exact geometry.
 
-A `LightView` knows what every texel's ray sees. A `Lookup` is what GL's lookup of one pixel did. A `Pixel` brings
-them together, and `explain` gives the pixel's cause, label and amounts.
+A `LightView` knows what every texel's ray of one map sees. A `Pixel` brings maps, truth and GL's lookup together, and
+gives its cause, label and amounts.
 """
 
 from collections import Counter
 from fractions import Fraction
 from functools import cache
-from math import prod
 
 import numpy
 
@@ -18,7 +17,6 @@ BIAS, PRECISION, RESOLUTION, COVERAGE, FILTER = "bias", "precision", "resolution
 ACNE, PANNING, LEAK, EDGE, OVERSHADOW = "acne", "peter_panning", "leak", "edge", "overshadow"
 CAUSES = {BIAS: 1, PRECISION: 2, RESOLUTION: 3, COVERAGE: 4, FILTER: 5}
 LABELS = {ACNE: 1, PANNING: 2, LEAK: 3, EDGE: 4, OVERSHADOW: 5, "bleed": 6}
-FLOAT_HALF = numpy.float32(0.5)
 TOLERANCE = Fraction(1, 256)
 
 
@@ -33,8 +31,8 @@ class LightView:
         self.kept = [cull == "none" or light.faces_front(mesh, k) != (cull == "front")
                      for k in range(len(mesh.corners))]
         self.float_rows = rows
-        shift = geometry.shift_of(value for row in rows for value in row)
-        self.rows = [geometry.scaled(row, shift) for row in rows]
+        self.shift = geometry.shift_of(value for row in rows for value in row)
+        self.rows = [geometry.scaled(row, self.shift) for row in rows]
         # A row's last value meets w, which is 2^shift of the world for its scaled coordinates.
         self.rows = [(*row[:3], row[3] << mesh.shift) for row in self.rows]
         self.look = cache(self._look)
@@ -50,10 +48,10 @@ class LightView:
         return Fraction(z, w) if self.is_reversed else Fraction(z + w, 2 * w)
 
     def light_distance(self, point):
-        """What grows with the distance from the light's camera plane, affinely in the world."""
+        """What grows with the distance from the light's camera plane, affinely in the world, alike for all maps."""
         _, _, z, w = self.clip(point)
         if self.light.position is not None:
-            return Fraction(w, point[3])
+            return Fraction(w, point[3] << self.shift)
         return Fraction(-z if self.is_reversed else z, point[3])
 
     def texel_position(self, point):
@@ -76,9 +74,6 @@ class LightView:
         if ray.triangle is None:
             return Fraction(0 if self.is_reversed else 1)
         return ray.depth
-
-    def contains(self, texel):
-        return 0 <= texel[0] < self.resolution and 0 <= texel[1] < self.resolution
 
 
 def texel_ray(rows, texel, count, is_directional, is_reversed):
@@ -103,92 +98,13 @@ def texel_ray(rows, texel, count, is_directional, is_reversed):
     return origin, direction if growth > 0 else tuple(-value for value in direction)
 
 
-class Lookup:
-    """What GL's lookup of a pixel gave: receiver depth, uv times resolution, the centre tap's depth."""
-
-    def __init__(self, settings, receiver_depth, x, y, map_depth):
-        self.settings = settings
-        self.x, self.y = x, y
-        self.map_depth = map_depth
-        r = numpy.float32(receiver_depth)
-        reverse = settings.is_reversed
-        self.is_at_far = bool(r <= 0 if reverse else r >= 1)
-        beyond = bool(r < 0 if reverse else r > 1)
-        self.is_beyond_far = beyond and settings.outside != "clamp"
-        self.depth = min(max(r, numpy.float32(0)), numpy.float32(1)) if settings.outside == "clamp" else r
-
-    def centre(self):
-        """The texel that contains uv times resolution; it may be outside the map."""
-        return (int(numpy.floor(self.x)), int(numpy.floor(self.y)))
-
-    def corner(self):
-        """The lower left texel of the footprint of linear."""
-        return tuple(int(numpy.floor(value - FLOAT_HALF)) for value in (self.x, self.y))
-
-    def footprint(self):
-        if self.settings.filter == "linear":
-            x, y = self.corner()
-            return [(x + i, y + j) for j in (0, 1) for i in (0, 1)]
-        x, y = self.centre()
-        half = self.settings.taps // 2
-        return [(x + i, y + j) for j in range(-half, half + 1) for i in range(-half, half + 1)]
-
-    def weight(self, texel):
-        """A texel's share of the footprint: 1 for a mean of taps, bilinear for linear."""
-        if self.settings.filter != "linear":
-            return Fraction(1)
-        shares = (1 - abs(Fraction(float(value - FLOAT_HALF)) - index)
-                  for value, index in zip((self.x, self.y), texel))
-        return prod(shares)
-
-    def ring(self):
-        """The footprint and the texels around it."""
-        taps = self.footprint()
-        return {(x + i, y + j) for x, y in taps for j in (-1, 0, 1) for i in (-1, 0, 1)}
-
-    def resolve(self, texel):
-        """The map's texel that is looked up, or None where the border mode decides."""
-        n = self.settings.resolution
-        if self.settings.outside == "clamp":
-            return (min(max(texel[0], 0), n - 1), min(max(texel[1], 0), n - 1))
-        inside = 0 <= texel[0] < n and 0 <= texel[1] < n
-        return texel if inside and not self.is_beyond_far else None
-
-    def is_decided_by_border(self):
-        """Whether the border mode decides the whole lookup."""
-        return all(self.resolve(texel) is None for texel in self.footprint())
-
-
-class Settings:
-    """What of a job decides a lookup."""
-
-    def __init__(self, job):
-        self.resolution = job["shadow_map.resolution"]
-        self.filter = job["lookup.filter"]
-        self.taps = int(self.filter[3:]) if self.filter.startswith("pcf") else 1
-        self.outside = job["lookup.outside"]
-        self.is_reversed = job["shadow_map.reversed"]
-        self.border_is_lit = self.outside == "lit"
-
-    def is_lit(self, receiver, stored):
-        return bool(receiver >= stored if self.is_reversed else receiver <= stored)
-
-    def biased_float(self, receiver, bias):
-        return numpy.float32(receiver + bias if self.is_reversed else receiver - bias)
-
-    def biased_exactly(self, receiver, bias):
-        return receiver + Fraction(float(bias)) if self.is_reversed else receiver - Fraction(float(bias))
-
-    def border_depth(self):
-        """The depth that a texel outside has for linear."""
-        return 0 if self.border_is_lit == self.is_reversed else 1
-
-
 class Pixel:
-    """A scored pixel: exact receiver, truth, GL's verdict, the job's lookup and that without a normal offset."""
+    """A scored pixel: exact receiver, truth, GL's verdict, the job's lookup and that without a normal offset.
 
-    def __init__(self, view, settings, stored, triangle, point, truth, verdict, lookups, bias):
-        self.view = view
+    `views` and `stored` are those of all maps, by index; `view` is that of the map that the receiver reads."""
+
+    def __init__(self, views, settings, stored, triangle, point, truth, verdict, lookups, bias):
+        self.views = views
         self.settings = settings
         self.stored = stored
         self.triangle = triangle
@@ -196,21 +112,28 @@ class Pixel:
         self.truth = truth
         self.verdict = verdict
         self.job_lookup, self.lookup = lookups
+        self.view = views[self.lookup.map_index]
         self.bias = bias
         self.sees_own_sheet = cache(self._sees_own_sheet)
-        self.exact_depth = view.depth(point)
+        self.exact_depth = self.view.depth(point)
         if settings.outside == "clamp":
             self.exact_depth = min(max(self.exact_depth, Fraction(0)), Fraction(1))
 
     def _sees_own_sheet(self, texel):
         """Whether the surface walked from P to the texel's centre enters what is seen there."""
-        if texel is None or not self.view.contains(texel):
+        if texel is None:
             return False
-        ray = self.view.look(texel)
+        ray = self.look(texel)
         return geometry.Walk(self.view.mesh, self.view.light, self.triangle, self.point, ray).reaches(ray.triangle)
 
+    def look(self, texel):
+        return self.views[texel[0]].look(texel[1:])
+
+    def seen_depth(self, texel):
+        return self.views[texel[0]].seen_depth(texel[1:])
+
     def stored_depth(self, texel):
-        return self.stored[self.settings.resolution - 1 - texel[1], texel[0]]
+        return self.stored[texel[0]][self.settings.resolution - 1 - texel[2], texel[1]]
 
     def tap_is_lit_in_job(self, texel):
         """A texel compared by itself in V0."""
@@ -251,7 +174,7 @@ class Pixel:
         return self.settings.is_lit(self.lookup.depth, self.stored_depth(texel))
 
     def compare_exact(self, texel):
-        return self.settings.is_lit(self.exact_compared(), self.view.seen_depth(texel))
+        return self.settings.is_lit(self.exact_compared(), self.seen_depth(texel))
 
     def exact_compared(self):
         """The exact depth that V2 compares: a lit pixel keeps the job's bias."""
@@ -279,14 +202,13 @@ class Pixel:
         return Fraction(self.settings.is_lit(self.exact_compared(), self.interpolated_depth()))
 
     def interpolated_depth(self):
-        left, bottom = self.lookup.corner()
         uv = self.view.texel_position(self.point)
-        x, y = (min(max(value - Fraction(1, 2) - base, Fraction(0)), Fraction(1))
-                for value, base in zip(uv, (left, bottom)))
+        place = (min(max(value - Fraction(1, 2) - base, Fraction(0)), Fraction(1))
+                 for value, base in zip(uv, self.lookup.corner()))
         total = Fraction(0)
-        for i, j, weight in ((0, 0, (1 - x) * (1 - y)), (1, 0, x * (1 - y)), (0, 1, (1 - x) * y), (1, 1, x * y)):
-            texel = self.lookup.resolve((left + i, bottom + j))
-            depth = self.settings.border_depth() if texel is None else self.view.seen_depth(texel)
+        for tap, weight in self.lookup.bilinear(*place).items():
+            texel = self.lookup.resolve(tap)
+            depth = self.settings.border_depth() if texel is None else self.seen_depth(texel)
             total += weight * depth
         return total
 
@@ -303,7 +225,7 @@ class Pixel:
 
     def fine_verdict(self):
         """V3."""
-        outside = not self.view.contains(self.lookup.centre())
+        outside = self.lookup.texel_at(self.lookup.centre()) is None
         if self.settings.outside == "clamp":
             if outside or self.lookup.is_at_far:
                 return self.single_verdict()
@@ -346,11 +268,12 @@ class Pixel:
         s, _ = max(found, key=lambda hit: (hit[0], -hit[1]))
         blocker = geometry.point_on_way(self.point, self.view.light, s)
         midpoint = (self.view.light_distance(self.point) + self.view.light_distance(blocker)) / 2
-        for texel in self.lookup.ring():
-            if not self.view.contains(texel) or self.sees_own_sheet(texel):
+        for tap in self.lookup.ring():
+            texel = self.lookup.texel_at(tap)
+            if texel is None or self.sees_own_sheet(texel):
                 continue
-            ray = self.view.look(texel)
-            if ray.triangle is not None and self.view.light_distance(ray.point) < midpoint:
+            ray = self.look(texel)
+            if ray.triangle is not None and self.views[texel[0]].light_distance(ray.point) < midpoint:
                 return False
         return True
 

@@ -29,30 +29,41 @@ except ImportError:
     sys.exit(77)
 
 import cause_chain as chain
+import cube_checks
 import exact_geometry as geometry
 import small_scenes
+from map_lookup import Lookup, Settings
 
 NO_TRIANGLE = 0xFFFFFFFF
 CLASS_LIT, CLASS_BLOCKED = 5, 6
 LABELS_THAT_OCCUR = set(chain.LABELS) - {"bleed"}
 
 
-def read_channels(path):
-    """Every channel of an EXR by name, row 0 at the top; integers stay integers."""
+def read_parts(path):
+    """Every channel of an EXR's parts by name, row 0 at the top; integers stay integers."""
     source = OpenImageIO.ImageInput.open(str(path))
-    spec = source.spec()
-    channels = {}
-    for index, name in enumerate(spec.channelnames):
-        form = str(spec.channelformat(index))
-        data = source.read_image(0, 0, index, index + 1, form if form == "uint" else "float")
-        channels[name] = numpy.asarray(data)[:, :, 0]
+    parts = {}
+    while source.seek_subimage(len(parts), 0):
+        spec = source.spec()
+        channels = {}
+        for index, name in enumerate(spec.channelnames):
+            form = str(spec.channelformat(index))
+            data = source.read_image(len(parts), 0, index, index + 1, form if form == "uint" else "float")
+            channels[name] = numpy.asarray(data)[:, :, 0]
+        parts[spec.getattribute("oiio:subimagename") or str(len(parts))] = channels
     source.close()
-    return channels
+    return parts
 
 
 def floats(texts):
     """Doubles of hexadecimal texts."""
     return [float.fromhex(text) for text in texts]
+
+
+def matrix_rows(texts):
+    """The rows of a matrix of 16 texts."""
+    values = floats(texts)
+    return [values[4 * k:4 * k + 4] for k in range(4)]
 
 
 class Run:
@@ -70,8 +81,10 @@ class Run:
         if done.returncode != 0:
             raise RuntimeError(f"{' '.join(command)}\nended with {done.returncode}: {done.stderr}")
         self.json = json.loads(done.stdout)
-        self.pixels = read_channels(aov)
-        self.stored = read_channels(depth_map)["depth"]
+        (self.pixels,) = read_parts(aov).values()
+        maps = read_parts(depth_map)
+        self.map_names = list(maps)
+        self.stored = [channels["depth"] for channels in maps.values()]
 
 
 def job_value(result, key):
@@ -110,36 +123,38 @@ class Oracle:
         self.run, self.plain_run = run, plain_run
         height, width = run.pixels["prim"].shape
         self.camera = Camera(inputs, width, height)
-        keys = ("shadow_map.resolution", "lookup.filter", "lookup.outside", "shadow_map.reversed")
-        self.settings = chain.Settings({key: job_value(run.json, key) for key in keys})
-        values = floats(inputs["light_clip_from_world"])
-        rows = [values[4 * k:4 * k + 4] for k in range(4)]
-        is_spot = inputs["light_type"] == "spot"
-        mesh = geometry.Mesh(triangles, self.world_shift(triangles, rows, is_spot, inputs))
-        light = geometry.Light(position=mesh.point(floats(inputs["light_position"]))) if is_spot else \
+        keys = ("shadow_map.resolution", "shadow_map.reversed", "lookup.filter", "lookup.outside")
+        self.settings = Settings({key: job_value(run.json, key) for key in keys}, inputs["light_type"] == "point")
+        self.rows = [matrix_rows(inputs[name]) for name in inputs if name.startswith("light_clip_from_world")]
+        self.has_position = inputs["light_type"] != "directional"
+        mesh = geometry.Mesh(triangles, self.world_shift(triangles, inputs))
+        light = geometry.Light(position=mesh.point(floats(inputs["light_position"]))) if self.has_position else \
             geometry.Light(direction=mesh.point(floats(inputs["light_direction"])))
         self.mesh = mesh
-        self.view = chain.LightView(mesh, light, rows, self.settings.resolution,
-                                    job_value(run.json, "shadow_map.cull"), self.settings.is_reversed)
+        self.light = light
+        cull = job_value(run.json, "shadow_map.cull")
+        self.views = [chain.LightView(mesh, light, rows, self.settings.resolution, cull, self.settings.is_reversed)
+                      for rows in self.rows]
         self.constant = numpy.float32(float.fromhex(inputs["bias_constant"]))
         self.slope = numpy.float32(float.fromhex(inputs["bias_slope"]))
 
-    def world_shift(self, triangles, rows, is_spot, inputs):
+    def world_shift(self, triangles, inputs):
         """A power of two that makes integers of all points of the world."""
         points = [value for triangle in triangles for corner in triangle for value in corner] + self.camera.eye
-        points += floats(inputs["light_position" if is_spot else "light_direction"])
+        points += floats(inputs["light_position" if self.has_position else "light_direction"])
         count = self.settings.resolution
         if not self.camera.is_perspective:
             points += [value for x in range(self.camera.width) for y in range(self.camera.height)
                        for value in self.camera.ray(x, y)[0]]
-        if not is_spot:
-            points += [value for x in range(count) for y in range(count)
+        if not self.has_position:
+            points += [value for rows in self.rows for x in range(count) for y in range(count)
                        for value in chain.texel_ray(rows, (x, y), count, True, self.settings.is_reversed)[0]]
         return geometry.shift_of(points)
 
     def lookup(self, run, x, y):
         values = (run.pixels[name][y, x] for name in ("receiver_depth", "texel.X", "texel.Y", "map_depth"))
-        return chain.Lookup(self.settings, *values)
+        map_index = int(run.pixels["map_index"][y, x]) if self.settings.is_cube else 0
+        return Lookup(self.settings, *values, map_index)
 
     def receiver(self, x, y):
         eye, direction = self.camera.ray(x, y)
@@ -159,7 +174,7 @@ class Oracle:
         bias = numpy.float32(self.constant + numpy.float32(self.slope * channels["tan_theta"][y, x]))
         truth = chain.LIT if channels["class"][y, x] == CLASS_LIT else chain.BLOCKED
         lookups = (self.lookup(self.run, x, y), self.lookup(self.plain_run, x, y))
-        return chain.Pixel(self.view, self.settings, self.run.stored, int(channels["prim"][y, x]),
+        return chain.Pixel(self.views, self.settings, self.run.stored, int(channels["prim"][y, x]),
                            self.receiver(x, y), truth, self.verdict(x, y), lookups, bias)
 
 
@@ -172,6 +187,7 @@ class Tally:
         self.softening = {chain.LIT: Fraction(0), chain.BLOCKED: Fraction(0)}
         self.unassigned = Fraction(0)
         self.checked = Counter()
+        self.maps = cube_checks.MapTally()
 
     def add(self, pixel, cause, label):
         if pixel.is_wrong():
@@ -209,7 +225,7 @@ def check_receiver(oracle, pixel, x, y):
     for axis, value in zip("XYZ", world):
         if abs(float(value) - float(channels[f"P.{axis}"][y, x])) > 1e-6:
             yield f"P.{axis} is {float(value)} here, {channels[f'P.{axis}'][y, x]} there"
-    found, _ = geometry.crossings(oracle.mesh, pixel.triangle, pixel.point, oracle.view.light, lambda _: True)
+    found, _ = geometry.crossings(oracle.mesh, pixel.triangle, pixel.point, oracle.light, lambda _: True)
     if bool(found) != (pixel.truth == chain.BLOCKED):
         yield f"truth: crossed by {[triangle for _, triangle in found]} here, {pixel.truth} there"
     witness = int(channels["witness"][y, x])
@@ -245,16 +261,22 @@ def check_pixel(oracle, x, y, tally):
     pixel = oracle.pixel(x, y)
     yield from check_receiver(oracle, pixel, x, y)
     yield from check_lookup(pixel, x, y)
+    if oracle.settings.is_cube:
+        yield from cube_checks.check_lookups(oracle, pixel, x, y)
+        tally.checked["over seams"] += cube_checks.reads_over_seam(pixel)
+        tally.checked[oracle.run.map_names[pixel.job_lookup.map_index]] += 1
     theirs = (name_of(chain.CAUSES, oracle.run.pixels["cause"][y, x]),
               name_of(chain.LABELS, oracle.run.pixels["label"][y, x]))
     if not pixel.is_wrong() and not pixel.is_partial():
         tally.unassigned += abs(pixel.verdict - pixel.truth)
+        tally.maps.add(pixel, None, None)
         if theirs != ("none", "none"):
             yield f"neither wrong nor partial, yet {theirs} there"
         return
     cause = pixel.cause()
     label = pixel.label(cause)
     tally.add(pixel, cause, label)
+    tally.maps.add(pixel, cause, label)
     if (cause, label) != theirs:
         yield f"{cause}, {label} here, {theirs[0]}, {theirs[1]} there; {details(pixel, cause)}"
 
@@ -270,7 +292,11 @@ def check_job(program, job, triangles, job_file):
     for y, x in zip(*numpy.nonzero((classes == CLASS_LIT) | (classes == CLASS_BLOCKED))):
         tally.checked["scored"] += 1
         lines += [f"pixel ({x}, {y}): {line}" for line in check_pixel(oracle, x, y, tally)]
-    return lines + tally.differences(run.json), tally
+    lines += tally.differences(run.json)
+    if oracle.settings.is_cube:
+        lines += cube_checks.check_matrices(oracle.rows, run.json["exact_inputs"])
+        lines += tally.maps.differences(run.json, oracle.settings.resolution)
+    return lines, tally
 
 
 def check_scene(program, index, seed, jobs, folder):

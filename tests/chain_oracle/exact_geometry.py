@@ -82,9 +82,14 @@ def receiver_point(mesh, triangle, eye, direction):
 
 
 def edge_sides(corners, origin, direction):
-    """Sides of the line from the planes through it and each edge: all equal inside, zero on an edge."""
-    a, b, c = (sub(corner, origin) for corner in corners)
-    return (sign(dot(direction, cross(a, b))), sign(dot(direction, cross(b, c))), sign(dot(direction, cross(c, a))))
+    """Sides of the line from the planes through it and each edge: all equal inside, zero on an edge. Where the first
+    two are opposite there is no third."""
+    a, b, c = sub(corners[0], origin), sub(corners[1], origin), sub(corners[2], origin)
+    around_b = cross(direction, b)
+    first, second = -sign(dot(around_b, a)), sign(dot(around_b, c))
+    if first * second < 0:
+        return (first, second)
+    return (first, second, sign(dot(direction, cross(c, a))))
 
 
 def passes_through_seam(mesh, triangle, sides, origin, direction, is_kept):

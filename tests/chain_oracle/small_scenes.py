@@ -165,6 +165,17 @@ def light_keys(source, is_spot):
     return keys
 
 
+def point_light_keys(source):
+    """A light among the things of the scene: all around it, and mostly not in the middle of a face's view."""
+    position = [snap(source.uniform(-1.2, 1.2)), snap(source.uniform(0.9, 1.7)), snap(source.uniform(-1.2, 1.2))]
+    keys = {"light.type": "point", "light.position": position}
+    if source.random() < 0.4:
+        keys["shadow_map.near"] = source.choice([0.25, 0.5])
+    if source.random() < 0.4:
+        keys["shadow_map.far"] = source.choice([1.4, 2.0])
+    return keys
+
+
 def bias_keys(source):
     keys = {"bias.constant": source.choice([0.0, 0.0, 0.002, 0.01, 0.05, 0.25]),
             "bias.slope": source.choice([0.0, 0.0, 0.004, 0.02])}
@@ -173,8 +184,8 @@ def bias_keys(source):
     return keys
 
 
-def random_job(source, mesh_file):
-    """A job of everything that the chain's definition names."""
+def view_keys(source, mesh_file):
+    """A scene and a camera that looks down on it."""
     width, height = source.choice([(40, 28), (48, 32), (64, 40)])
     angle_x, angle_z = source.uniform(-3.5, 3.5), source.uniform(2.0, 4.0)
     job = {"scene.file": mesh_file, "image.width": width, "image.height": height,
@@ -184,6 +195,12 @@ def random_job(source, mesh_file):
         job["camera.orthographic_height"] = 3.5
     else:
         job["camera.vertical_fov_deg"] = 38.0
+    return job
+
+
+def random_job(source, mesh_file):
+    """A job of everything that the chain's definition names."""
+    job = view_keys(source, mesh_file)
     job |= light_keys(source, source.random() < 0.5)
     job |= {"shadow_map.resolution": source.choice([8, 13, 16, 24, 32]),
             "shadow_map.depth_format": source.choice(["d16", "u8", "d24", "d32f"]),
@@ -191,5 +208,17 @@ def random_job(source, mesh_file):
             "shadow_map.cull": source.choice(["none", "none", "front", "back"]),
             "shadow_map.reversed": source.random() < 0.4,
             "lookup.filter": source.choice(["pcf3", "pcf3", "linear", "linear", "nearest", "pcf5"]),
+            "lookup.outside": source.choice(["lit", "shadowed", "clamp"])}
+    return job | bias_keys(source)
+
+
+def random_point_job(source, mesh_file):
+    """A job of everything that the chain's definition names, with a point light."""
+    job = view_keys(source, mesh_file) | point_light_keys(source)
+    job |= {"shadow_map.resolution": source.choice([12, 16, 24]),
+            "shadow_map.depth_format": source.choice(["d16", "u8", "d24", "d32f"]),
+            "shadow_map.cull": source.choice(["none", "none", "front", "back"]),
+            "shadow_map.reversed": source.random() < 0.4,
+            "lookup.filter": source.choice(["pcf3", "pcf5", "linear"]),
             "lookup.outside": source.choice(["lit", "shadowed", "clamp"])}
     return job | bias_keys(source)
