@@ -125,6 +125,14 @@ void require_scored(const JudgedView& view)
     }
 }
 
+void require_turnable(const Job& own, int lights)
+{
+    if (lights > 0 && own.light->type == scene::LightType::point) {
+        throw scene::InputError("--lights: the job's light is a point light, which has no "
+                                "direction to turn; leave it out");
+    }
+}
+
 } // namespace
 
 Job with_view_of(Job job, const Job& view)
@@ -139,13 +147,14 @@ JudgedViews judge_views(const Job& job, const scene::SceneFile& file, const Rend
                         const ViewRequest& request)
 {
     ViewJudge judge{file, renderers};
-    judge.add({"own", with_own_view(job, file)});
+    const Job own = with_own_view(job, file);
+    require_turnable(own, request.lights);
+    judge.add({"own", own});
     require_scored(judge.found().own());
     for (const AdviceView& one : request.cases) {
         judge.add({one.name, with_own_view(one.job, file)}, 0);
         require_scored(judge.found().views.back());
     }
-    const Job own = judge.found().own().view.job;
     const scene::CameraSettings turning = turning_camera(job, file);
     const double lowest_m = std::min(file.scene.bounds().lower.y, turning.eye.y);
     judge.add_generated(request.cameras, [&](std::uint32_t k) -> std::optional<AdviceView> {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace gnomon::scene {
 
@@ -51,6 +52,9 @@ CameraSettings nearby_camera(const CameraSettings& own, std::uint32_t k)
 
 LightSettings nearby_light(const LightSettings& own, std::uint32_t k)
 {
+    if (own.type == LightType::point) {
+        throw std::invalid_argument{"nearby_light: own is a point light, which has no direction"};
+    }
     const Vec3d axis = glm::normalize(make_light(own).direction);
     const bool is_vertical = std::abs(axis.x) < 1e-3 && std::abs(axis.z) < 1e-3;
     const Vec3d right =

@@ -25,6 +25,7 @@ namespace gnomon::scene {
 /// @param own  Directional or spot.
 /// @param k    From 1.
 /// @throws InputError  as `make_light`, if `own` makes no light.
+/// @throws std::invalid_argument  if it is a point light.
 [[nodiscard]] LightSettings nearby_light(const LightSettings& own, std::uint32_t k);
 
 } // namespace gnomon::scene

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace gnomon::scene {
 namespace {
@@ -81,6 +82,14 @@ TEST(NearbyViews, RefuseWhatIsNoCameraOrLight)
     nowhere.target = nowhere.eye;
     EXPECT_THROW((void)nearby_camera(nowhere, 1), InputError);
     EXPECT_THROW((void)nearby_light({}, 1), InputError);
+}
+
+TEST(NearbyLight, IsNoneOfAPointLight)
+{
+    LightSettings point;
+    point.type = LightType::point;
+    point.position = Vec3d{1, 5, 2};
+    EXPECT_THROW((void)nearby_light(point, 1), std::invalid_argument);
 }
 
 } // namespace
