@@ -93,6 +93,9 @@ void check_fit(const Settings& settings, KnownLight light)
     const Setting* half_extent = find_setting(settings, "shadow_map.half_extent");
     const Setting* fov = find_setting(settings, "shadow_map.fov_deg");
     for (const Setting* size : {half_extent, fov}) {
+        if (size != nullptr && light == KnownLight::point) {
+            refuse(*size, "a point light's maps see 90 degrees each; remove it");
+        }
         if (size != nullptr && !is_fixed) {
             refuse(*size, "only for shadow_map.fit = \"fixed\"; set that too, or remove this key");
         }

@@ -103,10 +103,26 @@ void require_layout(const Job& job, LightType light)
             "shadow_map.content = \"distance\": the scene's light is directional, and has "
             "no distances; remove the key, or give a light under [light]");
     }
-    if (is_cube && lookup_position(job) != LookupPosition::pixel) {
-        throw InputError(
-            "lookup.position = \"vertex\": the scene's light is a point light, whose six "
-            "maps are looked up from pixels; remove the key");
+}
+
+/// Refuses what the six maps of a scene's own point light have no use for.
+void require_no_other_cube(const Job& job)
+{
+    const auto refuse = [](const std::string& setting, std::string_view maps) {
+        throw InputError(fmt::format("{}: the scene's light is a point light, whose six maps {}; "
+                                     "remove the key",
+                                     setting, maps));
+    };
+    const FrustumSettings& settings = job.shadow_map.frustum;
+    if (lookup_position(job) != LookupPosition::pixel) {
+        refuse("lookup.position = \"vertex\"", "are looked up from pixels");
+    }
+    if (settings.fit != Fit::scene) {
+        refuse(fmt::format("shadow_map.fit = \"{}\"", fit_name(settings.fit)), "see all around");
+    }
+    if (settings.roll_deg != 0) {
+        refuse(fmt::format("shadow_map.roll_deg = {}", settings.roll_deg),
+               "look along the world's axes");
     }
 }
 
@@ -187,8 +203,10 @@ View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefault
 {
     View view = resolve_view_without_maps(job, scene, defaults);
     const FrustumSettings& settings = job.shadow_map.frustum;
-    require_layout(with_layout(job, defaults), view.light.type);
+    const Job with_own_layout = with_layout(job, defaults);
+    require_layout(with_own_layout, view.light.type);
     if (view.light.type == LightType::point) {
+        require_no_other_cube(with_own_layout);
         view.maps = fit_cube_faces(settings, view.light, scene);
         view.map_choice = MapChoice::cube_face;
     } else {

@@ -220,6 +220,8 @@ TEST(SettingLayers, RefuseWhatAPointLightDoesNotHave)
                           "light.type = \"spot\""));
     EXPECT_THAT(refused("shadow_map.fit = \"camera\"\n"),
                 HasSubstr("with a point light it is \"scene\""));
+    EXPECT_THAT(refused("shadow_map.fov_deg = 90\n"),
+                HasSubstr("a point light's maps see 90 degrees each; remove it"));
     EXPECT_THAT(refused("lookup.position = \"vertex\"\n"),
                 HasSubstr("with a point light it is \"pixel\""));
     EXPECT_THAT(refused("shadow_map.roll_deg = 10\n"),

@@ -1,0 +1,188 @@
+// Point lights as the program is told of them: what they cannot have, and where they may stand.
+
+#include "child_process.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using scene::testing::QuadGltf;
+using Json = nlohmann::json;
+using Settings = std::vector<std::string>;
+
+std::vector<std::string> with_settings(std::vector<std::string> arguments, const Settings& settings)
+{
+    for (const std::string& setting : settings) {
+        arguments.insert(arguments.end(), {"--set", setting});
+    }
+    return arguments;
+}
+
+void expect_settings_refused(const std::string& builtin, const Settings& settings,
+                             const std::string& line)
+{
+    expect_refused(gnomon(with_settings({"compare", "--builtin", builtin}, settings)), 2,
+                   "gnomon: " + line + "\n");
+}
+
+TEST(PointLightSettings, RefuseADirectionATargetAndACone)
+{
+    for (const char* const setting :
+         {"light.cone_deg=40", "light.direction=[0,-1,0]", "light.target=[0,0,0]"}) {
+        const std::string line =
+            fmt::format("--set {}: a point light shines everywhere alike; remove it", setting);
+        expect_settings_refused("lamp-room", {setting}, line);
+        expect_settings_refused("yard", {"light.type=point", "light.position=[1,2,1]", setting},
+                                line);
+    }
+}
+
+TEST(PointLightSettings, RefuseALightWithoutAPosition)
+{
+    expect_settings_refused("wall", {"light.type=point"},
+                            "--set light.type=point: a point light needs light.position");
+}
+
+TEST(PointLightSettings, RefuseAPositionThatIsNone)
+{
+    for (const char* const position :
+         {"[nan,0,0]", "[0,inf,0]", "[0,0,1e16]", "[1,2]", "\"there\""}) {
+        expect_settings_refused("lamp-room", {fmt::format("light.position={}", position)},
+                                fmt::format("--set light.position={}: must be three numbers "
+                                            "[x, y, z] from -1e+15 to 1e+15",
+                                            position));
+    }
+}
+
+TEST(PointLightSettings, RefuseWhatSixMapsHaveNoUseFor)
+{
+    expect_settings_refused("lamp-room", {"lookup.position=vertex"},
+                            "--set lookup.position=vertex: with a point light it is \"pixel\", for "
+                            "its six maps see all around; remove it");
+    expect_settings_refused("lamp-room", {"shadow_map.fit=camera"},
+                            "--set shadow_map.fit=camera: with a point light it is \"scene\", for "
+                            "its six maps see all around; remove it");
+    // Not the advice to set fit = "fixed", which a point light cannot have either.
+    for (const char* const size : {"shadow_map.fov_deg=90", "shadow_map.half_extent=3"}) {
+        expect_settings_refused(
+            "lamp-room", {size},
+            fmt::format("--set {}: a point light's maps see 90 degrees each; remove it", size));
+    }
+}
+
+TEST(PointLightSettings, RefuseMethodsWhoseKernelsEndAtSeams)
+{
+    const std::string line =
+        "method.name = \"vsm\": its kernels do not lead over a cube's seams, so that a point "
+        "light's maps have none; use \"depth\"";
+    expect_settings_refused("lamp-room", {"method.name=vsm"}, line);
+    expect_settings_refused(
+        "wall", {"light.type=point", "light.position=[0,5,0]", "method.name=vsm"}, line);
+}
+
+TEST(PointLightSettings, RefuseOtherLightsACube)
+{
+    const std::string line =
+        "--set shadow_map.layout=cube: only a point light's maps are the faces of a cube; remove "
+        "it, or set light.type = \"point\"";
+    expect_settings_refused("sphere-cube", {"shadow_map.layout=cube"}, line); // a spot
+    expect_settings_refused("wall", {"shadow_map.layout=cube"}, line);        // a directional light
+    const TemporaryFolder folder;
+    const auto model = folder.write("model.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    expect_refused(gnomon(with_settings({"compare", model}, {"shadow_map.layout=cube"})), 2,
+                   "gnomon: shadow_map.layout = \"cube\": the scene's light is a directional "
+                   "light; remove the key, or give a light under [light]\n");
+}
+
+TEST(PointLightSettings, AreHeldToTheLightOfASceneFile)
+{
+    QuadGltf gltf;
+    gltf.more = R"("extensionsUsed":["KHR_lights_punctual"],)"
+                R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},)";
+    gltf.nodes = R"([{"mesh":0},{"name":"light","translation":[0.2,0.4,1],)"
+                 R"("extensions":{"KHR_lights_punctual":{"light":0}}}])";
+    gltf.roots = "[0,1]";
+    const TemporaryFolder folder;
+    const auto model = folder.write("model.gltf", gltf.text());
+    expect_done(gnomon(small({"compare", model})));
+    expect_done(gnomon(with_settings(small({"compare", model}), {"shadow_map.layout=cube"})));
+    for (const auto& [setting, message] : {
+             std::pair{"shadow_map.layout=single", "shadow_map.layout = \"single\""},
+             {"lookup.position=vertex", "whose six maps are looked up from pixels"},
+             {"shadow_map.fit=camera", "shadow_map.fit = \"camera\""},
+             {"shadow_map.fit=fixed", "whose six maps see all around"},
+             {"shadow_map.roll_deg=10", "whose six maps look along the world's axes"},
+             {"shadow_map.near=0", "in front of it, above 0"},
+             {"bias.constant_m=0.1", "needs a directional light"},
+             {"method.name=vsm", "its kernels do not lead over a cube's seams"},
+         }) {
+        expect_refused(gnomon(with_settings({"compare", model}, {setting})), 2, message);
+    }
+}
+
+TEST(PointLightOptions, RefuseLightsTurnedAboutADirection)
+{
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"compare", "--advise"}, {"tune"}}) {
+        std::vector<std::string> arguments = command;
+        arguments.insert(arguments.end(), {"--builtin", "lamp-room", "--lights", "2"});
+        expect_refused(gnomon(small(arguments)), 2,
+                       "gnomon: --lights: the job's light is a point light, which has no direction "
+                       "to turn; leave it out\n");
+    }
+}
+
+/// Compares a built-in that is lit from a point, has its truth certified, and gives its pixels.
+Json certified_pixels(const std::string& builtin, const std::string& position)
+{
+    const TemporaryFolder folder;
+    const std::string aov = folder.path() / "a.exr";
+    const Settings settings{"light.type=point", "light.position=" + position};
+    const Ending compared = gnomon(
+        with_settings(small({"compare", "--builtin", builtin, "--json", "--aov", aov}), settings));
+    expect_done(compared);
+    expect_done(gnomon(
+        with_settings(small({"certify", aov, "--builtin", builtin, "--sample", "500"}), settings)));
+    return compared.exit_code == 0 ? Json::parse(compared.out).at("pixels") : Json::object();
+}
+
+TEST(PointLight, AtTheEyeLightsAllThatIsSeen)
+{
+    const Json pixels = certified_pixels("lamp-room", "[-2.1,1.7,2.2]");
+    EXPECT_EQ(pixels.at("lit").get<int>() + pixels.at("unmatched").get<int>(), pixels.at("total"));
+}
+
+TEST(PointLight, InAClosedMeshLightsNothingOutside)
+{
+    const Json pixels = certified_pixels("sphere-cube", "[0,0,0]"); // in the middle of the cube
+    EXPECT_EQ(pixels.at("lit"), 0);
+    EXPECT_GT(pixels.at("blocked"), 0); // the sphere
+    EXPECT_GT(pixels.at("attached"), 0);
+}
+
+TEST(PointLight, OnAVertexLightsWhatThatDoesNotHide)
+{
+    // The sheet's upper corner, in whose plane the light lies: the sheet is attached, and hides
+    // nothing.
+    const Json pixels = certified_pixels("wall", "[0,2,2]");
+    EXPECT_GT(pixels.at("attached"), 0);
+    EXPECT_GT(pixels.at("lit"), 0);
+    EXPECT_EQ(pixels.at("blocked"), 0);
+}
+
+TEST(PointLight, InThePlaneOfTheGroundLeavesItAttached)
+{
+    const Json pixels = certified_pixels("fence", "[-9,0,1.5]");
+    EXPECT_EQ(pixels.at("indeterminate"), 0);
+    EXPECT_GT(pixels.at("attached"), pixels.at("lit"));
+}
+
+} // namespace
+} // namespace gnomon::testing
