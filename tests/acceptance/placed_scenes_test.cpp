@@ -1,5 +1,5 @@
-#include "claims.hpp"
 #include "compared.hpp"
+#include "expectations.hpp"
 #include "placed_scene.hpp"
 
 #include "scene/builtin/scenes.hpp"
@@ -78,17 +78,7 @@ void expect_sound(const Subject& subject, const std::vector<scene::Override>& ke
     const Compared compared{placed.file};
     const auto result = compared(placed.job);
     expect_explained(subject, result.metrics.pixels);
-    const auto certificate = reference_rt::certify(
-        *result.triangles, result.view,
-        reference_rt::test::claims_of(result.receivers.triangle, result.truth), {sample});
-    EXPECT_TRUE(certificate.is_certified()) << certificate.wrong << " wrong pixels";
-    for (const auto& refutation : certificate.refutations) {
-        ADD_FAILURE() << "pixel " << refutation.x << ", " << refutation.y << ": "
-                      << refutation.reason;
-    }
-    // Every indeterminate pixel was derived anew, with the zero sign that makes it so.
-    EXPECT_EQ(certificate.silhouettes + certificate.vertices + certificate.grazes,
-              certificate.derived[static_cast<std::size_t>(PixelClass::indeterminate)]);
+    expect_certified(result, sample);
 }
 
 class PlacedScene : public testing::TestWithParam<Subject> {
