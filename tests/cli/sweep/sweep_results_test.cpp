@@ -105,6 +105,28 @@ TEST(Sweep, GivesWhatCompareGivesWhereTheLookupIsMovedAndBiasesAreBelowZero)
                         12);
 }
 
+TEST(Sweep, GivesWhatCompareGivesForTheSixMapsOfAPointLight)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", R"(
+scene.builtin = "lamp-room"
+image.width = 64
+image.height = 36
+bias.normal_texels = 0.5
+[[case]]
+name = "lamp"
+[sweep]
+"shadow_map.resolution" = [16, 40]
+"lookup.filter" = ["nearest", "pcf3", "hardware"]
+"bias.constant" = [0.01, 0]
+)");
+    const path run = folder.path() / "run";
+    const Ending ending = swept(sweep(job, run, {"--no-keep-pixels"}));
+    EXPECT_THAT(ending.out, HasSubstr("12 of 12 configurations done"));
+    EXPECT_THAT(ending.out, HasSubstr("1 scene, 1 truth, 1 receiver pass, 2 shadow maps, "));
+    expect_rows_compare(job, run, {"shadow_map.resolution", "lookup.filter", "bias.constant"}, 12);
+}
+
 TEST(Sweep, GivesWhatCompareGivesForMethodsThatShareAMap)
 {
     for (const char* const methods : {"\"vsm\", \"depth\"", "\"depth\", \"vsm\""}) {
