@@ -1,0 +1,134 @@
+// Errors next to a cube's seams, against those of the same pixels where the cube's seams lie
+// elsewhere: the room, its lamp and the camera turned by 45° under the faces, which keep their
+// axes.
+
+#include "compared.hpp"
+#include "gl_case.hpp"
+#include "scene/job/file.hpp"
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace gnomon::tests {
+namespace {
+
+constexpr int resolution = 2048;
+
+/// Where the camera stands in the room as it is built, and what it looks at [m].
+struct Sight {
+    scene::Vec3d eye;
+    scene::Vec3d target;
+};
+constexpr std::array<Sight, 4> sights{{{{-2.1, 1.7, 2.2}, {0.9, 0.9, -0.9}},
+                                       {{2.2, 2.3, 2.2}, {-0.6, 0.6, -0.7}},
+                                       {{2.3, 0.6, -2.2}, {-0.7, 1.2, 0.9}},
+                                       {{-1, 2.3, -2.3}, {0.6, 0.3, 1.2}}}};
+
+/// About the vertical, from z towards x.
+std::string turned(const scene::Vec3d& point, double turn_deg)
+{
+    const double c = std::cos(glm::radians(turn_deg));
+    const double s = std::sin(glm::radians(turn_deg));
+    return fmt::format("[{}, {}, {}]", c * point.x + s * point.z, point.y,
+                       c * point.z - s * point.x);
+}
+
+analysis::Comparison compare_turned(double turn_deg, const Sight& sight,
+                                    const std::vector<scene::Override>& more)
+{
+    std::vector<scene::Override> keys{{"scene.lamp-room.turn_deg", fmt::format("{}", turn_deg)},
+                                      {"camera.eye", turned(sight.eye, turn_deg)},
+                                      {"camera.target", turned(sight.target, turn_deg)},
+                                      {"shadow_map.resolution", std::to_string(resolution)},
+                                      {"image.width", "960"},
+                                      {"image.height", "540"}};
+    keys.insert(keys.end(), more.begin(), more.end());
+    const scene::Job job = scene::builtin_job("lamp-room", keys).job;
+    return Compared{job}.without_diagnosis(job);
+}
+
+/// Texels from where a pixel's lookup is to the nearest seam.
+float from_seam(const analysis::Comparison& room, std::size_t pixel)
+{
+    const scene::Vec2f at = room.lookup.texels[pixel];
+    return std::min({at.x, at.y, resolution - at.x, resolution - at.y});
+}
+
+bool is_wrong(const analysis::Comparison& room, std::size_t pixel)
+{
+    return scene::is_lit(room.lookup.samples[pixel].verdict) !=
+           (room.truth.pixel_class[pixel] == scene::PixelClass::lit);
+}
+
+struct Errors {
+    std::uint64_t near_seam = 0;
+    std::uint64_t far_from_it = 0;
+    std::uint64_t pixels = 0;
+};
+
+/// Adds the pixels that are near a seam in one room and far from all in the other.
+void count(const analysis::Comparison& room, const analysis::Comparison& turned, Errors& errors)
+{
+    constexpr float near_texels = 96;
+    constexpr float far_texels = 192;
+    for (std::size_t i = 0; i < room.truth.pixel_class.pixel_count(); ++i) {
+        if (scene::is_scored(room.truth.pixel_class[i]) &&
+            room.truth.pixel_class[i] == turned.truth.pixel_class[i] &&
+            from_seam(room, i) < near_texels && from_seam(turned, i) > far_texels) {
+            ++errors.pixels;
+            errors.near_seam += is_wrong(room, i) ? 1U : 0U;
+            errors.far_from_it += is_wrong(turned, i) ? 1U : 0U;
+        }
+    }
+}
+
+class Seams : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+/// With a bias that leaves no acne, which depends on how surfaces lie to a face's axes, what is
+/// left are borders: as wide as texels are. Seen from the light, a texel at 45° from its face's
+/// axis is cos² 45° = ½ as wide across the seam, and cos 45° along it, as one in the middle: so
+/// many errors there are at most as many as far from seams, and at least half.
+TEST_P(Seams, AddNoErrors)
+{
+    GNOMON_REQUIRE_GL();
+    const auto& [filter, content] = GetParam();
+    const std::vector<scene::Override> keys{{"lookup.filter", filter},
+                                            {"shadow_map.content", content},
+                                            {"shadow_map.depth_format", "d32f"},
+                                            {"bias.constant", "0.01"}};
+    Errors errors;
+    for (const Sight& sight : sights) {
+        const auto room = compare_turned(0, sight, keys);
+        const auto turned_room = compare_turned(45, sight, keys);
+        count(room, turned_room, errors);
+        count(turned_room, room, errors);
+    }
+    std::printf("%s, %s: of %llu pixels %llu wrong near a seam, %llu far from it\n", filter,
+                content, static_cast<unsigned long long>(errors.pixels),
+                static_cast<unsigned long long>(errors.near_seam),
+                static_cast<unsigned long long>(errors.far_from_it));
+    const auto near_seam = static_cast<double>(errors.near_seam);
+    const auto far_from_it = static_cast<double>(errors.far_from_it);
+    EXPECT_GT(errors.pixels, 100'000U);
+    EXPECT_GT(far_from_it, 20);
+    const double by_chance = 3 * std::sqrt(std::max(near_seam, far_from_it));
+    EXPECT_LE(near_seam, far_from_it + by_chance);
+    EXPECT_GE(near_seam, far_from_it / 2 - by_chance);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfCubes, Seams,
+                         testing::Combine(testing::Values("nearest", "pcf3", "hardware"),
+                                          testing::Values("depth", "distance")));
+
+} // namespace
+} // namespace gnomon::tests
