@@ -77,7 +77,7 @@ RawEmbreePass::RawEmbreePass(const scene::TriangleScene& triangles, const scene:
     rtcCommitScene(state_->scene.get());
 
     const auto diagonal_m = static_cast<float>(triangles.bounds().diagonal_m());
-    const bool spot = view.light.type == scene::LightType::spot;
+    const bool spot = view.light.has_position();
     const scene::Vec3f to_directional{-view.light.direction};
     const scene::Vec3f spot_position{view.light.position};
     for (int y0 = 0; y0 < view.image.height_px; y0 += tile_px) {

@@ -21,6 +21,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -35,9 +36,22 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = analysis::SweepStep::Kind;
 
-/// columns at 1280×720 under a spot: 1000 biases × resolutions × 4 formats × near planes × 2
-/// cameras; 200,000 configurations, or a sixth of that.
-std::string job_text(bool is_whole)
+constexpr std::string_view spot = R"(type = "spot"
+position = [-14, 19, 10]
+target = [0, 0, 0]
+cone_deg = 60)";
+constexpr std::string_view point = R"(type = "point"
+position = [0.3, 8, 0.2])";
+
+/// What differs between the sweeps.
+struct SweepShape {
+    std::string_view light = spot;
+    std::string_view resolutions = "512, 1024, 2048, 4096, 8192";
+    std::string_view near_m = "0.1, 0.3, 0.6, 1, 2";
+};
+
+/// columns at 1280×720: 1000 biases × resolutions × 4 formats × near planes × 2 cameras.
+std::string job_text(const SweepShape& shape)
 {
     return fmt::format(R"([scene]
 builtin = "columns"
@@ -45,10 +59,7 @@ builtin = "columns"
 width = 1280
 height = 720
 [light]
-type = "spot"
-position = [-14, 19, 10]
-target = [0, 0, 0]
-cone_deg = 60
+{}
 [sweep]
 "bias.constant" = {{from = 1e-7, to = 1e-2, count = 1000, scale = "log"}}
 "shadow_map.resolution" = [{}]
@@ -61,8 +72,7 @@ camera.eye = [11.5, 3.6, 11.5]
 name = "front"
 camera.eye = [2, 4, 16]
 )",
-                       is_whole ? "512, 1024, 2048, 4096, 8192" : "1024, 4096",
-                       is_whole ? "0.1, 0.3, 0.6, 1, 2" : "0.1, 0.6");
+                       shape.light, shape.resolutions, shape.near_m);
 }
 
 /// An empty folder, which goes with everything in it.
@@ -216,12 +226,12 @@ double compare_s(const scene::SweepSpace& space)
     return sum_s / runs;
 }
 
-void sweep_against_floor(benchmark::State& state, bool is_whole)
+void sweep_against_floor(benchmark::State& state, const SweepShape& shape)
 {
     const Folder folder;
     const fs::path job = folder.path() / "job.toml";
     const fs::path run = folder.path() / "run";
-    std::ofstream{job} << job_text(is_whole);
+    std::ofstream{job} << job_text(shape);
     const scene::SweepSpace space{scene::read_job_source(job, {}), {}};
     const analysis::SweepCurves sweep_curves{space, false, "bench"};
     const auto& requests = sweep_curves.requests();
@@ -258,11 +268,23 @@ void sweep_against_floor(benchmark::State& state, bool is_whole)
     state.counters["lookups"] = static_cast<double>(plan.counts(requests).lookup_passes);
 }
 
-BENCHMARK_CAPTURE(sweep_against_floor, columns_32000, false)
+constexpr SweepShape small{spot, "1024, 4096", "0.1, 0.6"};
+constexpr SweepShape one_map{spot, "512, 2048", "0.1, 0.6"};
+constexpr SweepShape six_maps{point, "512, 2048", "0.1, 0.6"};
+
+BENCHMARK_CAPTURE(sweep_against_floor, columns_32000, small)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime()
     ->Iterations(1);
-BENCHMARK_CAPTURE(sweep_against_floor, columns_200000, true)
+BENCHMARK_CAPTURE(sweep_against_floor, columns_spot_32000, one_map)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(sweep_against_floor, columns_cube_32000, six_maps)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(sweep_against_floor, columns_200000, SweepShape{})
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime()
     ->Iterations(1);

@@ -11,7 +11,7 @@ namespace gnomon::scene {
 /// column. Beyond two sides, at a cube's corner, there is no such texel: it is taken across the
 /// side that it is farther beyond (of equal ones the one of x), from the other side's last row or
 /// column. Source: OpenGL 4.6 core, 8.14.3, "Seamless cube map filtering".
-/// @param texel  no farther beyond than a face is wide.
+/// Farther beyond than a face is wide the neighbour's last row or column goes on.
 [[nodiscard]] Texel texel_across_seams(const Texel& texel, int resolution_texels);
 
 } // namespace gnomon::scene

@@ -45,9 +45,8 @@ struct JudgedViews {
 /// Draws and judges the views. Generated ones that score less than a tenth of what the job's own
 /// does are passed over, and cameras below all of the scene, which look at it from under the
 /// ground; then the next of the sequence is taken, up to four times as many as are asked for.
-/// @throws scene::InputError  if the job's own view or a case scores nothing, or if lights are
-/// asked
-///                            for around a point light.
+/// @throws scene::InputError  if the job's own view or a case scores nothing, or if lights around a
+///                            point light are asked for.
 /// Source: docs/tune.md#views.
 [[nodiscard]] JudgedViews judge_views(const scene::Job& job, const scene::SceneFile& file,
                                       const Renderers& renderers, const ViewRequest& request);

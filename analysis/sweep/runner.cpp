@@ -122,12 +122,21 @@ private:
         const scene::SceneFile& file = *require_result(scene_)->open.file;
         return scene::resolve_view(job, file.scene, file.defaults);
     }
-    /// The step's view without constant bias: an invalid bias fails its own row, not the stages.
-    [[nodiscard]] scene::View stage_view() const
+    /// The task's job, with what its scene decides, without constant bias: an invalid bias fails
+    /// its own row, not the stages.
+    [[nodiscard]] scene::Job stage_job() const
     {
-        scene::Job job = task_.job;
+        scene::Job job = scene::with_layout(task_.job, require_result(scene_)->open.file->defaults);
         job.bias.constant = 0;
         job.bias.constant_m.reset();
+        return job;
+    }
+    /// The view of a stage that comes before the lookup: what only that refuses is no matter here,
+    /// for other tasks share the stage.
+    [[nodiscard]] scene::View stage_view() const
+    {
+        scene::Job job = stage_job();
+        job.lookup.position.reset();
         return view_of(job);
     }
     [[nodiscard]] const Renderers& renderers() const
@@ -157,13 +166,6 @@ private:
         });
         scene_.retry = Retry::may_help; // a file may be mended
     }
-    /// The task's job, with what its scene decides.
-    [[nodiscard]] scene::Job job_in_scene() const
-    {
-        scene::Job job = scene::with_layout(task_.job, require_result(scene_)->open.file->defaults);
-        methods::check(job);
-        return job;
-    }
 
     void draw_receivers(std::size_t slot)
     {
@@ -191,7 +193,7 @@ private:
         ++counts_.shadow_maps;
         make_room_for_depths();
         map_ = run_stage<bool>([&] {
-            renderers().draw_shadow_map(job_in_scene(), stage_view());
+            renderers().draw_shadow_map(stage_job(), stage_view());
             return std::make_shared<bool>(true);
         });
     }
@@ -201,7 +203,8 @@ private:
         ++counts_.prefilters;
         filtered_ = run_stage<bool>([&] {
             static_cast<void>(require_result(map_));
-            renderers().prefilter_map(job_in_scene(), stage_view(), FilteredContent::of_method);
+            methods::check(stage_job());
+            renderers().prefilter_map(stage_job(), stage_view(), FilteredContent::of_method);
             return std::make_shared<bool>(true);
         });
     }
@@ -218,7 +221,7 @@ private:
         constexpr std::size_t most_texels = 4096 * 4096;
         const auto side = static_cast<std::size_t>(task_.job.shadow_map.resolution_texels);
         if (!methods::promises(task_.job).has_one_tap() &&
-            scene::map_count(task_.job) * side * side > most_texels) {
+            scene::map_count(stage_job()) * side * side > most_texels) {
             lookup_ = {};
             finish_lanes();
         }
@@ -246,8 +249,9 @@ private:
     /// The lookup where the job's biases move it; no other bias matters to its answers.
     ObservedLookup look_up_for_every_bias()
     {
-        const scene::Job job = job_in_scene();
-        const scene::View view = stage_view();
+        const scene::Job job = stage_job();
+        methods::check(job);
+        const scene::View view = view_of(job);
         return observe_lookup(job, view, renderers().look_up(job, view), renderers());
     }
 
@@ -321,7 +325,7 @@ private:
         select(slot);
         add_reruns(
             curve.verification,
-            verify_biases(job_in_scene(), stage_view(), triangles, criticals,
+            verify_biases(stage_job(), stage_view(), triangles, criticals,
                           biases_to_verify(criticals, triangles, wanted_biases(question, curve)),
                           renderers()));
     }

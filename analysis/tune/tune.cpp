@@ -167,6 +167,7 @@ private:
         const std::size_t first = result_.considered.size();
         for (const scene::FrustumSettings& frustum : frusta_) {
             scene::ShadowMapSettings map = job_.shadow_map;
+            map.layout = scene::map_layout(scene::with_layout(job_, file_.defaults));
             map.resolution_texels = size.resolution_texels;
             map.depth_format = size.format;
             map.frustum = frustum;

@@ -101,6 +101,12 @@ std::vector<Filter> tuned_filters(const Job& job)
     if (std::ranges::find(filters, job.lookup.filter) == filters.end()) {
         filters.push_back(job.lookup.filter);
     }
+    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
+        std::erase_if(filters, [&](Filter filter) { // a mean of distances is refused
+            return methods::promises(with_filter(job, filter)).compares ==
+                   methods::Compares::mean_depth;
+        });
+    }
     std::ranges::stable_sort(filters, {}, [&](Filter filter) {
         return methods::promises(with_filter(job, filter)).tap_count();
     });

@@ -33,11 +33,12 @@ bool footprint_is_outside(vec2 texel)
 {
 #if CUBE
     return false;
-#endif
+#else
     const float reach = float(KERNEL_ACROSS / 2);
     vec2 first = floor(texel - 0.5);
     return any(lessThan(first, vec2(-1.0 - reach))) ||
            any(greaterThanEqual(first, vec2(resolution + reach)));
+#endif
 }
 
 #if BISECTS

@@ -60,6 +60,21 @@ std::string no_format(const TunedSetting& setting, std::string_view api)
                        scene::depth_format_name(setting.map.depth_format));
 }
 
+bool is_cube(const TunedSetting& setting)
+{
+    return setting.map.layout == scene::MapLayout::cube;
+}
+
+/// What a shader must do beside the states; none where GL's own depth is stored.
+void add_shader(ApiState& state, const TunedSetting& setting)
+{
+    if (setting.map.frustum.content == scene::MapContent::distance) {
+        state.lines.emplace_back(
+            "fragment shader of the map: depth = distance(P, L) / far, in place "
+            "of its own; lookup compares the same of the receiver");
+    }
+}
+
 ApiState gl_state(const TunedSetting& setting)
 {
     const std::string_view format = names_of(setting.map.depth_format).gl;
@@ -68,8 +83,10 @@ ApiState gl_state(const TunedSetting& setting)
     }
     const bool reversed = setting.map.frustum.reversed;
     return {"GL",
-            {fmt::format("glTexStorage2D(GL_TEXTURE_2D, 1, {0}, {1}, {1});", format,
-                         setting.map.resolution_texels),
+            {fmt::format("glTexStorage2D({2}, 1, {0}, {1}, {1});{3}", format,
+                         setting.map.resolution_texels,
+                         is_cube(setting) ? "GL_TEXTURE_CUBE_MAP" : "GL_TEXTURE_2D",
+                         is_cube(setting) ? " glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);" : ""),
              std::string{cull_names(setting.map.cull).gl}, "glDisable(GL_POLYGON_OFFSET_FILL);",
              reversed ? "glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);"
                       : "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);",
@@ -86,7 +103,10 @@ ApiState direct3d_state(const TunedSetting& setting)
     }
     const bool reversed = setting.map.frustum.reversed;
     return {"Direct3D",
-            {fmt::format("D3D12_DEPTH_STENCIL_VIEW_DESC::Format = {};", format),
+            {fmt::format("D3D12_DEPTH_STENCIL_VIEW_DESC::Format = {};{}", format,
+                         is_cube(setting) ? " D3D12_RESOURCE_DESC::DepthOrArraySize = 6; "
+                                            "D3D12_SRV_DIMENSION_TEXTURECUBE"
+                                          : ""),
              fmt::format("D3D12_RASTERIZER_DESC: CullMode = {}, FrontCounterClockwise = TRUE, "
                          "DepthBias = 0, SlopeScaledDepthBias = 0, DepthClipEnable = TRUE;",
                          cull_names(setting.map.cull).direct3d),
@@ -105,7 +125,10 @@ ApiState vulkan_state(const TunedSetting& setting)
     }
     const bool reversed = setting.map.frustum.reversed;
     return {"Vulkan",
-            {fmt::format("VkImageCreateInfo::format = {};", format),
+            {fmt::format("VkImageCreateInfo::format = {};{}", format,
+                         is_cube(setting)
+                             ? " flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT, arrayLayers = 6"
+                             : ""),
              fmt::format("VkPipelineRasterizationStateCreateInfo: cullMode = {}, frontFace = "
                          "VK_FRONT_FACE_COUNTER_CLOCKWISE, depthBiasEnable = VK_FALSE, "
                          "depthClampEnable = VK_FALSE;",
@@ -121,7 +144,11 @@ ApiState vulkan_state(const TunedSetting& setting)
 
 std::vector<ApiState> api_states(const TunedSetting& setting)
 {
-    return {gl_state(setting), direct3d_state(setting), vulkan_state(setting)};
+    std::vector<ApiState> states{gl_state(setting), direct3d_state(setting), vulkan_state(setting)};
+    for (ApiState& state : states) {
+        add_shader(state, setting);
+    }
+    return states;
 }
 
 } // namespace gnomon::reports

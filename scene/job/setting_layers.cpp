@@ -18,7 +18,7 @@ namespace {
 struct Replacement {
     std::string_view key;
     std::string_view word;
-    std::array<std::string_view, 10> drops;
+    std::array<std::string_view, 9> drops;
 };
 
 constexpr std::array<Replacement, 12> replacements{{
@@ -27,14 +27,11 @@ constexpr std::array<Replacement, 12> replacements{{
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
     {"camera.orthographic_height", "", {"camera.vertical_fov_deg"}},
     {"light.type", "directional", {"light.cone_deg", "shadow_map.fov_deg", "shadow_map.layout"}},
-    {"light.type",
-     "spot",
-     {"light.direction", "shadow_map.half_extent", "shadow_map.layout", "bias.constant_m"}},
+    {"light.type", "spot", {"light.direction", "shadow_map.half_extent", "shadow_map.layout"}},
     {"light.type",
      "point",
      {"light.direction", "light.target", "light.cone_deg", "shadow_map.layout", "shadow_map.fit",
-      "shadow_map.half_extent", "shadow_map.fov_deg", "shadow_map.roll_deg", "lookup.position",
-      "bias.constant_m"}},
+      "shadow_map.half_extent", "shadow_map.fov_deg", "shadow_map.roll_deg", "lookup.position"}},
     {"light.target", "", {"light.direction"}},
     {"shadow_map.fit", "scene", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
     {"shadow_map.fit", "camera", {"shadow_map.half_extent", "shadow_map.fov_deg"}},

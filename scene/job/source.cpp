@@ -118,6 +118,19 @@ Layer single_setting(std::string_view key, const std::string& value, const std::
     return {make_setting(*find_key(key), {value}, label)};
 }
 
+/// A built-in's own settings; its bias in metres belongs to its directional light alone.
+Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Settings& given)
+{
+    Layer layer = layer_from_job(defaults, builtin.name);
+    const Setting* type = find_setting(given, "light.type");
+    if (type != nullptr && std::get<std::string>(type->value) != "directional") {
+        std::erase_if(layer, [](const Setting& setting) {
+            return setting.spec->key.name == "bias.constant_m";
+        });
+    }
+    return layer;
+}
+
 /// What is given, the weakest first.
 std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
 {
@@ -193,7 +206,7 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
         const auto& builtin = find_builtin_scene(std::get<std::string>(choice->value));
         Job defaults = builtin.default_job(builtin_parameters(builtin, settings));
         defaults.method.name = default_method();
-        layers.insert(layers.begin(), layer_from_job(defaults, builtin.name));
+        layers.insert(layers.begin(), builtin_layer(defaults, builtin, settings));
         settings = lay_all(layers);
     }
     check_settings(settings, source.name);

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -76,8 +75,9 @@ class ScratchFile {
 public:
     /// @throws scene::EnvironmentError  if it cannot be made.
     explicit ScratchFile(std::string_view extension)
-        : path_{(std::filesystem::temp_directory_path() / "gnomon-XXXXXX").string()}
     {
+        std::error_code error;
+        path_ = (std::filesystem::temp_directory_path(error) / "gnomon-XXXXXX").string();
         path_ += extension;
         const int file = ::mkstemps(path_.data(), static_cast<int>(extension.size()));
         if (file < 0) {
@@ -94,10 +94,15 @@ public:
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::vector<std::byte> bytes() const
     {
+        std::error_code error;
+        std::vector<std::byte> all(std::filesystem::file_size(path_, error));
         std::ifstream file{path_, std::ios::binary};
-        const std::string text{std::istreambuf_iterator<char>{file}, {}};
-        const auto bytes = std::as_bytes(std::span{text});
-        return {bytes.begin(), bytes.end()};
+        file.read(reinterpret_cast<char*>(all.data()), static_cast<std::streamsize>(all.size()));
+        if (error || !file) {
+            throw scene::EnvironmentError(
+                fmt::format("{}: cannot be read again; free space there", path_));
+        }
+        return all;
     }
 
 private:

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -101,7 +103,8 @@ TEST(PointLightSettings, RefuseOtherLightsACube)
                    "light; remove the key, or give a light under [light]\n");
 }
 
-TEST(PointLightSettings, AreHeldToTheLightOfASceneFile)
+/// A quad with a point light before it, as glTF.
+std::string lit_quad()
 {
     QuadGltf gltf;
     gltf.more = R"("extensionsUsed":["KHR_lights_punctual"],)"
@@ -109,8 +112,42 @@ TEST(PointLightSettings, AreHeldToTheLightOfASceneFile)
     gltf.nodes = R"([{"mesh":0},{"name":"light","translation":[0.2,0.4,1],)"
                  R"("extensions":{"KHR_lights_punctual":{"light":0}}}])";
     gltf.roots = "[0,1]";
+    return gltf.text();
+}
+
+/// What a file's own light refuses fails its own rows alone, in whatever order they come.
+TEST(PointLightSweep, OfASceneFilesOwnLightFailsNoOtherRows)
+{
     const TemporaryFolder folder;
-    const auto model = folder.write("model.gltf", gltf.text());
+    const auto model = folder.write("model.gltf", lit_quad());
+    for (const auto& [axis, refused] :
+         {std::pair{R"(lookup.position=["vertex","pixel"])", "vertex"},
+          {R"(lookup.position=["pixel","vertex"])", "vertex"},
+          {R"(method.name=["vsm","depth"])", "vsm"},
+          {R"(method.name=["depth","vsm"])", "vsm"}}) {
+        const std::string run = folder.path() / "run";
+        std::filesystem::remove_all(run);
+        const Ending swept =
+            gnomon(small({"sweep", model, "--out", run, "--axis", axis, "--quiet"}));
+        EXPECT_EQ(swept.exit_code, 5) << axis;
+        std::ifstream csv{run + "/results.csv"};
+        int done = 0;
+        int failed = 0;
+        for (std::string line; std::getline(csv, line);) {
+            done += line.find(",done,") != std::string::npos ? 1 : 0;
+            const bool has_failed = line.find(",failed,") != std::string::npos;
+            failed += has_failed ? 1 : 0;
+            EXPECT_TRUE(!has_failed || line.find(refused) != std::string::npos) << line;
+        }
+        EXPECT_EQ(done, 1) << axis;
+        EXPECT_EQ(failed, 1) << axis;
+    }
+}
+
+TEST(PointLightSettings, AreHeldToTheLightOfASceneFile)
+{
+    const TemporaryFolder folder;
+    const auto model = folder.write("model.gltf", lit_quad());
     expect_done(gnomon(small({"compare", model})));
     expect_done(gnomon(with_settings(small({"compare", model}), {"shadow_map.layout=cube"})));
     for (const auto& [setting, message] : {
