@@ -12,7 +12,7 @@ int main(int argc, char** argv)
     if (argc != 2) {
         return EXIT_FAILURE;
     }
-    using namespace gnomon;
+    namespace scene = gnomon::scene;
     const scene::BuiltinScene& builtin = scene::find_builtin_scene(argv[1]);
     const scene::TriangleScene triangles = builtin.build(complete_parameters(builtin, {}));
     for (std::uint32_t triangle = 0; triangle < triangles.triangles.size(); ++triangle) {

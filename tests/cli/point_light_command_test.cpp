@@ -27,8 +27,8 @@ std::vector<std::string> with_settings(std::vector<std::string> arguments, const
     return arguments;
 }
 
-void expect_settings_refused(const std::string& builtin, const Settings& settings,
-                             const std::string& line)
+void expect_light_refused(const std::string& builtin, const Settings& settings,
+                          const std::string& line)
 {
     expect_refused(gnomon(with_settings({"compare", "--builtin", builtin}, settings)), 2,
                    "gnomon: " + line + "\n");
@@ -40,40 +40,39 @@ TEST(PointLightSettings, RefuseADirectionATargetAndACone)
          {"light.cone_deg=40", "light.direction=[0,-1,0]", "light.target=[0,0,0]"}) {
         const std::string line =
             fmt::format("--set {}: a point light shines everywhere alike; remove it", setting);
-        expect_settings_refused("lamp-room", {setting}, line);
-        expect_settings_refused("yard", {"light.type=point", "light.position=[1,2,1]", setting},
-                                line);
+        expect_light_refused("lamp-room", {setting}, line);
+        expect_light_refused("yard", {"light.type=point", "light.position=[1,2,1]", setting}, line);
     }
 }
 
 TEST(PointLightSettings, RefuseALightWithoutAPosition)
 {
-    expect_settings_refused("wall", {"light.type=point"},
-                            "--set light.type=point: a point light needs light.position");
+    expect_light_refused("wall", {"light.type=point"},
+                         "--set light.type=point: a point light needs light.position");
 }
 
 TEST(PointLightSettings, RefuseAPositionThatIsNone)
 {
     for (const char* const position :
          {"[nan,0,0]", "[0,inf,0]", "[0,0,1e16]", "[1,2]", "\"there\""}) {
-        expect_settings_refused("lamp-room", {fmt::format("light.position={}", position)},
-                                fmt::format("--set light.position={}: must be three numbers "
-                                            "[x, y, z] from -1e+15 to 1e+15",
-                                            position));
+        expect_light_refused("lamp-room", {fmt::format("light.position={}", position)},
+                             fmt::format("--set light.position={}: must be three numbers "
+                                         "[x, y, z] from -1e+15 to 1e+15",
+                                         position));
     }
 }
 
 TEST(PointLightSettings, RefuseWhatSixMapsHaveNoUseFor)
 {
-    expect_settings_refused("lamp-room", {"lookup.position=vertex"},
-                            "--set lookup.position=vertex: with a point light it is \"pixel\", for "
-                            "its six maps see all around; remove it");
-    expect_settings_refused("lamp-room", {"shadow_map.fit=camera"},
-                            "--set shadow_map.fit=camera: with a point light it is \"scene\", for "
-                            "its six maps see all around; remove it");
+    expect_light_refused("lamp-room", {"lookup.position=vertex"},
+                         "--set lookup.position=vertex: with a point light it is \"pixel\", for "
+                         "its six maps see all around; remove it");
+    expect_light_refused("lamp-room", {"shadow_map.fit=camera"},
+                         "--set shadow_map.fit=camera: with a point light it is \"scene\", for "
+                         "its six maps see all around; remove it");
     // Not the advice to set fit = "fixed", which a point light cannot have either.
     for (const char* const size : {"shadow_map.fov_deg=90", "shadow_map.half_extent=3"}) {
-        expect_settings_refused(
+        expect_light_refused(
             "lamp-room", {size},
             fmt::format("--set {}: a point light's maps see 90 degrees each; remove it", size));
     }
@@ -84,9 +83,9 @@ TEST(PointLightSettings, RefuseMethodsWhoseKernelsEndAtSeams)
     const std::string line =
         "method.name = \"vsm\": its kernels do not lead over a cube's seams, so that a point "
         "light's maps have none; use \"depth\"";
-    expect_settings_refused("lamp-room", {"method.name=vsm"}, line);
-    expect_settings_refused(
-        "wall", {"light.type=point", "light.position=[0,5,0]", "method.name=vsm"}, line);
+    expect_light_refused("lamp-room", {"method.name=vsm"}, line);
+    expect_light_refused("wall", {"light.type=point", "light.position=[0,5,0]", "method.name=vsm"},
+                         line);
 }
 
 TEST(PointLightSettings, RefuseOtherLightsACube)
@@ -94,8 +93,8 @@ TEST(PointLightSettings, RefuseOtherLightsACube)
     const std::string line =
         "--set shadow_map.layout=cube: only a point light's maps are the faces of a cube; remove "
         "it, or set light.type = \"point\"";
-    expect_settings_refused("sphere-cube", {"shadow_map.layout=cube"}, line); // a spot
-    expect_settings_refused("wall", {"shadow_map.layout=cube"}, line);        // a directional light
+    expect_light_refused("sphere-cube", {"shadow_map.layout=cube"}, line); // a spot
+    expect_light_refused("wall", {"shadow_map.layout=cube"}, line);        // a directional light
     const TemporaryFolder folder;
     const auto model = folder.write("model.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
     expect_refused(gnomon(with_settings({"compare", model}, {"shadow_map.layout=cube"})), 2,
