@@ -1,6 +1,6 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL and GRADIENTS are
-// defined by the program that compiles this.
+// comparison. MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL and
+// GRADIENTS are defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gnomon::reference_rt {
 
@@ -37,6 +38,20 @@ Wide root_of(const Wide& square)
             1.01 * ((std::abs(remainder.value) + remainder.error) / root.high) + 0x1p-1000};
 }
 
+/// |P − L|² over far², as numerator and denominator: with P = E + (ν/δ)d both times δ².
+template <typename Field>
+auto square_of(Field field, const Receiver& hit, const Vec3d& light, double far_m)
+{
+    const auto [delta, nu] = plane_hit(field, hit);
+    const auto from_light = difference<Field>(hit.ray().origin, light);
+    const auto direction = vector<Field>(hit.ray().direction);
+    const auto x = delta * from_light.x + nu * direction.x;
+    const auto y = delta * from_light.y + nu * direction.y;
+    const auto z = delta * from_light.z + nu * direction.z;
+    const auto scale = delta * Field::number(far_m);
+    return std::pair{x * x + y * y + z * z, scale * scale};
+}
+
 } // namespace
 
 Bounded LightDistance::at(const Receiver& hit) const
@@ -54,26 +69,14 @@ Bounded LightDistance::at(const Receiver& hit) const
 
 Wide LightDistance::widely_at(const Receiver& hit) const
 {
-    const auto plane = plane_hit(WideField{}, hit);
-    const auto from_light = difference<WideField>(hit.ray().origin, light_);
-    const auto direction = vector<WideField>(hit.ray().direction);
-    const Wide x = plane.delta * from_light.x + plane.nu * direction.x;
-    const Wide y = plane.delta * from_light.y + plane.nu * direction.y;
-    const Wide z = plane.delta * from_light.z + plane.nu * direction.z;
-    const Wide delta = plane.delta * WideField::number(far_m_);
-    return root_of((x * x + y * y + z * z) / (delta * delta));
+    const auto [numerator, denominator] = square_of(WideField{}, hit, light_, far_m_);
+    return root_of(numerator / denominator);
 }
 
 Fraction LightDistance::square_at(const Receiver& hit) const
 {
-    const auto plane = plane_hit(ExactField{}, hit);
-    const auto from_light = difference<ExactField>(hit.ray().origin, light_);
-    const auto direction = vector<ExactField>(hit.ray().direction);
-    const Dyadic x = plane.delta * from_light.x + plane.nu * direction.x;
-    const Dyadic y = plane.delta * from_light.y + plane.nu * direction.y;
-    const Dyadic z = plane.delta * from_light.z + plane.nu * direction.z;
-    const Dyadic delta = plane.delta * Dyadic{far_m_};
-    return {x * x + y * y + z * z, delta * delta};
+    auto [numerator, denominator] = square_of(ExactField{}, hit, light_, far_m_);
+    return {std::move(numerator), std::move(denominator)};
 }
 
 Bounded LightDistance::place(const Receiver& hit) const
