@@ -56,22 +56,32 @@ void add_job_options(CLI::App& command, JobOptions& options)
                     "KEY=VALUE overrides a key of the job, e.g. bias.constant=0.001")
         ->allow_extra_args(false);
     command.add_option("--case", options.case_name, "Lay this [[case]] of the job file over it");
+    command.add_option("--light", options.light,
+                       "Of a job with several [[lights]], take this one alone");
 }
 
 scene::JobFile read_job(const JobOptions& options)
 {
-    require_one_job(options);
-    const auto settings = overrides(options.settings);
-    return options.builtin.empty() ? scene::read_job(options.job_path, settings, options.case_name)
-                                   : scene::builtin_job(options.builtin, settings);
+    return scene::job_of(read_job_source(options), options.case_name);
+}
+
+JobOptions of_light(const JobOptions& options, const std::string& light)
+{
+    JobOptions chosen = options;
+    if (!light.empty()) {
+        chosen.light = light;
+    }
+    return chosen;
 }
 
 scene::JobSource read_job_source(const JobOptions& options)
 {
     require_one_job(options);
     const auto settings = overrides(options.settings);
-    return options.builtin.empty() ? scene::read_job_source(options.job_path, settings)
-                                   : scene::builtin_job_source(options.builtin, settings);
+    scene::JobSource source = options.builtin.empty()
+                                  ? scene::read_job_source(options.job_path, settings)
+                                  : scene::builtin_job_source(options.builtin, settings);
+    return options.light.empty() ? source : scene::only_light(source, options.light);
 }
 
 } // namespace gnomon::cli

@@ -10,12 +10,13 @@
 
 namespace gnomon::cli {
 
-/// The options that name a job: JOB or --builtin NAME, --set KEY=VALUE, --case NAME.
+/// The options that name a job: JOB or --builtin NAME, --set KEY=VALUE, --case NAME, --light NAME.
 struct JobOptions {
     std::string job_path;
     std::string builtin;
     std::vector<std::string> settings;
     std::string case_name;
+    std::string light; ///< the one of several that the job is reduced to; empty: all
 };
 
 void add_job_options(CLI::App& command, JobOptions& options);
@@ -26,5 +27,7 @@ void add_job_options(CLI::App& command, JobOptions& options);
 /// What the options name, its parts not yet laid over each other; --case is not looked at.
 /// @throws scene::InputError  as `read_job`.
 [[nodiscard]] scene::JobSource read_job_source(const JobOptions& options);
+/// The options with a light chosen, by the name that it has in the job; empty: as they are.
+[[nodiscard]] JobOptions of_light(const JobOptions& options, const std::string& light);
 
 } // namespace gnomon::cli

@@ -128,8 +128,7 @@ std::optional<ImportedLight> light_at(const aiLight& light, const PlacedNode& no
     return is_usable ? std::optional{result} : std::nullopt;
 }
 
-void find_camera_and_light(const aiScene& scene, const std::vector<PlacedNode>& nodes,
-                           ImportHeader& header)
+void find_camera(const aiScene& scene, const std::vector<PlacedNode>& nodes, ImportHeader& header)
 {
     for (const PlacedNode& node : nodes) {
         for (unsigned c = 0; c < scene.mNumCameras && header.has_camera == 0; ++c) {
@@ -139,14 +138,36 @@ void find_camera_and_light(const aiScene& scene, const std::vector<PlacedNode>& 
                 header.camera = camera.value_or(ImportedCamera{});
             }
         }
-        for (unsigned l = 0; l < scene.mNumLights && header.has_light == 0; ++l) {
-            if (stands_at(*scene.mLights[l], node)) {
-                const auto light = light_at(*scene.mLights[l], node);
-                header.has_light = light ? 1 : 0;
-                header.light = light.value_or(ImportedLight{});
+    }
+}
+
+struct NamedLight {
+    ImportedLight light;
+    std::string name;
+};
+
+/// Those that a shadow map may be of, in the order of their nodes.
+std::vector<NamedLight> find_lights(const aiScene& scene, const std::vector<PlacedNode>& nodes)
+{
+    std::vector<NamedLight> lights;
+    for (const PlacedNode& node : nodes) {
+        for (unsigned l = 0; l < scene.mNumLights; ++l) {
+            if (!stands_at(*scene.mLights[l], node)) {
+                continue;
+            }
+            if (const auto light = light_at(*scene.mLights[l], node)) {
+                lights.push_back({*light, node.node->mName.C_Str()});
+                lights.back().light.name_bytes = lights.back().name.size();
             }
         }
     }
+    return lights;
+}
+
+void write_light(const NamedLight& light, ImportWriter& writer)
+{
+    writer.put(light.light);
+    writer.put_array(std::span<const char>{light.name});
 }
 
 /// One mesh at one node.
@@ -275,7 +296,9 @@ void write_scene(const aiScene& scene, const FileFacts& facts, const ImportLimit
 {
     const std::vector<PlacedNode> nodes = placed_nodes(*scene.mRootNode);
     ImportHeader header;
-    find_camera_and_light(scene, nodes, header);
+    find_camera(scene, nodes, header);
+    const std::vector<NamedLight> lights = find_lights(scene, nodes);
+    header.light_count = lights.size();
     std::vector<ImportedMesh> meshes;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
         meshes.push_back(imported_mesh(*scene.mMeshes[m]));
@@ -294,6 +317,9 @@ void write_scene(const aiScene& scene, const FileFacts& facts, const ImportLimit
     ImportWriter writer{output};
     writer.put(header);
     writer.put_array(std::span<const char>{extensions});
+    for (const NamedLight& light : lights) {
+        write_light(light, writer);
+    }
     for (const Instance& instance : all) {
         write_instance(instance, writer);
     }

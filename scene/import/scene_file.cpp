@@ -171,6 +171,22 @@ FileContents file_contents(const ImportHeader& header, ImportReader& reader)
     return contents;
 }
 
+/// The lights, and the first of them among the defaults where it is usable.
+void read_lights(SceneFile& file, std::uint64_t light_count, ImportReader& reader)
+{
+    for (std::uint64_t i = 0; i < light_count; ++i) {
+        const auto& light = reader.take<ImportedLight>();
+        std::string name = printable(reader.take_text(light.name_bytes));
+        const auto settings = light_settings(light);
+        if (i == 0) {
+            file.defaults.light = settings;
+        }
+        if (settings) {
+            file.lights.push_back({std::move(name), *settings});
+        }
+    }
+}
+
 /// Turns the child's bytes into a scene; every length in them is checked, none is trusted.
 /// @param label  the file's name, for messages; its stem names objects without a name.
 SceneFile decoded_scene(const std::string& label, std::span<const std::byte> bytes,
@@ -182,6 +198,7 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
     SceneBuilder builder;
     builder.count_ignored_primitives(header.ignored_primitives);
     builder.keep_contents(file_contents(header, reader));
+    read_lights(file, header.light_count, reader);
     UniqueNames names;
     const std::string fallback = printable(std::filesystem::path{label}.stem().string());
     std::uint64_t triangle_count = 0;
@@ -203,7 +220,6 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
     }
     file.scene = builder.take();
     file.defaults.camera = header.has_camera != 0 ? camera_settings(header.camera) : std::nullopt;
-    file.defaults.light = header.has_light != 0 ? light_settings(header.light) : std::nullopt;
     return file;
 }
 

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace gnomon::scene {
 
@@ -16,9 +18,16 @@ struct ImportLimits {
     std::uint64_t triangles = 50'000'000;
 };
 
+/// A light that a scene file brings along.
+struct FileLight {
+    std::string name; ///< its node's; may be empty, or that of another
+    LightSettings settings;
+};
+
 struct SceneFile {
     TriangleScene scene;
     SceneDefaults defaults; ///< the file's first camera and first punctual light, if any
+    std::vector<FileLight> lights = {}; ///< all that a shadow map may be of
 };
 
 /// Reads a .gltf, .glb, .obj or .ply file.

@@ -16,7 +16,7 @@ namespace gnomon::scene {
 
 /// How an import ended, as the child process says it.
 enum class ImportOutcome : std::uint64_t {
-    scene = 1,       ///< a header, then the names of extensions, then `object_count` objects
+    scene = 1,       ///< a header, the names of extensions, `light_count` lights, the objects
     refusal = 2,     ///< a header, then a text up to the end
     unsupported = 3, ///< likewise; the text has its remedy
 };
@@ -30,12 +30,13 @@ struct ImportedCamera {
     double orthographic_height_m = 0;
 };
 
-/// A light in world space, shining along `direction`.
+/// A light in world space, shining along `direction`; precedes its name, padded to 8 bytes.
 struct ImportedLight {
     Vec3d position;            ///< [m]; spot, point
     Vec3d direction;           ///< any length
     double outer_cone_rad = 0; ///< half the opening angle; 0: directional, or a point light
     std::uint64_t is_point = 0;
+    std::uint64_t name_bytes = 0;
 };
 
 inline constexpr std::uint64_t import_magic = 0x31'6e'6f'6d'6f'6e'67ULL;
@@ -47,11 +48,10 @@ struct ImportHeader {
     std::uint64_t object_count = 0;
     std::uint64_t ignored_primitives = 0;
     std::uint64_t has_camera = 0;
-    std::uint64_t has_light = 0;
+    std::uint64_t light_count = 0;
     ContentCounts contents;
     std::uint64_t extension_bytes = 0; ///< names of unread ones, each followed by a line feed
     ImportedCamera camera;
-    ImportedLight light;
 };
 
 /// Precedes the name, the vertices and the triangles of one object, each padded to 8 bytes.
@@ -65,6 +65,7 @@ using TriangleIndices = std::array<std::uint32_t, 3>;
 
 static_assert(std::is_trivially_copyable_v<ImportHeader> && sizeof(ImportHeader) % 8 == 0);
 static_assert(std::is_trivially_copyable_v<ImportedObject> && sizeof(ImportedObject) % 8 == 0);
+static_assert(std::is_trivially_copyable_v<ImportedLight> && sizeof(ImportedLight) % 8 == 0);
 static_assert(sizeof(Vec3d) == 24 && sizeof(TriangleIndices) == 12);
 
 /// Writes the stream to a file descriptor, in blocks.

@@ -11,25 +11,46 @@ std::vector<Case> cases_of(const JobSource& source)
     for (const CaseLayer& each : source.cases) {
         cases.push_back({each.name, {}});
         for (const Setting& setting : each.layer) {
-            cases.back().overrides.push_back({setting.spec->key.name, to_toml(setting.value)});
+            cases.back().overrides.push_back({setting.key().text(), to_toml(setting.value)});
         }
     }
     return cases;
 }
 
+const CaseLayer* chosen_case(const JobSource& source, std::string_view name)
+{
+    return name.empty() ? nullptr : &find_case(source, name);
+}
+
 } // namespace
+
+JobFile job_of(const JobSource& source, std::string_view case_name)
+{
+    return {make_job(source, chosen_case(source, case_name)), source.sweep, cases_of(source)};
+}
+
+std::vector<LightJob> light_jobs(const JobSource& source, std::string_view case_name)
+{
+    const CaseLayer* chosen = chosen_case(source, case_name);
+    if (source.lights.empty()) {
+        return {{{}, make_job(source, chosen)}};
+    }
+    std::vector<LightJob> jobs;
+    for (const std::string& light : source.lights) {
+        jobs.push_back({light, make_job(source, chosen, {}, light)});
+    }
+    return jobs;
+}
 
 JobFile read_job(const std::filesystem::path& path, const std::vector<Override>& overrides,
                  std::string_view case_name)
 {
-    const JobSource source = read_job_source(path, overrides);
-    const CaseLayer* chosen = case_name.empty() ? nullptr : &find_case(source, case_name);
-    return {make_job(source, chosen), source.sweep, cases_of(source)};
+    return job_of(read_job_source(path, overrides), case_name);
 }
 
 JobFile builtin_job(std::string_view name, const std::vector<Override>& overrides)
 {
-    return {make_job(builtin_job_source(name, overrides)), {}, {}};
+    return job_of(builtin_job_source(name, overrides));
 }
 
 } // namespace gnomon::scene

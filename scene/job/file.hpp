@@ -11,6 +11,8 @@
 
 namespace gnomon::scene {
 
+struct JobSource;
+
 /// A stage of the computation. A key names the stages whose result changes with it, so that a sweep
 /// knows what it can keep.
 enum class Stage : std::uint8_t {
@@ -61,6 +63,12 @@ struct Case {
     std::vector<Override> overrides;
 };
 
+/// A job with one of several lights alone.
+struct LightJob {
+    std::string light; ///< its name; empty: the job has but one
+    Job job;
+};
+
 struct JobFile {
     Job job; ///< defaults, then the built-in's own, then the file's keys, then the overrides
     Sweep sweep;
@@ -71,10 +79,16 @@ struct JobFile {
 ///
 /// Unknown keys name the nearest known one; every value is range-checked.
 /// @param case_name  empty, or the `[[case]]` whose keys are laid over the file's.
-/// @throws InputError  "file:line: key = value: what is allowed".
+/// @throws InputError  "file:line: key = value: what is allowed"; also for a job with several
+///                     lights, which is several jobs (`light_jobs`).
 [[nodiscard]] JobFile read_job(const std::filesystem::path& path,
                                const std::vector<Override>& overrides = {},
                                std::string_view case_name = {});
+[[nodiscard]] JobFile job_of(const JobSource& source, std::string_view case_name = {});
+/// The job of each light, in the order of the lights.
+/// @throws InputError  as `read_job`.
+[[nodiscard]] std::vector<LightJob> light_jobs(const JobSource& source,
+                                               std::string_view case_name = {});
 [[nodiscard]] JobFile builtin_job(std::string_view name,
                                   const std::vector<Override>& overrides = {});
 

@@ -46,10 +46,25 @@ KeySpec file_key()
             .example = "\"bunny.obj\""};
 }
 
+/// It makes several jobs of one (`JobSource`), and is no part of any of them.
+KeySpec scene_lights_key()
+{
+    return {.key =
+                make_key("scene.lights",
+                         "which lights of the file are used where the job gives none: the first, "
+                         "or each as one of several",
+                         "\"first\"", only_scene),
+            .domain = WordDomain{.words = {"first", "all"}},
+            .set = [](Job&, const JobValue&) {},
+            .get = [](const Job&) -> std::optional<JobValue> { return std::nullopt; }};
+}
+
 std::vector<KeySpec> scene_keys()
 {
     using Texts = std::vector<std::string>;
-    return {builtin_key(), file_key(),
+    return {builtin_key(),
+            file_key(),
+            scene_lights_key(),
             member_key<bool>(
                 make_key("scene.ground", "adds a ground plane under the scene's box", "false",
                          only_scene),

@@ -104,7 +104,7 @@ std::vector<std::string> table_names()
 {
     if (!std::holds_alternative<TomlTable>(node.value)) {
         throw InputError(fmt::format("{}unknown key {}; the nearest is {}", place.text(),
-                                     toml_excerpt({name}), nearest_key(name, siblings)));
+                                     toml_excerpt({name}), nearest_written_key(name, siblings)));
     }
     std::vector<std::string> names = table_names();
     names.insert(names.end(), siblings.begin(), siblings.end());
@@ -127,9 +127,9 @@ void visit_table(const TomlTable& table, const std::string& prefix, const Visit&
         const KeyPlace place{visit.file, member.line};
         const std::string name = prefix + member.key;
         const auto* nested = std::get_if<TomlTable>(&member.node.value);
-        if (const KeySpec* spec = find_key(name)) {
-            visit.visitor(*spec, member.node, place);
-        } else if (!is_key_table(name)) {
+        if (const WrittenKey key = find_written_key(name)) {
+            visit.visitor(key, member.node, place);
+        } else if (!is_written_table(name)) {
             throw_unknown(name, member.node, place, visit.siblings);
         } else if (nested != nullptr) {
             visit_table(*nested, name + ".", visit);
@@ -159,24 +159,13 @@ std::string KeyPlace::text() const
     return fmt::format("{}:{}: ", file, line);
 }
 
-std::string nearest_key(std::string_view name, std::vector<std::string> candidates)
+Setting make_setting(const WrittenKey& key, const TomlNode& node, std::string label)
 {
-    for (const KeySpec& spec : key_specs()) {
-        if (key_leaf(spec.key.name) == key_leaf(name)) {
-            return spec.key.name;
-        }
-        candidates.push_back(spec.key.name);
-    }
-    return nearest_word(name, candidates);
-}
-
-Setting make_setting(const KeySpec& spec, const TomlNode& node, std::string label)
-{
-    auto value = read_value(spec.domain, node);
+    auto value = read_value(key.spec->domain, node);
     if (!value) {
-        throw InputError(fmt::format("{}: {}", label, refusal_text(spec.domain, node)));
+        throw InputError(fmt::format("{}: {}", label, refusal_text(key.spec->domain, node)));
     }
-    return {&spec, std::move(*value), std::move(label)};
+    return {key.spec, std::move(*value), std::move(label), key.light};
 }
 
 void for_each_key(const TomlTable& table, const std::string& file,
@@ -189,15 +178,16 @@ Layer layer_from_table(const TomlTable& table, const std::string& file, const st
                        const std::vector<std::string>& siblings)
 {
     Layer layer;
-    std::set<std::string_view> seen;
+    std::set<std::string> seen;
     for_each_key(table, file, siblings,
-                 [&](const KeySpec& spec, const TomlNode& node, const KeyPlace& place) {
+                 [&](const WrittenKey& key, const TomlNode& node, const KeyPlace& place) {
+                     const std::string name = key.text();
                      const std::string label = fmt::format("{}{}{} = {}", place.text(), heading,
-                                                           spec.key.name, toml_excerpt(node));
-                     if (!seen.insert(spec.key.name).second) {
+                                                           name, toml_excerpt(node));
+                     if (!seen.insert(name).second) {
                          throw InputError(label + ": the key is given twice; keep one");
                      }
-                     layer.push_back(make_setting(spec, node, label));
+                     layer.push_back(make_setting(key, node, label));
                  });
     return layer;
 }
@@ -207,13 +197,15 @@ Layer layer_from_overrides(const std::vector<Override>& overrides)
     Layer layer;
     for (const Override& given : overrides) {
         const std::string label = one_line(fmt::format("--set {}={}", given.key, given.value));
-        const KeySpec* spec = find_key(given.key);
-        if (spec == nullptr) {
-            throw InputError(
-                fmt::format("{}: unknown key; the nearest is {}", label, nearest_key(given.key)));
+        const WrittenKey key = find_written_key(given.key);
+        if (!key) {
+            throw InputError(fmt::format("{}: unknown key; the nearest is {}", label,
+                                         nearest_written_key(given.key)));
         }
-        std::erase_if(layer, [&](const Setting& earlier) { return earlier.spec == spec; });
-        layer.push_back(make_setting(*spec, override_value(given.value, label), label));
+        std::erase_if(layer, [&](const Setting& earlier) {
+            return earlier.spec == key.spec && earlier.light == key.light;
+        });
+        layer.push_back(make_setting(key, override_value(given.value, label), label));
     }
     return layer;
 }
@@ -230,6 +222,23 @@ Layer layer_from_job(const Job& job, std::string_view builtin)
         }
     }
     return layer;
+}
+
+Layer layer_of_light(const Layer& layer, std::string_view light)
+{
+    Layer of_light;
+    for (const std::string_view whose : {std::string_view{}, light}) {
+        for (const Setting& setting : layer) {
+            if (setting.light != whose) {
+                continue;
+            }
+            // The light's own takes the place of what is said of all.
+            std::erase_if(of_light, [&](const Setting& all) { return all.spec == setting.spec; });
+            of_light.push_back(setting);
+            of_light.back().light.clear();
+        }
+    }
+    return of_light;
 }
 
 void lay_over(Settings& settings, const Layer& layer)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/job/keys.hpp"
+#include "scene/job/lights/written_key.hpp"
 #include "scene/job/toml.hpp"
 
 #include <cstdint>
@@ -17,10 +18,17 @@ struct Setting {
     const KeySpec* spec = nullptr;
     JobValue value;
     std::string label;
+    std::string light = {}; ///< of one of several; empty: of all lights
+
+    [[nodiscard]] WrittenKey key() const { return {spec, light}; }
 };
 
 /// What one source says: a built-in's defaults, a file, a case, or the overrides.
 using Layer = std::vector<Setting>;
+
+/// Of a layer what holds for one of several lights, as a job with that light alone would say it:
+/// what is said of all lights, then what is said of this one.
+[[nodiscard]] Layer layer_of_light(const Layer& layer, std::string_view light);
 
 /// What holds after all layers, by key.
 using Settings = std::map<std::string, Setting, std::less<>>;
@@ -34,15 +42,10 @@ struct KeyPlace {
     [[nodiscard]] std::string text() const;
 };
 
-/// The key nearest to an unknown one: the first with the same last part, else that of fewest edits.
-/// @param candidates  What may also stand where the name was found.
-[[nodiscard]] std::string nearest_key(std::string_view name,
-                                      std::vector<std::string> candidates = {});
-
 /// @throws InputError  "label: must be …", if the key does not accept the node.
-[[nodiscard]] Setting make_setting(const KeySpec& spec, const TomlNode& node, std::string label);
+[[nodiscard]] Setting make_setting(const WrittenKey& key, const TomlNode& node, std::string label);
 
-using KeyVisitor = std::function<void(const KeySpec&, const TomlNode&, const KeyPlace&)>;
+using KeyVisitor = std::function<void(const WrittenKey&, const TomlNode&, const KeyPlace&)>;
 
 /// Calls `visit` for each known key in a table, which may be nested, dotted or both.
 /// @param siblings  What else may stand beside the keys, to be named when it is the nearest.

@@ -3,15 +3,19 @@
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/lights/file_lights.hpp"
+#include "scene/job/lights/light_tables.hpp"
 #include "scene/job/sweep_axes.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 
 namespace gnomon::scene {
 namespace {
@@ -115,7 +119,7 @@ std::vector<CaseLayer> read_cases(const TomlMember& member, const std::string& f
 /// A layer of one key, from outside any file.
 Layer single_setting(std::string_view key, const std::string& value, const std::string& label)
 {
-    return {make_setting(*find_key(key), {value}, label)};
+    return {make_setting(find_written_key(key), {value}, label)};
 }
 
 /// A built-in's own settings; its bias in metres belongs to its directional light alone.
@@ -131,16 +135,72 @@ Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Sett
     return layer;
 }
 
-/// What is given, the weakest first.
-std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+/// What is given of a light, the weakest first.
+std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes,
+                                std::string_view light)
 {
-    std::vector<Layer> layers{source.file};
+    std::vector<Layer> layers{source.scene_lights, source.file};
     if (chosen != nullptr) {
         layers.push_back(chosen->layer);
     }
     layers.push_back(source.overrides);
     layers.push_back(axes);
+    for (Layer& layer : layers) {
+        check_lights(source.lights, layer);
+        layer = layer_of_light(layer, light);
+    }
     return layers;
+}
+
+bool takes_all_lights(const Settings& settings)
+{
+    const Setting* lights = find_setting(settings, "scene.lights");
+    return lights != nullptr && std::get<std::string>(lights->value) == "all";
+}
+
+/// With scene.lights = "all" adds the lights of the scene file, before those that the job names.
+void add_scene_lights(JobSource& source)
+{
+    const Settings settings = lay_all({source.file, source.overrides});
+    if (!takes_all_lights(settings)) {
+        return;
+    }
+    const Setting* file = find_setting(settings, "scene.file");
+    if (file == nullptr) {
+        throw InputError(fmt::format("{}: only a scene.file brings lights; remove it, or give "
+                                     "lights under [[lights]]",
+                                     settings.at("scene.lights").label));
+    }
+    LightTables tables = read_file_lights(source.folder / std::get<std::string>(file->value));
+    for (std::string& name : source.lights) {
+        if (std::ranges::find(tables.names, name) == tables.names.end()) {
+            tables.names.push_back(std::move(name));
+        }
+    }
+    source.lights = std::move(tables.names);
+    source.scene_lights = std::move(tables.layer);
+}
+
+/// The lights of one file are known, and read before cases and axes are looked at.
+void check_scene_lights(const JobSource& source, const Settings& settings)
+{
+    const Settings read = lay_all({source.file, source.overrides});
+    const auto text_of = [](const Settings& all, std::string_view key) {
+        const Setting* setting = find_setting(all, key);
+        return setting == nullptr ? std::string{} : std::get<std::string>(setting->value);
+    };
+    if (!takes_all_lights(settings) && !takes_all_lights(read)) {
+        return;
+    }
+    for (const std::string_view key : {"scene.lights", "scene.file"}) {
+        if (text_of(settings, key) != text_of(read, key)) {
+            const Setting* setting = find_setting(settings, key);
+            throw InputError(fmt::format(
+                "{}: scene.lights = \"all\" takes the lights of one file; say both outside of "
+                "cases and axes",
+                setting == nullptr ? source.name : setting->label));
+        }
+    }
 }
 
 } // namespace
@@ -154,19 +214,25 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
     } else {
         source.folder = path.parent_path();
         TomlTable keys;
+        LightTables lights;
         for (TomlMember& member :
              parse_toml(read_text_file(path, source.name, "job file"), source.name)) {
             if (member.key == "case") {
                 source.cases = read_cases(member, source.name);
             } else if (member.key == "sweep") {
                 source.sweep = read_sweep(member, source.name);
+            } else if (member.key == "lights") {
+                lights = read_light_tables(member, source.name);
             } else {
                 keys.push_back(std::move(member));
             }
         }
-        source.file = layer_from_table(keys, source.name, "", {"sweep", "case"});
+        source.file = layer_from_table(keys, source.name, "", {"sweep", "case", "lights"});
+        std::ranges::move(lights.layer, std::back_inserter(source.file));
+        source.lights = std::move(lights.names);
     }
     source.overrides = layer_from_overrides(overrides);
+    add_scene_lights(source);
     return source;
 }
 
@@ -176,6 +242,7 @@ JobSource builtin_job_source(std::string_view name, const std::vector<Override>&
     source.name = one_line(fmt::format("--builtin {}", name));
     source.file = single_setting("scene.builtin", std::string{name}, source.name);
     source.overrides = layer_from_overrides(overrides);
+    add_scene_lights(source);
     return source;
 }
 
@@ -197,11 +264,36 @@ const CaseLayer& find_case(const JobSource& source, std::string_view name)
                                  toml_excerpt({nearest_word(name, names)})));
 }
 
-Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+JobSource only_light(const JobSource& source, std::string_view light)
 {
-    std::vector<Layer> layers = given_layers(source, chosen, axes);
+    require_light(source.lights, light, source.name);
+    JobSource only = source;
+    only.lights.clear();
+    const auto reduce = [&](Layer& layer) {
+        check_lights(source.lights, layer);
+        layer = layer_of_light(layer, light);
+    };
+    reduce(only.scene_lights);
+    reduce(only.file);
+    reduce(only.overrides);
+    for (CaseLayer& each : only.cases) {
+        reduce(each.layer);
+    }
+    only.sweep.axes = axes_of_light(source.sweep.axes, light);
+    return only;
+}
+
+Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes,
+             std::string_view light)
+{
+    if (light.empty() && !source.lights.empty()) {
+        throw InputError(fmt::format("{}: the job has several lights: choose one with --light, {}",
+                                     source.name, fmt::join(source.lights, " or ")));
+    }
+    std::vector<Layer> layers = given_layers(source, chosen, axes, light);
     Settings settings = lay_all(layers);
     check_scene_choice(settings, source.name);
+    check_scene_lights(source, settings);
     if (const Setting* choice = find_setting(settings, "scene.builtin")) {
         const auto& builtin = find_builtin_scene(std::get<std::string>(choice->value));
         Job defaults = builtin.default_job(builtin_parameters(builtin, settings));
@@ -224,10 +316,12 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
     return job;
 }
 
-std::vector<std::pair<std::string, std::string>>
-given_keys(const JobSource& source, const CaseLayer* chosen, const Layer& axes)
+std::vector<std::pair<std::string, std::string>> given_keys(const JobSource& source,
+                                                            const CaseLayer* chosen,
+                                                            const Layer& axes,
+                                                            std::string_view light)
 {
-    const Settings settings = lay_all(given_layers(source, chosen, axes));
+    const Settings settings = lay_all(given_layers(source, chosen, axes, light));
     std::vector<std::pair<std::string, std::string>> keys;
     for (const KeySpec& spec : key_specs()) {
         if (const Setting* setting = find_setting(settings, spec.key.name)) {

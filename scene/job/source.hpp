@@ -21,8 +21,10 @@ struct CaseLayer {
 /// Where jobs come from: what one file or built-in, its cases, its sweep and the command line say,
 /// not yet laid over each other.
 struct JobSource {
-    std::string name;             ///< how messages speak of it
-    std::filesystem::path folder; ///< what a relative scene.file is relative to
+    std::string name;                ///< how messages speak of it
+    std::filesystem::path folder;    ///< what a relative scene.file is relative to
+    std::vector<std::string> lights; ///< names of the `[[lights]]`; empty: one light, `[light]`
+    Layer scene_lights; ///< with scene.lights = "all" what the scene file says of its lights
     Layer file;
     std::vector<CaseLayer> cases;
     Layer overrides;
@@ -38,16 +40,22 @@ struct JobSource {
 /// @throws InputError  naming the nearest case.
 [[nodiscard]] const CaseLayer& find_case(const JobSource& source, std::string_view name);
 
+/// What one of several lights is told, as the source of a job with that light alone.
+/// @throws InputError  if there is no such light.
+[[nodiscard]] JobSource only_light(const JobSource& source, std::string_view light);
+
 /// Lays the built-in's defaults, the file, the case, the overrides and a sweep's axes over each
-/// other, in this order.
+/// other, in this order; each says first what holds for all lights, then what for one of them.
 /// @param chosen  The case; nullptr for none.
-/// @throws InputError  if keys do not go together.
+/// @param light   Which of several lights the job is of; empty: it has but one.
+/// @throws InputError  if keys do not go together, or no light is named where there are several.
 [[nodiscard]] Job make_job(const JobSource& source, const CaseLayer* chosen = nullptr,
-                           const Layer& axes = {});
+                           const Layer& axes = {}, std::string_view light = {});
 
 /// What the file, the case, the overrides and the axes say, whether it goes together or not: keys
 /// and values as text, in the order of `job_keys`. A scene's file is as it was written.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>>
-given_keys(const JobSource& source, const CaseLayer* chosen = nullptr, const Layer& axes = {});
+given_keys(const JobSource& source, const CaseLayer* chosen = nullptr, const Layer& axes = {},
+           std::string_view light = {});
 
 } // namespace gnomon::scene

@@ -56,12 +56,12 @@ const TomlNode& needed_member(const TomlTable& table, std::string_view key,
 }
 
 /// An end of a range, held against the axis's own key: a number, and not a word.
-double range_end(const KeySpec& spec, const TomlTable& table, std::string_view end,
+double range_end(const WrittenKey& key, const TomlTable& table, std::string_view end,
                  const std::string& label)
 {
     const TomlNode& node = needed_member(table, end, label);
     const JobValue value =
-        make_setting(spec, node, fmt::format("{}, {} = {}", label, end, toml_excerpt(node))).value;
+        make_setting(key, node, fmt::format("{}, {} = {}", label, end, toml_excerpt(node))).value;
     if (const double* real = std::get_if<double>(&value)) {
         return *real;
     }
@@ -71,7 +71,7 @@ double range_end(const KeySpec& spec, const TomlTable& table, std::string_view e
     throw InputError(fmt::format("{}: only numbers have a range; list the values", label));
 }
 
-Range read_range(const KeySpec& spec, const TomlTable& table, const std::string& label)
+Range read_range(const WrittenKey& key, const TomlTable& table, const std::string& label)
 {
     const std::vector<std::string> members{"from", "to", "count", "scale"};
     for (const TomlMember& member : table) {
@@ -82,8 +82,8 @@ Range read_range(const KeySpec& spec, const TomlTable& table, const std::string&
         }
     }
     Range range;
-    range.from = range_end(spec, table, "from", label);
-    range.to = range_end(spec, table, "to", label);
+    range.from = range_end(key, table, "from", label);
+    range.to = range_end(key, table, "to", label);
     range.count = std::get<std::int64_t>(read_member(
         IntegerDomain{2, most_values}, needed_member(table, "count", label), label + ", count"));
     if (const TomlNode* scale = find_member(table, "scale")) {
@@ -121,10 +121,11 @@ double range_value(const Range& range, std::int64_t i)
     return std::clamp(value, std::min(range.from, range.to), std::max(range.from, range.to));
 }
 
-std::vector<TomlNode> expand(const KeySpec& spec, const TomlTable& table, const std::string& label)
+std::vector<TomlNode> expand(const WrittenKey& key, const TomlTable& table,
+                             const std::string& label)
 {
-    const Range range = read_range(spec, table, label);
-    const bool is_integer = std::holds_alternative<IntegerDomain>(spec.domain);
+    const Range range = read_range(key, table, label);
+    const bool is_integer = std::holds_alternative<IntegerDomain>(key.spec->domain);
     std::vector<TomlNode> values;
     double previous = 0;
     for (std::int64_t i = 0; i < range.count; ++i) {
@@ -143,7 +144,7 @@ std::vector<TomlNode> expand(const KeySpec& spec, const TomlTable& table, const 
     return values;
 }
 
-SweepAxis read_axis(const KeySpec& spec, const TomlNode& node, const std::string& label)
+SweepAxis read_axis(const WrittenKey& key, const TomlNode& node, const std::string& label)
 {
     const auto* list = std::get_if<TomlArray>(&node.value);
     const auto* table = std::get_if<TomlTable>(&node.value);
@@ -156,10 +157,10 @@ SweepAxis read_axis(const KeySpec& spec, const TomlNode& node, const std::string
         throw InputError(
             fmt::format("{}: {} values; at most {}", label, list->size(), most_values));
     }
-    SweepAxis axis{spec.key.name, {}};
-    for (const TomlNode& value : list != nullptr ? *list : expand(spec, *table, label)) {
+    SweepAxis axis{key.text(), {}};
+    for (const TomlNode& value : list != nullptr ? *list : expand(key, *table, label)) {
         const Setting setting =
-            make_setting(spec, value, fmt::format("{} = {}", label, toml_excerpt(value)));
+            make_setting(key, value, fmt::format("{} = {}", label, toml_excerpt(value)));
         axis.values.push_back(to_toml(setting.value));
     }
     return axis;
@@ -271,6 +272,23 @@ void check_axis_lengths(const Sweep& sweep, const std::string& file)
     }
 }
 
+std::vector<SweepAxis> axes_of_light(const std::vector<SweepAxis>& axes, std::string_view light)
+{
+    std::vector<SweepAxis> of_light;
+    for (const std::string_view whose : {std::string_view{}, light}) {
+        for (const SweepAxis& axis : axes) {
+            const WrittenKey key = find_written_key(axis.key);
+            if (key.light != whose) {
+                continue;
+            }
+            const std::string& name = key.spec->key.name;
+            std::erase_if(of_light, [&](const SweepAxis& all) { return all.key == name; });
+            of_light.push_back({name, axis.values});
+        }
+    }
+    return of_light;
+}
+
 SweepAxis read_axis_argument(const std::string& argument)
 {
     const std::size_t equals = argument.find('=');
@@ -279,14 +297,14 @@ SweepAxis read_axis_argument(const std::string& argument)
         throw InputError(fmt::format(
             "{}: write KEY=VALUES, e.g. --axis shadow_map.resolution=512,1024,2048", label));
     }
-    const std::string key = argument.substr(0, equals);
-    const KeySpec* spec = find_key(key);
-    if (spec == nullptr) {
+    const std::string name = argument.substr(0, equals);
+    const WrittenKey key = find_written_key(name);
+    if (!key) {
         throw InputError(fmt::format("{}: unknown key {}; the nearest is {}", label,
-                                     toml_excerpt({key}), nearest_key(key)));
+                                     toml_excerpt({name}), nearest_written_key(name)));
     }
-    return read_axis(*spec, axis_values(argument.substr(equals + 1), label),
-                     fmt::format("--axis {}", key));
+    return read_axis(key, axis_values(argument.substr(equals + 1), label),
+                     fmt::format("--axis {}", name));
 }
 
 Sweep read_sweep(const TomlMember& member, const std::string& file)
@@ -302,20 +320,21 @@ Sweep read_sweep(const TomlMember& member, const std::string& file)
             axes.push_back(entry);
         }
     }
-    for_each_key(
-        axes, file, {"mode", "sample", "seed"},
-        [&](const KeySpec& spec, const TomlNode& node, const KeyPlace& place) {
-            const bool is_repeated =
-                std::any_of(sweep.axes.begin(), sweep.axes.end(),
-                            [&](const SweepAxis& axis) { return axis.key == spec.key.name; });
-            if (is_repeated) {
-                throw InputError(fmt::format("{}[sweep] {}: the axis is given twice; keep one",
-                                             place.text(), spec.key.name));
-            }
-            sweep.axes.push_back(
-                read_axis(spec, node, fmt::format("{}[sweep] {}", place.text(), spec.key.name)));
-            check_axis_lengths(sweep, file);
-        });
+    for_each_key(axes, file, {"mode", "sample", "seed"},
+                 [&](const WrittenKey& key, const TomlNode& node, const KeyPlace& place) {
+                     const std::string name = key.text();
+                     const bool is_repeated =
+                         std::any_of(sweep.axes.begin(), sweep.axes.end(),
+                                     [&](const SweepAxis& axis) { return axis.key == name; });
+                     if (is_repeated) {
+                         throw InputError(
+                             fmt::format("{}[sweep] {}: the axis is given twice; keep one",
+                                         place.text(), name));
+                     }
+                     sweep.axes.push_back(
+                         read_axis(key, node, fmt::format("{}[sweep] {}", place.text(), name)));
+                     check_axis_lengths(sweep, file);
+                 });
     return sweep;
 }
 

@@ -21,4 +21,9 @@ namespace gnomon::scene {
 /// @throws InputError  naming the axis.
 void check_axis_lengths(const Sweep& sweep, const std::string& file);
 
+/// The axes of a sweep that one of several lights is told of, as one of a job with that light
+/// alone: those of all lights, but those that the light has for itself.
+[[nodiscard]] std::vector<SweepAxis> axes_of_light(const std::vector<SweepAxis>& axes,
+                                                   std::string_view light);
+
 } // namespace gnomon::scene

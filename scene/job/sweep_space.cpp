@@ -1,6 +1,7 @@
 #include "scene/job/sweep_space.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/lights/light_tables.hpp"
 #include "scene/job/sweep_axes.hpp"
 
 #include <fmt/format.h>
@@ -45,12 +46,6 @@ std::vector<std::uint64_t> draw_sample(std::uint64_t size, std::uint64_t count, 
     return {drawn.begin(), drawn.end()};
 }
 
-bool has_key(const Layer& layer, std::string_view key)
-{
-    return std::any_of(layer.begin(), layer.end(),
-                       [&](const Setting& setting) { return setting.spec->key.name == key; });
-}
-
 } // namespace
 
 bool is_constant_bias(std::string_view key)
@@ -63,6 +58,9 @@ SweepSpace::SweepSpace(JobSource source, const std::vector<std::string>& axis_ar
     : source_{std::move(source)}
 {
     replace_axes(axis_arguments);
+    for (const SweepAxis& axis : axes()) {
+        keys_.push_back(find_written_key(axis.key));
+    }
     keep_case(case_name);
     check_keys();
     resolve_values();
@@ -99,19 +97,29 @@ void SweepSpace::keep_case(std::string_view name)
     }
 }
 
+/// A layer below the axes that says what the axis says would be lost without a word.
+bool SweepSpace::is_set(const Layer& layer, std::size_t axis) const
+{
+    return std::ranges::any_of(layer, [&](const Setting& setting) {
+        return setting.spec == keys_[axis].spec &&
+               (keys_[axis].light.empty() || setting.light == keys_[axis].light);
+    });
+}
+
 void SweepSpace::check_keys() const
 {
-    for (const SweepAxis& axis : axes()) {
-        if (has_key(source_.overrides, axis.key)) {
+    for (std::size_t axis = 0; axis < axes().size(); ++axis) {
+        const std::string& key = axes()[axis].key;
+        if (is_set(source_.overrides, axis)) {
             throw InputError(fmt::format("--set {0}: {0} is an axis of the sweep; give its values "
                                          "with --axis {0}=…, or remove one of the two",
-                                         axis.key));
+                                         key));
         }
         for (const CaseLayer& each : source_.cases) {
-            if (has_key(each.layer, axis.key)) {
+            if (is_set(each.layer, axis)) {
                 throw InputError(fmt::format("{}: [[case]] {}: {} is an axis of the sweep too; "
                                              "remove it from the case or from the axes",
-                                             source_.name, toml_excerpt({each.name}), axis.key));
+                                             source_.name, toml_excerpt({each.name}), key));
             }
         }
     }
@@ -119,17 +127,18 @@ void SweepSpace::check_keys() const
 
 void SweepSpace::resolve_values()
 {
-    for (const SweepAxis& axis : axes()) {
+    for (std::size_t axis = 0; axis < axes().size(); ++axis) {
         Layer& values = values_.emplace_back();
         std::vector<std::size_t>& firsts = first_equal_.emplace_back();
         std::map<std::string_view, std::size_t> first_of;
-        for (std::size_t i = 0; i < axis.values.size(); ++i) {
-            const std::string& value = axis.values[i];
-            Setting& setting =
-                values.emplace_back(layer_from_overrides({{axis.key, value}}).front());
-            setting.label = fmt::format("[sweep] {} = {}", axis.key, value);
+        const auto& [key, texts] = axes()[axis];
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            const std::string& value = texts[i];
+            Setting& setting = values.emplace_back(layer_from_overrides({{key, value}}).front());
+            setting.label = fmt::format("[sweep] {} = {}", key, value);
             firsts.push_back(first_of.try_emplace(value, i).first->second);
         }
+        check_lights(source_.lights, values);
     }
 }
 
@@ -159,18 +168,27 @@ void SweepSpace::check_repetitions() const
     }
 }
 
-void SweepSpace::number_zipped_groups()
+std::vector<std::size_t> SweepSpace::zipped_groups_of(std::size_t light) const
 {
     std::map<std::vector<std::size_t>, std::size_t> firsts;
-    for (std::size_t i = 0; is_zipped() && !axes().empty() && i < axes().front().values.size();
-         ++i) {
+    std::vector<std::size_t> groups;
+    const SweepPoint of_light{.light_index = light};
+    for (std::size_t i = 0; i < axes().front().values.size(); ++i) {
         std::vector<std::size_t> tuple;
         for (std::size_t axis = 0; axis < axes().size(); ++axis) {
-            if (!is_constant_bias(axes()[axis].key)) {
+            if (!is_bias_axis(axis) && concerns(axis, of_light)) {
                 tuple.push_back(first_equal_[axis][i]);
             }
         }
-        zipped_groups_.push_back(firsts.try_emplace(std::move(tuple), i).first->second);
+        groups.push_back(firsts.try_emplace(std::move(tuple), i).first->second);
+    }
+    return groups;
+}
+
+void SweepSpace::number_zipped_groups()
+{
+    for (std::size_t light = 0; is_zipped() && !axes().empty() && light < light_count(); ++light) {
+        zipped_groups_.push_back(zipped_groups_of(light));
     }
 }
 
@@ -187,22 +205,25 @@ void SweepSpace::count()
         size *= length;
     }
     const auto sample = static_cast<std::uint64_t>(source_.sweep.sample);
-    size_ = sample > 0 ? std::min(size, sample) : size;
-    if (size_ > most_configurations) {
+    const std::uint64_t kept = sample > 0 ? std::min(size, sample) : size;
+    if (kept > most_configurations / light_count()) {
         throw InputError(fmt::format(
             "{}: [sweep]: more than {} configurations; shorten the axes, or draw some of them "
             "with sample = N",
             source_.name, most_configurations));
     }
-    if (size_ < size) {
-        sample_ = draw_sample(size, size_, source_.sweep.seed);
+    size_ = kept * light_count();
+    if (kept < size) {
+        sample_ = draw_sample(size, kept, source_.sweep.seed);
     }
 }
 
 SweepPoint SweepSpace::at(std::uint64_t ordinal) const
 {
-    std::uint64_t rest = sample_.empty() ? ordinal : sample_[ordinal];
     SweepPoint point;
+    point.light_index = ordinal % light_count();
+    std::uint64_t rest = ordinal / light_count();
+    rest = sample_.empty() ? rest : sample_[rest];
     point.values.resize(axes().size());
     for (std::size_t i = axes().size(); i-- > 0;) {
         const std::uint64_t length = axes()[i].values.size();
@@ -224,15 +245,66 @@ std::string_view SweepSpace::case_name(const SweepPoint& point) const
     return chosen == nullptr ? std::string_view{} : chosen->name;
 }
 
-std::uint64_t SweepSpace::curve_group(const SweepPoint& point) const
+std::string_view SweepSpace::light_name(const SweepPoint& point) const
 {
-    std::uint64_t curve_group = point.case_index;
-    if (!zipped_groups_.empty()) {
-        return curve_group * zipped_groups_.size() + zipped_groups_[point.values.front()];
+    return lights().empty() ? std::string_view{} : lights()[point.light_index];
+}
+
+std::vector<std::pair<std::string, std::string>>
+SweepSpace::light_values(const SweepPoint& point) const
+{
+    std::vector<std::pair<std::string, std::string>> values;
+    if (!lights().empty()) {
+        values.emplace_back(light_distinction, toml_quoted(light_name(point)));
     }
     for (std::size_t i = 0; i < axes().size(); ++i) {
-        if (!is_constant_bias(axes()[i].key)) {
-            curve_group = curve_group * axes()[i].values.size() + first_equal_[i][point.values[i]];
+        if (!keys_[i].light.empty()) {
+            values.emplace_back(axes()[i].key, axes()[i].values[point.values[i]]);
+        }
+    }
+    return values;
+}
+
+std::vector<std::string> SweepSpace::distinctions() const
+{
+    std::vector<std::string> names;
+    for (const SweepAxis& axis : axes()) {
+        names.push_back(axis.key);
+    }
+    if (!lights().empty()) {
+        names.emplace_back(light_distinction);
+    }
+    return names;
+}
+
+bool SweepSpace::is_bias_axis(std::size_t axis) const
+{
+    return is_constant_bias(keys_[axis].spec->key.name);
+}
+
+/// An axis of one light takes the place of the same one of all lights.
+bool SweepSpace::concerns(std::size_t axis, const SweepPoint& point) const
+{
+    const std::string_view light = light_name(point);
+    if (!keys_[axis].light.empty() || light.empty()) {
+        return keys_[axis].light == light;
+    }
+    return std::ranges::none_of(keys_, [&](const WrittenKey& key) {
+        return key.spec == keys_[axis].spec && key.light == light;
+    });
+}
+
+std::uint64_t SweepSpace::curve_group(const SweepPoint& point) const
+{
+    std::uint64_t curve_group = point.case_index * light_count() + point.light_index;
+    if (!zipped_groups_.empty()) {
+        const auto& groups = zipped_groups_[point.light_index];
+        return curve_group * groups.size() + groups[point.values.front()];
+    }
+    for (std::size_t i = 0; i < axes().size(); ++i) {
+        if (!is_bias_axis(i)) {
+            curve_group *= axes()[i].values.size();
+            curve_group += concerns(i, point) ? first_equal_[i][point.values[i]] : 0;
         }
     }
     return curve_group;
@@ -249,19 +321,19 @@ Layer SweepSpace::axis_settings(const SweepPoint& point) const
 
 Job SweepSpace::job(const SweepPoint& point) const
 {
-    return make_job(source_, chosen_case(point), axis_settings(point));
+    return make_job(source_, chosen_case(point), axis_settings(point), light_name(point));
 }
 
 std::vector<std::pair<std::string, std::string>>
 SweepSpace::given_keys(const SweepPoint& point) const
 {
-    return scene::given_keys(source_, chosen_case(point), axis_settings(point));
+    return scene::given_keys(source_, chosen_case(point), axis_settings(point), light_name(point));
 }
 
 void SweepSpace::set_constant_bias(Job& job, const SweepPoint& point) const
 {
     for (std::size_t i = 0; i < axes().size(); ++i) {
-        if (is_constant_bias(axes()[i].key)) {
+        if (is_bias_axis(i) && concerns(i, point)) {
             const Setting& setting = values_[i][point.values[i]];
             setting.spec->set(job, setting.value);
         }
@@ -272,12 +344,12 @@ BiasSettings SweepSpace::own_constant_bias(const SweepPoint& point) const
 {
     Layer others;
     for (std::size_t i = 0; i < axes().size(); ++i) {
-        if (!is_constant_bias(axes()[i].key)) {
+        if (!is_bias_axis(i)) {
             others.push_back(values_[i][point.values[i]]);
         }
     }
     try {
-        return make_job(source_, chosen_case(point), others).bias;
+        return make_job(source_, chosen_case(point), others, light_name(point)).bias;
     } catch (const InputError&) {
         return {};
     }

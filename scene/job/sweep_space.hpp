@@ -3,6 +3,7 @@
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/source.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -11,16 +12,21 @@
 
 namespace gnomon::scene {
 
-/// One point of a sweep: a case and a value on each axis.
+/// What the light of a configuration is called among what tells it from others.
+inline constexpr std::string_view light_distinction = "light";
+
+/// One point of a sweep: a case, a value on each axis, and one of the job's lights.
 struct SweepPoint {
     std::size_t case_index = 0;
     std::vector<std::size_t> values; ///< index of the value, by axis
+    std::size_t light_index = 0;     ///< 0 also of a job with `[light]`
 };
 
 /// All configurations that a job's cases and axes span, by number.
 ///
-/// Cases vary slowest, then the axes in their order, the last one fastest; with `mode = "zip"` all
-/// axes move together. `sample = N` keeps N of them, drawn without replacement by `seed`.
+/// Cases vary slowest, then the axes in their order, then the lights; with `mode = "zip"` all axes
+/// move together. `sample = N` keeps N combinations of cases and axes, drawn without replacement by
+/// `seed`. With several lights each is a configuration of its own: a job with that light alone.
 class SweepSpace {
 public:
     /// @param axis_arguments  "KEY=VALUES" as of `--axis`: each adds an axis or replaces the
@@ -33,6 +39,8 @@ public:
 
     /// Number of configurations.
     [[nodiscard]] std::uint64_t size() const { return size_; }
+    /// Names of the lights of each combination of case and axes; empty: one light without a name.
+    [[nodiscard]] const std::vector<std::string>& lights() const { return source_.lights; }
     [[nodiscard]] const std::vector<SweepAxis>& axes() const { return source_.sweep.axes; }
     [[nodiscard]] const std::string& mode() const { return source_.sweep.mode; }
     [[nodiscard]] std::size_t case_count() const { return source_.cases.size(); }
@@ -41,8 +49,22 @@ public:
     [[nodiscard]] SweepPoint at(std::uint64_t ordinal) const;
     /// Name of the point's case; empty if the job has none.
     [[nodiscard]] std::string_view case_name(const SweepPoint& point) const;
+    /// Name of the point's light; empty if the job has but one.
+    [[nodiscard]] std::string_view light_name(const SweepPoint& point) const;
+    /// With several lights the point's as `light`, then the axes of one light alone,
+    /// "lights.sun.…", whichever it is, with their values as TOML; else nothing.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>>
+    light_values(const SweepPoint& point) const;
+    /// What tells the points of a case from each other: the axes' keys, and with several lights
+    /// `light`.
+    [[nodiscard]] std::vector<std::string> distinctions() const;
+    /// Whether the axis says anything of the point's light.
+    [[nodiscard]] bool concerns(std::size_t axis, const SweepPoint& point) const;
+    /// Whether it is one of a constant bias, of all lights or of one.
+    [[nodiscard]] bool is_bias_axis(std::size_t axis) const;
 
-    /// A number that points share iff they differ in constant biases at most.
+    /// A number that points share iff they differ in constant biases at most, and in what the axes
+    /// say of other lights.
     [[nodiscard]] std::uint64_t curve_group(const SweepPoint& point) const;
 
     /// The point's job.
@@ -64,19 +86,27 @@ private:
     void check_keys() const;
     void resolve_values();
     void check_repetitions() const;
+    [[nodiscard]] std::vector<std::size_t> zipped_groups_of(std::size_t light) const;
     void number_zipped_groups();
     void count();
 
+    [[nodiscard]] std::size_t light_count() const
+    {
+        return std::max<std::size_t>(1, lights().size());
+    }
+    [[nodiscard]] bool is_set(const Layer& layer, std::size_t axis) const;
     [[nodiscard]] Layer axis_settings(const SweepPoint& point) const;
     [[nodiscard]] const CaseLayer* chosen_case(const SweepPoint& point) const;
     [[nodiscard]] bool is_zipped() const { return source_.sweep.mode == "zip"; }
 
     JobSource source_;
-    std::vector<Layer> values_; ///< each axis's values as settings
+    std::vector<WrittenKey> keys_; ///< the axes'
+    std::vector<Layer> values_;    ///< each axis's values as settings
     /// For each value of each axis the first that equals it: with zip, values may come again.
     std::vector<std::vector<std::size_t>> first_equal_;
-    /// With zip, for each index the first one whose values differ in constant biases at most.
-    std::vector<std::size_t> zipped_groups_;
+    /// With zip, of each light and index the first index whose values for this light differ in
+    /// constant biases at most.
+    std::vector<std::vector<std::size_t>> zipped_groups_;
     std::uint64_t size_ = 0;
     std::vector<std::uint64_t> sample_; ///< ascending numbers of the whole space; empty: all
 };

@@ -364,6 +364,22 @@ TEST(SceneFile, TakesASpotAndPassesOverOnesOf180Degrees)
     }
 }
 
+TEST(SceneFile, KnowsAllLightsThatAShadowMapMayBeOf)
+{
+    const SceneFile file = load_gltf(gltf_with_lights(
+        R"({"type":"point"},{"type":"spot","spot":{"outerConeAngle":1.6}},{"type":"directional"})",
+        R"([{"mesh":0},)" + light_node(0, R"("translation":[1,2.5,8],)") + "," + light_node(1) +
+            "," + light_node(2) + "]",
+        "[0,1,2,3]"));
+    ASSERT_EQ(file.lights.size(), 2U);
+    EXPECT_EQ(file.lights[0].name, "light0");
+    EXPECT_EQ(file.lights[0].settings.type, LightType::point);
+    EXPECT_EQ(file.lights[0].settings.position, file.defaults.light->position);
+    EXPECT_EQ(file.lights[1].name, "light2");
+    EXPECT_EQ(file.lights[1].settings.type, LightType::directional);
+    EXPECT_TRUE(load_gltf(QuadGltf{}).lights.empty());
+}
+
 TEST(SceneFile, GivesASpotWithoutAnglesTheDefaultCone)
 {
     const auto light = load_gltf(gltf_with_lights(R"({"type":"spot","spot":{}})",

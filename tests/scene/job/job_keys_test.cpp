@@ -72,6 +72,7 @@ KeyCases beside(KeyCases cases, const std::vector<Override>& context)
 const std::map<std::string, KeyCases> key_cases{
     {"scene.builtin", {{"\"wall\"", "\"room\""}, {"\"walls\"", "3", "\"\""}, {}}},
     {"scene.file", {{"\"a.obj\"", "\"/b c/d.glb\""}, {"\"\"", "7", "\"a\\u0000b\""}, {}}},
+    {"scene.lights", {{}, {"\"some\"", "1", "true"}, {}}}, // no job of one light prints it
     {"scene.ground", flags},
     {"scene.no_cast", names},
     {"scene.no_receive", names},

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/job/keys.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A key as a job writes it: "bias.slope" of all its lights, or "lights.sun.bias.slope" of one of
+/// several. Of one light, the keys of [light] stand without their table: "lights.sun.position".
+struct WrittenKey {
+    const KeySpec* spec = nullptr;
+    std::string light; ///< empty: of all lights
+
+    explicit operator bool() const { return spec != nullptr; }
+    [[nodiscard]] std::string text() const;
+};
+
+/// The key of that name; none if no key has it, or one that a light cannot have for itself.
+[[nodiscard]] WrittenKey find_written_key(std::string_view name);
+
+/// True if a known key may be `name` followed by a dot and more.
+[[nodiscard]] bool is_written_table(std::string_view name);
+
+/// Whether the key may differ from light to light: those of [light], [shadow_map], [lookup], [bias]
+/// and [method].
+[[nodiscard]] bool is_key_of_light(std::string_view key);
+
+/// The known key nearest to an unknown one, as a job would write it: the first with the same last
+/// part, else that of fewest edits.
+/// @param candidates  What may also stand where the name was found.
+[[nodiscard]] std::string nearest_written_key(std::string_view name,
+                                              std::vector<std::string> candidates = {});
+
+/// Whether the text names a light: letters from a to z, digits, _ and -.
+[[nodiscard]] bool is_light_name(std::string_view text);
+
+} // namespace gnomon::scene
