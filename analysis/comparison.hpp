@@ -62,6 +62,7 @@ struct AdviceViews {
 
 /// One configuration's result: everything that reports show.
 struct Comparison {
+    std::string light; ///< name of the one of several that it is of; empty: the job has but one
     scene::Job job;
     scene::View view; ///< the job made concrete: the exact inputs of both renderers
     SceneSummary scene;

@@ -18,6 +18,15 @@ ConfigurationResult result_of(const Comparison& comparison)
     return result;
 }
 
+std::vector<ConfigurationResult> results_of(std::span<const Comparison> comparisons)
+{
+    std::vector<ConfigurationResult> results;
+    for (const Comparison& comparison : comparisons) {
+        results.push_back(result_of(comparison));
+    }
+    return results;
+}
+
 FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
                               std::uint64_t ordinal)
 {

@@ -59,11 +59,11 @@ std::vector<Place> places(std::span<const CurveRequest> requests, std::size_t sl
     Numbers truths;
     Numbers receivers;
     Numbers lookups;
-    std::map<std::string, Numbers> truths_by_light;
+    std::map<std::string, Numbers> cameras_by_scene;
     std::vector<Place> all;
     for (std::size_t i = 0; i < requests.size(); ++i) {
         const StageKeys& keys = requests[i].keys;
-        const std::size_t camera = truths_by_light[keys.light].of(keys.truth);
+        const std::size_t camera = cameras_by_scene[keys.scene].of(keys.camera);
         all.push_back({scenes.of(keys.scene), lights.of(keys.light), camera / slots,
                        frusta.of(keys.frustum), texels.of(keys.texels), maps.of(keys.map),
                        filtered.of(keys.filtered), !keys.filtered.empty(), truths.of(keys.truth),

@@ -38,6 +38,9 @@ struct Configuration {
     std::string job_bias;
     /// The job with every key written out, as `scene::resolved_keys` gives it.
     std::vector<std::pair<std::string, std::string>> parameters;
+    /// With several lights its own as `light`, and the values of the axes that are of one light
+    /// alone, "lights.sun.bias.slope", whichever it is, as TOML.
+    std::vector<std::pair<std::string, std::string>> light_values = {};
 };
 
 /// What was measured of one configuration.

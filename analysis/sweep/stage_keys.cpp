@@ -95,11 +95,13 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     StageKeys keys;
     keys.scene = parts.scene;
     keys.light = keys.scene + parts.light;
+    keys.camera = keys.scene + parts.camera;
     keys.truth = keys.light + parts.camera;
     keys.frustum = (follows_camera ? keys.truth : keys.light) + parts.frustum;
     const std::string placed = keys.truth + parts.frustum;
     const bool is_of_pixel = scene::lookup_position(job) == scene::LookupPosition::pixel;
-    keys.receivers = is_of_pixel ? keys.truth : placed; // world positions serve every light matrix
+    // World positions serve every light.
+    keys.receivers = is_of_pixel ? keys.camera : placed;
     keys.texels = keys.frustum + parts.map;
     keys.map = keys.texels + parts.format;
     const bool is_filtered = !methods::passes(job).prefilter.empty();

@@ -12,10 +12,11 @@ namespace gnomon::analysis {
 struct StageKeys {
     std::string scene;
     std::string light;   ///< scene and light
+    std::string camera;  ///< scene, camera and image
     std::string truth;   ///< scene, light, camera and image
     std::string frustum; ///< the light's matrix: with fit = "camera" also camera and image
-    std::string
-        receivers;      ///< camera, image and, with lookup.position = "vertex", the light's matrix
+    /// Scene, camera, image and, with lookup.position = "vertex", the light and its matrix.
+    std::string receivers;
     std::string texels; ///< the map but for its depth format
     std::string map;
     std::string filtered; ///< what the method makes of the map; empty: nothing

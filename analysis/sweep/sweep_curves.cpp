@@ -164,6 +164,7 @@ void SweepCurves::describe(std::size_t request, const SceneIdentity& scene, cons
         space_.set_constant_bias(job, space_.at(ordinal));
         replace_constant_bias(configuration.parameters, job);
         configuration.ordinal = ordinal;
+        configuration.light_values = space_.light_values(space_.at(ordinal));
         configuration.id = configuration_id(version_, name, configuration.parameters, true);
         visit(configuration);
     }
@@ -176,6 +177,7 @@ void SweepCurves::describe(const Refusal& refusal, const Visit& visit) const
         Configuration configuration;
         configuration.ordinal = ordinal;
         configuration.case_name = space_.case_name(point);
+        configuration.light_values = space_.light_values(point);
         configuration.parameters = space_.given_keys(point);
         const std::string name = scene_in_ids({}, configuration.parameters);
         configuration.id = configuration_id(version_, name, configuration.parameters, true);

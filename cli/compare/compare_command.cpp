@@ -1,121 +1,29 @@
 #include "cli/compare/compare_command.hpp"
 
 #include "analysis/advice/advise.hpp"
+#include "analysis/lights/light_comparisons.hpp"
+#include "cli/compare/compare_options.hpp"
+#include "cli/compare/compare_outputs.hpp"
 #include "cli/compare/compare_run.hpp"
 #include "cli/compare/comparison_session.hpp"
-#include "cli/compare/exported_case.hpp"
-#include "cli/compare/kept_pixels.hpp"
 #include "cli/compare/origin_remedy.hpp"
-#include "cli/job_options.hpp"
-#include "cli/output_files.hpp"
 #include "cli/sweep/command_text.hpp"
 #include "cli/system/slow_work.hpp"
-#include "cli/system/standard_output.hpp"
-#include "cli/tune/advice_options.hpp"
-#include "reports/json/comparison_json.hpp"
-#include "reports/pictures/heat_map.hpp"
-#include "reports/pictures/picture.hpp"
-#include "reports/tables/comparison_table.hpp"
 #include "scene/error.hpp"
-#include "store/case/case_write.hpp"
-#include "store/exr/aov_write.hpp"
-#include "store/exr/depth_map.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
+#include <span>
 #include <string_view>
 #include <vector>
 
 namespace gnomon::cli {
 namespace {
-
-using store::OutputKind;
-
-struct CompareOptions {
-    JobOptions job;
-    bool json = false;
-    std::string aov_path;
-    std::string picture_path;
-    std::string depth_map_path;
-    std::vector<std::string> heat_maps; ///< NAME=FILE
-    std::string folder;                 ///< RUN
-    std::string case_folder;            ///< of --export-case
-    bool force = false;
-    std::string truth = "exact";
-    bool audit = false;
-    bool advise = false;
-    AdviceOptions advice;
-    bool verify = false;
-    SessionOptions session;
-};
-
-struct HeatMapFile {
-    reports::HeatMap kind;
-    std::string path;
-};
-
-std::vector<HeatMapFile> heat_map_files(const CompareOptions& options)
-{
-    std::vector<HeatMapFile> files;
-    for (const std::string& text : options.heat_maps) {
-        const std::size_t equals = text.find('=');
-        const auto kind = reports::heat_map_from_name(text.substr(0, equals));
-        if (!kind || equals == std::string::npos || equals + 1 == text.size()) {
-            throw scene::InputError(
-                fmt::format("--heat-map {}: must be NAME=FILE.png with NAME one of {}", text,
-                            fmt::join(reports::heat_map_names(), ", ")));
-        }
-        files.push_back({*kind, text.substr(equals + 1)});
-    }
-    return files;
-}
-
-std::vector<OutputOption> outputs(const CompareOptions& options)
-{
-    std::vector<OutputOption> all{{"--aov", options.aov_path, OutputKind::layers},
-                                  {"--picture", options.picture_path, OutputKind::picture},
-                                  {"--depth-map", options.depth_map_path, OutputKind::layers}};
-    for (const HeatMapFile& file : heat_map_files(options)) {
-        all.push_back({"--heat-map", file.path, OutputKind::picture});
-    }
-    return all;
-}
-
-/// Fails before the work, not after it.
-void require_new_outputs(const CompareOptions& options)
-{
-    const InputFile job{"JOB", options.job.job_path};
-    require_outputs(outputs(options), {&job, 1});
-    if (!options.case_folder.empty()) {
-        for (const std::string_view name : store::case_files()) {
-            require_absent(std::filesystem::path{options.case_folder} / name, options.force,
-                           "name another folder");
-        }
-    }
-}
-
-void write_outputs(const CompareOptions& options, const analysis::Comparison& comparison)
-{
-    if (!options.aov_path.empty()) {
-        store::write_aov(options.aov_path, comparison, points_of(comparison));
-    }
-    if (!options.picture_path.empty()) {
-        reports::write_picture(options.picture_path, comparison);
-    }
-    for (const HeatMapFile& file : heat_map_files(options)) {
-        reports::write_heat_map(file.path, comparison, file.kind);
-    }
-    print(options.json ? reports::comparison_json(comparison)
-                       : reports::comparison_table(comparison));
-}
 
 /// @throws scene::EnvironmentError  if GL saw what neither snapping nor depth resolution explains.
 void require_no_mismatch(const analysis::Comparison& comparison)
@@ -201,25 +109,13 @@ void advise(analysis::Comparison& comparison, const analysis::ViewRequest& reque
     }
 }
 
-void write_light_view(const CompareOptions& options, const analysis::Comparison& comparison,
-                      const analysis::Renderers& renderers)
+/// Everything that is asked of GL and Embree of a light, but for advice.
+analysis::Comparison measure(const CompareOptions& options, const scene::LightJob& job,
+                             analysis::LightComparisons& lights, const ComparisonSession& session,
+                             const analysis::Renderers& renderers)
 {
-    if (!options.depth_map_path.empty()) {
-        renderers.draw_shadow_map(comparison.job, comparison.view);
-        store::write_depth_map(options.depth_map_path, comparison, renderers.read_map_depths());
-    }
-}
-
-/// Everything that is asked of GL and Embree, but for advice.
-analysis::Comparison measure(const CompareOptions& options, const scene::Job& job,
-                             const ComparisonSession& session, SlowWork& work)
-{
-    const analysis::Renderers renderers = announced(session.renderers(), work);
-    analysis::Comparison comparison = analysis::compare(job, session.file(), renderers);
-    write_light_view(options, comparison, renderers);
-    if (!options.case_folder.empty()) {
-        export_case(options.case_folder, comparison, session.file().defaults, renderers);
-    }
+    analysis::Comparison comparison = lights.compare(job);
+    write_from_gl(options, comparison, session.file().defaults, renderers);
     comparison.seconds.scene += session.scene_seconds();
     comparison.seconds.bvh = session.bvh_seconds();
     if (options.audit) {
@@ -227,22 +123,46 @@ analysis::Comparison measure(const CompareOptions& options, const scene::Job& jo
             session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
             options.session.threads);
     }
-    if (options.verify) {
-        work.now("verifying the bias curve");
-        verify(comparison, renderers);
-    }
     return comparison;
+}
+
+std::vector<analysis::Comparison> measure(const CompareOptions& options,
+                                          std::span<const scene::LightJob> jobs,
+                                          const ComparisonSession& session, SlowWork& work)
+{
+    const analysis::Renderers renderers = announced(session.renderers(), work);
+    analysis::LightComparisons lights{session.file(), renderers};
+    std::vector<analysis::Comparison> comparisons;
+    for (const scene::LightJob& job : jobs) {
+        comparisons.push_back(measure(options, job, lights, session, renderers));
+        if (options.verify) {
+            work.now("verifying the bias curve");
+            verify(comparisons.back(), renderers);
+        }
+    }
+    return comparisons;
+}
+
+/// What each light's advice is made from.
+std::vector<analysis::ViewRequest> view_requests(const CompareOptions& options,
+                                                 std::span<const scene::LightJob> jobs)
+{
+    std::vector<analysis::ViewRequest> requests;
+    for (const scene::LightJob& job : jobs) {
+        requests.push_back(view_request(options.advice, of_light(options.job, job.light)));
+    }
+    return requests;
 }
 
 void compare(const CompareOptions& options)
 {
     require_exact_truth(options);
-    require_new_outputs(options);
-    const scene::JobFile job_file = read_job(options.job);
-    const scene::Job& job = job_file.job;
-    const analysis::ViewRequest views = view_request(options.advice, options.job);
+    const scene::JobSource source = read_job_source(options.job);
+    const auto jobs = scene::light_jobs(source, options.job.case_name);
+    require_new_outputs(options, jobs);
+    const auto requests = view_requests(options, jobs);
     if (!options.advice.all_cases) {
-        note_ignored_cases("compare", options.job, job_file);
+        note_ignored_cases("compare", options.job, source);
     }
     std::optional<CompareRun> run;
     if (!options.folder.empty()) {
@@ -253,21 +173,22 @@ void compare(const CompareOptions& options)
     session_options.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
                                                       : reference_rt::TruthMethod::plain;
     std::optional<SlowWork> work{std::in_place, "reading the scene"};
-    const ComparisonSession session{job, session_options};
-    analysis::Comparison comparison = measure(options, job, session, *work);
-    if (options.advise) {
+    const ComparisonSession session{jobs, session_options};
+    std::vector<analysis::Comparison> lights = measure(options, jobs, session, *work);
+    for (std::size_t i = 0; options.advise && i < lights.size(); ++i) {
         work->now("trying remedies");
-        advise(comparison, views, session, session_options);
+        advise(lights[i], requests[i], session, session_options);
     }
     work.reset();
     if (run) {
-        run->record(read_job_source(options.job), options.job.case_name, comparison,
-                    session.file().defaults, job_text(options.job),
-                    command_text("compare", options.job));
+        run->record(source, options.job.case_name, lights, session.file().defaults,
+                    job_text(options.job), command_text("compare", options.job));
     }
-    write_outputs(options, comparison);
-    require_no_mismatch(comparison);
-    require_no_difference(comparison);
+    write_outputs(options, lights);
+    for (const analysis::Comparison& comparison : lights) {
+        require_no_mismatch(comparison);
+        require_no_difference(comparison);
+    }
 }
 
 } // namespace
@@ -282,7 +203,8 @@ void add_compare_command(CLI::App& program)
     command->add_option("--aov", options->aov_path,
                         "Write every layer into one EXR file (docs/aov.md)");
     command->add_option("--picture", options->picture_path,
-                        "Write a labelled picture: GL's shadows, the true ones, the errors (PNG)");
+                        "Write a labelled picture: GL's shadows, the true ones, the errors (PNG); "
+                        "of several lights this and what follows into a file each, FILE.LIGHT.png");
     command->add_option("--depth-map", options->depth_map_path,
                         "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
     command

@@ -45,7 +45,7 @@ CompareRun::CompareRun(std::filesystem::path folder, bool may_replace)
 }
 
 void CompareRun::record(scene::JobSource source, std::string_view case_name,
-                        const analysis::Comparison& comparison,
+                        std::span<const analysis::Comparison> lights,
                         const scene::SceneDefaults& defaults, std::string job_text,
                         const std::string& command)
 {
@@ -55,23 +55,27 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     }
     const scene::SweepSpace space{std::move(source), {}, case_name};
     const analysis::SweepCurves sweep_curves{space, true, GNOMON_VERSION};
-    std::vector<analysis::Configuration> configurations;
-    sweep_curves.describe(0,
-                          analysis::identify_scene(comparison.job, comparison.scene.hash, defaults),
-                          [&](const analysis::Configuration& configuration) {
-                              configurations.push_back(configuration);
-                          });
-    if (comparison.evaluation) {
-        keep_given(configurations.front().parameters, comparison.evaluation->given_keys);
-    }
-    const analysis::Configuration& own = configurations.front();
     // Another driver's results in the folder are replaced, not mixed with.
-    store::RunDescription description{comparison.environment, {},      1,      {},
-                                      std::move(job_text),    command, command};
-    store::add_notes(description.notes, comparison.scene.name, comparison.scene.notes, 1);
+    store::RunDescription description{lights.front().environment, {},      lights.size(), {},
+                                      std::move(job_text),        command, command};
+    description.axes = space.distinctions();
+    description.lights = space.lights();
+    std::vector<analysis::Configuration> configurations;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const analysis::Comparison& comparison = lights[i];
+        sweep_curves.describe(
+            i, analysis::identify_scene(comparison.job, comparison.scene.hash, defaults),
+            [&](const analysis::Configuration& own) { configurations.push_back(own); });
+        if (comparison.evaluation) {
+            keep_given(configurations.back().parameters, comparison.evaluation->given_keys);
+        }
+        store::add_notes(description.notes, comparison.scene.name, comparison.scene.notes, 1);
+    }
     store_.plan(description, configurations, store::Environments::several, other_scenes_);
-    keep_pixels(folder_, own.id, comparison);
-    store_.record(analysis::finish_compared(comparison, own.curve, 0));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        keep_pixels(folder_, configurations[i].id, lights[i]);
+        store_.record(analysis::finish_compared(lights[i], configurations[i].curve, i));
+    }
     store_.write_csv();
 }
 

@@ -6,12 +6,14 @@
 #include "store/run_folder/run_lock.hpp"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace gnomon::cli {
 
-/// The RUN folder of a single comparison: a sweep of one configuration that keeps its pixels.
+/// The RUN folder of a comparison: a sweep of one configuration, or of one for each light, that
+/// keeps its pixels.
 class CompareRun {
 public:
     /// Takes the folder before the work is done.
@@ -19,15 +21,16 @@ public:
     /// @param may_replace  a sweep, and results of another scene.
     CompareRun(std::filesystem::path folder, bool may_replace);
 
-    /// Records the comparison, its layers and the CSV files.
-    /// @param source    of the comparison's job; its sweep is left aside.
-    /// @param defaults  that the comparison's scene brings along.
+    /// Records the comparisons, their layers and the CSV files.
+    /// @param source    of the job; its sweep is left aside.
+    /// @param lights    the comparison of each of its lights, at least one.
+    /// @param defaults  that the job's scene brings along.
     /// @param job_text, command  as in `store::RunDescription`.
     /// @throws scene::InputError        if the folder holds results of another scene that may not
     ///                                  be replaced.
     /// @throws scene::EnvironmentError  if the disk fails.
     void record(scene::JobSource source, std::string_view case_name,
-                const analysis::Comparison& comparison, const scene::SceneDefaults& defaults,
+                std::span<const analysis::Comparison> lights, const scene::SceneDefaults& defaults,
                 std::string job_text, const std::string& command);
 
 private:

@@ -7,16 +7,22 @@ namespace gnomon::cli {
 
 namespace {
 
-scene::SceneFile load_checked(const scene::Job& job)
+scene::SceneFile load_checked(std::span<const scene::LightJob> jobs)
 {
-    require_memory(job);
-    return scene::load_scene(job.scene);
+    require_memory(jobs);
+    return scene::load_scene(jobs.front().job.scene);
 }
 
 } // namespace
 
 ComparisonSession::ComparisonSession(const scene::Job& job, const SessionOptions& options)
-    : file_{timed(scene_s_, [&] { return load_checked(job); })},
+    : ComparisonSession{std::array{scene::LightJob{{}, job}}, options}
+{
+}
+
+ComparisonSession::ComparisonSession(std::span<const scene::LightJob> jobs,
+                                     const SessionOptions& options)
+    : file_{timed(scene_s_, [&] { return load_checked(jobs); })},
       context_{options.device},
       scene_session_{context_, file_.scene, options}
 {

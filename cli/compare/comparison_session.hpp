@@ -6,6 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+#include <span>
+
 namespace gnomon::cli {
 
 /// A job's scene, loaded by both renderers, for any number of comparisons.
@@ -15,6 +18,9 @@ public:
     ///                            as `scene::load_scene` does.
     /// @throws scene::EnvironmentError  if GL or Embree fails.
     ComparisonSession(const scene::Job& job, const SessionOptions& options);
+    /// Of a job's several lights, whose comparisons are kept side by side.
+    /// @param jobs  at least one.
+    ComparisonSession(std::span<const scene::LightJob> jobs, const SessionOptions& options);
 
     [[nodiscard]] const scene::SceneFile& file() const { return file_; }
     [[nodiscard]] const reference_rt::ReferenceScene& reference() const

@@ -172,7 +172,8 @@ void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFi
 {
     scene::JobSource source = file.source;
     source.cases = {{file.name, {}}};
-    run.record(std::move(source), file.name, comparison, {}, file.text, evaluate_command(options));
+    run.record(std::move(source), file.name, {&comparison, 1}, {}, file.text,
+               evaluate_command(options));
 }
 
 void write_evaluation(const EvaluateOptions& options, const analysis::Comparison& comparison)

@@ -36,6 +36,7 @@ std::string command_text(std::string_view command, const JobOptions& options,
     }
     add("--builtin", options.builtin);
     add("--case", options.case_name);
+    add("--light", options.light);
     for (const std::string& setting : options.settings) {
         add("--set", setting);
     }

@@ -30,7 +30,7 @@ Extreme extreme(std::string name, const store::ResultRow& row)
     return {std::move(name), row.count("ordinal"), row.text("id")};
 }
 
-/// The id that the job has without axes.
+/// The id that the job has without axes; of several lights the first one's.
 /// @return  Empty where the sweep has its cases alone, or the job no keys that go together.
 /// @throws scene::InputError  if the job's scene cannot be read.
 std::string id_without_axes(scene::JobSource source, std::string_view case_name)

@@ -223,9 +223,8 @@ private:
                                    GNOMON_VERSION};
         description.shard = options_.shard;
         description.size = space_.size();
-        for (const scene::SweepAxis& axis : space_.axes()) {
-            description.axes.push_back(axis.key);
-        }
+        description.axes = space_.distinctions();
+        description.lights = space_.lights();
         description.job = options_.job_text;
         description.command = options_.command;
         description.compare_command = options_.compare_command;

@@ -35,6 +35,10 @@ std::string axes_text(const scene::SweepSpace& space)
         text += text.empty() ? "" : " × ";
         text += reports::counted(space.case_count(), "case");
     }
+    if (!space.lights().empty()) {
+        text += text.empty() ? "" : " × ";
+        text += reports::counted(space.lights().size(), "light");
+    }
     return text.empty() ? "the job as it is" : text;
 }
 
@@ -44,10 +48,14 @@ std::string point_text(const scene::SweepSpace& space, const scene::SweepPoint& 
     std::string text{space.case_name(point)};
     for (std::size_t i = 0; i < space.axes().size(); ++i) {
         const scene::SweepAxis& axis = space.axes()[i];
-        if (with_bias || !scene::is_constant_bias(axis.key)) {
+        const bool is_of_curve = !space.is_bias_axis(i) && space.concerns(i, point);
+        if (with_bias || is_of_curve) {
             text += text.empty() ? "" : ", ";
             text += fmt::format("{} {}", axis.key, axis.values[point.values[i]]);
         }
+    }
+    if (const std::string_view light = space.light_name(point); !light.empty()) {
+        text += fmt::format("{}light {}", text.empty() ? "" : ", ", light);
     }
     return scene::one_line(text);
 }

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -132,13 +133,29 @@ std::uint64_t needed_memory_bytes(const scene::Job& job)
 
 void require_memory(const scene::Job& job)
 {
-    const std::uint64_t needed = needed_memory_bytes(job);
+    const std::array one{scene::LightJob{{}, job}};
+    require_memory(one);
+}
+
+void require_memory(std::span<const scene::LightJob> jobs)
+{
+    const scene::LightJob* largest = &jobs.front();
+    for (const scene::LightJob& each : jobs) {
+        if (needed_memory_bytes(each.job) > needed_memory_bytes(largest->job)) {
+            largest = &each;
+        }
+    }
+    const scene::Job& job = largest->job;
+    const std::uint64_t needed =
+        needed_memory_bytes(job) + (jobs.size() - 1) * job.image.pixel_count() * bytes_per_pixel;
     const std::uint64_t available = available_memory_bytes();
     if (available != 0 && needed > available) {
+        const std::string lights =
+            jobs.size() > 1 ? fmt::format(", {} lights", jobs.size()) : std::string{};
         throw scene::InputError(fmt::format(
-            "image.width = {}, image.height = {}, shadow_map.resolution = {}: this needs about "
+            "image.width = {}, image.height = {}, shadow_map.resolution = {}{}: this needs about "
             "{:.1f} GiB of memory and {:.1f} GiB are available: make them smaller",
-            job.image.width_px, job.image.height_px, job.shadow_map.resolution_texels,
+            job.image.width_px, job.image.height_px, job.shadow_map.resolution_texels, lights,
             static_cast<double>(needed) / gibibyte, static_cast<double>(available) / gibibyte));
     }
 }

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "scene/job/job.hpp"
+#include "scene/job/file.hpp"
 
 #include <cstdint>
+#include <span>
 
 namespace gnomon::cli {
 
@@ -38,5 +39,8 @@ private:
 
 /// @throws scene::InputError  if the job needs more than is available; before any of it is taken.
 void require_memory(const scene::Job& job);
+/// The same of the jobs of several lights, whose images are kept side by side.
+/// @param jobs  at least one.
+void require_memory(std::span<const scene::LightJob> jobs);
 
 } // namespace gnomon::cli

@@ -87,13 +87,14 @@ analysis::ViewRequest view_request(const AdviceOptions& options, const JobOption
     return request;
 }
 
-void note_ignored_cases(std::string_view command, const JobOptions& job, const scene::JobFile& file)
+void note_ignored_cases(std::string_view command, const JobOptions& job,
+                        const scene::JobSource& source)
 {
-    if (file.cases.empty() || !job.case_name.empty()) {
+    if (source.cases.empty() || !job.case_name.empty()) {
         return;
     }
     std::vector<std::string> names;
-    for (const scene::Case& one : file.cases) {
+    for (const scene::CaseLayer& one : source.cases) {
         names.push_back(one.name);
     }
     fmt::print(stderr,

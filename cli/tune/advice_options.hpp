@@ -26,6 +26,6 @@ void add_advice_options(CLI::App& command, AdviceOptions& options);
 
 /// Says on stderr that a job's cases are left out, where it has some and none is named.
 void note_ignored_cases(std::string_view command, const JobOptions& job,
-                        const scene::JobFile& file);
+                        const scene::JobSource& source);
 
 } // namespace gnomon::cli

@@ -11,12 +11,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
@@ -54,7 +56,11 @@ double read_rate(std::string_view option, const std::string& text)
 /// where it is verbose, every setting.
 class TuneProgress {
 public:
-    explicit TuneProgress(const TuneOptions& options) : options_{options} {}
+    TuneProgress(const TuneOptions& options, const std::string& light)
+        : options_{options},
+          light_{light.empty() ? light : fmt::format("light {}: ", light)}
+    {
+    }
 
     void tell(const analysis::TunedSetting& setting)
     {
@@ -62,12 +68,13 @@ public:
         const bool is_new = bytes != bytes_;
         bytes_ = bytes;
         if (!options_.quiet && (options_.verbose || is_new)) {
-            fmt::print(stderr, "gnomon tune: {}\n", reports::tuned_setting_line(setting));
+            fmt::print(stderr, "gnomon tune: {}{}\n", light_, reports::tuned_setting_line(setting));
         }
     }
 
 private:
     const TuneOptions& options_;
+    std::string light_; ///< which, to begin a line with
     std::uint64_t bytes_ = 0;
 };
 
@@ -79,6 +86,18 @@ reports::TuneDetail detail_of(const TuneOptions& options)
     return options.verbose ? reports::TuneDetail::tried : reports::TuneDetail::found;
 }
 
+reports::TunedLight tune_light(const TuneOptions& options, const scene::LightJob& job,
+                               const analysis::ViewRequest& request,
+                               const ComparisonSession& session, const analysis::TuneLimits& limits)
+{
+    const analysis::JudgedViews views =
+        analysis::judge_views(job.job, session.file(), session.renderers(), request);
+    TuneProgress progress{options, job.light};
+    return {job.light,
+            analysis::tune(job.job, session.file(), session.renderers(), views, limits,
+                           [&](const analysis::TunedSetting& setting) { progress.tell(setting); })};
+}
+
 void tune(const TuneOptions& options)
 {
     const analysis::TuneLimits limits{
@@ -86,21 +105,24 @@ void tune(const TuneOptions& options)
         read_rate("--max-false-lit", options.max_false_lit),
         read_rate("--max-false-shadow-count", options.max_false_shadow_count),
         read_rate("--max-false-lit-count", options.max_false_lit_count), options.max_resolution};
-    const scene::JobFile job_file = read_job(options.job);
-    const analysis::ViewRequest request = view_request(options.advice, options.job);
-    if (!options.advice.all_cases) {
-        note_ignored_cases("tune", options.job, job_file);
+    const scene::JobSource source = read_job_source(options.job);
+    const auto jobs = scene::light_jobs(source, options.job.case_name);
+    std::vector<analysis::ViewRequest> requests;
+    for (const scene::LightJob& job : jobs) {
+        requests.push_back(view_request(options.advice, of_light(options.job, job.light)));
     }
-    const ComparisonSession session{job_file.job, options.session};
-    const analysis::JudgedViews views =
-        analysis::judge_views(job_file.job, session.file(), session.renderers(), request);
-    TuneProgress progress{options};
-    const analysis::TuneResult result =
-        analysis::tune(job_file.job, session.file(), session.renderers(), views, limits,
-                       [&](const analysis::TunedSetting& setting) { progress.tell(setting); });
-    print(options.json ? reports::tune_json(result, limits)
-                       : reports::tune_text(result, limits, detail_of(options)));
-    if (!result.meets_limits()) {
+    if (!options.advice.all_cases) {
+        note_ignored_cases("tune", options.job, source);
+    }
+    const ComparisonSession session{jobs, options.session};
+    std::vector<reports::TunedLight> lights;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        lights.push_back(tune_light(options, jobs[i], requests[i], session, limits));
+    }
+    print(options.json ? reports::tune_json(lights, limits)
+                       : reports::tune_text(lights, limits, detail_of(options)));
+    if (!std::ranges::all_of(
+            lights, [](const reports::TunedLight& tuned) { return tuned.result.meets_limits(); })) {
         throw CLI::RuntimeError{exit_codes::negative};
     }
 }

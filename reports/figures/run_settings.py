@@ -10,6 +10,7 @@ from gnomon import InputError
 
 NAMES = {
     "case": "case",
+    "light": "light",
     "image.width": "image width [px]",
     "image.height": "image height [px]",
     "shadow_map.resolution": "map resolution [texels]",
@@ -87,6 +88,9 @@ def name_of(key):
     """A key as on an axis, with its unit."""
     if key in NAMES:
         return NAMES[key]
+    if key.startswith("lights."):
+        _, light, own = key.split(".", 2)
+        return f"{light}: {name_of(own if '.' in own else 'light.' + own)}"
     name = key.split(".")[-1]
     for suffix, unit in (("_m", "m"), ("_deg", "°"), ("_px", "px")):
         if name.endswith(suffix):
@@ -120,7 +124,7 @@ def done(run):
 def axes_of(run, rows):
     """The axes of the rows, `case` first, without those that follow from an earlier one."""
     found = []
-    for key in ("case", *run.job_keys):
+    for key in ("case", *run.light_keys, *run.job_keys):
         axis = _axis(key, rows[key])
         if axis and not any(_follows(axis, earlier) for earlier in found):
             found.append(axis)

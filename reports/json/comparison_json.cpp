@@ -1,6 +1,7 @@
 #include "reports/json/comparison_json.hpp"
 
 #include "analysis/answers/finished_curve.hpp"
+#include "analysis/metrics/totals.hpp"
 #include "reports/json/diagnosis_json.hpp"
 #include "reports/json/evaluation_json.hpp"
 #include "reports/json/metric_json.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace gnomon::reports {
 
@@ -87,11 +89,9 @@ store::Json exact_inputs_object(const analysis::Comparison& comparison)
     return json;
 }
 
-} // namespace
-
-std::string comparison_json(const analysis::Comparison& comparison)
+/// All that is said of one light's comparison.
+void add_comparison(store::Json& json, const analysis::Comparison& comparison)
 {
-    store::Json json{{"schema", 2}};
     add_metrics(json, analysis::configuration_metrics(), analysis::result_of(comparison));
     add_diagnosis(json, comparison);
     json["environment"] = environment(comparison.environment);
@@ -106,6 +106,30 @@ std::string comparison_json(const analysis::Comparison& comparison)
     json["exact_inputs"] = exact_inputs_object(comparison);
     if (comparison.evaluation) {
         add_evaluation(json, comparison, *comparison.evaluation);
+    }
+}
+
+} // namespace
+
+std::string comparison_json(const analysis::Comparison& comparison)
+{
+    store::Json json{{"schema", 2}};
+    add_comparison(json, comparison);
+    return store::json_text(json, 2) + "\n";
+}
+
+std::string comparison_json(std::span<const analysis::Comparison> lights)
+{
+    store::Json json{{"schema", 2}};
+    add_metrics(json, analysis::configuration_metrics(),
+                analysis::total_of(analysis::results_of(lights)));
+    json["environment"] = environment(lights.front().environment);
+    json["scene"] = scene_object(lights.front().scene);
+    json["lights"] = store::Json::array();
+    for (const analysis::Comparison& comparison : lights) {
+        store::Json of_light{{"name", comparison.light}};
+        add_comparison(of_light, comparison);
+        json["lights"].push_back(std::move(of_light));
     }
     return store::json_text(json, 2) + "\n";
 }

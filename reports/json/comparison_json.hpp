@@ -2,6 +2,7 @@
 
 #include "analysis/comparison.hpp"
 
+#include <span>
 #include <string>
 
 namespace gnomon::reports {
@@ -12,5 +13,10 @@ namespace gnomon::reports {
 /// null: a rate without a denominator, and quantities that were not computed. Text that is no
 /// valid UTF-8 (a file's name) has its bad bytes replaced.
 [[nodiscard]] std::string comparison_json(const analysis::Comparison& comparison);
+
+/// The same of a job's several lights: what `total_of` sums, then `lights`, each with its name and
+/// all that one light's object has.
+/// @param lights  at least one.
+[[nodiscard]] std::string comparison_json(std::span<const analysis::Comparison> lights);
 
 } // namespace gnomon::reports

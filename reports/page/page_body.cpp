@@ -20,7 +20,7 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr std::size_t most_objects = 40;
+constexpr std::size_t most_parts = 40;
 
 /// A cell of numbers, which a reader compares down a column.
 std::string number_cell(std::string_view text)
@@ -213,47 +213,67 @@ std::optional<double> rate(const store::Json& object, const char* name)
                                                        : std::nullopt;
 }
 
-std::string objects_table(const store::Json& detail)
+/// Those of a detail's breakdown that any scored pixel belongs to, most errors first.
+std::vector<const store::Json*> parts_of(const store::Json& detail, const char* breakdown)
 {
-    std::vector<const store::Json*> objects;
-    if (detail.is_object() && detail.contains("by_object") && detail["by_object"].is_array()) {
-        for (const store::Json& object : detail["by_object"]) {
-            if (object.is_object() && member(object, "lit") + member(object, "blocked") > 0) {
-                objects.push_back(&object);
+    std::vector<const store::Json*> parts;
+    if (detail.is_object() && detail.contains(breakdown) && detail[breakdown].is_array()) {
+        for (const store::Json& part : detail[breakdown]) {
+            if (part.is_object() && member(part, "lit") + member(part, "blocked") > 0) {
+                parts.push_back(&part);
             }
         }
     }
+    const auto wrong = [](const store::Json* part) {
+        return member(*part, "false_shadow") + member(*part, "false_lit");
+    };
+    std::stable_sort(parts.begin(), parts.end(), [&](const store::Json* a, const store::Json* b) {
+        return wrong(a) > wrong(b);
+    });
+    return parts;
+}
+
+/// @param name  the member that names a part, and the heading of the names.
+std::string parts_table(std::string_view caption, const char* name,
+                        const std::vector<const store::Json*>& parts)
+{
+    std::string html = table_head(
+        caption, {name, "false shadow", "of lit", "false lit", "of blocked", "mean error"});
+    for (std::size_t i = 0; i < std::min(parts.size(), most_parts); ++i) {
+        const store::Json& part = *parts[i];
+        const auto named = part.find(name);
+        html += "<tr>" +
+                row_heading(named != part.end() && named->is_string() ? named->get<std::string>()
+                                                                      : std::string{}) +
+                number_cell(grouped(member(part, "false_shadow"))) +
+                number_cell(percent(rate(part, "false_shadow_rate"))) +
+                number_cell(grouped(member(part, "false_lit"))) +
+                number_cell(percent(rate(part, "false_lit_rate"))) +
+                number_cell(percent(rate(part, "mean_abs_error"))) + "</tr>\n";
+    }
+    html += table_end;
+    if (parts.size() > most_parts) {
+        html += fmt::format("<p>{} more {}s are in the page’s data.</p>\n",
+                            grouped(parts.size() - most_parts), name);
+    }
+    return html;
+}
+
+std::string objects_table(const store::Json& detail)
+{
+    const auto objects = parts_of(detail, "by_object");
     if (objects.empty()) {
         return "<p>Errors by object are not known: the layers of this configuration were not "
                "kept.</p>\n";
     }
-    const auto wrong = [](const store::Json* object) {
-        return member(*object, "false_shadow") + member(*object, "false_lit");
-    };
-    std::stable_sort(
-        objects.begin(), objects.end(),
-        [&](const store::Json* a, const store::Json* b) { return wrong(a) > wrong(b); });
-    std::string html =
-        table_head("By object, most errors first",
-                   {"object", "false shadow", "of lit", "false lit", "of blocked", "mean error"});
-    for (std::size_t i = 0; i < std::min(objects.size(), most_objects); ++i) {
-        const store::Json& object = *objects[i];
-        const auto name = object.find("object");
-        html += "<tr>" +
-                row_heading(name != object.end() && name->is_string() ? name->get<std::string>()
-                                                                      : std::string{}) +
-                number_cell(grouped(member(object, "false_shadow"))) +
-                number_cell(percent(rate(object, "false_shadow_rate"))) +
-                number_cell(grouped(member(object, "false_lit"))) +
-                number_cell(percent(rate(object, "false_lit_rate"))) +
-                number_cell(percent(rate(object, "mean_abs_error"))) + "</tr>\n";
-    }
-    html += table_end;
-    if (objects.size() > most_objects) {
-        html += fmt::format("<p>{} more objects are in the page’s data.</p>\n",
-                            grouped(objects.size() - most_objects));
-    }
-    return html;
+    return parts_table("By object, most errors first", "object", objects);
+}
+
+/// Empty of a light with one map.
+std::string maps_table(const store::Json& detail)
+{
+    const auto maps = parts_of(detail, "by_map");
+    return maps.empty() ? std::string{} : parts_table("By map, most errors first", "map", maps);
 }
 
 std::string counts_table(std::string_view caption, const store::ResultRow& row,
@@ -289,7 +309,7 @@ std::string objects_section(const RunOverview& overview)
                        escaped(row_name(row))) +
            counts_table("By cause", row.result, cause_columns()) +
            counts_table("By name", row.result, label_columns()) + objects_table(overview.detail) +
-           "</section>\n";
+           maps_table(overview.detail) + "</section>\n";
 }
 
 std::string definition(std::string_view term, std::string_view text)

@@ -2,6 +2,8 @@
 
 #include "analysis/causes/cause.hpp"
 #include "reports/words/text.hpp"
+#include "scene/job/lights/written_key.hpp"
+#include "scene/job/sweep_space.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run_folder/pixels.hpp"
@@ -42,6 +44,13 @@ struct Tie {
     std::string mean_error = {};                    ///< empty: that of the first
 };
 
+/// Whether the axis says anything of the row's light: those of one light say nothing of others.
+bool concerns(const std::string& axis, const store::ResultRow& row)
+{
+    const std::string light = scene::find_written_key(axis).light;
+    return light.empty() || light == row.text(scene::light_distinction);
+}
+
 /// "shadow_map.resolution = 2048, bias.constant = 0", after the case.
 std::string settings_text(const store::RunDescription& description, const store::ResultRow& row,
                           const Tie& tie)
@@ -56,7 +65,9 @@ std::string settings_text(const store::RunDescription& description, const store:
     };
     add("case");
     for (const std::string& axis : description.axes) {
-        add(axis);
+        if (concerns(axis, row)) {
+            add(axis);
+        }
     }
     return tie.count == 1 ? text
                           : fmt::format("{} ({})", text, counted(tie.count, "configuration"));
@@ -86,9 +97,10 @@ std::vector<std::string> bias_axes(const store::RunDescription& description)
 }
 
 /// SQL for ties: the first ordinal, the count, and of the mean error and each bias the smallest and
-/// the largest.
-std::string tie_query(const store::RunDescription& description, std::string_view order,
-                      std::size_t most)
+/// the largest. With several lights nothing is tied but what amounts to the same job.
+/// @param condition  "AND …", of which rows; empty: of all.
+std::string tie_query(const store::RunDescription& description, std::string_view condition,
+                      std::string_view order, std::size_t most)
 {
     std::string ranges = ", min(mean_abs_error), max(mean_abs_error)";
     for (const std::string& axis : bias_axes(description)) {
@@ -98,9 +110,14 @@ std::string tie_query(const store::RunDescription& description, std::string_view
     for (const std::string& axis : description.axes) {
         same += axis.starts_with("bias.") ? std::string{} : ", " + store::sqlite::sql_name(axis);
     }
-    return fmt::format(
-        "SELECT min(ordinal), count(*){} FROM results {} GROUP BY {} ORDER BY {} LIMIT {}", ranges,
-        where_measured, same, order, most);
+    if (!description.lights.empty()) { // whatever the axes of other lights say
+        same = fmt::format("error_rate, \"case\", {}, id",
+                           store::sqlite::sql_name(scene::light_distinction));
+    }
+    return fmt::format("SELECT min(ordinal), {}{} FROM results {} {} GROUP BY {} ORDER BY {}"
+                       " LIMIT {}",
+                       description.lights.empty() ? "count(*)" : "1", ranges, where_measured,
+                       condition, same, order, most);
 }
 
 std::string range_text(const std::string& low, const std::string& high)
@@ -115,10 +132,12 @@ std::optional<double> number_at(const store::sqlite::Statement& find, int column
     return real == nullptr ? std::nullopt : std::optional{*real};
 }
 
-std::vector<Tie> find_ties(const store::RunReader& run, std::string_view order, std::size_t most)
+std::vector<Tie> find_ties(const store::RunReader& run, std::string_view order, std::size_t most,
+                           std::string_view condition = {})
 {
     const std::vector<std::string> axes = bias_axes(run.description());
-    store::sqlite::Statement find{run.database(), tie_query(run.description(), order, most)};
+    store::sqlite::Statement find{run.database(),
+                                  tie_query(run.description(), condition, order, most)};
     std::vector<Tie> ties;
     while (find.step()) {
         Tie tie{static_cast<std::uint64_t>(find.integer(0)),
@@ -134,17 +153,25 @@ std::vector<Tie> find_ties(const store::RunReader& run, std::string_view order, 
     return ties;
 }
 
+constexpr std::string_view best_first = "error_rate, map_bytes, min(ordinal)";
+constexpr std::string_view worst_first = "error_rate DESC, min(ordinal) DESC";
+
+OverviewRow row_of(const store::RunReader& run, const Tie& tie)
+{
+    return named_row(
+        run, std::move(run.rows(fmt::format("WHERE ordinal = {}", tie.ordinal)).front()), tie);
+}
+
 /// Of equal error rates that with the smallest map is first.
 std::vector<OverviewRow> ranked_rows(const store::RunReader& run)
 {
-    std::vector<Tie> ties = find_ties(run, "error_rate, map_bytes, min(ordinal)", most_rows_shown);
+    std::vector<Tie> ties = find_ties(run, best_first, most_rows_shown);
     if (ties.size() == most_rows_shown) {
-        ties.back() = find_ties(run, "error_rate DESC, min(ordinal) DESC", 1).front();
+        ties.back() = find_ties(run, worst_first, 1).front();
     }
     std::vector<OverviewRow> rows;
     for (const Tie& tie : ties) {
-        rows.push_back(named_row(
-            run, std::move(run.rows(fmt::format("WHERE ordinal = {}", tie.ordinal)).front()), tie));
+        rows.push_back(row_of(run, tie));
     }
     return rows;
 }
@@ -196,6 +223,28 @@ void add_extremes(std::vector<std::string>& sentences, const std::vector<Overvie
         fmt::format("The worst has {}, with {}.", rates_text(worst.result), worst.settings));
 }
 
+/// "Light sun: the best has …": what suits one light is no matter to another.
+void add_extremes_of_light(std::vector<std::string>& sentences, const store::RunReader& run,
+                           const std::string& light)
+{
+    const std::string condition = fmt::format(
+        "AND {} = '{}'", store::sqlite::sql_name(scene::light_distinction), light); // a name
+    const auto best = find_ties(run, best_first, 2, condition);
+    if (best.empty()) {
+        sentences.push_back(fmt::format("Light {}: nothing was measured.", light));
+        return;
+    }
+    const OverviewRow row = row_of(run, best.front());
+    if (best.size() == 1) {
+        sentences.push_back(fmt::format("Light {} has {}.", light, rates_text(row.result)));
+        return;
+    }
+    const OverviewRow worst = row_of(run, find_ties(run, worst_first, 1, condition).front());
+    sentences.push_back(fmt::format(
+        "Light {}: the best has {}, with {}; the worst has {}, with {}.", light,
+        rates_text(row.result), row.settings, rates_text(worst.result), worst.settings));
+}
+
 /// How many bias curves no constant bias serves.
 void add_curve_verdict(std::vector<std::string>& sentences, const store::RunReader& run)
 {
@@ -219,7 +268,9 @@ void add_curve_verdict(std::vector<std::string>& sentences, const store::RunRead
     }
 }
 
-void add_findings(std::vector<std::string>& sentences, const store::Json& detail, bool is_one)
+/// @param whose  what the first begins with: "The best: ".
+void add_findings(std::vector<std::string>& sentences, const store::Json& detail,
+                  const std::string& whose)
 {
     const store::Json* const findings =
         detail.is_object() && detail.contains("findings") ? &detail["findings"] : nullptr;
@@ -230,10 +281,17 @@ void add_findings(std::vector<std::string>& sentences, const store::Json& detail
     for (const store::Json& finding : *findings) {
         if (finding.is_string()) {
             const auto& words = finding.get_ref<const std::string&>();
-            sentences.push_back(is_first && !is_one ? "The best: " + words : words);
+            sentences.push_back(is_first ? whose + words : words);
             is_first = false;
         }
     }
+}
+
+/// How what is said of the headline configuration begins.
+std::string headline_words(const store::ResultRow& headline)
+{
+    const std::string light = headline.text(scene::light_distinction);
+    return light.empty() ? "The best: " : fmt::format("The best, of light {}: ", light);
 }
 
 /// The scene's name, where all configurations share it; of another renderer's case the case's own.
@@ -296,10 +354,17 @@ RunOverview read_overview(const store::RunReader& run)
     if (is_one && overview.detail.is_null()) {
         overview.sentences.push_back(rates_text(overview.headline->result) + ".");
     } else if (!is_one) {
-        add_extremes(overview.sentences, overview.rows);
+        const auto& lights = run.description().lights;
+        for (const std::string& light : lights) {
+            add_extremes_of_light(overview.sentences, run, light);
+        }
+        if (lights.empty()) {
+            add_extremes(overview.sentences, overview.rows);
+        }
         add_curve_verdict(overview.sentences, run);
     }
-    add_findings(overview.sentences, overview.detail, is_one);
+    add_findings(overview.sentences, overview.detail,
+                 is_one ? std::string{} : headline_words(overview.headline->result));
     return overview;
 }
 

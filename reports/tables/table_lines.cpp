@@ -2,6 +2,10 @@
 
 #include "reports/words/text.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace gnomon::reports {
 
 namespace {
@@ -29,6 +33,13 @@ std::string count_line(std::string_view name, std::string_view count, std::strin
 {
     return trimmed(pad_right(name, name_columns) + pad_left(count, count_columns) +
                    pad_left(rate, rate_columns) + "  " + std::string{note});
+}
+
+std::string heading_line(std::string_view words)
+{
+    constexpr std::size_t columns = 79;
+    const std::string text = fmt::format("-- {} ", words);
+    return text + std::string(columns - std::min(columns, text.size()), '-') + "\n";
 }
 
 std::string note_lines(std::span<const scene::SceneNote> notes)

@@ -16,6 +16,9 @@ namespace gnomon::reports {
 [[nodiscard]] std::string count_line(std::string_view name, std::string_view count,
                                      std::string_view rate, std::string_view note);
 
+/// "-- light sun ------…", above what is said of one of several.
+[[nodiscard]] std::string heading_line(std::string_view words);
+
 /// A line for each note on the scene.
 [[nodiscard]] std::string note_lines(std::span<const scene::SceneNote> notes);
 

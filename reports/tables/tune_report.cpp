@@ -3,6 +3,7 @@
 #include "analysis/advice/fit_setting.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/tables/graphics_api_states.hpp"
+#include "reports/tables/table_lines.hpp"
 #include "reports/words/findings.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
@@ -11,9 +12,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace gnomon::reports {
 
@@ -252,9 +256,11 @@ store::Json states_json(const TunedSetting& setting)
 
 } // namespace
 
-std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit)
+std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit, const std::string& light)
 {
-    return fmt::format("[shadow_map]\n"
+    const std::string_view table = light.empty() ? "" : "lights.";
+    const std::string heading = light.empty() ? "" : fmt::format("# [[lights]] {}\n", light);
+    return fmt::format("{}[{}shadow_map]\n"
                        "resolution = {}\n"
                        "depth_format = \"{}\"\n"
                        "{}\n"
@@ -262,19 +268,19 @@ std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit)
                        "far = {}\n"
                        "cull = \"{}\"\n"
                        "{}"
-                       "[bias]\n"
+                       "[{}bias]\n"
                        "{}\n"
                        "slope = {}\n"
                        "normal_texels = {}\n",
-                       setting.map.resolution_texels,
+                       heading, table, setting.map.resolution_texels,
                        scene::depth_format_name(setting.map.depth_format),
                        analysis::fit_setting(own_fit, setting.map.frustum.fit),
                        plane_text(setting.map.frustum.near_m),
                        plane_text(setting.map.frustum.far_m), scene::cull_name(setting.map.cull),
-                       setting.has_filter ? fmt::format("[lookup]\nfilter = \"{}\"\n",
+                       setting.has_filter ? fmt::format("[{}lookup]\nfilter = \"{}\"\n", table,
                                                         scene::filter_name(setting.filter))
                                           : std::string{},
-                       setting.bias.pasted.key.substr(std::size("bias.") - 1), setting.slope,
+                       table, setting.bias.pasted.key.substr(std::size("bias.") - 1), setting.slope,
                        setting.normal_texels);
 }
 
@@ -290,18 +296,27 @@ std::string tuned_setting_line(const TunedSetting& setting)
                        setting.meets_limits() ? ", meets the limits" : "");
 }
 
-std::string tune_text(const TuneResult& result, const TuneLimits& limits, TuneDetail detail)
+namespace {
+
+/// The keys that are recommended.
+std::string best_toml(const TunedLight& tuned)
+{
+    const TuneResult& result = tuned.result;
+    return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit, tuned.light);
+}
+
+std::string light_text(const TunedLight& tuned, const TuneLimits& limits, TuneDetail detail)
 {
     if (detail == TuneDetail::answer) {
-        return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit);
+        return best_toml(tuned);
     }
+    const TuneResult& result = tuned.result;
     std::string text = fmt::format(
         "{} considered; of each map and filter the best bias, slope and normal offset [texels], "
         "and its errors by amount, without what the filter softens on purpose:\n\n",
         counted(result.considered.size(), "setting"));
     text += table(result, detail) + not_tried(result) + "\n";
-    text += verdict(result, limits) + "\n" +
-            tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit);
+    text += verdict(result, limits) + "\n" + best_toml(tuned);
     text += states(result.best());
     text += measured(result, limits) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
@@ -310,38 +325,75 @@ std::string tune_text(const TuneResult& result, const TuneLimits& limits, TuneDe
     return text;
 }
 
-std::string tune_json(const TuneResult& result, const TuneLimits& limits)
+store::Json light_json(const TunedLight& tuned, const TuneLimits& limits)
 {
+    const TuneResult& result = tuned.result;
     const analysis::Metrics& measured = result.measured.metrics;
-    store::Json json{
-        {"schema", 1},
-        {"meets_limits", result.meets_limits()},
-        {"limits",
-         {{"max_shadow_amount_rate", limits.max_shadow_amount_rate},
-          {"max_light_amount_rate", limits.max_light_amount_rate},
-          {"max_false_shadow_rate", limits.max_false_shadow_rate},
-          {"max_false_lit_rate", limits.max_false_lit_rate},
-          {"max_resolution", limits.max_resolution_texels}}},
-        {"recommended", setting_json(result.best())},
-        {"toml", tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit)},
-        {"states", states_json(result.best())},
-        {"measured",
-         {{"false_shadow", measured.false_shadow},
-          {"false_lit", measured.false_lit},
-          {"false_shadow_rate", store::number_or_null(measured.false_shadow_rate)},
-          {"false_lit_rate", store::number_or_null(measured.false_lit_rate)},
-          {"error_rate", store::number_or_null(measured.error_rate)},
-          {"shadow_amount", measured.amounts.shadow},
-          {"light_amount", measured.amounts.light}}},
-        {"views", views_json(result, limits)},
-        {"views_passed_over", result.passed_over},
-        {"pooled", outcome_json(analysis::pooled(result.measured_views))},
-        {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
-        {"why", errors_in_words(result.measured)},
-        {"hopeless_maps", hopeless_maps(result)}};
+    store::Json json{{"meets_limits", result.meets_limits()},
+                     {"limits",
+                      {{"max_shadow_amount_rate", limits.max_shadow_amount_rate},
+                       {"max_light_amount_rate", limits.max_light_amount_rate},
+                       {"max_false_shadow_rate", limits.max_false_shadow_rate},
+                       {"max_false_lit_rate", limits.max_false_lit_rate},
+                       {"max_resolution", limits.max_resolution_texels}}},
+                     {"recommended", setting_json(result.best())},
+                     {"toml", best_toml(tuned)},
+                     {"states", states_json(result.best())},
+                     {"measured",
+                      {{"false_shadow", measured.false_shadow},
+                       {"false_lit", measured.false_lit},
+                       {"false_shadow_rate", store::number_or_null(measured.false_shadow_rate)},
+                       {"false_lit_rate", store::number_or_null(measured.false_lit_rate)},
+                       {"error_rate", store::number_or_null(measured.error_rate)},
+                       {"shadow_amount", measured.amounts.shadow},
+                       {"light_amount", measured.amounts.light}}},
+                     {"views", views_json(result, limits)},
+                     {"views_passed_over", result.passed_over},
+                     {"pooled", outcome_json(analysis::pooled(result.measured_views))},
+                     {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
+                     {"why", errors_in_words(result.measured)},
+                     {"hopeless_maps", hopeless_maps(result)}};
     json["considered"] = store::Json::array();
     for (const TunedSetting& setting : result.considered) {
         json["considered"].push_back(setting_json(setting));
+    }
+    return json;
+}
+
+bool all_meet(std::span<const TunedLight> lights)
+{
+    return std::ranges::all_of(lights,
+                               [](const TunedLight& tuned) { return tuned.result.meets_limits(); });
+}
+
+} // namespace
+
+std::string tune_text(std::span<const TunedLight> lights, const TuneLimits& limits,
+                      TuneDetail detail)
+{
+    std::string text;
+    for (const TunedLight& tuned : lights) {
+        const bool is_headed = !tuned.light.empty() && detail != TuneDetail::answer;
+        text += text.empty() ? "" : "\n";
+        text += is_headed ? heading_line("light " + tuned.light) : std::string{};
+        text += light_text(tuned, limits, detail);
+    }
+    return text;
+}
+
+std::string tune_json(std::span<const TunedLight> lights, const TuneLimits& limits)
+{
+    store::Json json{{"schema", 1}};
+    if (lights.front().light.empty()) {
+        json.update(light_json(lights.front(), limits));
+        return json.dump(2) + "\n";
+    }
+    json["meets_limits"] = all_meet(lights);
+    json["lights"] = store::Json::array();
+    for (const TunedLight& tuned : lights) {
+        store::Json of_light{{"name", tuned.light}};
+        of_light.update(light_json(tuned, limits));
+        json["lights"].push_back(std::move(of_light));
     }
     return json.dump(2) + "\n";
 }

@@ -1,6 +1,8 @@
 #include "store/baseline/baseline_read.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
+#include "scene/job/lights/written_key.hpp"
+#include "scene/job/sweep_space.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 #include "store/baseline/baseline_checks.hpp"
@@ -31,6 +33,12 @@ constexpr const char* baseline_advice = "save it anew with `gnomon baseline save
 constexpr int deepest_json = 8;
 /// Every integer up to here is a double.
 constexpr double largest_exact_count = 9007199254740992.0;
+
+/// Whether a key may stand for an axis beyond the parameters: the light, or a key of one light.
+bool is_of_lights(const std::string& key)
+{
+    return key == scene::light_distinction || !scene::find_written_key(key).light.empty();
+}
 
 /// Whether a key may stand for a parameter.
 bool is_parameter(const std::string& key)
@@ -156,7 +164,7 @@ private:
         std::vector<std::string> axes;
         for (const Json& axis : json) {
             axes.push_back(read_text(axis, "axes"));
-            if (!is_parameter(axes.back()) ||
+            if ((!is_parameter(axes.back()) && !is_of_lights(axes.back())) ||
                 std::count(axes.begin(), axes.end(), axes.back()) > 1) {
                 fail("axes", "names what is no key of a job, or one twice");
             }
@@ -164,7 +172,10 @@ private:
         return axes;
     }
 
-    [[nodiscard]] BaselineTexts read_texts(const Json& json, const std::string& place) const
+    using IsKnown = bool (*)(const std::string&);
+
+    [[nodiscard]] BaselineTexts read_texts(const Json& json, const std::string& place,
+                                           IsKnown is_known = is_parameter) const
     {
         if (!json.is_object()) {
             fail(place, "is no object");
@@ -172,7 +183,7 @@ private:
         BaselineTexts texts;
         for (const auto& [key, value] : json.items()) {
             const std::string there = fmt::format("{}.{}", place, key);
-            if (!is_parameter(key)) {
+            if (!is_known(key)) {
                 fail(there, "is no key of a job");
             }
             texts.emplace(key, read_text(value, there));
@@ -188,7 +199,9 @@ private:
                         {"parts", "wrong_pixels"});
         analysis::GateEntry entry;
         entry.key.case_name = read_text(json["case"], place + ".case");
-        entry.key.axes = read_texts(json["axes"], place + ".axes");
+        entry.key.axes = read_texts(json["axes"], place + ".axes", [](const std::string& axis) {
+            return is_parameter(axis) || is_of_lights(axis);
+        });
         const bool has_all = std::all_of(axes.begin(), axes.end(), [&](const std::string& axis) {
             return entry.key.axes.contains(axis);
         });

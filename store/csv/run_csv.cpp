@@ -1,8 +1,10 @@
 #include "store/csv/run_csv.hpp"
 
 #include "store/csv/csv_text.hpp"
+#include "store/csv/light_rows.hpp"
 #include "store/output_file.hpp"
 #include "store/run/results_columns.hpp"
+#include "store/run/run_plan.hpp"
 #include "store/run/run_schema.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,6 +40,18 @@ void append_cell(std::string& out, const sqlite::ValueView& value)
     } else if (const auto* text = std::get_if<std::string_view>(&value)) {
         append_csv_text(out, *text);
     }
+}
+
+sqlite::ValueView view_of(const sqlite::Value& value)
+{
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        return std::string_view{*text};
+    }
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        return *integer;
+    }
+    const auto* const real = std::get_if<double>(&value);
+    return real == nullptr ? sqlite::ValueView{} : sqlite::ValueView{*real};
 }
 
 /// Appends columns of the statement's row, with commas between them.
@@ -242,12 +257,64 @@ private:
     std::vector<std::string> curve_texts_; ///< of its spans
 };
 
+/// The rows of one configuration's lights, those of their total first, numbered as one.
+std::string light_rows(std::span<const ResultRow> lights, std::size_t light_count)
+{
+    const std::int64_t number =
+        static_cast<std::int64_t>(lights.front().count("ordinal") / light_count);
+    std::string text;
+    const auto append = [&](const auto& cells, const auto& value_of) {
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            text += i == 0 ? "" : ",";
+            const bool is_ordinal = lights.front().cells()[i].first == "ordinal";
+            append_cell(text, is_ordinal ? sqlite::ValueView{number} : view_of(value_of(cells[i])));
+        }
+        text += '\n';
+    };
+    append(
+        total_row(lights, light_count), [](const auto& cell) -> const auto& { return cell; });
+    for (const ResultRow& light : lights) {
+        append(
+            light.cells(), [](const auto& cell) -> const auto& { return cell.second; });
+    }
+    return text;
+}
+
+/// Writes the results of a run with several lights by ordinal, with a total of each configuration.
+void write_results_of_lights(const Database& database, std::size_t light_count,
+                             const std::filesystem::path& path)
+{
+    CsvFile file{path};
+    Statement rows{database, "SELECT * FROM results ORDER BY ordinal"};
+    file.write_header(rows);
+    std::vector<ResultRow> lights;
+    const auto flush = [&] {
+        if (!lights.empty()) {
+            file.write_text(light_rows(lights, light_count));
+            lights.clear();
+        }
+    };
+    while (rows.step()) {
+        ResultRow row{rows};
+        if (!lights.empty() &&
+            row.count("ordinal") / light_count != lights.front().count("ordinal") / light_count) {
+            flush();
+        }
+        lights.push_back(std::move(row));
+    }
+    flush();
+    file.commit();
+}
+
 /// Writes the results by ordinal; several threads read and format them. Nobody writes to the
 /// database meanwhile, so that all of them see the same.
 void write_results(const std::filesystem::path& results, const std::filesystem::path& path)
 {
     const Database database{results, Database::Access::read};
     prepare_reading(database);
+    if (const auto lights = read_description(database).lights; !lights.empty()) {
+        return write_results_of_lights(database, lights.size(), path);
+    }
     constexpr std::int64_t rows_at_once = 512;
     constexpr std::size_t texts_at_once = 16;
     CsvFile file{path};

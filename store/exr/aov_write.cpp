@@ -142,10 +142,7 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
     return channels;
 }
 
-} // namespace
-
-void write_aov(const std::filesystem::path& path, const analysis::Comparison& comparison,
-               const scene::Image<scene::Vec3f>& points)
+void require_size(const analysis::Comparison& comparison, const scene::Image<scene::Vec3f>& points)
 {
     const scene::ImageSize size = comparison.truth.pixel_class.size();
     if (points.size() != size) {
@@ -153,9 +150,32 @@ void write_aov(const std::filesystem::path& path, const analysis::Comparison& co
             "write_aov: points are {}x{} but the image is {}x{}", points.size().width_px,
             points.size().height_px, size.width_px, size.height_px));
     }
+}
+
+} // namespace
+
+void write_aov(const std::filesystem::path& path, const analysis::Comparison& comparison,
+               const scene::Image<scene::Vec3f>& points)
+{
+    require_size(comparison, points);
     const Surface surface = seen_surface(comparison);
-    write_file(path,
-               encode_exr(size, channels(comparison, points, surface), exr_header(comparison)));
+    write_file(path, encode_exr(points.size(), channels(comparison, points, surface),
+                                exr_header(comparison)));
+}
+
+void write_aov(const std::filesystem::path& path, std::span<const analysis::Comparison> lights,
+               std::span<const scene::Image<scene::Vec3f>> points)
+{
+    const Surface surface = seen_surface(lights.front()); // the camera's: the same of every light
+    std::vector<ExrChannel> all;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        require_size(lights[i], points[i]);
+        for (ExrChannel& channel : channels(lights[i], points[i], surface)) {
+            channel.name = fmt::format("{}.{}", lights[i].light, channel.name);
+            all.push_back(std::move(channel));
+        }
+    }
+    write_file(path, encode_exr(points.front().size(), all, exr_header(lights)));
 }
 
 } // namespace gnomon::store

@@ -4,6 +4,7 @@
 #include "scene/vec.hpp"
 
 #include <filesystem>
+#include <span>
 
 namespace gnomon::store {
 
@@ -18,5 +19,10 @@ namespace gnomon::store {
 /// @throws scene::EnvironmentError  if the file cannot be written; what stood there then stays.
 void write_aov(const std::filesystem::path& path, const analysis::Comparison& comparison,
                const scene::Image<scene::Vec3f>& points);
+
+/// The same of a job's several lights: the channels of each as `NAME.truth` and so on.
+/// @param points  of each light's comparison.
+void write_aov(const std::filesystem::path& path, std::span<const analysis::Comparison> lights,
+               std::span<const scene::Image<scene::Vec3f>> points);
 
 } // namespace gnomon::store

@@ -52,7 +52,7 @@ std::vector<RunDescription> read_descriptions(std::span<const std::filesystem::p
         if (last.size == 0) {
             refuse_run(run, "nothing was planned in it: leave it out");
         }
-        if (last.size != first.size || last.axes != first.axes) {
+        if (last.size != first.size || last.axes != first.axes || last.lights != first.lights) {
             refuse_run(run, fmt::format("is of another sweep than {}: merge the parts of one",
                                         runs.front().string()));
         }

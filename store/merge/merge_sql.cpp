@@ -201,10 +201,10 @@ std::string better_configurations()
 }
 
 constexpr const char* new_plan =
-    "INSERT INTO main.plan (ordinal, configuration, \"case\", shard, job_bias)"
+    "INSERT INTO main.plan (ordinal, configuration, \"case\", shard, job_bias, light_values)"
     " SELECT p.ordinal, (SELECT m.number FROM input.configurations i"
     " JOIN main.configurations m ON m.id = i.id WHERE i.number = p.configuration),"
-    " p.\"case\", p.shard, p.job_bias FROM input.plan p"
+    " p.\"case\", p.shard, p.job_bias, p.light_values FROM input.plan p"
     " WHERE p.ordinal NOT IN (SELECT ordinal FROM main.plan) ORDER BY p.ordinal";
 
 } // namespace
@@ -215,7 +215,8 @@ std::string other_plan()
            " JOIN input.configurations i ON i.number = p.configuration"
            " JOIN main.plan q ON q.ordinal = p.ordinal"
            " JOIN main.configurations m ON m.number = q.configuration"
-           " WHERE m.id <> i.id OR p.\"case\" <> q.\"case\" OR p.job_bias <> q.job_bias LIMIT 1";
+           " WHERE m.id <> i.id OR p.\"case\" <> q.\"case\" OR p.job_bias <> q.job_bias"
+           " OR p.light_values <> q.light_values LIMIT 1";
 }
 
 std::vector<Conflict> conflicts()

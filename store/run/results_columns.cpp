@@ -1,11 +1,13 @@
 #include "store/run/results_columns.hpp"
 
 #include "store/run/run_columns.hpp"
+#include "store/run/run_plan.hpp"
 #include "store/run/run_schema.hpp"
 #include "store/sqlite.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -13,7 +15,24 @@ namespace gnomon::store {
 
 using sqlite::sql_name;
 
-std::vector<ResultsColumn> results_columns()
+std::vector<std::string> light_columns(const std::vector<std::string>& axes)
+{
+    std::vector<std::string> columns;
+    for (const std::string& axis : axes) {
+        if (std::ranges::find(job_columns(), axis, &JobColumn::name) == job_columns().end()) {
+            columns.push_back(axis);
+        }
+    }
+    std::ranges::sort(columns);
+    return columns;
+}
+
+std::vector<std::string> light_columns(const sqlite::Database& database)
+{
+    return light_columns(read_axes(database));
+}
+
+std::vector<ResultsColumn> results_columns(const std::vector<std::string>& light_columns)
 {
     using Of = ResultsColumn::Of;
     std::vector<ResultsColumn> all{{"schema", fmt::format("{}", run_schema), Of::curve},
@@ -24,6 +43,12 @@ std::vector<ResultsColumn> results_columns()
                                    {"status", "c.status", Of::configuration},
                                    {"message", "c.message", Of::configuration},
                                    {"scene_hash", "k.scene_hash", Of::curve}};
+    for (const std::string& column : light_columns) {
+        const auto after_case = std::ranges::find(all, "status", &ResultsColumn::name);
+        all.insert(after_case,
+                   {column, fmt::format("json_extract(p.light_values, '$.\"{}\"')", column),
+                    Of::configuration});
+    }
     const auto add = [&](const auto& columns, std::string_view table, Of of) {
         for (const auto& column : columns) {
             all.push_back({column.name, fmt::format("{}.{}", table, sql_name(column.name)), of});

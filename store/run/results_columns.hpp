@@ -1,5 +1,7 @@
 #pragma once
 
+#include "store/sqlite.hpp"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,7 +20,14 @@ struct ResultsColumn {
     std::string expression; ///< over `results_tables()`
     Of of;
 };
-[[nodiscard]] std::vector<ResultsColumn> results_columns();
+/// @param light_columns  of runs with several lights (`light_columns`).
+[[nodiscard]] std::vector<ResultsColumn>
+results_columns(const std::vector<std::string>& light_columns = {});
+/// Those of a run's axes that are no keys of a job with one light, sorted: the light itself, and
+/// keys of one light alone, "lights.sun.bias.slope".
+[[nodiscard]] std::vector<std::string> light_columns(const std::vector<std::string>& axes);
+/// The same of the run that the database holds.
+[[nodiscard]] std::vector<std::string> light_columns(const sqlite::Database& database);
 /// What they are selected from: `part` p, `configurations` c, the curve k that a configuration
 /// belongs to, and the same v if the configuration is done.
 [[nodiscard]] std::string results_tables();

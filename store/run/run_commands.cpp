@@ -1,5 +1,6 @@
 #include "store/run/run_commands.hpp"
 
+#include "scene/job/sweep_space.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/shell_text.hpp"
 
@@ -38,7 +39,11 @@ std::string compare_command(const RunDescription& description, const std::string
         words.insert(words.end(), {"--case", case_name});
     }
     for (const auto& [axis, value] : axes) {
-        words.insert(words.end(), {"--set", fmt::format("{}={}", axis, value)});
+        if (axis == scene::light_distinction) {
+            words.insert(words.end(), {"--light", value});
+        } else {
+            words.insert(words.end(), {"--set", fmt::format("{}={}", axis, value)});
+        }
     }
     words.insert(words.end(), {"--out", "DIR"});
     return fmt::format("{} {}", description.compare_command, shell_text(words));

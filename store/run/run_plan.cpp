@@ -6,6 +6,7 @@
 #include "store/run/planned_scenes.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_notes.hpp"
+#include "store/run/run_schema.hpp"
 
 #include <fmt/format.h>
 
@@ -77,6 +78,28 @@ private:
     std::vector<std::pair<std::string_view, int>> parameters_; ///< with their keys
 };
 
+Json json_of(const Value& cell)
+{
+    if (const auto* text = std::get_if<std::string>(&cell)) {
+        return *text;
+    }
+    if (const auto* integer = std::get_if<std::int64_t>(&cell)) {
+        return *integer;
+    }
+    const auto* const real = std::get_if<double>(&cell);
+    return real == nullptr ? Json(nullptr) : Json(*real);
+}
+
+/// What `light_columns` select from, as JSON.
+std::string light_values_text(const Configuration& configuration)
+{
+    Json values = Json::object();
+    for (const auto& [key, value] : configuration.light_values) {
+        values[key] = json_of(job_cell(value));
+    }
+    return json_text(values, -1);
+}
+
 /// Writes configurations into the plan.
 class Planner {
 public:
@@ -88,7 +111,7 @@ public:
           insert_curve_{database, insertion("curves", "id, scene_hash", 2, curve_key_columns(),
                                             " ON CONFLICT (id) DO NOTHING")},
           find_curve_{database, "SELECT number FROM curves WHERE id = ?"},
-          plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?, ?)"}
+          plan_{database, "INSERT OR IGNORE INTO plan VALUES (?, ?, ?, ?, ?, ?)"}
     {
     }
 
@@ -101,6 +124,7 @@ public:
             .bind(3, std::string_view{configuration.case_name})
             .bind(4, std::int64_t{configuration.shard})
             .bind(5, std::string_view{configuration.job_bias})
+            .bind(6, Value{light_values_text(configuration)})
             .run();
         if (database_->changes() != 1) {
             throw std::invalid_argument(fmt::format(
@@ -257,6 +281,16 @@ std::string read_text(const Database& database, std::string_view key)
     return find.bind(1, key).step() ? find.text(0) : std::string{};
 }
 
+/// Texts that were written as a JSON array; none where there are none.
+std::vector<std::string> read_texts(const Database& database, std::string_view key)
+{
+    const Json texts = Json::parse(read_text(database, key), nullptr, false);
+    const auto is_text = [](const Json& text) { return text.is_string(); };
+    return texts.is_array() && std::ranges::all_of(texts, is_text)
+               ? texts.get<std::vector<std::string>>()
+               : std::vector<std::string>{};
+}
+
 } // namespace
 
 void write_description(const Database& database, const RunDescription& description)
@@ -269,10 +303,12 @@ void write_description(const Database& database, const RunDescription& descripti
     write_value(database, "shard_count", std::int64_t{description.shard.count});
     write_value(database, "size", static_cast<std::int64_t>(description.size));
     write_value(database, "axes", text(Json(description.axes)));
+    write_value(database, "lights", text(Json(description.lights)));
     write_value(database, "job", description.job);
     write_value(database, "command", description.command);
     write_value(database, "compare_command", description.compare_command);
     write_value(database, "notes", notes_json(description.notes));
+    show_light_columns(database);
 }
 
 PlanOutcome write_plan(const Database& database, const RunDescription& description,
@@ -342,15 +378,18 @@ RunDescription read_description(const Database& database)
     description.shard = {static_cast<std::uint32_t>(read_integer(database, "shard_index")),
                          static_cast<std::uint32_t>(read_integer(database, "shard_count"))};
     description.size = static_cast<std::uint64_t>(read_integer(database, "size"));
-    const Json axes = Json::parse(read_text(database, "axes"), nullptr, false);
-    if (axes.is_array()) {
-        description.axes = axes.get<std::vector<std::string>>();
-    }
+    description.axes = read_axes(database);
+    description.lights = read_texts(database, "lights");
     description.job = read_text(database, "job");
     description.command = read_text(database, "command");
     description.compare_command = read_text(database, "compare_command");
     description.notes = read_notes(read_text(database, "notes"));
     return description;
+}
+
+std::vector<std::string> read_axes(const Database& database)
+{
+    return read_texts(database, "axes");
 }
 
 std::int64_t environment_number(const Database& database)

@@ -4,6 +4,8 @@
 #include "store/sqlite.hpp"
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace gnomon::store {
 
@@ -20,6 +22,9 @@ PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& d
 
 /// `RunStore::description`; everything is empty where nothing was planned yet.
 [[nodiscard]] RunDescription read_description(const sqlite::Database& database);
+
+/// The axes of the last plan (`RunDescription::axes`).
+[[nodiscard]] std::vector<std::string> read_axes(const sqlite::Database& database);
 
 /// Records what the run is, as part of a transaction.
 void write_description(const sqlite::Database& database, const RunDescription& description);

@@ -48,7 +48,7 @@ constexpr const char* environments_table =
 constexpr const char* plan_table = "CREATE TABLE plan (ordinal INTEGER PRIMARY KEY,"
                                    " configuration INTEGER NOT NULL REFERENCES configurations,"
                                    " \"case\" TEXT NOT NULL, shard INTEGER NOT NULL,"
-                                   " job_bias TEXT NOT NULL)";
+                                   " job_bias TEXT NOT NULL, light_values TEXT NOT NULL)";
 
 std::string points_table()
 {
@@ -96,10 +96,10 @@ std::string part_view()
            " OR shard = (SELECT value FROM run WHERE key = 'shard_index')";
 }
 
-std::string results_view()
+std::string results_view(const std::vector<std::string>& light_columns)
 {
     std::string columns;
-    for (const ResultsColumn& column : results_columns()) {
+    for (const ResultsColumn& column : results_columns(light_columns)) {
         columns += fmt::format("{}{} AS {}", columns.empty() ? "" : ", ", column.expression,
                                sql_name(column.name));
     }
@@ -163,16 +163,16 @@ std::vector<std::string> table_statements()
             plan_table, points_table(),     bins_table(),   verifications_table};
 }
 
-std::vector<std::string> view_statements()
+std::vector<std::string> view_statements(const std::vector<std::string>& light_columns)
 {
-    return {part_view(), results_view(), "CREATE VIEW error_vs_z AS SELECT " + error_vs_z_columns(),
-            bias_curves_view()};
+    return {part_view(), results_view(light_columns),
+            "CREATE VIEW error_vs_z AS SELECT " + error_vs_z_columns(), bias_curves_view()};
 }
 
-std::vector<std::string> schema_statements()
+std::vector<std::string> schema_statements(const std::vector<std::string>& light_columns)
 {
     std::vector<std::string> all = table_statements();
-    const std::vector<std::string> views = view_statements();
+    const std::vector<std::string> views = view_statements(light_columns);
     all.insert(all.end(), views.begin(), views.end());
     return all;
 }
@@ -198,7 +198,7 @@ bool is_empty(const Database& database)
 
 void create_schema(const Database& database)
 {
-    for (const std::string& statement : schema_statements()) {
+    for (const std::string& statement : schema_statements({})) {
         database.run(statement);
     }
     database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application_id,
@@ -291,7 +291,7 @@ RunSchema prepare_reading(const Database& database)
     for (const std::string& statement : table_statements()) {
         show_older_table(database, statement, schema.lacks);
     }
-    for (const std::string& statement : view_statements()) {
+    for (const std::string& statement : view_statements({})) {
         database.run(made_temporary(statement));
     }
     return schema;
@@ -341,10 +341,19 @@ void require_run_schema(const Database& database)
                                               version, run_schema));
     }
     // A key or a result that came or went makes other columns.
-    for (const std::string& statement : schema_statements()) {
+    for (const std::string& statement : schema_statements(light_columns(database))) {
         if (!was_made_by(database, statement)) {
             refuse_database(database, "a Gnomon with other keys or results wrote it");
         }
+    }
+}
+
+void show_light_columns(const Database& database)
+{
+    const std::string view = results_view(light_columns(database));
+    if (!was_made_by(database, view)) {
+        database.run("DROP VIEW results");
+        database.run(view);
     }
 }
 

@@ -38,6 +38,10 @@ RunSchema prepare_reading(const sqlite::Database& database);
 /// present one.
 [[nodiscard]] std::string schema_text(const RunSchema& schema);
 
+/// Gives the view `results` the columns that the run's lights ask for (`light_columns`): to be
+/// called within the transaction that writes the run's description.
+void show_light_columns(const sqlite::Database& database);
+
 /// Readies a database for writing, whether it is new, whole or left by a process that was killed;
 /// a new one gets its tables and views (docs/runs.md).
 /// @throws scene::InputError  as `require_run_schema` does, and if the database is damaged.

@@ -3,6 +3,7 @@
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
+#include "store/run/results_columns.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_recorder.hpp"
@@ -40,16 +41,16 @@ void require_results(const std::filesystem::path& folder)
     }
 }
 
-/// Those of the keys that are columns.
-std::vector<std::string> known_keys(const std::vector<std::string>& keys)
+/// The axes in the order of their columns.
+std::vector<std::string> axis_columns(const std::vector<std::string>& axes)
 {
-    std::vector<std::string> known;
+    std::vector<std::string> columns = light_columns(axes);
     for (const JobColumn& column : job_columns()) {
-        if (std::find(keys.begin(), keys.end(), column.name) != keys.end()) {
-            known.push_back(column.name);
+        if (std::ranges::find(axes, column.name) != axes.end()) {
+            columns.push_back(column.name);
         }
     }
-    return known;
+    return columns;
 }
 
 /// The first column of every row.
@@ -150,7 +151,7 @@ std::vector<std::uint64_t> RunStore::ordinals(RunState state) const
 
 std::vector<RunRow> RunStore::rows(RunState state, std::uint64_t most) const
 {
-    const std::vector<std::string> axes = known_keys(description().axes);
+    const std::vector<std::string> axes = axis_columns(description().axes);
     std::string columns;
     for (const std::string& axis : axes) {
         columns += ", " + sqlite::sql_name(axis);

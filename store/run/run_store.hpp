@@ -39,16 +39,20 @@ struct RunNote {
 struct RunDescription {
     analysis::Environment environment;
     Shard shard;
-    std::uint64_t size = 0;        ///< configurations of the sweep, of all its parts
-    std::vector<std::string> axes; ///< the keys that the sweep varies: they name a configuration
-    std::string job;               ///< the job file's text, or what stands for it
+    std::uint64_t size = 0; ///< configurations of the sweep, of all its parts
+    /// The keys that the sweep varies, and `light` where the job has several: they name a
+    /// configuration.
+    std::vector<std::string> axes;
+    std::string job; ///< the job file's text, or what stands for it
     /// The command that computes it, quoted for a shell, without --out and --shard:
     /// "gnomon sweep job.toml --axis bias.slope=[0,1]".
     std::string command;
     /// The command that computes one configuration, but for its case and its values of the axes:
     /// "gnomon compare job.toml".
     std::string compare_command = {};
-    std::vector<RunNote> notes = {}; ///< none in runs of before there were notes
+    std::vector<RunNote> notes = {};      ///< none in runs of before there were notes
+    std::vector<std::string> lights = {}; ///< names; of each every combination of axes is a
+                                          ///< configuration; empty: one light
 };
 
 /// How a configuration stands.

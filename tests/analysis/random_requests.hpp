@@ -24,6 +24,7 @@ inline std::vector<CurveRequest> random_requests(std::mt19937& random)
     const std::uint64_t cameras = 1 + random() % 5;
     const std::uint64_t frusta = 1 + random() % 3;
     const std::uint64_t maps = 1 + random() % 3;
+    const bool looks_up_at_pixels = random() % 2 == 0;
     std::map<std::string, CurveRequest> by_curve;
     const std::size_t count = 1 + random() % 40;
     for (std::size_t i = 0; i < count; ++i) {
@@ -31,18 +32,20 @@ inline std::vector<CurveRequest> random_requests(std::mt19937& random)
         StageKeys& keys = request.keys;
         keys.scene = pick(scenes, "s");
         keys.light = keys.scene + pick(lights, "l");
-        keys.truth = keys.light + pick(cameras, "c");
+        const std::string camera = pick(cameras, "c");
+        keys.camera = keys.scene + camera;
+        keys.truth = keys.light + camera;
         const std::string frustum = pick(frusta, "f");
         const bool follows_camera = frustum.starts_with("f0");
         keys.frustum = (follows_camera ? keys.truth : keys.light) + frustum;
-        keys.receivers = keys.truth + frustum;
+        keys.receivers = looks_up_at_pixels ? keys.camera : keys.truth + frustum;
         const std::string map = pick(maps, "m");
         keys.map = keys.frustum + map;
         // One method in three makes nothing of the map.
         const std::string made = pick(3, "p");
         const bool is_filtered = !made.starts_with("p0");
         keys.filtered = is_filtered ? keys.map + made : std::string{};
-        keys.lookup = keys.receivers + map + made + pick(2, "k");
+        keys.lookup = keys.truth + frustum + map + made + pick(2, "k");
         keys.curve = keys.lookup + pick(2, "b");
         request.pixels = 1 + random() % 1'000'000;
         request.texels = 1 + random() % 1'000'000;

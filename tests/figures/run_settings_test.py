@@ -27,9 +27,17 @@ class TextOfAValue(unittest.TestCase):
 class Axes(unittest.TestCase):
     def axes(self, **columns):
         class Run:
+            light_keys = []
             job_keys = list(columns)
         table = pandas.DataFrame({"case": [None] * len(next(iter(columns.values()))), **columns})
         return run_settings.axes_of(Run, table)
+
+    def test_name_the_light_that_an_axis_is_of(self):
+        for key, name in (("light", "light"),
+                          ("lights.sun.shadow_map.resolution", "sun: map resolution [texels]"),
+                          ("lights.sun.position", "sun: light position [m]"),
+                          ("lights.sun.cone_deg", "sun: cone [°]")):
+            self.assertEqual(run_settings.name_of(key), name)
 
     def test_leave_out_what_follows_from_another(self):
         (axis,) = self.axes(near=[1, 2, 1, 2], far=[10, 20, 10, 20], same=[3, 3, 3, 3])

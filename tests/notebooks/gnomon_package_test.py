@@ -188,6 +188,23 @@ class BadInput(unittest.TestCase):
         self.refuse(gnomon.load_run, self.altered_run(lambda text: text.replace("\n2,", "\n9,", 1)),
                     "schema 9, this package reads 1 and 2")
 
+    def test_rows_of_all_lights_together_stand_apart(self):
+        def with_lights(text):
+            header, row = text.splitlines()[:2]
+            at = header.split(",").index("case") + 1
+            lines = []
+            for cell in ("light", "", "sun", "lamp"):
+                cells = (header if cell == "light" else row).split(",")
+                lines.append(",".join([*cells[:at], cell, *cells[at:]]))
+            return "\n".join(lines) + "\n"
+
+        run = gnomon.load_run(self.altered_run(with_lights))
+        self.assertEqual(list(run.results["light"]), ["sun", "lamp"])
+        self.assertEqual(len(run.totals), 1)
+        self.assertIsNone(run.totals["light"].iloc[0])
+        self.assertEqual(run.axes, ["light"])
+        self.assertEqual(len(gnomon.load_run(folder / "view").totals), 0)
+
     def test_in_images_is_one_line(self):
         (image,) = (folder / "view" / "pixels").glob("*.exr")
         whole = image.read_bytes()

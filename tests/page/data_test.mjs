@@ -11,6 +11,7 @@ const page = loadScripts(
     "tables/columns.js",
     "charts/bins.js",
     "bias/curve_amounts.js",
+    "light_choice.js",
     "numbers.js",
     "tables/filter_language.js",
     "sweep_data.js",
@@ -31,6 +32,7 @@ const page = loadScripts(
     "symlogLayout",
     "CurveAmounts",
     "DistanceBins",
+    "LightChoice",
     "ownBlock",
     "noIndex",
     "arrayOfType",
@@ -334,6 +336,30 @@ describe("Errors by distance of a configuration", () => {
     const [one] = await bins.of("b", "job_bias");
     assert.equal(page.ownBlock([one], null, ["shadow_map.resolution"]), one);
     assert.equal(page.ownBlock([one], null, ["bias.constant_m"]), null);
+    assert.equal(page.ownBlock([one], null, ["lights.sun.bias.constant"]), null);
     assert.equal(page.ownBlock(blocks, null, []), null);
+  });
+});
+
+describe("The choice of a light", () => {
+  it("keeps all that the axes say otherwise", async () => {
+    const shown = [];
+    const choice = new page.LightChoice(
+      tableOf({
+        "bias.slope": [0, 0, 1, 1, 2],
+        "lights.sun.bias.constant": [5, 5, 6, 6, 5],
+        light: ["sun", "lamp", "sun", "lamp", "sun"],
+      }),
+      ["bias.slope", "lights.sun.bias.constant", "light"],
+      (row) => shown.push(row),
+    );
+    await choice.load();
+    choice.row = 2;
+    choice.choose("lamp");
+    choice.row = 1;
+    choice.choose("sun");
+    choice.row = 4; // whose lamp was not measured here
+    choice.choose("lamp");
+    assert.deepEqual(shown, [3, 0]);
   });
 });

@@ -7,16 +7,18 @@ import pandas
 from .errors import InputError
 
 # Keys are hexadecimal digits, of which some have only decimal ones; a message may be any text.
-TEXTS = ("id", "curve", "case", "status", "message", "scene_hash", "at", "bias_source")
+TEXTS = ("id", "curve", "case", "light", "status", "message", "scene_hash", "at", "bias_source")
 
 
-def read_table(path, numbers=(), texts=(), may_be_empty=False, columns=None, lines=None):
+def read_table(path, numbers=(), texts=(), may_be_empty=False, columns=None, lines=None,
+               totals=False):
     """A table of a file's columns, of which `numbers` and `texts` must be there.
 
     A cell without a value is NaN, in texts None; numbers are the doubles that Gnomon wrote, bit by
     bit. `columns`: a predicate of the names to read, all by default; `lines`: the file's bytes, or
-    a part of them under its header, where they have been read. Raises InputError where the file is
-    missing, is no CSV, lacks a column or has another text than a number in `numbers`, and unless it
+    a part of them under its header, where they have been read; `totals`: of a run with several
+    lights the rows of all of them together, in place of those of each. Raises InputError where the
+    file is missing, is no CSV, lacks a column or has another text than a number in `numbers`, and unless it
     `may_be_empty` where it has no rows.
     """
     try:
@@ -43,7 +45,9 @@ def read_table(path, numbers=(), texts=(), may_be_empty=False, columns=None, lin
         table[name] = _numbers(path, table[name])
     for name in table.columns.intersection((*TEXTS, *texts)):
         table[name] = table[name].where(table[name].notna(), None)
-    return table
+    if "light" in table:
+        return table[table["light"].isna() == totals].reset_index(drop=True)
+    return table.iloc[:0] if totals else table
 
 
 def _numbers(path, column):

@@ -22,6 +22,12 @@ class Run:
         self.results = results  # one row a configuration, in the order of the sweep
 
     @cached_property
+    def totals(self):
+        """With several lights, a row for all of them together beside those of each in `results`."""
+        return read_table(self.folder / "results.csv", ("schema",), ("curve", "scene_hash"),
+                          may_be_empty=True, totals=True)
+
+    @cached_property
     def error_vs_z(self):
         """Errors and depth errors by light distance, by curve."""
         return read_table(self.folder / "error_vs_z.csv", ("bias", "lower_m", "upper_m"),
@@ -40,10 +46,17 @@ class Run:
         last = self.results.columns.get_loc("map_near_m")
         return list(self.results.columns[first:last])
 
+    @property
+    def light_keys(self):
+        """With several lights `light`, and the axes of one light alone, `lights.NAME.KEY`."""
+        return [name for name in self.results.columns
+                if name == "light" or name.startswith("lights.")]
+
     @cached_property
     def axes(self):
-        """The job's keys that differ between configurations, in the order of the columns."""
-        return [name for name in self.job_keys if self.results[name].nunique(dropna=False) > 1]
+        """The keys that differ between configurations, in the order of the columns."""
+        return [name for name in (*self.light_keys, *self.job_keys)
+                if self.results[name].nunique(dropna=False) > 1]
 
     def curve_of(self, row):
         """The bias curve of a row of `results`, by bias.

@@ -55,7 +55,10 @@ function shellWord(word) {
 function compareCommand(run, values) {
   const chosen = values.get("case") ?? null;
   const words = chosen === null ? [] : ["--case", String(chosen)];
-  run.axes.forEach((axis) => words.push("--set", `${axis}=${values.get(axis) ?? ""}`));
+  run.axes.forEach((axis) => {
+    const value = values.get(axis) ?? "";
+    words.push(...(axis === "light" ? ["--light", value] : ["--set", `${axis}=${value}`]));
+  });
   return [run.compare_command, ...words.map(shellWord), "--out DIR"].join(" ");
 }
 

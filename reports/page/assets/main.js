@@ -18,9 +18,14 @@ class ReportPage {
     this.slope = section("slope");
     this.objects = new ObjectTables(section("objects"), data.headline);
     this.remedies = new RemedySection(section("remedies"));
+    const axes = data.run.axes;
+    this.lights = axes.includes("light") ? new LightChoice(this.table, axes, (row) => this.show(row)) : null;
   }
 
   async open() {
+    if (this.lights !== null) {
+      document.getElementById("verdict").append(await this.lights.open());
+    }
     const [firstImage] = this.images.keys();
     await this.show(
       this.images.has(this.data.headline) ? this.data.headline : (firstImage ?? this.data.headline ?? 0),
@@ -81,6 +86,7 @@ class ReportPage {
       return;
     }
     const detail = stored?.detail ?? null;
+    this.lights?.follow(row);
     if (image !== null) {
       this.inspector.show(image, caption);
     }

@@ -97,6 +97,6 @@ function ownBlock(blocks, bias, axes) {
   if (bias !== null) {
     return blocks.find((block) => Math.fround(block.bias) === Math.fround(bias)) ?? null;
   }
-  const isSwept = axes.some((axis) => axis.startsWith("bias.constant"));
+  const isSwept = axes.some((axis) => /(^|\.)bias\.constant/.test(axis));
   return blocks.length === 1 && !isSwept ? blocks[0] : null;
 }

@@ -1,12 +1,15 @@
-// Errors by object and by cause of the shown configuration.
+// Errors by object, by map and by cause of the shown configuration.
 
 const countColumn = (title) => ({ title, numeric: true, format: grouped });
 const rateColumn = (title) => ({ title, numeric: true, format: percent });
 
-/** The table of objects, from `gnomon compare --json`. */
-function objectTable(objects) {
+/**
+ * A table of parts of the pixels, from `gnomon compare --json`.
+ * @param {string} member  of a part: its name, and what it is
+ */
+function partTable(caption, member, parts) {
   const columns = [
-    { title: "object" },
+    { title: member },
     countColumn("lit"),
     countColumn("blocked"),
     countColumn("false shadow"),
@@ -15,20 +18,20 @@ function objectTable(objects) {
     rateColumn("of its blocked"),
     rateColumn("mean error"),
   ];
-  const wrong = (object) => object.false_shadow + object.false_lit;
-  const seen = objects.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
+  const wrong = (part) => part.false_shadow + part.false_lit;
+  const seen = parts.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
   return sortedTable(
-    "Errors by object, most errors first",
+    caption,
     columns,
-    seen.map((object) => [
-      object.object,
-      object.lit,
-      object.blocked,
-      object.false_shadow,
-      object.false_shadow_rate,
-      object.false_lit,
-      object.false_lit_rate,
-      object.mean_abs_error,
+    seen.map((part) => [
+      part[member],
+      part.lit,
+      part.blocked,
+      part.false_shadow,
+      part.false_shadow_rate,
+      part.false_lit,
+      part.false_lit_rate,
+      part.mean_abs_error,
     ]),
   );
 }
@@ -97,7 +100,8 @@ class ObjectTables {
         this.section,
         element("p", { class: "caption name", text: caption }),
         kindTables(detail),
-        objectTable(detail.by_object ?? []),
+        partTable("Errors by object, most errors first", "object", detail.by_object ?? []),
+        ...(detail.by_map ? [partTable("Errors by map, most errors first", "map", detail.by_map)] : []),
       );
     } else if (row === this.headline) {
       this.section.replaceChildren(...this.original);

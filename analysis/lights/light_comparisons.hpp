@@ -1,0 +1,31 @@
+#pragma once
+
+#include "analysis/comparison.hpp"
+#include "scene/job/file.hpp"
+
+#include <string>
+
+namespace gnomon::analysis {
+
+/// Compares a job with each of its lights, one after the other. Receivers that lights have in
+/// common, as they have with `lookup.position = "pixel"`, are drawn once.
+class LightComparisons {
+public:
+    /// @param file, renderers  must outlive this; `file` also the comparisons. Nobody else draws
+    ///                         receivers between them.
+    LightComparisons(const scene::SceneFile& file, const Renderers& renderers);
+    LightComparisons(const LightComparisons&) = delete;
+    LightComparisons& operator=(const LightComparisons&) = delete;
+
+    /// As `analysis::compare` of the light's job.
+    [[nodiscard]] Comparison compare(const scene::LightJob& job);
+
+private:
+    const scene::SceneFile& file_;
+    Renderers renderers_; ///< that draw receivers where they are others than those kept
+    std::string wanted_;  ///< stage key of the receivers of the job that is compared
+    std::string kept_;    ///< of those drawn last
+    scene::ReceiverLayers receivers_;
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "cli/compare/scene_session.hpp"
+#include "cli/job_options.hpp"
+#include "cli/tune/advice_options.hpp"
+
+#include <string>
+#include <vector>
+
+namespace gnomon::cli {
+
+/// What `gnomon compare` is told.
+struct CompareOptions {
+    JobOptions job;
+    bool json = false;
+    std::string aov_path;
+    std::string picture_path;
+    std::string depth_map_path;
+    std::vector<std::string> heat_maps; ///< NAME=FILE
+    std::string folder;                 ///< RUN
+    std::string case_folder;            ///< of --export-case
+    bool force = false;
+    std::string truth = "exact";
+    bool audit = false;
+    bool advise = false;
+    AdviceOptions advice;
+    bool verify = false;
+    SessionOptions session;
+};
+
+} // namespace gnomon::cli

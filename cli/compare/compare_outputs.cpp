@@ -1,0 +1,158 @@
+#include "cli/compare/compare_outputs.hpp"
+
+#include "cli/compare/exported_case.hpp"
+#include "cli/compare/kept_pixels.hpp"
+#include "cli/output_files.hpp"
+#include "cli/system/standard_output.hpp"
+#include "reports/json/comparison_json.hpp"
+#include "reports/pictures/heat_map.hpp"
+#include "reports/pictures/picture.hpp"
+#include "reports/tables/comparison_table.hpp"
+#include "reports/tables/lights_table.hpp"
+#include "scene/error.hpp"
+#include "store/case/case_write.hpp"
+#include "store/exr/aov_write.hpp"
+#include "store/exr/depth_map.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using store::OutputKind;
+
+struct HeatMapFile {
+    reports::HeatMap kind;
+    std::string path;
+};
+
+std::vector<HeatMapFile> heat_map_files(const CompareOptions& options)
+{
+    std::vector<HeatMapFile> files;
+    for (const std::string& text : options.heat_maps) {
+        const std::size_t equals = text.find('=');
+        const auto kind = reports::heat_map_from_name(text.substr(0, equals));
+        if (!kind || equals == std::string::npos || equals + 1 == text.size()) {
+            throw scene::InputError(
+                fmt::format("--heat-map {}: must be NAME=FILE.png with NAME one of {}", text,
+                            fmt::join(reports::heat_map_names(), ", ")));
+        }
+        files.push_back({*kind, text.substr(equals + 1)});
+    }
+    return files;
+}
+
+/// The file of one of several lights: "shadows.sun.png" of "shadows.png".
+std::string file_of_light(const std::string& path, const std::string& light)
+{
+    if (path.empty() || light.empty()) {
+        return path;
+    }
+    fs::path file{path};
+    file.replace_extension(light + file.extension().string());
+    return file.string();
+}
+
+/// The folder of one of several lights: "case/sun" of "case".
+fs::path folder_of_light(const std::string& folder, const std::string& light)
+{
+    return light.empty() ? fs::path{folder} : fs::path{folder} / light;
+}
+
+std::vector<OutputOption> outputs(const CompareOptions& options,
+                                  std::span<const scene::LightJob> jobs)
+{
+    std::vector<OutputOption> all{{"--aov", options.aov_path, OutputKind::layers}};
+    const auto heat_maps = heat_map_files(options);
+    for (const auto& [light, job] : jobs) {
+        all.push_back(
+            {"--picture", file_of_light(options.picture_path, light), OutputKind::picture});
+        all.push_back(
+            {"--depth-map", file_of_light(options.depth_map_path, light), OutputKind::layers});
+        for (const HeatMapFile& file : heat_maps) {
+            all.push_back({"--heat-map", file_of_light(file.path, light), OutputKind::picture});
+        }
+    }
+    return all;
+}
+
+void write_layers(const std::string& path, std::span<const analysis::Comparison> lights)
+{
+    if (lights.front().light.empty()) {
+        return store::write_aov(path, lights.front(), points_of(lights.front()));
+    }
+    const std::vector<scene::Image<scene::Vec3f>> points(lights.size(), points_of(lights.front()));
+    store::write_aov(path, lights, points);
+}
+
+void write_pictures(const CompareOptions& options, const analysis::Comparison& comparison)
+{
+    const std::string& light = comparison.light;
+    if (!options.picture_path.empty()) {
+        reports::write_picture(file_of_light(options.picture_path, light), comparison);
+    }
+    for (const HeatMapFile& file : heat_map_files(options)) {
+        reports::write_heat_map(file_of_light(file.path, light), comparison, file.kind);
+    }
+}
+
+std::string result_text(const CompareOptions& options, std::span<const analysis::Comparison> lights)
+{
+    if (lights.front().light.empty()) {
+        return options.json ? reports::comparison_json(lights.front())
+                            : reports::comparison_table(lights.front());
+    }
+    return options.json ? reports::comparison_json(lights) : reports::lights_table(lights);
+}
+
+} // namespace
+
+void require_new_outputs(const CompareOptions& options, std::span<const scene::LightJob> jobs)
+{
+    const InputFile job{"JOB", options.job.job_path};
+    require_outputs(outputs(options, jobs), {&job, 1});
+    if (options.case_folder.empty()) {
+        return;
+    }
+    for (const scene::LightJob& each : jobs) {
+        for (const std::string_view name : store::case_files()) {
+            require_absent(folder_of_light(options.case_folder, each.light) / name, options.force,
+                           "name another folder");
+        }
+    }
+}
+
+void write_from_gl(const CompareOptions& options, const analysis::Comparison& comparison,
+                   const scene::SceneDefaults& defaults, const analysis::Renderers& renderers)
+{
+    const std::string& light = comparison.light;
+    if (!options.depth_map_path.empty()) {
+        renderers.draw_shadow_map(comparison.job, comparison.view);
+        store::write_depth_map(file_of_light(options.depth_map_path, light), comparison,
+                               renderers.read_map_depths());
+    }
+    if (!options.case_folder.empty()) {
+        export_case(folder_of_light(options.case_folder, light), comparison, defaults, renderers);
+    }
+}
+
+void write_outputs(const CompareOptions& options, std::span<const analysis::Comparison> lights)
+{
+    if (!options.aov_path.empty()) {
+        write_layers(options.aov_path, lights);
+    }
+    for (const analysis::Comparison& comparison : lights) {
+        write_pictures(options, comparison);
+    }
+    print(result_text(options, lights));
+}
+
+} // namespace gnomon::cli

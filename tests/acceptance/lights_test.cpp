@@ -1,0 +1,169 @@
+#include "compared.hpp"
+
+#include "analysis/lights/light_comparisons.hpp"
+#include "scene/job/source.hpp"
+#include "scene_file_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// Several lights: what is drawn for them together, and that each sees nothing of the others.
+namespace gnomon::tests {
+namespace {
+
+const std::string three_lights = R"([scene]
+builtin = "columns"
+[image]
+width = 96
+height = 64
+[shadow_map]
+resolution = 128
+[[lights]]
+name = "sun"
+type = "directional"
+direction = [-0.4, -1, -0.3]
+[[lights]]
+name = "torch"
+type = "spot"
+position = [3, 5, 4]
+target = [0, 0, 0]
+cone_deg = 70
+shadow_map.depth_format = "d16"
+bias.constant = 0.001
+[[lights]]
+name = "lamp"
+type = "point"
+position = [0.5, 3, 0.7]
+lookup.filter = "pcf3"
+)";
+
+std::vector<scene::LightJob> jobs_of(const std::string& text)
+{
+    const scene::testing::TemporaryFolder folder;
+    return scene::light_jobs(scene::read_job_source(folder.write("job.toml", text), {}));
+}
+
+template <typename Pixel>
+void expect_equal(const scene::Image<Pixel>& a, const scene::Image<Pixel>& b)
+{
+    EXPECT_EQ(a.size(), b.size());
+    EXPECT_TRUE(std::ranges::equal(a, b));
+}
+
+/// Depths and verdicts, as bits.
+scene::Image<std::array<std::uint32_t, 3>> verdicts_of(const analysis::Comparison& comparison)
+{
+    const auto& samples = comparison.lookup.samples;
+    scene::Image<std::array<std::uint32_t, 3>> bits{samples.size()};
+    for (std::size_t i = 0; i < samples.pixel_count(); ++i) {
+        bits[i] = {std::bit_cast<std::uint32_t>(samples[i].verdict),
+                   std::bit_cast<std::uint32_t>(samples[i].receiver_depth),
+                   std::bit_cast<std::uint32_t>(samples[i].map_depth)};
+    }
+    return bits;
+}
+
+struct Passes {
+    int receivers = 0;
+    int maps = 0;
+    int lookups = 0;
+    int truths = 0;
+};
+
+/// The renderers, which count how often they are asked.
+analysis::Renderers counted(analysis::Renderers renderers, Passes& passes)
+{
+    const analysis::Renderers own = renderers;
+    renderers.draw_receivers = [own, &passes](const scene::View& view) {
+        ++passes.receivers;
+        return own.draw_receivers(view);
+    };
+    renderers.draw_shadow_map = [own, &passes](const scene::Job& job, const scene::View& view) {
+        ++passes.maps;
+        own.draw_shadow_map(job, view);
+    };
+    renderers.look_up = [own, &passes](const scene::Job& job, const scene::View& view) {
+        ++passes.lookups;
+        return own.look_up(job, view);
+    };
+    renderers.find_truth = [own, &passes](const scene::View& view,
+                                          const scene::ReceiverLayers& receivers) {
+        ++passes.truths;
+        return own.find_truth(view, receivers);
+    };
+    return renderers;
+}
+
+/// The lesson's own count: "three light sources: four renderings and three texture maps".
+TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
+{
+    const auto jobs = jobs_of("lookup.position = \"pixel\"\n" + three_lights);
+    const Compared compared{jobs.front().job};
+    Passes passes;
+    analysis::Renderers renderers = counted(compared.renderers(), passes);
+    renderers.make_exact_light = nullptr; // a diagnosis draws maps of its own
+    analysis::LightComparisons lights{compared.file(), renderers};
+    for (const scene::LightJob& job : jobs) {
+        EXPECT_GT(lights.compare(job).metrics.pixels.scored(), 0U) << job.light;
+    }
+    EXPECT_EQ(passes.receivers, 1);
+    EXPECT_EQ(passes.maps, 3);
+    EXPECT_EQ(passes.receivers + passes.maps, 4);
+    EXPECT_EQ(passes.lookups, 3);
+    EXPECT_EQ(passes.truths, 3);
+}
+
+/// Light clip coordinates that vertices carry are one light's.
+TEST(SeveralLights, AtVerticesDrawReceiversForEachLight)
+{
+    const auto jobs = jobs_of(three_lights);
+    const Compared compared{jobs.front().job};
+    Passes passes;
+    analysis::Renderers renderers = counted(compared.renderers(), passes);
+    analysis::LightComparisons lights{compared.file(), renderers};
+    for (const scene::LightJob& job : jobs) {
+        (void)lights.compare(job);
+    }
+    EXPECT_EQ(passes.receivers, 3);
+}
+
+/// With causes, curves and reruns, in either order.
+TEST(SeveralLights, EachSeesNothingOfTheOthers)
+{
+    for (const std::string& position : {std::string{"vertex"}, std::string{"pixel"}}) {
+        auto jobs = jobs_of(three_lights);
+        for (scene::LightJob& job : jobs) {
+            if (job.light != "lamp") {
+                job.job.lookup.position = position == "pixel" ? scene::LookupPosition::pixel
+                                                              : scene::LookupPosition::vertex;
+            }
+        }
+        const Compared compared{jobs.front().job};
+        const analysis::Renderers renderers = compared.renderers();
+        for (const bool is_reversed : {false, true}) {
+            analysis::LightComparisons lights{compared.file(), renderers};
+            for (std::size_t i = 0; i < jobs.size(); ++i) {
+                const scene::LightJob& job = jobs[is_reversed ? jobs.size() - 1 - i : i];
+                SCOPED_TRACE(job.light + " " + position);
+                const analysis::Comparison together = lights.compare(job);
+                const analysis::Comparison alone = Compared{job.job}(job.job);
+                EXPECT_EQ(together.light, job.light);
+                expect_equal(together.receivers.triangle, alone.receivers.triangle);
+                expect_equal(together.truth.pixel_class, alone.truth.pixel_class);
+                expect_equal(together.diagnosis->causes.cause, alone.diagnosis->causes.cause);
+                expect_equal(verdicts_of(together), verdicts_of(alone));
+                EXPECT_EQ(together.diagnosis->curve.points, alone.diagnosis->curve.points);
+                EXPECT_EQ(together.metrics.amounts, alone.metrics.amounts);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace gnomon::tests
