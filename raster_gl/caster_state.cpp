@@ -3,7 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <cstdint>
-#include <string_view>
+#include <utility>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -21,16 +21,29 @@ void set_culling(scene::Cull cull)
 
 } // namespace
 
+CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format)
+{
+    const bool is_converted = traits_of(format).conversion == scene::Conversion::shader;
+    return {content, is_converted ? std::optional{format.kind} : std::nullopt};
+}
+
 Program make_caster_program(const CasterOutput& output)
 {
+    using Kind = scene::DepthFormat::Kind;
     const bool has_distances = output.content == scene::MapContent::distance;
-    const std::string_view fragment =
-        has_distances || output.is_unorm ? "shadow_map_written.frag" : std::string_view{};
-    return make_program(
-        {"shadow_map.vert",
-         fragment,
-         {{"DISTANCE", has_distances ? "1" : "0"}, {"UNORM", output.is_unorm ? "1" : "0"}},
-         nullptr});
+    const auto flag = [](bool on) { return on ? "1" : "0"; };
+    ProgramParts parts{"shadow_map.vert", {}, {{"DISTANCE", flag(has_distances)}}, nullptr};
+    if (has_distances || output.converted) {
+        parts.fragment = "shadow_map_written.frag";
+        parts.before_fragment = shader_source("depth_codes.glsl");
+    }
+    for (const auto& [name, kind] : {std::pair{"UNORM", Kind::unorm},
+                                     {"RED_FLOAT", Kind::r32f},
+                                     {"RED_HALF", Kind::r16f},
+                                     {"BYTES", Kind::rgba8}}) {
+        parts.definitions.emplace_back(name, flag(output.converted == kind));
+    }
+    return make_program(parts);
 }
 
 void prepare_to_draw_casters(const scene::LightFrustum& map,

@@ -5,15 +5,21 @@
 #include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
 
+#include <compare>
+#include <optional>
+
 namespace gnomon::raster_gl {
 
-/// What a pass of casters writes beside GL's own depth.
+/// What a pass of casters writes.
 struct CasterOutput {
     scene::MapContent content = scene::MapContent::depth;
-    bool is_unorm = false; ///< quantised by the shader
+    /// Of formats that the shader converts; empty: GL's own, or distances as they are.
+    std::optional<scene::DepthFormat::Kind> converted;
 
-    friend bool operator==(const CasterOutput&, const CasterOutput&) = default;
+    friend auto operator<=>(const CasterOutput&, const CasterOutput&) = default;
 };
+[[nodiscard]] CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format);
+
 /// Compiles the program that draws casters.
 [[nodiscard]] Program make_caster_program(const CasterOutput& output);
 

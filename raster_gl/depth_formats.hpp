@@ -4,21 +4,15 @@
 #include "raster_gl/gl_object.hpp"
 #include "scene/job/job.hpp"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace gnomon::raster_gl {
 
-/// GL's internal format of the depth texture that holds a map: u-formats keep their quantised depth
-/// in a float32 depth texture, beside the codes.
+/// GL's internal format of the texture that holds a map, as lookups see it. What the shader
+/// converts is kept as the float32 that its code stands for: of u-formats in a depth texture, of
+/// colour formats in one of colours.
 [[nodiscard]] GLenum internal_format(scene::DepthFormat format);
-
-/// The largest code of a format of so many bits.
-[[nodiscard]] constexpr std::uint32_t largest_code(scene::DepthFormat format)
-{
-    return static_cast<std::uint32_t>((std::uint64_t{1} << format.bits) - 1);
-}
 
 /// @throws scene::InputError  if the driver substitutes another format for `format` in `texture`.
 void require_format(const Texture& texture, scene::DepthFormat format);

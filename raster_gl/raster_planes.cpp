@@ -105,7 +105,7 @@ scene::DepthMeasurement RasterPlanes::measure(scene::DepthFormat format)
 {
     const ShadowMap& map = draw(format);
     const auto codes = read_codes(context_, map);
-    const bool has_z = format.kind == scene::DepthFormat::Kind::unorm;
+    const bool has_z = traits_of(format).conversion == scene::Conversion::shader;
     const auto z = has_z ? read_unquantised_z(context_, map) : scene::Image<float>{};
     scene::DepthMeasurement measurement;
     measurement.format = format;

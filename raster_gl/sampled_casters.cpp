@@ -2,14 +2,18 @@
 
 #include "raster_gl/caster_state.hpp"
 #include "raster_gl/depth_formats.hpp"
+#include "scene/depth/depth_codes.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <stdexcept>
 
 namespace gnomon::raster_gl {
 namespace {
+
+using Kind = scene::DepthFormat::Kind;
 
 /// While it lives, a fragment shader that writes depths runs for each sample.
 class PerSample {
@@ -29,7 +33,7 @@ public:
 SampledCasters::SampledCasters(const Context& context)
     : context_{context},
       depth_only_{make_caster_program({})},
-      unorm_{make_caster_program({.is_unorm = true})},
+      unorm_{make_caster_program({.converted = Kind::unorm})},
       target_{make_framebuffer()}
 {
     glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
@@ -72,12 +76,15 @@ std::span<const Texture> SampledCasters::render(const GpuScene& scene,
                                                 const scene::ShadowMapSettings& settings,
                                                 int samples)
 {
+    if (traits_of(settings.depth_format).is_colour) {
+        throw std::invalid_argument("SampledCasters::render: settings: samples are depths alone");
+    }
     require_samples(samples);
     forget();
-    const bool is_unorm = settings.depth_format.kind == scene::DepthFormat::Kind::unorm;
+    const bool is_unorm = settings.depth_format.kind == Kind::unorm;
     const Program& program = is_unorm ? unorm_ : depth_only_;
     if (is_unorm) {
-        set_uniform(program, "largest_code", largest_code(settings.depth_format));
+        set_uniform(program, "largest_code", scene::code_of_one(settings.depth_format));
     }
     const PerSample shading;
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());

@@ -21,6 +21,7 @@ public:
 
     /// @param samples  of each texel; at least 2.
     /// @return  A multisampled depth texture of each map, the object's own until the next call.
+    /// @throws std::invalid_argument    for a colour format.
     /// @throws scene::InputError        if the driver has fewer samples, or another number in their
     ///                                  place.
     /// @throws scene::EnvironmentError  if GL fails, memory included.

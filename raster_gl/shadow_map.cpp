@@ -3,6 +3,7 @@
 #include "raster_gl/caster_state.hpp"
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/readback.hpp"
+#include "scene/depth/depth_codes.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -20,16 +21,35 @@ namespace {
 
 using Kind = scene::DepthFormat::Kind;
 
+bool is_converted(scene::DepthFormat format)
+{
+    return traits_of(format).conversion == scene::Conversion::shader;
+}
+
+/// Where shadow_map_written.frag writes what.
+constexpr GLint colour_output = 0;
+constexpr GLint code_output = 1;
+constexpr GLint z_output = 2;
+
+/// The attachment of an output.
+GLenum attachment_of(GLint output)
+{
+    return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(output);
+}
+
 /// Clears all attachments to the far plane.
 void clear(const Framebuffer& target, const ShadowMap& map)
 {
     const float far_depth = map.reversed ? 0.0F : 1.0F;
     glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_depth);
+    const std::array<GLfloat, 4> z{far_depth};
+    if (traits_of(map.format).is_colour) {
+        glClearNamedFramebufferfv(target.name(), GL_COLOR, colour_output, z.data());
+    }
     if (!map.code.empty()) {
-        const std::array<GLuint, 4> code{map.reversed ? 0U : largest_code(map.format)};
-        const std::array<GLfloat, 4> z{far_depth};
-        glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, code.data());
-        glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, z.data());
+        const std::array<GLuint, 4> code{map.reversed ? 0U : scene::code_of_one(map.format)};
+        glClearNamedFramebufferuiv(target.name(), GL_COLOR, code_output, code.data());
+        glClearNamedFramebufferfv(target.name(), GL_COLOR, z_output, z.data());
     }
 }
 
@@ -144,18 +164,16 @@ void let_go_of_deleted_textures()
 
 } // namespace
 
-ShadowMapPass::ShadowMapPass(const Context& context, UnormCodes codes)
+ShadowMapPass::ShadowMapPass(const Context& context, ConvertedCodes codes)
     : context_{context},
-      codes_{codes},
-      depth_only_{make_caster_program({})},
-      unorm_{make_caster_program({.is_unorm = true})}
+      codes_{codes}
 {
-    context.check("compiling the shadow map programs");
 }
 
 void ShadowMapPass::release(int largest_texels)
 {
     map_ = {};
+    colours_depth_ = {};
     target_ = make_framebuffer();
     if (is_large_map(largest_texels)) {
         let_go_of_deleted_textures();
@@ -184,14 +202,7 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size
     release(std::max(size, map_.resolution_texels));
     map_.depth = LayeredTexture{internal_format(settings.depth_format), size, maps};
     require_format(map_.depth.layer(0), settings.depth_format);
-    if (settings.depth_format.kind == Kind::unorm && codes_ == UnormCodes::kept) {
-        map_.code = LayeredTexture{GL_R32UI, size, maps};
-        map_.unquantised_z = LayeredTexture{GL_R32F, size, maps};
-        constexpr std::array<GLenum, 2> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-        glNamedFramebufferDrawBuffers(target_.name(), 2, buffers.data());
-    } else {
-        glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
-    }
+    allocate_outputs(settings.depth_format, size, maps);
     context_.check(fmt::format("allocating {2} {0}×{0} {1} shadow map{3}", size,
                                scene::depth_format_name(settings.depth_format),
                                maps == 1 ? "a" : std::to_string(maps), maps == 1 ? "" : "s"));
@@ -199,27 +210,45 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size
     map_.resolution_texels = size;
 }
 
+void ShadowMapPass::allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps)
+{
+    std::array<GLenum, 3> buffers{GL_NONE, GL_NONE, GL_NONE};
+    if (traits_of(format).is_colour) {
+        colours_depth_ = make_texture(GL_DEPTH_COMPONENT32F, side_texels, side_texels);
+        buffers.at(colour_output) = attachment_of(colour_output);
+    }
+    if (is_converted(format) && codes_ == ConvertedCodes::kept) {
+        map_.code = LayeredTexture{GL_R32UI, side_texels, maps};
+        map_.unquantised_z = LayeredTexture{GL_R32F, side_texels, maps};
+        buffers.at(code_output) = attachment_of(code_output);
+        buffers.at(z_output) = attachment_of(z_output);
+    }
+    glNamedFramebufferDrawBuffers(target_.name(), static_cast<GLsizei>(buffers.size()),
+                                  buffers.data());
+}
+
 const Program& ShadowMapPass::program_of(const CasterOutput& output)
 {
-    if (output.content == scene::MapContent::depth) {
-        return output.is_unorm ? unorm_ : depth_only_;
-    }
-    auto& program = output.is_unorm ? distance_unorm_ : distance_;
-    if (!program) {
-        program = make_caster_program(output);
-    }
-    return *program;
+    const auto found = programs_.find(output);
+    return found != programs_.end()
+               ? found->second
+               : programs_.emplace(output, make_caster_program(output)).first->second;
 }
 
 void ShadowMapPass::attach(std::size_t map)
 {
-    const auto attach_layer = [&](GLenum attachment, const LayeredTexture& texture) {
-        glNamedFramebufferTexture(target_.name(), attachment, texture.layer(map).name(), 0);
+    const auto attach_texture = [&](GLenum attachment, const Texture& texture) {
+        glNamedFramebufferTexture(target_.name(), attachment, texture.name(), 0);
     };
-    attach_layer(GL_DEPTH_ATTACHMENT, map_.depth);
+    if (colours_depth_.empty()) {
+        attach_texture(GL_DEPTH_ATTACHMENT, map_.depth.layer(map));
+    } else {
+        attach_texture(GL_DEPTH_ATTACHMENT, colours_depth_);
+        attach_texture(attachment_of(colour_output), map_.depth.layer(map));
+    }
     if (!map_.code.empty()) {
-        attach_layer(GL_COLOR_ATTACHMENT0, map_.code);
-        attach_layer(GL_COLOR_ATTACHMENT1, map_.unquantised_z);
+        attach_texture(attachment_of(code_output), map_.code.layer(map));
+        attach_texture(attachment_of(z_output), map_.unquantised_z.layer(map));
     }
 }
 
@@ -239,13 +268,10 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
     allocate(settings, maps.size());
     const scene::LightFrustum& first = maps.front();
     map_.reversed = first.reversed;
-    const bool unorm = map_.format.kind == Kind::unorm;
-    const Program& program = program_of({first.content, unorm});
+    const Program& program = program_of(caster_output(first.content, map_.format));
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     prepare_to_draw_casters(first, settings);
-    if (unorm) {
-        set_uniform(program, "largest_code", largest_code(map_.format));
-    }
+    set_uniform(program, "largest_code", scene::code_of_one(map_.format));
     glUseProgram(program.name());
     for (std::size_t i = 0; i < maps.size(); ++i) {
         attach(i);
@@ -264,7 +290,7 @@ const ShadowMap& ShadowMapPass::store(scene::Image<float> depths, bool reversed)
 {
     scene::ShadowMapSettings settings;
     settings.resolution_texels = depths.size().width_px;
-    settings.depth_format = {Kind::d32f, 32};
+    settings.depth_format = scene::float_depth_format;
     const int side = settings.resolution_texels;
     allocate(settings, static_cast<std::size_t>(depths.size().height_px / side));
     map_.reversed = reversed;
@@ -286,11 +312,11 @@ const ShadowMap& ShadowMapPass::store(scene::Image<float> depths, bool reversed)
 
 scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map)
 {
-    if (map.format.kind == Kind::unorm && map.code.empty()) {
+    if (is_converted(map.format) && map.code.empty()) {
         throw std::invalid_argument("read_codes: map: its codes were dropped");
     }
     const auto read = [&] {
-        if (map.format.kind == Kind::unorm) {
+        if (!map.code.empty()) {
             return read_layers<std::uint32_t>(map.code, map.resolution_texels, GL_RED_INTEGER,
                                               GL_UNSIGNED_INT);
         }
@@ -301,7 +327,7 @@ scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& 
     scene::Image<std::uint32_t> codes = read();
     context.check("reading the map's codes");
     if (map.format.kind == Kind::d16 || map.format.kind == Kind::d24) {
-        const double scale = largest_code(map.format) / 4294967295.0;
+        const double scale = scene::code_of_one(map.format) / 4294967295.0;
         for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
             codes[i] = narrow_code(codes[i], scale);
         }
@@ -312,8 +338,8 @@ scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& 
 scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map)
 {
     if (map.unquantised_z.empty()) {
-        throw std::invalid_argument("read_unquantised_z: map: only u-formats keep their z, where "
-                                    "they keep their codes");
+        throw std::invalid_argument("read_unquantised_z: map: only formats that the shader "
+                                    "converts keep their z, where they keep their codes");
     }
     auto z = read_layers<float>(map.unquantised_z, map.resolution_texels, GL_RED, GL_FLOAT);
     context.check("reading the map's z");

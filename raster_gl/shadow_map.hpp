@@ -12,7 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <map>
 #include <span>
 
 namespace gnomon::raster_gl {
@@ -20,18 +20,18 @@ namespace gnomon::raster_gl {
 /// A light's rendered shadow map, or its several maps as layers; the textures belong to the pass
 /// that rendered them.
 struct ShadowMap {
-    LayeredTexture depth;         ///< depth texture: what lookups sample
-    LayeredTexture code;          ///< u-formats, where codes are kept: R32UI, the n-bit code
-    LayeredTexture unquantised_z; ///< u-formats, where codes are kept: R32F, the z before it was
-                                  ///< quantised
+    LayeredTexture depth; ///< what lookups sample: a depth texture, or of colour formats a colour
+    /// Of formats that the shader converts, where codes are kept: R32UI, the code.
+    LayeredTexture code;
+    LayeredTexture unquantised_z; ///< the same: R32F, the z before it was converted
     scene::DepthFormat format;
     int resolution_texels = 0;
     bool reversed = false;
 };
 
-/// Whether u-formats keep their codes, and the z that they were made from, beside the depths that
-/// lookups need: twice as many bytes again.
-enum class UnormCodes : std::uint8_t { dropped, kept };
+/// Whether formats that the shader converts keep their codes, and the z that they were made from,
+/// beside the depths that lookups need: twice as many bytes again.
+enum class ConvertedCodes : std::uint8_t { dropped, kept };
 
 /// Draws the casters from the light, depth only.
 ///
@@ -39,7 +39,7 @@ enum class UnormCodes : std::uint8_t { dropped, kept };
 /// the same: a sweep that loops over them outermost allocates each once.
 class ShadowMapPass {
 public:
-    explicit ShadowMapPass(const Context& context, UnormCodes codes = UnormCodes::kept);
+    explicit ShadowMapPass(const Context& context, ConvertedCodes codes = ConvertedCodes::kept);
 
     /// @param maps  of a light, drawn in their order.
     /// @return  The pass's own maps; the next call overwrites them.
@@ -60,26 +60,28 @@ private:
     /// Gives the textures back; at once beside a map of so many texels a side that is large.
     void release(int largest_texels);
     void allocate(const scene::ShadowMapSettings& settings, std::size_t maps);
+    /// What the shader writes beside depth, and where.
+    void allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps);
     [[nodiscard]] const Program& program_of(const CasterOutput& output);
     /// Draws to that map from now on.
     void attach(std::size_t map);
 
     const Context& context_;
-    UnormCodes codes_;
-    Program depth_only_;
-    Program unorm_;
-    std::optional<Program> distance_; ///< made when first asked for, as the next
-    std::optional<Program> distance_unorm_;
+    ConvertedCodes codes_;
+    std::map<CasterOutput, Program> programs_; ///< made when first asked for
     Framebuffer target_;
     ShadowMap map_;
+    Texture
+        colours_depth_; ///< one for all maps of a colour format, each cleared before it is drawn
 };
 
-/// The stored codes (`scene::maps_image_size`): d16, d24, d32 and u-formats as integers, d32f as
-/// float bits.
-/// @throws std::invalid_argument  for a u-format whose codes were dropped.
+/// The stored codes (`scene::maps_image_size`): integers; of floats their bits, of rgba8 its bytes,
+/// the first one uppermost.
+/// @throws std::invalid_argument  for a format that the shader converts and whose codes were
+/// dropped.
 [[nodiscard]] scene::Image<std::uint32_t> read_codes(const Context& context, const ShadowMap& map);
 
-/// u-formats: the float32 z that the shader quantised (`scene::maps_image_size`).
+/// Of formats that the shader converts the float32 z that it converted (`scene::maps_image_size`).
 /// @throws std::invalid_argument  for GL's own formats, which keep no such z, and where it was
 ///                                dropped.
 [[nodiscard]] scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map);

@@ -110,10 +110,11 @@ void add_finer_maps(Variants& variants)
 void add_finer_depths(Variants& variants)
 {
     const scene::ShadowMapSettings& map = variants.job().shadow_map;
-    if (variants.has(Cause::precision) && !map.depth_format.is_float()) {
-        variants.add({"shadow_map.depth_format = \"d32f\""}, [](Job& job) {
-            job.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
-        });
+    const bool has_float32 = traits_of(map.depth_format).significant_bits ==
+                             traits_of(scene::float_depth_format).significant_bits;
+    if (variants.has(Cause::precision) && !has_float32) {
+        variants.add({"shadow_map.depth_format = \"d32f\""},
+                     [](Job& job) { job.shadow_map.depth_format = scene::float_depth_format; });
     }
     const bool is_fitted = !map.frustum.near_m && !map.frustum.far_m;
     if (!is_fitted) {

@@ -80,11 +80,15 @@ double depth_per_metre(const scene::LightFrustum& frustum, double light_distance
 
 double depth_step(scene::DepthFormat format, float depth)
 {
-    if (!format.is_float()) {
+    switch (traits_of(format).spacing) {
+    case scene::Spacing::even:
         return 1.0 / (std::ldexp(1.0, format.bits) - 1.0);
+    case scene::Spacing::floating:
+        return scene::float_step(format, double{depth});
+    case scene::Spacing::packed:
+        break;
     }
-    const float normal = std::max(std::abs(depth), std::numeric_limits<float>::min());
-    return std::ldexp(1.0, std::ilogb(normal) - 23);
+    return 1.0 / 255;
 }
 
 double depth_step_length_m(const scene::LightFrustum& frustum, scene::DepthFormat format,

@@ -36,10 +36,12 @@ namespace gnomon::analysis {
 /// The smallest step of a depth format, GL's unit of polygon offset: the difference of neighbouring
 /// depths.
 ///
-///     n-bit unorm:  1 / (2^n − 1)        d32f:  2^(e − 23), e the exponent of the depth
+///     n-bit unorm:  1 / (2^n − 1)        floats:  2^(e − p + 1), e the exponent of the depth
+///     rgba8:        1 / 255, by half of which packing may move a depth
 ///
-/// @param depth  Decides the step of d32f; 0 and subnormal depths have the smallest normal's step.
-/// Source: OpenGL 4.6 §14.6.5; docs/bias_curve.md#units.
+/// with p = 24 significant bits, 11 of r16f.
+/// @param depth  Decides the step of floats; 0 and subnormal depths have the smallest normal's
+/// step. Source: OpenGL 4.6 §14.6.5; docs/bias_curve.md#units.
 [[nodiscard]] double depth_step(scene::DepthFormat format, float depth);
 
 /// How many metres along the light's axis such a step is at ζ.

@@ -33,7 +33,7 @@ scene::TexelRows rows_of(const scene::Job& job, const scene::View& view,
 
 scene::Job with_floats(scene::Job job)
 {
-    job.shadow_map.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+    job.shadow_map.depth_format = scene::float_depth_format;
     return job;
 }
 

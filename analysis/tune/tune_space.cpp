@@ -40,7 +40,7 @@ std::set<int> resolutions(const Job& job, const TuneLimits& limits)
 std::vector<DepthFormat> formats(const Job& job)
 {
     using Kind = DepthFormat::Kind;
-    std::vector<DepthFormat> tried{{Kind::d16, 16}, {Kind::d24, 24}, {Kind::d32f, 32}};
+    std::vector<DepthFormat> tried{{Kind::d16, 16}, {Kind::d24, 24}, scene::float_depth_format};
     if (std::ranges::find(tried, job.shadow_map.depth_format) == tried.end()) {
         tried.push_back(job.shadow_map.depth_format);
     }
@@ -101,8 +101,9 @@ std::vector<Filter> tuned_filters(const Job& job)
     if (std::ranges::find(filters, job.lookup.filter) == filters.end()) {
         filters.push_back(job.lookup.filter);
     }
-    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
-        std::erase_if(filters, [&](Filter filter) { // a mean of distances is refused
+    const bool has_distances = job.shadow_map.frustum.content == scene::MapContent::distance;
+    if (has_distances || !traits_of(job.shadow_map.depth_format).has_means) {
+        std::erase_if(filters, [&](Filter filter) { // a mean is refused
             return methods::promises(with_filter(job, filter)).compares ==
                    methods::Compares::mean_depth;
         });

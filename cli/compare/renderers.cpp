@@ -32,7 +32,7 @@ GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleS
     : context_{context},
       box_{triangles.bounds()},
       scene_{context, triangles},
-      shadow_map_pass_{context, raster_gl::UnormCodes::dropped},
+      shadow_map_pass_{context, raster_gl::ConvertedCodes::dropped},
       sampled_casters_{context},
       prefilter_pass_{context},
       lookup_pass_{context}
@@ -187,7 +187,7 @@ scene::Image<float> GlRenderer::read_float_depths(const scene::Job& job, const s
                                                   scene::TexelRows rows)
 {
     scene::ShadowMapSettings floats = job.shadow_map;
-    floats.depth_format = {scene::DepthFormat::Kind::d32f, 32};
+    floats.depth_format = scene::float_depth_format;
     shadow_map_ = &shadow_map_pass_.render(scene_, view.maps, floats, rows);
     filtered_ = nullptr;
     return raster_gl::read_shader_depths(context_, *shadow_map_, rows);

@@ -28,8 +28,9 @@ constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
 // class, reason and witness 6, P 12 and one layer in flight 16 in memory.
 constexpr std::uint64_t bytes_per_pixel = 64 + 54;
 
-/// Depth formats take up to 4 bytes a texel; of u-formats, too, lookups need the depth alone. What
-/// a method makes of the map comes on top.
+/// Formats take up to 4 bytes a texel; of those that the shader converts, too, lookups need the
+/// depth alone. Colour formats are drawn beside a depth buffer, one for all maps. What a method
+/// makes of the map comes on top.
 constexpr std::uint64_t bytes_per_texel = 4;
 
 /// MemAvailable of the machine [bytes].
@@ -127,7 +128,9 @@ std::uint64_t available_memory_bytes()
 std::uint64_t needed_memory_bytes(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
-    return job.image.pixel_count() * bytes_per_pixel +
+    const std::uint64_t depth_buffer_bytes =
+        traits_of(job.shadow_map.depth_format).is_colour ? side * side * bytes_per_texel : 0;
+    return job.image.pixel_count() * bytes_per_pixel + depth_buffer_bytes +
            std::max(side * side * bytes_per_texel, methods::promises(job).map_bytes);
 }
 

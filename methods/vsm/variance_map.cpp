@@ -150,6 +150,13 @@ void vsm_check(const scene::Job& job)
         throw scene::InputError("method.name = \"vsm\": its moments are of depths; remove "
                                 "shadow_map.content = \"distance\"");
     }
+    if (const scene::DepthFormat format = job.shadow_map.depth_format;
+        traits_of(format).is_colour) {
+        throw scene::InputError(fmt::format(
+            "shadow_map.depth_format = \"{}\": the moments of method.name = \"vsm\" are made of a "
+            "depth texture, and stored as method.content says; use d16, d24 or d32f",
+            depth_format_name(format)));
+    }
     const auto width = value_of<std::int64_t>(width_key(), job);
     if (width > job.shadow_map.resolution_texels) {
         throw scene::InputError(fmt::format(

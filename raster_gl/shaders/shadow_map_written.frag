@@ -1,11 +1,19 @@
 // What GL does not store by itself: with DISTANCE the distance to the light over far, in place of
-// depth; with UNORM either as an n-bit unsigned normalised code, code = floor(z·(2^n − 1) + ½),
-// exactly: z has 24 significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53
-// bits wherever the floor can depend on them.
+// depth; and codes of either, after depth_codes.glsl.
+//
+// UNORM: an n-bit unsigned normalised code, code = floor(z·(2^n − 1) + ½), exactly: z has 24
+// significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53 bits wherever the
+// floor can depend on them. RED_FLOAT, RED_HALF and BYTES: a colour, as the float32 that its code
+// stands for. What a code stands for need not rise with z, so GL's depth test is by z itself.
+#define IS_COLOUR (RED_FLOAT || RED_HALF || BYTES)
+#if IS_COLOUR
+layout(location = 0) out float colour;
+#endif
+#if UNORM || IS_COLOUR
+layout(location = 1) out uint code;
+layout(location = 2) out float unquantised_z;
+#endif
 #if UNORM
-layout(location = 0) out uint code;
-layout(location = 1) out float unquantised_z;
-
 uniform uint largest_code; // 2^n − 1
 #endif
 
@@ -35,7 +43,20 @@ void main()
     code = uint(floor(steps + 0.5LF));
     unquantised_z = z;
     gl_FragDepth = float(double(code) / double(largest_code));
-#else
+#elif DISTANCE
     gl_FragDepth = z;
+#endif
+#if IS_COLOUR
+    unquantised_z = z > 0.0 ? min(z, 1.0) : 0.0; // as a depth buffer limits it; 0 without a sign
+#endif
+#if RED_FLOAT
+    code = floatBitsToUint(unquantised_z);
+    colour = unquantised_z;
+#elif RED_HALF
+    code = half_of_float(unquantised_z);
+    colour = float_of_half(code);
+#elif BYTES
+    code = packed_of_float(unquantised_z);
+    colour = float_of_packed(code);
 #endif
 }

@@ -32,6 +32,12 @@ FormatNames names_of(DepthFormat format)
         return {"GL_DEPTH_COMPONENT32", "", ""};
     case DepthFormat::Kind::d32f:
         return {"GL_DEPTH_COMPONENT32F", "DXGI_FORMAT_D32_FLOAT", "VK_FORMAT_D32_SFLOAT"};
+    case DepthFormat::Kind::r32f:
+        return {"GL_R32F", "DXGI_FORMAT_R32_FLOAT", "VK_FORMAT_R32_SFLOAT"};
+    case DepthFormat::Kind::r16f:
+        return {"GL_R16F", "DXGI_FORMAT_R16_FLOAT", "VK_FORMAT_R16_SFLOAT"};
+    case DepthFormat::Kind::rgba8:
+        return {"GL_RGBA8", "DXGI_FORMAT_R8G8B8A8_UNORM", "VK_FORMAT_R8G8B8A8_UNORM"};
     case DepthFormat::Kind::unorm:
         break;
     }
@@ -65,9 +71,22 @@ bool is_cube(const TunedSetting& setting)
     return setting.map.layout == scene::MapLayout::cube;
 }
 
+bool is_colour(const TunedSetting& setting)
+{
+    return traits_of(setting.map.depth_format).is_colour;
+}
+
 /// What a shader must do beside the states; none where GL's own depth is stored.
 void add_shader(ApiState& state, const TunedSetting& setting)
 {
+    if (is_colour(setting)) {
+        state.lines.push_back(fmt::format(
+            "a colour target beside a depth buffer, cleared to {}: the map's fragment shader "
+            "writes "
+            "the depth into it{}, and the lookup's compares",
+            setting.map.frustum.reversed ? "0" : "white",
+            setting.map.depth_format.kind == DepthFormat::Kind::rgba8 ? ", packed" : ""));
+    }
     if (setting.map.frustum.content == scene::MapContent::distance) {
         state.lines.emplace_back(
             "fragment shader of the map: depth = distance(P, L) / far, in place "
@@ -103,7 +122,8 @@ ApiState direct3d_state(const TunedSetting& setting)
     }
     const bool reversed = setting.map.frustum.reversed;
     return {"Direct3D",
-            {fmt::format("D3D12_DEPTH_STENCIL_VIEW_DESC::Format = {};{}", format,
+            {fmt::format("{}_VIEW_DESC::Format = {};{}",
+                         is_colour(setting) ? "D3D12_RENDER_TARGET" : "D3D12_DEPTH_STENCIL", format,
                          is_cube(setting) ? " D3D12_RESOURCE_DESC::DepthOrArraySize = 6; "
                                             "D3D12_SRV_DIMENSION_TEXTURECUBE"
                                           : ""),

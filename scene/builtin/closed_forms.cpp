@@ -16,8 +16,6 @@ namespace {
     return angle_deg * std::numbers::pi / 180;
 }
 
-constexpr DepthFormat float_depth{DepthFormat::Kind::d32f, 32};
-
 // --- tilted-plane ---
 
 constexpr double plane_half_m = 8;   // along x and z, whatever the tilt
@@ -49,7 +47,7 @@ constexpr double eye_distance_m = 6; // the camera's view lies inside the map
                                 .up = {0, 0, -1},
                                 .vertical_fov_deg = 45};
     job.light = directional_light(Vec3d{0, -1, 0});
-    job.shadow_map.depth_format = float_depth;
+    job.shadow_map.depth_format = float_depth_format;
     job.shadow_map.frustum.fit = Fit::fixed;
     job.shadow_map.frustum.half_extent_m = map_half_m;
     return job;
@@ -94,7 +92,7 @@ constexpr double wall_margin_m = 1; // of ground around the wall and its shadow
         CameraSettings{.eye = {2.3, 1.9, 1.2}, .target = {0.35, 0.12, 0}, .vertical_fov_deg = 45};
     job.light = directional_light(Vec3d{std::sin(angle_rad), -std::cos(angle_rad), 0});
     job.shadow_map.resolution_texels = 4096;
-    job.shadow_map.depth_format = float_depth;
+    job.shadow_map.depth_format = float_depth_format;
     job.bias.constant_m = 0.05;
     return job;
 }

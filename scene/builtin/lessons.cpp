@@ -120,7 +120,7 @@ void add_slalom(SceneBuilder& builder, int object_count)
     Job job = start_job("two-distances", values);
     job.camera = CameraSettings{.eye = {5.0, 6.6, 7}, .target = target, .vertical_fov_deg = 38};
     job.light = spot_light({-2.5, 4.6, 0.5}, target, 80);
-    job.shadow_map.depth_format = {DepthFormat::Kind::d32f, 32};
+    job.shadow_map.depth_format = float_depth_format;
     job.shadow_map.frustum.near_m = 4;
     job.shadow_map.frustum.far_m = 50;
     job.lookup = {Filter::linear, Outside::clamp};

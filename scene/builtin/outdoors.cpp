@@ -83,7 +83,7 @@ void add_crates(SceneBuilder& builder)
                                                             number(values, "sun_azimuth_deg"));
     light.target = Vec3d{0, 0, 0};
     job.light = light;
-    job.shadow_map.depth_format = {DepthFormat::Kind::d32f, 32};
+    job.shadow_map.depth_format = float_depth_format;
     job.shadow_map.frustum.fit = Fit::fixed;
     job.shadow_map.frustum.half_extent_m = 20;
     job.shadow_map.frustum.near_m = 0.01;

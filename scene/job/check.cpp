@@ -1,3 +1,4 @@
+#include "scene/depth/depth_format.hpp"
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/job/setting_layers.hpp"
@@ -128,6 +129,30 @@ void check_content(const Settings& settings, KnownLight light)
         refuse(*filter, fmt::format("a mean of distances ({}) is not decided exactly; use nearest, "
                                     "hardware or a pcf",
                                     content->label));
+    }
+}
+
+/// Refuses filters that a format is not made for.
+void check_format(const Settings& settings)
+{
+    const Setting* format = find_setting(settings, "shadow_map.depth_format");
+    const Setting* filter = find_setting(settings, "lookup.filter");
+    if (format == nullptr || filter == nullptr) {
+        return; // d24 has every filter, and nearest takes every format
+    }
+    const DepthFormatTraits& traits =
+        traits_of(depth_format_from_name(std::get<std::string>(format->value)).value());
+    const std::string& name = std::get<std::string>(filter->value);
+    if (name == "hardware" && traits.is_colour) {
+        refuse(*filter, fmt::format("GL compares with depth formats alone, and this is a colour's "
+                                    "({}); use nearest or a pcf, or d16, d24 or d32f",
+                                    format->label));
+    }
+    if (name == "linear" && !traits.has_means) {
+        refuse(*filter,
+               fmt::format("a mean of packed bytes is not that of depths ({}); use nearest "
+                           "or a pcf",
+                           format->label));
     }
 }
 
@@ -271,6 +296,7 @@ void check_settings(const Settings& settings, const std::string& source)
     }
     check_layout(settings, light);
     check_content(settings, light);
+    check_format(settings);
     check_fit(settings, light);
     check_planes(settings, light);
     check_bias(settings, light);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/depth/depth_format.hpp"
 #include "scene/filter.hpp"
 #include "scene/image.hpp"
 #include "scene/job/value.hpp"
@@ -29,20 +30,6 @@ struct SceneSettings {
     std::vector<std::string> no_receive;
     std::map<std::string, SceneParameter> parameters; ///< `[scene.NAME]`, of a built-in
 };
-
-/// How a shadow map stores depth: `d…` are GL's own formats, `u1`…: n-bit unorm written by the
-/// shader.
-struct DepthFormat {
-    enum class Kind : std::uint8_t { d16, d24, d32, d32f, unorm };
-    Kind kind = Kind::d24;
-    int bits = 24; ///< 8…24 for unorm, else the format's own width
-
-    [[nodiscard]] bool is_float() const { return kind == Kind::d32f; }
-    friend bool operator==(const DepthFormat&, const DepthFormat&) = default;
-};
-/// "d24", "u13", …; empty if the text names no format.
-[[nodiscard]] std::optional<DepthFormat> depth_format_from_name(std::string_view name);
-[[nodiscard]] std::string depth_format_name(DepthFormat format);
 
 enum class Cull : std::uint8_t { none, front, back };
 

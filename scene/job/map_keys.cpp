@@ -17,13 +17,13 @@ bool is_light(const Job& job, LightType type)
 KeySpec depth_format_key()
 {
     WordDomain formats;
-    formats.words = {"d16", "d24", "d32", "d32f"};
-    formats.listing = "d16, d24, d32, d32f, u8 to u24";
-    for (int bits = 8; bits <= 24; ++bits) {
-        formats.words.push_back(fmt::format("u{}", bits));
+    formats.listing = depth_format_listing();
+    for (const DepthFormat format : depth_formats()) {
+        formats.words.push_back(depth_format_name(format));
     }
     return {.key = make_key("shadow_map.depth_format",
-                            "GL's own depth formats, or u8 to u24: n-bit unorm, written by the "
+                            "GL's own depth formats; colour formats: r32f, r16f, and rgba8, "
+                            "packed as lessons do; or u8 to u24: n-bit unorm, written by the "
                             "shader",
                             "\"d24\"", only(Stage::shadow_map)),
             .domain = std::move(formats),

@@ -96,7 +96,7 @@ scene::View of_face(const scene::View& cube, std::size_t face)
 TEST(SixSpots, GiveTheVerdictsOfTheFacesToTheBit)
 {
     GNOMON_REQUIRE_GL();
-    for (const char* format : {"d16", "d24", "d32f", "u12"}) {
+    for (const char* format : {"d16", "d24", "d32f", "u12", "r32f", "r16f", "rgba8"}) {
         for (const auto& [reversed, content] :
              {std::pair{"false", "depth"}, {"true", "depth"}, {"false", "distance"}}) {
             GlCase c{"lamp-room",

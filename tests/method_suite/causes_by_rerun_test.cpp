@@ -193,8 +193,12 @@ TEST_P(CausesByRerun, AreTheExactOnesButWhereFloat32Decides)
                                            {"sphere-plane", "distance"}}) {
         const auto keys = with(small, {{"lookup.filter", filter}, {"shadow_map.content", content}});
         const Compared scene{job_of_builtin(builtin, keys)};
-        for (const auto& [format, bias] :
-             {std::pair{"d24", "0"}, {"d24", "0.0005"}, {"d24", "0.02"}, {"u8", "0.0005"}}) {
+        for (const auto& [format, bias] : {std::pair{"d24", "0"},
+                                           {"d24", "0.0005"},
+                                           {"d24", "0.02"},
+                                           {"u8", "0.0005"},
+                                           {"r16f", "0.0005"},
+                                           {"rgba8", "0.0005"}}) {
             SCOPED_TRACE(
                 fmt::format("{} {} {} {} bias {}", builtin, content, filter, format, bias));
             const Differences found = expect_same_causes(

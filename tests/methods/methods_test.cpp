@@ -119,7 +119,8 @@ TEST(MapBytes, AreTwoOrFourATexel)
     map.resolution_texels = 512;
     for (const auto& [format, bytes] :
          {std::pair{"d16", 2U}, std::pair{"d24", 4U}, std::pair{"d32", 4U}, std::pair{"d32f", 4U},
-          std::pair{"u8", 2U}, std::pair{"u16", 2U}, std::pair{"u17", 4U}, std::pair{"u24", 4U}}) {
+          std::pair{"r32f", 4U}, std::pair{"r16f", 2U}, std::pair{"rgba8", 4U}, std::pair{"u8", 2U},
+          std::pair{"u16", 2U}, std::pair{"u17", 4U}, std::pair{"u24", 4U}}) {
         map.depth_format = scene::depth_format_from_name(format).value();
         EXPECT_EQ(map_bytes(job), 512U * 512 * bytes) << format;
         EXPECT_EQ(promises(job).map_bytes, map_bytes(job)) << format;

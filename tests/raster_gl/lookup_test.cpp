@@ -162,7 +162,7 @@ TEST(Lookup, EqualsArithmeticByHandForEveryFilterBorderAndFormat)
         GlCase c{scene, size};
         for (const char* filter : {"nearest", "pcf3", "pcf5", "pcf7", "pcf9"}) {
             for (const char* outside : {"lit", "shadowed", "clamp"}) {
-                for (const char* format : {"d16", "d24", "d32f", "u11"}) {
+                for (const char* format : {"d16", "d24", "d32f", "u11", "r16f", "rgba8"}) {
                     for (const char* reversed : {"false", "true"}) {
                         std::vector<scene::Override> keys{
                             {"lookup.filter", filter},           {"lookup.outside", outside},

@@ -66,7 +66,7 @@ TEST(ShadowMap, HasTheSameDepthsWhereCodesAreDropped)
     GlCase c{"columns", {{"shadow_map.depth_format", "u12"}, {"shadow_map.resolution", "300"}}};
     c.draw_shadow_map();
     const auto kept = read_shader_depths(*tests::shared_context(), *c.map);
-    ShadowMapPass pass{*tests::shared_context(), UnormCodes::dropped};
+    ShadowMapPass pass{*tests::shared_context(), ConvertedCodes::dropped};
     const ShadowMap& map = pass.render(c.gpu, c.view.maps, c.job.shadow_map);
     const auto dropped = read_shader_depths(*tests::shared_context(), map);
     EXPECT_TRUE(std::equal(kept.begin(), kept.end(), dropped.begin(), dropped.end()));

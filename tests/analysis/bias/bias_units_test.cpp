@@ -108,6 +108,17 @@ TEST(DepthStep, IsTheDifferenceOfNeighbouringDepths)
         EXPECT_EQ(depth_step(d32f, depth), double{std::nextafter(depth, 2.0F)} - double{depth});
     }
     EXPECT_EQ(depth_step(d32f, 0.0F), 0x1p-149);
+    const DepthFormat r16f{DepthFormat::Kind::r16f, 16};
+    EXPECT_EQ(depth_step(r16f, 1.0F), 0x1p-10);
+    EXPECT_EQ(depth_step(r16f, 0.75F), 0x1p-11);
+    EXPECT_EQ(depth_step(r16f, 0.0F), 0x1p-24);
+}
+
+TEST(DepthStep, OfPackedBytesIsTheFirstOnes)
+{
+    for (const float depth : {0.0F, 0.3F, 1.0F}) {
+        EXPECT_EQ(depth_step({DepthFormat::Kind::rgba8, 32}, depth), 1.0 / 255);
+    }
 }
 
 TEST(BiasMap, HoldsWhatLitPixelsNeedAndBlockedPixelsAllow)

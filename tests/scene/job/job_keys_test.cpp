@@ -299,7 +299,8 @@ RC_GTEST_PROP(JobKeys, QuoteTextsThatReadBackAsTheSameBytes, ())
 
 TEST(DepthFormat, NamesAndFormatsAreInverse)
 {
-    for (const std::string name : {"d16", "d24", "d32", "d32f", "u8", "u16", "u24"}) {
+    for (const std::string name :
+         {"d16", "d24", "d32", "d32f", "r32f", "r16f", "rgba8", "u8", "u16", "u24"}) {
         const auto format = depth_format_from_name(name);
         ASSERT_TRUE(format) << name;
         EXPECT_EQ(depth_format_name(*format), name);
@@ -307,8 +308,11 @@ TEST(DepthFormat, NamesAndFormatsAreInverse)
     EXPECT_EQ(depth_format_from_name("d32f")->bits, 32);
     EXPECT_EQ(depth_format_from_name("u13")->bits, 13);
     EXPECT_TRUE(depth_format_from_name("d32f")->is_float());
+    EXPECT_TRUE(depth_format_from_name("r32f")->is_float());
+    EXPECT_TRUE(depth_format_from_name("r16f")->is_float());
     EXPECT_FALSE(depth_format_from_name("d32")->is_float());
-    for (const std::string name : {"", "u", "u7", "u25", "u013", "d8", "d24 "}) {
+    EXPECT_FALSE(depth_format_from_name("rgba8")->is_float());
+    for (const std::string name : {"", "u", "u7", "u25", "u013", "d8", "d24 ", "r8", "rgba16"}) {
         EXPECT_FALSE(depth_format_from_name(name)) << name;
     }
 }

@@ -2,6 +2,8 @@
 
 #include "job_fixture.hpp"
 
+#include <fmt/format.h>
+
 namespace gnomon::scene::test {
 namespace {
 
@@ -244,6 +246,24 @@ TEST(SettingLayers, RefuseDistancesWhereThereAreNone)
                 HasSubstr("distances are not reversed"));
     EXPECT_THAT(refusal(lamp + distances + "lookup.filter = \"linear\"\n"),
                 HasSubstr("a mean of distances"));
+}
+
+TEST(SettingLayers, RefuseFiltersThatAFormatIsNotMadeFor)
+{
+    const auto refused = [](const std::string& format, const std::string& filter) {
+        return refusal(fmt::format("{}shadow_map.depth_format = \"{}\"\nlookup.filter = \"{}\"\n",
+                                   lamp, format, filter));
+    };
+    for (const char* colour : {"r32f", "r16f", "rgba8"}) {
+        EXPECT_THAT(refused(colour, "hardware"), HasSubstr("GL compares with depth formats alone"));
+    }
+    EXPECT_THAT(refused("rgba8", "linear"), HasSubstr("a mean of packed bytes"));
+    for (const auto& [format, filter] :
+         {std::pair{"r32f", "linear"}, {"r16f", "linear"}, {"rgba8", "pcf3"}, {"u8", "hardware"}}) {
+        const Job job =
+            job_of(lamp, {{"shadow_map.depth_format", format}, {"lookup.filter", filter}}).job;
+        EXPECT_EQ(depth_format_name(job.shadow_map.depth_format), format);
+    }
 }
 
 TEST(SettingLayers, LetAnotherKindOfLightReplaceWhatBelongedToTheOneBelow)
