@@ -52,8 +52,13 @@ RasterPlanes::RasterPlanes(const Context& context, const scene::MeasuredPlanes& 
     const auto clip = capture_clip_positions(context, gpu_, planes.frustum.light_clip_from_world);
     raster_.reserve(planes.triangles.triangles.size());
     for (const auto& [a, b, c] : planes.triangles.triangles) {
-        raster_.emplace_back(std::array{clip.at(a), clip.at(b), clip.at(c)},
-                             planes.resolution_texels, planes.frustum.clip_range);
+        const std::array corners{clip.at(a), clip.at(b), clip.at(c)};
+        raster_.emplace_back(corners, planes.resolution_texels, planes.frustum.clip_range);
+        if (planes.frustum.content == scene::MapContent::distance) {
+            const auto triangle = static_cast<std::uint32_t>(distances_.size());
+            distances_.emplace_back(planes.triangles.corners(triangle), corners,
+                                    raster_.back().window(), planes.frustum);
+        }
     }
 }
 
@@ -118,9 +123,7 @@ scene::DepthMeasurement RasterPlanes::measure(scene::DepthFormat format)
             ++measurement.missing;
             continue;
         }
-        scene::DepthSample sample{
-            planes_.light_distance_m(i),
-            {raster_[i].depth(at), raster_[i].driver_bound(at, subpixel_bits_), codes(x, y)}};
+        scene::DepthSample sample{planes_.light_distance_m(i), texel_depth(i, at, codes(x, y))};
         if (has_z) {
             sample.shader_depth = z(x, y);
         }
@@ -135,18 +138,29 @@ std::vector<scene::TexelDepth> RasterPlanes::read_all(scene::DepthFormat format)
 {
     const auto codes = read_codes(context_, draw(format));
     std::vector<scene::TexelDepth> texels;
-    for (const scene::RasterPlane& plane : raster_) {
-        if (plane.is_whole()) {
-            include_triangle(plane, codes, texels);
+    for (std::size_t i = 0; i < raster_.size(); ++i) {
+        if (raster_[i].is_whole()) {
+            include_triangle(i, codes, texels);
         }
     }
     return texels;
 }
 
-void RasterPlanes::include_triangle(const scene::RasterPlane& plane,
-                                    const scene::Image<std::uint32_t>& codes,
+scene::TexelDepth RasterPlanes::texel_depth(std::size_t triangle, const Vec2d& at,
+                                            std::uint32_t code) const
+{
+    if (!distances_.empty()) {
+        const scene::RasterDistance& distance = distances_[triangle];
+        return {distance.over_far(at), distance.driver_bound(at, subpixel_bits_), code};
+    }
+    const scene::RasterPlane& plane = raster_[triangle];
+    return {plane.depth(at), plane.driver_bound(at, subpixel_bits_), code};
+}
+
+void RasterPlanes::include_triangle(std::size_t triangle, const scene::Image<std::uint32_t>& codes,
                                     std::vector<scene::TexelDepth>& texels) const
 {
+    const scene::RasterPlane& plane = raster_[triangle];
     const int last = planes_.resolution_texels - 1;
     const auto& corners = plane.window().position_px;
     const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
@@ -159,8 +173,7 @@ void RasterPlanes::include_triangle(const scene::RasterPlane& plane,
             const int y = last - row;
             const Vec2d at = centre_px(planes_.resolution_texels, x, y);
             if (surely_covers(plane, at)) {
-                texels.push_back(
-                    {plane.depth(at), plane.driver_bound(at, subpixel_bits_), codes(x, y)});
+                texels.push_back(texel_depth(triangle, at, codes(x, y)));
             }
         }
     }

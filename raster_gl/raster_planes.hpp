@@ -4,6 +4,7 @@
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "scene/depth/measured_planes.hpp"
+#include "scene/depth/raster_distance.hpp"
 #include "scene/depth/raster_plane.hpp"
 #include "scene/depth/sample.hpp"
 
@@ -28,8 +29,11 @@ public:
     [[nodiscard]] std::vector<scene::TexelDepth> read_all(scene::DepthFormat format);
 
 private:
-    void include_triangle(const scene::RasterPlane& plane, const scene::Image<std::uint32_t>& codes,
+    void include_triangle(std::size_t triangle, const scene::Image<std::uint32_t>& codes,
                           std::vector<scene::TexelDepth>& texels) const;
+    /// What GL should have stored of a triangle at a point of the window.
+    [[nodiscard]] scene::TexelDepth texel_depth(std::size_t triangle, const scene::Vec2d& at,
+                                                std::uint32_t code) const;
     /// By sample: whether the triangle of another may cover its texel.
     [[nodiscard]] std::vector<bool> disputed_samples() const;
     [[nodiscard]] bool surely_covers(const scene::RasterPlane& plane, const scene::Vec2d& at) const;
@@ -39,7 +43,8 @@ private:
     const scene::MeasuredPlanes& planes_;
     GpuScene gpu_;
     ShadowMapPass pass_;
-    std::vector<scene::RasterPlane> raster_; ///< by triangle
+    std::vector<scene::RasterPlane> raster_;       ///< by triangle
+    std::vector<scene::RasterDistance> distances_; ///< the same, where the map has distances
     int subpixel_bits_;
 };
 

@@ -30,7 +30,7 @@ double code_share_within(const DepthMapping& mapping, const DepthCoding& coding,
                          double light_distance_m)
 {
     const double depth =
-        mapping.depth(std::clamp(light_distance_m, mapping.near_m(), mapping.far_m()));
+        mapping.depth(std::clamp(light_distance_m, mapping.range().near_m, mapping.far_m()));
     const double share =
         coding.is_float() ? coding.nearest_code(depth) / static_cast<double>(coding.largest_code())
                           : depth;
@@ -40,7 +40,7 @@ double code_share_within(const DepthMapping& mapping, const DepthCoding& coding,
 std::optional<double> distance_of_step_m(const DepthMapping& mapping, const DepthCoding& coding,
                                          double step_m)
 {
-    if (coding.is_float() || !mapping.is_perspective()) {
+    if (coding.spacing() != scene::Spacing::even || !mapping.is_perspective()) {
         return std::nullopt;
     }
     return std::sqrt(step_m / code_step_m(mapping, coding, 1));

@@ -13,23 +13,23 @@ namespace gnomon::analysis {
 [[nodiscard]] double code_step_m(const DepthMapping& mapping, const DepthCoding& coding,
                                  double light_distance_m);
 
-/// The largest distance between neighbouring codes from near to far [m], to first order: far's but
-/// for float32.
+/// The largest distance between neighbouring codes from near to far [m], to first order: of evenly
+/// spaced ones far's.
 [[nodiscard]] double largest_code_step_m(const DepthMapping& mapping, const DepthCoding& coding);
 
 /// Codes per metre at ζ [1/m]: 1/step.
 [[nodiscard]] double codes_per_metre(const DepthMapping& mapping, const DepthCoding& coding,
                                      double light_distance_m);
 
-/// Share of all codes that stand for distances up to ζ; in [0, 1].
-/// @param light_distance_m  clamped to [near, far].
+/// Share of all codes that stand for distances up to ζ; in [0, 1]; packed: by their depth.
+/// @param light_distance_m  clamped to [near, far], distances over far to [0, far].
 [[nodiscard]] double code_share_within(const DepthMapping& mapping, const DepthCoding& coding,
                                        double light_distance_m);
 
 /// The distance at which neighbouring evenly spaced codes are this far apart [m]: √(step/(Aq)).
 ///
-/// Empty for float32 and for orthographic projections, whose steps do not grow with ζ²; the result
-/// may lie outside [near, far].
+/// Empty for other codes and for orthographic projections, whose steps do not grow with ζ²; the
+/// result may lie outside [near, far].
 [[nodiscard]] std::optional<double> distance_of_step_m(const DepthMapping& mapping,
                                                        const DepthCoding& coding, double step_m);
 

@@ -1,7 +1,6 @@
 #include "analysis/depth/depth_error.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -11,14 +10,15 @@ namespace {
 
 bool passes_float_ndc(const DepthMapping& mapping, const DepthCoding& coding)
 {
-    return coding.is_float() && mapping.range().clip_range == scene::ClipRange::minus_one_to_one;
+    return coding.spacing() != scene::Spacing::even &&
+           mapping.range().clip_range == scene::ClipRange::minus_one_to_one;
 }
 
 std::uint32_t code_of(const DepthMapping& mapping, const DepthCoding& coding, double depth)
 {
     if (passes_float_ndc(mapping, coding)) {
         const auto z_ndc = static_cast<float>(2 * depth - 1);
-        return std::bit_cast<std::uint32_t>(std::clamp(0.5F * z_ndc + 0.5F, 0.0F, 1.0F));
+        return coding.nearest_code(double{0.5F * z_ndc + 0.5F});
     }
     return coding.nearest_code(depth);
 }
@@ -26,36 +26,23 @@ std::uint32_t code_of(const DepthMapping& mapping, const DepthCoding& coding, do
 double tolerance_at_depth(const DepthMapping& mapping, const DepthCoding& coding, double depth)
 {
     const double half_step = coding.half_step(depth);
-    if (!passes_float_ndc(mapping, coding)) {
+    if (!passes_float_ndc(mapping, coding) || !coding.is_float()) {
         return half_step;
     }
     return half_step + 0.5 * std::min(half_float32_step(2 * depth - 1), 0x1p-25);
 }
 
-/// The window depths at which d or |z_ndc| is a power of two: between them float32's Δ is constant.
-std::vector<double> float_borders()
+/// The window depths between which Δ is constant: those of the coding, and for floats those at
+/// which |z_ndc| is a power of two.
+std::vector<double> border_depths(const DepthCoding& coding)
 {
-    std::vector<double> depths;
-    constexpr int smallest_exponent = -149;
-    for (int exponent = 0; exponent >= smallest_exponent; --exponent) {
-        const double power = std::ldexp(1.0, exponent);
-        depths.insert(depths.end(), {power, 0.5 + 0.5 * power, 0.5 - 0.5 * power});
-    }
-    return depths;
-}
-
-CoarsestDepth coarsest_float_depth(const DepthMapping& mapping, const DepthCoding& coding)
-{
-    CoarsestDepth coarsest;
-    for (const double depth : float_borders()) {
-        const CoarsestDepth here{mapping.light_distance_m(depth),
-                                 tolerance_at_depth(mapping, coding, depth)};
-        if (here.tolerance * mapping.slope_m(here.light_distance_m) >
-            coarsest.tolerance * mapping.slope_m(coarsest.light_distance_m)) {
-            coarsest = here;
+    std::vector<double> depths = coding.borders();
+    if (coding.is_float()) {
+        for (const double power : coding.borders()) {
+            depths.insert(depths.end(), {0.5 + 0.5 * power, 0.5 - 0.5 * power});
         }
     }
-    return coarsest;
+    return depths;
 }
 
 } // namespace
@@ -80,18 +67,25 @@ double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding,
 
 CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding)
 {
-    return coding.is_float() ? coarsest_float_depth(mapping, coding)
-                             : CoarsestDepth{mapping.far_m(), coding.half_step(1)};
+    const std::vector<double> borders_m = tolerance_borders_m(mapping, coding);
+    CoarsestDepth coarsest;
+    for (std::size_t i = 1; i < borders_m.size(); ++i) {
+        const double middle_m = 0.5 * (borders_m[i - 1] + borders_m[i]);
+        const CoarsestDepth here{borders_m[i], depth_tolerance(mapping, coding, middle_m)};
+        if (here.tolerance * mapping.slope_m(here.light_distance_m) >
+            coarsest.tolerance * mapping.slope_m(coarsest.light_distance_m)) {
+            coarsest = here;
+        }
+    }
+    return coarsest;
 }
 
 std::vector<double> tolerance_borders_m(const DepthMapping& mapping, const DepthCoding& coding)
 {
     std::vector<double> borders{mapping.near_m(), mapping.far_m()};
-    if (coding.is_float()) {
-        for (const double depth : float_borders()) {
-            borders.push_back(
-                std::clamp(mapping.light_distance_m(depth), mapping.near_m(), mapping.far_m()));
-        }
+    for (const double depth : border_depths(coding)) {
+        borders.push_back(
+            std::clamp(mapping.light_distance_m(depth), mapping.near_m(), mapping.far_m()));
     }
     std::sort(borders.begin(), borders.end());
     borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
@@ -107,7 +101,7 @@ double error_envelope_m(const DepthMapping& mapping, const DepthCoding& coding,
 
 double largest_error_m(const DepthMapping& mapping, const DepthCoding& coding)
 {
-    if (coding.is_float()) {
+    if (coding.spacing() != scene::Spacing::even) {
         const auto [light_distance_m, tolerance] = coarsest_depth(mapping, coding);
         return mapping.largest_light_distance_error_m(light_distance_m, tolerance);
     }

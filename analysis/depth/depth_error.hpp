@@ -11,7 +11,8 @@ namespace gnomon::analysis {
 /// What a depth becomes by being stored, computed without any other error.
 ///
 /// An evenly spaced code stores the nearest of its depths. A float32 stores fl(d) with the clip
-/// range [0, 1], but fl(½·fl(2d − 1) + ½) with [−1, 1], as z_ndc is a float32 as well.
+/// range [0, 1], but fl(½·fl(2d − 1) + ½) with [−1, 1], as z_ndc is a float32 as well; of the same
+/// float32 a float16 and packed bytes are made.
 struct StoredDepth {
     std::uint32_t code = 0;
     double depth = 0;
@@ -24,8 +25,8 @@ struct StoredDepth {
 [[nodiscard]] StoredDepth stored_depth(const DepthMapping& mapping, const DepthCoding& coding,
                                        double light_distance_m);
 
-/// Bound Δ on |stored − exact| depth at a distance: q/2 for evenly spaced codes; for float32 half a
-/// unit in the last place of d, and with the clip range [−1, 1] half of z_ndc's on top.
+/// Bound Δ on |stored − exact| depth at a distance: the coding's half step; for floats, with the
+/// clip range [−1, 1], half of z_ndc's on top.
 [[nodiscard]] double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding,
                                      double light_distance_m);
 
@@ -44,19 +45,20 @@ struct CoarsestDepth {
     double tolerance = 0; ///< Δ there
 };
 
-/// Evenly spaced codes: far. float32: Δ is constant between powers of two of d (and of z_ndc) and
-/// ζ² grows, so it is at one of them or at an end.
+/// Δ is constant between its borders and ζ² grows, so it is at one of them or at an end: of evenly
+/// spaced codes far.
 [[nodiscard]] CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding);
 
 /// The distances between which Δ is constant, ascending from near to far [m]: these two alone for
-/// evenly spaced codes; for float32 also those where d or |z_ndc| is a power of two.
+/// evenly spaced codes; for floats also those where d or |z_ndc| is a power of two, packed those
+/// where the first byte changes.
 [[nodiscard]] std::vector<double> tolerance_borders_m(const DepthMapping& mapping,
                                                       const DepthCoding& coding);
 
 /// The largest error between near and far [m].
 ///
 /// Evenly spaced codes: attained half a code before far, A(q/2)f²/(1 + A(q/2)f); orthographic
-/// (q/2)(f − n). float32: the envelope's largest value.
+/// (q/2)(f − n). Others: the envelope's largest value.
 /// Source: docs/depth_precision.md#largest-error.
 [[nodiscard]] double largest_error_m(const DepthMapping& mapping, const DepthCoding& coding);
 

@@ -8,6 +8,7 @@ namespace gnomon::analysis {
 
 DepthMapping::DepthMapping(const scene::DepthRange& range)
     : range_{range},
+      near_m_{range.near_m},
       depth_per_inverse_m_{(range.far_m - range.near_m) / (range.far_m * range.near_m)}
 {
     if (!std::isfinite(near_m()) || !std::isfinite(far_m()) || !(near_m() < far_m())) {
@@ -18,11 +19,22 @@ DepthMapping::DepthMapping(const scene::DepthRange& range)
     }
 }
 
+DepthMapping DepthMapping::of_distances(double near_m, double far_m)
+{
+    if (!(near_m >= 0 && near_m < far_m)) {
+        throw std::domain_error(
+            "DepthMapping::of_distances: near must be 0 or more, and below far");
+    }
+    DepthMapping mapping{scene::range_of_distances(far_m)};
+    mapping.content_ = scene::MapContent::distance;
+    mapping.near_m_ = near_m;
+    return mapping;
+}
+
 SplitDepth DepthMapping::split_depth(double light_distance_m) const
 {
-    const double extent_m = far_m() - near_m();
-    double from_near = (light_distance_m - near_m()) / extent_m;
-    double from_far = (far_m() - light_distance_m) / extent_m;
+    double from_near = (light_distance_m - range_.near_m) / extent_m();
+    double from_far = (far_m() - light_distance_m) / extent_m();
     if (is_perspective()) {
         from_near = far_m() * from_near / light_distance_m;
         from_far = near_m() * from_far / light_distance_m;
@@ -36,8 +48,8 @@ double DepthMapping::light_distance_m(const SplitDepth& depth) const
         range_.reversed ? SplitDepth{depth.complement, depth.depth} : depth;
     const bool is_nearer_near = from_near < from_far;
     if (!is_perspective()) {
-        const double extent_m = far_m() - near_m();
-        return is_nearer_near ? near_m() + from_near * extent_m : far_m() - from_far * extent_m;
+        return is_nearer_near ? range_.near_m + from_near * extent_m()
+                              : far_m() - from_far * extent_m();
     }
     return is_nearer_near ? near_m() / (from_far + near_m() / far_m() * from_near)
                           : far_m() / (from_near + far_m() / near_m() * from_far);
@@ -49,20 +61,20 @@ double DepthMapping::stored_error_m(double light_distance_m, const SplitDepth& s
     const double towards_far = range_.reversed ? -raised : raised;
     return is_perspective() ? depth_per_inverse_m_ * towards_far * light_distance_m *
                                   this->light_distance_m(stored)
-                            : towards_far * (far_m() - near_m());
+                            : towards_far * extent_m();
 }
 
 double DepthMapping::slope_m(double light_distance_m) const
 {
     return is_perspective() ? depth_per_inverse_m_ * light_distance_m * light_distance_m
-                            : far_m() - near_m();
+                            : extent_m();
 }
 
 double DepthMapping::light_distance_error_m(double light_distance_m, double depth_error) const
 {
     const double towards_far = range_.reversed ? -depth_error : depth_error;
     if (!is_perspective()) {
-        return towards_far * (far_m() - near_m());
+        return towards_far * extent_m();
     }
     const double relative = depth_per_inverse_m_ * towards_far * light_distance_m;
     return relative < 1 ? relative * light_distance_m / (1 - relative)

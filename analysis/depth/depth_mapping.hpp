@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/depth/split_depth.hpp"
-#include "scene/light/depth_range.hpp"
+#include "scene/light/frustum.hpp"
 
 namespace gnomon::analysis {
 
@@ -10,15 +10,22 @@ namespace gnomon::analysis {
 ///     perspective    d = f(ζ − n)/(ζ(f − n)),  1/ζ = 1/n − A·d,  A = 1/n − 1/f = (f − n)/(fn)
 ///     reversed       d = n(f − ζ)/(ζ(f − n)),  1/ζ = 1/f + A·d
 ///     orthographic   d = (ζ − n)/(f − n), reversed (f − ζ)/(f − n)
+///     distances      d = ρ/f, ρ from the light in place of ζ: orthographic with n = 0
 ///
 /// Source: docs/depth_precision.md#depth-of-a-distance.
 class DepthMapping {
 public:
     /// @throws std::domain_error  unless near < far, both finite, and 0 < near for a perspective.
     explicit DepthMapping(const scene::DepthRange& range);
+    /// Of distances to the light, over far.
+    /// @param near_m  The least that there is; what is stored counts from 0.
+    /// @throws std::domain_error  unless 0 <= near < far, both finite.
+    [[nodiscard]] static DepthMapping of_distances(double near_m, double far_m);
 
     [[nodiscard]] const scene::DepthRange& range() const { return range_; }
-    [[nodiscard]] double near_m() const { return range_.near_m; }
+    [[nodiscard]] scene::MapContent content() const { return content_; }
+    /// The least distance that there is [m].
+    [[nodiscard]] double near_m() const { return near_m_; }
     [[nodiscard]] double far_m() const { return range_.far_m; }
     [[nodiscard]] bool is_perspective() const
     {
@@ -55,7 +62,12 @@ public:
                                                         double depth_error) const;
 
 private:
+    /// From depth 0 to depth 1 [m].
+    [[nodiscard]] double extent_m() const { return range_.far_m - range_.near_m; }
+
     scene::DepthRange range_;
+    scene::MapContent content_ = scene::MapContent::depth;
+    double near_m_;
     double depth_per_inverse_m_; ///< A [1/m]
 };
 

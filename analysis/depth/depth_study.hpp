@@ -19,15 +19,17 @@ struct DepthTheory {
     double envelope_at_far_m = 0;
     double step_at_near_m = 0;
     double step_at_far_m = 0;
-    double coarsest_at_m = 0; ///< where envelope and step are largest: far but for float32
+    double coarsest_at_m = 0; ///< where envelope and step are largest
     double largest_envelope_m = 0;
     double largest_step_m = 0;
     double half_of_codes_within_m = 0; ///< distance up to which half of the codes are spent
     double code_share_within_1m = 0;   ///< of the camera's plane
     std::optional<double> distance_of_1m_step_m;
-    double float_limit_m = 0;                    ///< D32F is finer than D24 on one side of it only
-    double separate_transform_at_far_m = 0;      ///< bound, view then projection
-    double premultiplied_transform_at_far_m = 0; ///< bound, one matrix
+    double float_limit_m = 0; ///< D32F is finer than D24 on one side of it only
+    /// Bounds on what the vertex's transform does, as view then projection, and as one matrix;
+    /// empty of distances, which no projection makes.
+    std::optional<double> separate_transform_at_far_m;
+    std::optional<double> premultiplied_transform_at_far_m;
 };
 
 /// @param offset_m  the camera stands at (offset, offset, offset) and looks along an axis.

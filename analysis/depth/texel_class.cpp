@@ -20,6 +20,14 @@ double share_of_bound(const DepthCoding& coding, const scene::TexelDepth& texel)
     return std::abs(residual) / (texel.driver_bound + conversion);
 }
 
+/// One of the two nearest codes; packed, where near depths can have far codes, one of the two
+/// nearest float32s'.
+bool is_within_format(const DepthCoding& coding, std::uint32_t code, double exact)
+{
+    return coding.spacing() == scene::Spacing::packed ? may_be_converted(coding, code, exact, exact)
+                                                      : nearest_codes(coding, exact).holds(code);
+}
+
 std::size_t bin_of(double magnitude_codes)
 {
     constexpr std::size_t last = std::tuple_size_v<decltype(DepthCertificate::histogram)> - 1;
@@ -48,16 +56,15 @@ double residual_codes(const DepthCoding& coding, const scene::TexelDepth& texel)
 TexelClass classify_texel(const DepthCoding& coding, const scene::TexelDepth& texel)
 {
     const double exact = texel.plane_depth;
-    const CodeRange format = nearest_codes(coding, exact);
-    if (format.holds(texel.code)) {
-        const std::uint32_t other = texel.code == format.lower ? format.upper : format.lower;
+    if (is_within_format(coding, texel.code, exact)) {
+        const std::uint32_t nearest = coding.nearest_code(exact);
         const bool is_nearest =
-            std::abs(coding.depth(texel.code) - exact) <= std::abs(coding.depth(other) - exact);
+            std::abs(coding.depth(texel.code) - exact) <= std::abs(coding.depth(nearest) - exact);
         return is_nearest ? TexelClass::nearest_code : TexelClass::within_format;
     }
-    const CodeRange model =
-        converted_codes(coding, exact - texel.driver_bound, exact + texel.driver_bound);
-    return model.holds(texel.code) ? TexelClass::within_model : TexelClass::outside;
+    const bool is_modelled = may_be_converted(coding, texel.code, exact - texel.driver_bound,
+                                              exact + texel.driver_bound);
+    return is_modelled ? TexelClass::within_model : TexelClass::outside;
 }
 
 double histogram_end_codes(std::size_t bin)

@@ -26,7 +26,8 @@ inline constexpr std::size_t texel_class_count = 4;
 /// Source: docs/depth_precision.md#certificate.
 [[nodiscard]] TexelClass classify_texel(const DepthCoding& coding, const scene::TexelDepth& texel);
 
-/// Stored less exact depth in codes: units of q, or of the float32's last place at the exact depth.
+/// Stored less exact depth in codes: units of q, or of the float's last place at the exact depth;
+/// packed: of twice the half step there.
 [[nodiscard]] double residual_codes(const DepthCoding& coding, const scene::TexelDepth& texel);
 
 /// What a driver stored of many texels.

@@ -49,7 +49,7 @@ struct Drawn {
     }
 };
 
-/// GL's own formats as far as the driver has them, and three of the shader's.
+/// GL's own formats as far as the driver has them, and some of the shader's.
 std::vector<scene::DepthFormat> certified_formats(const raster_gl::Context& context)
 {
     std::vector<scene::DepthFormat> formats;
@@ -59,8 +59,8 @@ std::vector<scene::DepthFormat> certified_formats(const raster_gl::Context& cont
             formats.push_back(*format);
         }
     }
-    for (const int bits : {8, 16, 24}) {
-        formats.push_back({scene::DepthFormat::Kind::unorm, bits});
+    for (const char* name : {"r16f", "rgba8", "u8", "u16", "u24"}) {
+        formats.push_back(scene::depth_format_from_name(name).value());
     }
     return formats;
 }
@@ -105,7 +105,7 @@ reports::DriverCertificate certify_driver_depth(const raster_gl::Context& contex
         certificate.ranges.push_back(certify_range(context, range, formats));
     }
     for (const scene::DepthFormat format : formats) {
-        if (format.kind != scene::DepthFormat::Kind::unorm) {
+        if (traits_of(format).conversion == scene::Conversion::gl) {
             certificate.offset_units.push_back(offset_units(context, format));
         }
     }

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -34,6 +35,7 @@ struct DepthOptions {
     std::optional<double> far_m;
     std::optional<int> bits;
     std::string format;
+    std::string content = "depth";
     std::string projection = "perspective";
     bool reversed = false;
     std::string clip;
@@ -61,6 +63,11 @@ scene::Projection projection_of(const DepthOptions& options)
 {
     return options.projection == "perspective" ? scene::Projection::perspective
                                                : scene::Projection::orthographic;
+}
+
+bool has_distances(const DepthOptions& options)
+{
+    return options.content == scene::map_content_name(scene::MapContent::distance);
 }
 
 void require_range(const DepthOptions& options, double near_m, double far_m)
@@ -103,6 +110,11 @@ scene::MeasuredPlaneSettings planes_of(const DepthOptions& options)
     planes.range = {projection_of(options), near_m, far_m, options.reversed,
                     zero_to_one ? scene::ClipRange::zero_to_one
                                 : scene::ClipRange::minus_one_to_one};
+    if (has_distances(options)) {
+        planes.content = scene::MapContent::distance;
+        planes.range.far_m = double{static_cast<float>(far_m)}; // GL divides by it
+        require_range(options, near_m, planes.range.far_m);
+    }
     planes.count = options.samples;
     planes.tilt_rad = options.tilt_deg * std::numbers::pi / 180;
     // What float32 cannot hold is not where the camera stands.
@@ -173,16 +185,13 @@ void study(const DepthOptions& options)
 std::vector<DepthChoice> all_formats()
 {
     std::vector<DepthChoice> choices;
-    for (const char* name : {"d16", "d24", "d32", "d32f"}) {
-        choices.push_back(choose_format(name, {}));
-    }
-    for (int bits = 8; bits <= 24; ++bits) {
-        choices.push_back(choose_format(fmt::format("u{}", bits), {}));
+    for (const scene::DepthFormat format : scene::depth_formats()) {
+        choices.push_back(choose_format(scene::depth_format_name(format), {}));
     }
     return choices;
 }
 
-/// Every format as asked, then reversed float if that was not asked for.
+/// Every format as asked, and reversed float if that was not asked for.
 std::vector<DepthStudy> compared_formats(const DepthOptions& options,
                                          const raster_gl::Context* context)
 {
@@ -199,11 +208,12 @@ std::vector<DepthStudy> compared_formats(const DepthOptions& options,
     };
     scene::MeasuredPlaneSettings planes = planes_of(options);
     std::vector<DepthStudy> studies = studied(all_formats(), planes);
-    if (!options.reversed) {
+    if (!options.reversed && !has_distances(options)) {
         planes.range.reversed = true;
         planes.range.clip_range = scene::ClipRange::zero_to_one;
         const auto reversed = studied({choose_format("d32f", {})}, planes);
-        studies.insert(studies.begin() + 4, reversed.front());
+        const auto floats = std::ranges::find(studies, "d32f", &DepthStudy::format);
+        studies.insert(floats + 1, reversed.front());
     }
     return studies;
 }
@@ -240,8 +250,19 @@ void plan(const DepthOptions& options)
                        : reports::depth_plan_text(target, answers));
 }
 
+void require_content(const DepthOptions& options)
+{
+    if (has_distances(options) && (options.plan || options.reversed || !options.clip.empty() ||
+                                   options.projection != DepthOptions{}.projection)) {
+        throw scene::InputError(
+            "--content distance is about a light at a place, and no projection's "
+            "depth: leave out --plan, --reversed, --clip and --projection");
+    }
+}
+
 void require_consistent(const DepthOptions& options)
 {
+    require_content(options);
     if (options.plan || options.compare) {
         if (options.csv_path || !options.plot_path.empty() || options.bits || options.tolerance_m ||
             !options.format.empty()) {
@@ -295,6 +316,11 @@ void add_frustum_options(CLI::App& command, DepthOptions& options)
 {
     command.add_option("--near", options.near_m, "Near plane [m]; default 4");
     command.add_option("--far", options.far_m, "Far plane [m]; default 50");
+    command
+        .add_option("--content", options.content,
+                    "What is stored: depth, or the distance to the light over far")
+        ->check(CLI::IsMember({"depth", "distance"}))
+        ->capture_default_str();
     command.add_option("--projection", options.projection, "perspective or orthographic")
         ->check(CLI::IsMember({"perspective", "orthographic"}))
         ->capture_default_str();
@@ -328,8 +354,7 @@ void add_depth_command(CLI::App& program)
         "--bits", options->bits,
         "Evenly spaced codes of 8 to 32 bits: d16, d24, d32, else written by the shader (25 to 31: "
         "theory only); default 24");
-    command->add_option("--format", options->format, "d16, d24, d32, d32f, or u8 to u24")
-        ->excludes(bits);
+    command->add_option("--format", options->format, scene::depth_format_listing())->excludes(bits);
     command->add_option("--samples", options->samples, "Planes to measure, from near to far")
         ->capture_default_str();
     command->add_option("--tilt-deg", options->tilt_deg, "Tilt of the planes, 0 to 80")
@@ -355,6 +380,7 @@ void add_depth_command(CLI::App& program)
         "  gnomon depth --near 4 --far 50 --bits 16\n"
         "  gnomon depth --near 0.1 --far 1000 --format d32f --reversed --plot error.png\n"
         "  gnomon depth --bits 32 --tolerance 1e-8 --theory-only --plot tolerance.svg\n"
+        "  gnomon depth --far 20 --format rgba8 --content distance --plot packed.svg\n"
         "  gnomon depth --near 0.5 --far 200 --compare\n"
         "  gnomon depth --plan --max-error-m 0.01 --far 200");
     command->callback([options] { run(*options); });

@@ -32,8 +32,8 @@ DepthChoice choose_format(const std::string& format, std::optional<int> bits)
     if (!format.empty()) {
         const auto known = scene::depth_format_from_name(format);
         if (!known) {
-            throw scene::InputError(fmt::format(
-                "--format {}: no such format; use d16, d24, d32, d32f or u8 to u24", format));
+            throw scene::InputError(fmt::format("--format {}: no such format; use one of {}",
+                                                format, scene::depth_format_listing()));
         }
         return {DepthCoding::of(*known), known, format};
     }
@@ -53,7 +53,10 @@ DepthChoice choose_format(const std::string& format, std::optional<int> bits)
 DepthStudy study_theory(const DepthChoice& choice, const scene::MeasuredPlaneSettings& planes,
                         const std::string& not_measured_because)
 {
-    const DepthMapping mapping{planes.range};
+    const DepthMapping mapping =
+        planes.content == scene::MapContent::depth
+            ? DepthMapping{planes.range}
+            : DepthMapping::of_distances(planes.range.near_m, planes.range.far_m);
     return {mapping,
             choice.coding,
             choice.name,

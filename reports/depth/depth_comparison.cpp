@@ -13,9 +13,12 @@ using analysis::DepthStudy;
 std::string depth_comparison_table(std::span<const DepthStudy> studies,
                                    const std::string& gl_renderer)
 {
-    scene::DepthRange range = studies.front().mapping.range();
+    const analysis::DepthMapping& mapping = studies.front().mapping;
+    scene::DepthRange range = mapping.range();
     range.reversed = false;
-    std::string text = setting_line("frustum", range_text(range));
+    const bool has_depths = mapping.content() == scene::MapContent::depth;
+    std::string text =
+        setting_line("frustum", has_depths ? range_text(range) : mapping_text(mapping));
     if (!gl_renderer.empty()) {
         text += setting_line("GL", gl_renderer);
     }

@@ -1,7 +1,9 @@
 #include "reports/depth/depth_json.hpp"
 
 #include "reports/depth/depth_names.hpp"
+#include "scene/job/job.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -31,8 +33,8 @@ store::Json theory_json(const DepthTheory& theory)
             {"distance_of_1m_step_m", store::number_or_null(theory.distance_of_1m_step_m)},
             {"float_limit_m", theory.float_limit_m},
             {"transform_error_at_far_m",
-             {{"view_then_projection", theory.separate_transform_at_far_m},
-              {"premultiplied", theory.premultiplied_transform_at_far_m}}}};
+             {{"view_then_projection", store::number_or_null(theory.separate_transform_at_far_m)},
+              {"premultiplied", store::number_or_null(theory.premultiplied_transform_at_far_m)}}}};
 }
 
 store::Json measured_json(const MeasuredDepthError& measured)
@@ -66,6 +68,21 @@ store::Json sample_json(const DepthErrorRow& row, bool is_measured)
         json["class"] = analysis::texel_class_name(row.texel_class);
     }
     return json;
+}
+
+/// Of distances that of the camera that draws them.
+scene::DepthRange drawn_range(const analysis::DepthMapping& mapping)
+{
+    return mapping.content() == scene::MapContent::depth
+               ? mapping.range()
+               : scene::DepthRange{scene::Projection::perspective, mapping.near_m(),
+                                   mapping.far_m(), false, scene::ClipRange::minus_one_to_one};
+}
+
+std::string_view spacing_name(scene::Spacing spacing)
+{
+    constexpr std::array<std::string_view, 3> names{"even", "floating", "packed"};
+    return names.at(static_cast<std::size_t>(spacing));
 }
 
 } // namespace
@@ -104,7 +121,9 @@ store::Json depth_summary_json(const DepthStudy& study)
     store::Json json{{"format", study.format},
                      {"bits", study.coding.bits()},
                      {"float", study.coding.is_float()},
-                     {"frustum", frustum_json(study.mapping.range())},
+                     {"spacing", spacing_name(study.coding.spacing())},
+                     {"content", scene::map_content_name(study.mapping.content())},
+                     {"frustum", frustum_json(drawn_range(study.mapping))},
                      {"theory", theory_json(study.theory)}};
     json["measured"] = study.measured ? measured_json(*study.measured) : store::Json();
     json["not_measured_because"] =

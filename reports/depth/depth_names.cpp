@@ -17,6 +17,19 @@ std::string range_text(const scene::DepthRange& range)
                        range.reversed ? ", reversed" : "");
 }
 
+std::string mapping_text(const analysis::DepthMapping& mapping)
+{
+    return mapping.content() == scene::MapContent::depth
+               ? range_text(mapping.range())
+               : fmt::format("distance over far, near {} m, far {} m", mapping.near_m(),
+                             mapping.far_m());
+}
+
+std::string_view distance_symbol(const analysis::DepthMapping& mapping)
+{
+    return mapping.content() == scene::MapContent::depth ? "z" : "r";
+}
+
 std::string metres(double length_m)
 {
     return fmt::format("{:.4g} m", length_m);

@@ -117,7 +117,7 @@ Axes make_axes(const DepthStudy& study, std::span<const DepthErrorRow> rows)
                  true}};
 }
 
-void add_frame(Drawing& drawing, const Axes& axes)
+void add_frame(Drawing& drawing, const DepthMapping& mapping, const Axes& axes)
 {
     for (const double tick : axes.x.ticks()) {
         const double x = axes.x.px(tick);
@@ -133,11 +133,15 @@ void add_frame(Drawing& drawing, const Axes& axes)
                                   {16},
                                   Anchor::end});
     }
+    const bool has_depths = mapping.content() == scene::MapContent::depth;
     drawing.labels.push_back({{0.5 * (left_px + right_px), bottom_px + 54},
-                              "distance z from the camera's plane [m]",
+                              fmt::format("distance {} from the {} [m]", distance_symbol(mapping),
+                                          has_depths ? "camera's plane" : "light"),
                               {17},
                               Anchor::middle});
-    drawing.labels.push_back({{left_px - 62, top_px - 14}, "|error of z| [m]", {17}});
+    drawing.labels.push_back({{left_px - 62, top_px - 14},
+                              fmt::format("|error of {}| [m]", distance_symbol(mapping)),
+                              {17}});
 }
 
 void add_border(Drawing& drawing)
@@ -199,7 +203,9 @@ void add_titles(Drawing& drawing, const DepthStudy& study, const std::string& gl
 {
     drawing.labels.push_back(
         {{left_px - 62, 38},
-         fmt::format("Depth error of {}: {}", study.format, range_text(study.mapping.range())),
+         fmt::format("{} error of {}: {}",
+                     study.mapping.content() == scene::MapContent::depth ? "Depth" : "Distance",
+                     study.format, mapping_text(study.mapping)),
          {21, true}});
     double x = right_px - 700 - (study.tolerance ? tolerance_key_px : 0);
     const auto key = [&](store::Rgb colour, double width_px, const std::string& text,
@@ -234,7 +240,7 @@ Drawing depth_plot(const DepthStudy& study, std::span<const DepthErrorRow> rows,
         study.measured ? rows : std::span<const DepthErrorRow>{};
     const Axes axes = make_axes(study, measured);
     Drawing drawing;
-    add_frame(drawing, axes);
+    add_frame(drawing, study.mapping, axes);
     add_formulas(drawing, study, axes);
     if (study.measured) {
         add_measured(drawing, measured, axes);

@@ -21,6 +21,13 @@ using analysis::DepthStudy;
 using analysis::DepthTheory;
 using analysis::MeasuredDepthError;
 
+std::string format_text(const DepthStudy& study)
+{
+    constexpr std::array<std::string_view, 3> spacing_words{"", " float", " packed"};
+    return fmt::format("{}, {} bits{}", study.format, study.coding.bits(),
+                       spacing_words.at(static_cast<std::size_t>(study.coding.spacing())));
+}
+
 std::string view_text(const DepthStudy& study)
 {
     const std::string place =
@@ -37,7 +44,7 @@ std::string theory_text(const DepthStudy& study)
     std::string text = "theory\n";
     text += setting_line("largest error", metres(t.max_error_m));
     const auto near_and_largest = [&](double at_near_m, double largest_m) {
-        return study.mapping.is_perspective() || study.coding.is_float()
+        return study.mapping.is_perspective() || study.coding.spacing() != scene::Spacing::even
                    ? fmt::format("{} at near, at most {} at {}", metres(at_near_m),
                                  metres(largest_m), metres(t.coarsest_at_m))
                    : fmt::format("{} everywhere", metres(largest_m));
@@ -50,9 +57,11 @@ std::string theory_text(const DepthStudy& study)
     if (t.distance_of_1m_step_m) {
         text += setting_line("1 m steps", fmt::format("at {}", metres(*t.distance_of_1m_step_m)));
     }
-    text += setting_line("transform", fmt::format("at most {} at far, by one matrix {}",
-                                                  metres(t.separate_transform_at_far_m),
-                                                  metres(t.premultiplied_transform_at_far_m)));
+    if (t.separate_transform_at_far_m && t.premultiplied_transform_at_far_m) {
+        text += setting_line("transform", fmt::format("at most {} at far, by one matrix {}",
+                                                      metres(*t.separate_transform_at_far_m),
+                                                      metres(*t.premultiplied_transform_at_far_m)));
+    }
     return text;
 }
 
@@ -102,16 +111,21 @@ constexpr std::size_t shown_rows = 9;
 
 std::string code_text(const analysis::DepthCoding& coding, std::uint32_t code)
 {
-    return coding.is_float() ? fmt::format("{:#010x}", code) : grouped(code);
+    return coding.spacing() == scene::Spacing::even
+               ? grouped(code)
+               : fmt::format("{:#0{}x}", code, 2 + coding.bits() / 4);
 }
 
 std::string rows_text(const DepthStudy& study, std::span<const DepthErrorRow> rows)
 {
     const bool is_measured = study.measured.has_value();
-    std::string text = fmt::format("\n{:>10}{:>13}{:>16}{:>15}{:>14}", "z [m]", "exact depth",
-                                   "formula's code", "error [m]", "envelope [m]");
+    const std::string metres_of = fmt::format("{} [m]", distance_symbol(study.mapping));
+    const bool has_depths = study.mapping.content() == scene::MapContent::depth;
+    std::string text = fmt::format("\n{:>10}{:>13}{:>16}{:>15}{:>14}", metres_of,
+                                   has_depths ? "exact depth" : "over far", "formula's code",
+                                   "error [m]", "envelope [m]");
     text += is_measured
-                ? fmt::format("{:>16}{:>16}{:>13}\n", "GL's code", "GL's z [m]", "error [m]")
+                ? fmt::format("{:>16}{:>16}{:>13}\n", "GL's code", "GL's " + metres_of, "error [m]")
                 : std::string{"\n"};
     const std::size_t count = std::min(shown_rows, rows.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -147,9 +161,8 @@ std::string classes_text(const analysis::DepthCertificate& certificate)
 std::string depth_table(const DepthStudy& study, std::span<const DepthErrorRow> rows,
                         const std::string& gl_renderer)
 {
-    std::string text = setting_line("frustum", range_text(study.mapping.range()));
-    text += setting_line("format", fmt::format("{}, {} bits{}", study.format, study.coding.bits(),
-                                               study.coding.is_float() ? " float" : ""));
+    std::string text = setting_line("frustum", mapping_text(study.mapping));
+    text += setting_line("format", format_text(study));
     text += setting_line("planes", view_text(study));
     text += study.measured ? setting_line("GL", gl_renderer)
                            : setting_line("not measured", study.not_measured_because);

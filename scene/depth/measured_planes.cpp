@@ -95,6 +95,7 @@ void choose_tiles(MeasuredPlanes& planes, const MeasuredPlaneSettings& settings)
 void place_camera(LightFrustum& frustum, const MeasuredPlaneSettings& settings)
 {
     frustum.projection = settings.range.projection;
+    frustum.content = settings.content;
     frustum.near_m = settings.range.near_m;
     frustum.far_m = settings.range.far_m;
     frustum.reversed = settings.range.reversed;
@@ -180,7 +181,10 @@ SampleRange sample_range(const MeasuredPlanes& planes, const MeasuredPlaneSettin
     // Vertices round to float32, and GL computes their depth from terms as large as these.
     const double margin_m = 0x1p-22 * (std::abs(settings.offset_m) + std::abs(f.near_m) + f.far_m);
     const double nearest_m = f.near_m + margin_m;
-    const double farthest_m = f.far_m - margin_m;
+    // Of distances, what is far away in a corner of the map must not be farther than far.
+    const double corner =
+        f.content == MapContent::distance ? glm::length(Vec3d{f.right_side, f.top, 1}) : 1;
+    const double farthest_m = (f.far_m - margin_m) / corner;
     const SampleRange range = perspective ? SampleRange{nearest_m / least, farthest_m / most}
                                           : SampleRange{nearest_m - least, farthest_m - most};
     if (!(range.first_m < range.last_m)) {
@@ -237,7 +241,9 @@ double MeasuredPlanes::light_distance_m(std::size_t sample) const
     const Vec3d normal = glm::cross(b - a, c - a);
     const Vec2d side = frustum.top * sample_position(*this, sample);
     if (frustum.projection == Projection::perspective) {
-        return glm::dot(normal, a) / glm::dot(normal, Vec3d{side, -1});
+        const Vec3d ray{side, -1};
+        const double plane_m = glm::dot(normal, a) / glm::dot(normal, ray);
+        return frustum.content == MapContent::distance ? plane_m * glm::length(ray) : plane_m;
     }
     return glm::dot(normal, Vec3d{side, 0} - a) / normal.z;
 }

@@ -16,7 +16,8 @@ inline constexpr double largest_plane_tilt_deg = 80;
 /// Planes to measure stored depths on.
 struct MeasuredPlaneSettings {
     DepthRange range;
-    int count = 1024;    ///< planes, one sample each; [1, 2^22]
+    MapContent content = MapContent::depth; ///< distance: of a perspective, not reversed
+    int count = 1024;                       ///< planes, one sample each; [1, 2^22]
     double tilt_rad = 0; ///< of the planes about the camera's right axis; [0, 80°]
     double offset_m = 0; ///< the camera stands at (offset, offset, offset); rounded to float32
     int smallest_map_texels = 1024; ///< side of the map, if the planes need no more
@@ -36,7 +37,8 @@ struct MeasuredPlanes {
     };
     [[nodiscard]] Texel texel(std::size_t sample) const;
     /// Distance ζ of triangle i's plane at the centre of sample i's texel [m], from the float32
-    /// vertices and the camera as composed in double.
+    /// vertices and the camera as composed in double; of maps of distances the distance to the
+    /// camera there.
     [[nodiscard]] double light_distance_m(std::size_t sample) const;
 };
 

@@ -19,6 +19,17 @@ double cross(const Vec2d& a, const Vec2d& b)
 
 } // namespace
 
+double interpolated(const WindowTriangle& triangle, const Vec2d& at_px)
+{
+    const auto& [position_px, depth] = triangle;
+    const Vec2d d1 = position_px[1] - position_px[0];
+    const Vec2d d2 = position_px[2] - position_px[0];
+    const Vec2d q = at_px - position_px[0];
+    return depth[0] +
+           (cross(q, d2) * (depth[1] - depth[0]) + cross(d1, q) * (depth[2] - depth[0])) /
+               cross(d1, d2);
+}
+
 RasterPlane::RasterPlane(const std::array<Vec4f, 3>& clip, int resolution_texels, ClipRange range)
 {
     const bool zero_to_one = range == ClipRange::zero_to_one;
@@ -53,12 +64,7 @@ double RasterPlane::inside_px(const Vec2d& at_px) const
 
 double RasterPlane::depth(const Vec2d& at_px) const
 {
-    const Vec2d d1 = window_.position_px[1] - window_.position_px[0];
-    const Vec2d d2 = window_.position_px[2] - window_.position_px[0];
-    const Vec2d q = at_px - window_.position_px[0];
-    return window_.depth[0] + (cross(q, d2) * (window_.depth[1] - window_.depth[0]) +
-                               cross(d1, q) * (window_.depth[2] - window_.depth[0])) /
-                                  area2_px2_;
+    return interpolated(window_, at_px);
 }
 
 double RasterPlane::driver_bound(const Vec2d& at_px, int subpixel_bits) const

@@ -9,6 +9,9 @@
 
 namespace gnomon::scene {
 
+/// What is linear in the window, between a triangle's corners, at a point of the window.
+[[nodiscard]] double interpolated(const WindowTriangle& triangle, const Vec2d& at_px);
+
 /// The exact depth of a triangle as GL rasterises it: the plane through its float32 clip positions.
 class RasterPlane {
 public:

@@ -18,6 +18,12 @@ enum class MapContent : std::uint8_t {
     distance, ///< to the light, over far
 };
 
+/// The range of distances to the light over far: from 0 on, evenly, and never a z_ndc.
+[[nodiscard]] constexpr DepthRange range_of_distances(double far_m)
+{
+    return {Projection::orthographic, 0, far_m, false, ClipRange::zero_to_one};
+}
+
 /// The part of `[shadow_map]` that decides the light's camera.
 struct FrustumSettings {
     MapContent content = MapContent::depth;
@@ -68,9 +74,7 @@ struct LightFrustum {
     /// distance to the light 0 to far, evenly.
     [[nodiscard]] DepthRange stored_range() const
     {
-        return content == MapContent::depth
-                   ? depth_range()
-                   : DepthRange{Projection::orthographic, 0, far_m, false, clip_range};
+        return content == MapContent::depth ? depth_range() : range_of_distances(far_m);
     }
 };
 
