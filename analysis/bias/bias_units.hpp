@@ -37,7 +37,7 @@ namespace gnomon::analysis {
 /// depths.
 ///
 ///     n-bit unorm:  1 / (2^n − 1)        floats:  2^(e − p + 1), e the exponent of the depth
-///     rgba8:        1 / 255, by half of which packing may move a depth
+///     rgba8:        1 / 255, half of which packing may move a depth by
 ///
 /// with p = 24 significant bits, 11 of r16f.
 /// @param depth  Decides the step of floats; 0 and subnormal depths have the smallest normal's

@@ -67,11 +67,21 @@ double depth_tolerance(const DepthMapping& mapping, const DepthCoding& coding,
 
 CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding)
 {
+    return coarsest_depth(mapping, coding, mapping.near_m(), mapping.far_m());
+}
+
+CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding, double from_m,
+                             double to_m)
+{
     const std::vector<double> borders_m = tolerance_borders_m(mapping, coding);
-    CoarsestDepth coarsest;
+    CoarsestDepth coarsest{from_m, depth_tolerance(mapping, coding, from_m)};
     for (std::size_t i = 1; i < borders_m.size(); ++i) {
-        const double middle_m = 0.5 * (borders_m[i - 1] + borders_m[i]);
-        const CoarsestDepth here{borders_m[i], depth_tolerance(mapping, coding, middle_m)};
+        const double start_m = std::clamp(borders_m[i - 1], from_m, to_m);
+        const double end_m = std::clamp(borders_m[i], from_m, to_m);
+        if (!(start_m < end_m)) {
+            continue;
+        }
+        const CoarsestDepth here{end_m, depth_tolerance(mapping, coding, 0.5 * (start_m + end_m))};
         if (here.tolerance * mapping.slope_m(here.light_distance_m) >
             coarsest.tolerance * mapping.slope_m(coarsest.light_distance_m)) {
             coarsest = here;

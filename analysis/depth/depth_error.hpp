@@ -48,6 +48,10 @@ struct CoarsestDepth {
 /// Δ is constant between its borders and ζ² grows, so it is at one of them or at an end: of evenly
 /// spaced codes far.
 [[nodiscard]] CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding);
+/// The same between two distances.
+/// @param from_m, to_m  [near, far], in their order or equal
+[[nodiscard]] CoarsestDepth coarsest_depth(const DepthMapping& mapping, const DepthCoding& coding,
+                                           double from_m, double to_m);
 
 /// The distances between which Δ is constant, ascending from near to far [m]: these two alone for
 /// evenly spaced codes; for floats also those where d or |z_ndc| is a power of two, packed those

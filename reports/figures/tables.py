@@ -64,20 +64,30 @@ def storage_of(table):
     if not numpy.allclose(at_0 + slope * depth, inverse, rtol=1e-9, atol=0):
         raise InputError(
             f"{table.attrs['path']}: these depths are of no perspective; leave out"
-            " --projection orthographic"
+            " --projection orthographic and --content distance"
         )
     far_m, near_m = sorted((1 / at_0, 1 / (at_0 + slope)), reverse=True)
     return Storage(near_m, far_m, is_reversed=slope > 0, bits=_bits_of(table))
 
 
 def _bits_of(table):
-    """The width whose nearest codes the table's are; None where they are the bits of a float."""
+    """The width whose nearest codes the table's are; None where they are the bits of a float32.
+
+    Raises InputError where they are neither.
+    """
     depth = table["depth"].to_numpy()
     code = table["formula_code"].to_numpy()
     for bits in range(8, 33):
         # A depth is rounded to double, which moves a code by 2^-21 at most.
         if numpy.all(numpy.abs(code - depth * (2**bits - 1)) <= 0.5 + 2**-20):
             return bits
+    floats = code.astype(numpy.uint32).view(numpy.float32)
+    # A float32 in [½, 1), and a z_ndc before it, round by 2^-25 each at most.
+    if not numpy.allclose(floats, depth, rtol=0, atol=2**-24):
+        raise InputError(
+            f"{table.attrs['path']}: these codes are of no evenly spaced format and no float32;"
+            " leave out r16f and rgba8"
+        )
     return None
 
 

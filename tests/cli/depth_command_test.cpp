@@ -58,7 +58,7 @@ TEST(DepthCommand, MeasuresBesideTheFormula)
 
 TEST(DepthCommand, KnowsEveryFormatAndWidth)
 {
-    for (const char* format : {"d16", "d24", "d32f", "u8", "u13", "u24"}) {
+    for (const char* format : {"d16", "d24", "d32f", "r32f", "r16f", "rgba8", "u8", "u13", "u24"}) {
         EXPECT_EQ(depth_json({"--format", format, "--samples", "16"}).at("format"), format);
     }
     EXPECT_EQ(depth_json({"--bits", "12", "--samples", "16"}).at("format"), "u12");
@@ -67,6 +67,39 @@ TEST(DepthCommand, KnowsEveryFormatAndWidth)
         EXPECT_TRUE(json.at("measured").is_null()) << bits;
         EXPECT_EQ(json.at("samples").size(), 16U);
     }
+}
+
+TEST(DepthCommand, MeasuresDistances)
+{
+    for (const char* format : {"d16", "d32f", "r16f", "rgba8", "u8"}) {
+        const Json json =
+            depth_json({"--content", "distance", "--format", format, "--samples", "2000"});
+        EXPECT_EQ(json.at("content"), "distance");
+        EXPECT_EQ(json.at("frustum").at("near_m"), 4);
+        EXPECT_TRUE(json.at("theory").at("transform_error_at_far_m").at("premultiplied").is_null());
+        EXPECT_EQ(json.at("measured").at("certificate").at("outside"), 0) << format;
+        for (const Json& sample : json.at("samples")) {
+            // One division, and far is a float32.
+            ASSERT_NEAR(sample.at("depth").get<double>(), sample.at("zeta_m").get<double>() / 50,
+                        1e-15);
+            ASSERT_LE(std::abs(sample.at("error_m").get<double>()),
+                      sample.at("model_m").get<double>())
+                << format << sample;
+        }
+    }
+}
+
+TEST(DepthCommand, TellsFormulasOfDistancesWithoutGl)
+{
+    const Json json = depth_json({"--content", "distance", "--format", "rgba8", "--theory-only"});
+    EXPECT_EQ(json.at("spacing"), "packed");
+    // Half a step of eight bits of 50 m, and what the other bytes add.
+    EXPECT_NEAR(json.at("theory").at("max_error_m").get<double>(), 50 / 510.0, 0.02 * 50 / 510);
+    const Ending table =
+        gnomon({"depth", "--content", "distance", "--format", "r16f", "--theory-only"});
+    expect_done(table);
+    EXPECT_THAT(table.out, HasSubstr("distance over far, near 4 m, far 50 m"));
+    EXPECT_THAT(table.out, HasSubstr("r [m]"));
 }
 
 TEST(DepthCommand, TakesReversalClipTiltAndOffset)
@@ -159,7 +192,7 @@ TEST(DepthCommand, PlansANearPlane)
 TEST(DepthCommand, ComparesAllFormats)
 {
     const Json json = depth_json({"--compare", "--samples", "64"});
-    EXPECT_EQ(json.at("formats").size(), 22U);
+    EXPECT_EQ(json.at("formats").size(), 25U);
     for (const Json& format : json.at("formats")) {
         EXPECT_EQ(format.at("tilt_deg"), 0);
         EXPECT_EQ(format.at("offset_m"), 0);
@@ -171,7 +204,7 @@ TEST(DepthCommand, ComparesAllFormats)
     const Json moved = depth_json(
         {"--compare", "--samples", "64", "--tilt-deg", "30", "--offset", "8", "--theory-only"});
     EXPECT_NEAR(moved.at("formats").at(0).at("tilt_deg").get<double>(), 30, 1e-12);
-    EXPECT_EQ(moved.at("formats").at(21).at("offset_m"), 8);
+    EXPECT_EQ(moved.at("formats").at(24).at("offset_m"), 8);
 }
 
 TEST(DepthCommand, StatesTheLargestStepOfReversedFloatsWhereItIs)
@@ -210,6 +243,11 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--bits", "7"}, "8 to 32");
     refused({"--format", "d17"}, "no such format");
     refused({"--format", "d24", "--bits", "24"}, "excludes");
+    refused({"--content", "colour"}, "--content");
+    refused({"--content", "distance", "--reversed"}, "--content distance is about a light");
+    refused({"--content", "distance", "--projection", "orthographic"}, "--projection");
+    refused({"--content", "distance", "--clip", "zero_to_one"}, "--clip");
+    refused({"--content", "distance", "--plan", "--max-error-m", "1", "--far", "9"}, "--plan");
     refused({"--projection", "fisheye"}, "--projection");
     refused({"--samples", "1"}, "--samples 1");
     refused({"--samples", "10000000"}, "--samples 10000000: must be 2 to 4194304");

@@ -50,13 +50,17 @@ MeasuredDepthError measured(const MeasuredPlaneSettings& settings, const std::st
 {
     const scene::MeasuredPlanes planes = scene::make_measured_planes(settings);
     RasterPlanes raster{*tests::shared_context(), planes};
-    return analysis::measured_depth_error(DepthMapping{settings.range},
-                                          raster.measure(format_of(format)));
+    const DepthMapping mapping =
+        settings.content == scene::MapContent::depth
+            ? DepthMapping{settings.range}
+            : DepthMapping::of_distances(settings.range.near_m, settings.range.far_m);
+    return analysis::measured_depth_error(mapping, raster.measure(format_of(format)));
 }
 
+/// GL's own, and the colour formats.
 std::vector<std::string> supported_formats()
 {
-    std::vector<std::string> names;
+    std::vector<std::string> names{"r32f", "r16f", "rgba8"};
     for (const FormatSupport& format : query_depth_formats(*tests::shared_context())) {
         if (format.supported) {
             names.push_back(format.name);
@@ -136,6 +140,53 @@ TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
                     EXPECT_GT(error.max_excess_m, 0) << where; // shown, never hidden
                 }
             }
+        }
+    }
+}
+
+TEST(DepthMeasurement, OfDistancesStaysWithinTheModelAndTheFormulasEnvelope)
+{
+    GNOMON_REQUIRE_GL();
+    std::vector<std::string> formats = supported_formats();
+    formats.emplace_back("u8");
+    for (const std::string& format : formats) {
+        for (const double tilt_deg : {0.0, 60.0, 80.0}) {
+            for (const double offset_m : {0.0, 100.0}) {
+                MeasuredPlaneSettings settings =
+                    lesson_planes(runs_full_tests() ? 1 << 18 : 1 << 13);
+                settings.content = scene::MapContent::distance;
+                settings.tilt_rad = glm::radians(tilt_deg);
+                settings.offset_m = offset_m;
+                const MeasuredDepthError error = measured(settings, format);
+                const auto where = fmt::format("{} tilt {} offset {}", format, tilt_deg, offset_m);
+                EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U) << where;
+                EXPECT_LE(error.max_share_of_model, 1) << where;
+                EXPECT_LT(error.missing, error.rows.size() / 100) << where;
+                // Half a metre of 50 is lost at the far end, where a corner is nearer to far.
+                EXPECT_LT(error.rows.front().light_distance_m, 4.7) << where;
+                EXPECT_GT(error.rows.back().light_distance_m, 45) << where;
+                if (format == "r16f" || format == "rgba8" || format == "u8") {
+                    // What float32 leaves, 1e-5 m, is far less than the format does.
+                    EXPECT_LT(error.max_excess_m, 1e-4) << where;
+                }
+            }
+        }
+    }
+}
+
+TEST(DepthMeasurement, OfRoundedAndPackedDepthsIsTheFormulas)
+{
+    GNOMON_REQUIRE_GL();
+    for (const auto content : {scene::MapContent::depth, scene::MapContent::distance}) {
+        for (const char* format : {"r16f", "rgba8"}) {
+            MeasuredPlaneSettings settings = lesson_planes(1 << 14);
+            settings.content = content;
+            const MeasuredDepthError error = measured(settings, format);
+            double formulas_m = 0;
+            for (const DepthErrorRow& row : error.rows) {
+                formulas_m = std::max(formulas_m, std::abs(row.formula_error_m));
+            }
+            EXPECT_NEAR(error.max_error_m, formulas_m, 0.02 * formulas_m) << format;
         }
     }
 }

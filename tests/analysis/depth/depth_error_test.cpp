@@ -92,10 +92,14 @@ TEST(LargestDepthError, IsTheSameReversedAndInEitherClipRange)
 TEST(Sawtooth, NeverLeavesTheEnvelope)
 {
     constexpr int samples = 20000;
-    for (const DepthMapping& mapping : all_mappings()) {
-        for (int bits = 7; bits <= 32; ++bits) {
-            const DepthCoding coding =
-                bits == 7 ? DepthCoding::float32() : DepthCoding::unorm(bits);
+    std::vector<DepthMapping> mappings = all_mappings();
+    mappings.push_back(DepthMapping::of_distances(4, 50));
+    for (const DepthMapping& mapping : mappings) {
+        for (int bits = 5; bits <= 32; ++bits) {
+            const DepthCoding coding = bits == 5   ? DepthCoding::packed()
+                                       : bits == 6 ? DepthCoding::float16()
+                                       : bits == 7 ? DepthCoding::float32()
+                                                   : DepthCoding::unorm(bits);
             const double largest_m = largest_error_m(mapping, coding);
             // Depth and distance are computed in double: 4 roundings of a depth up to 1, and of
             // reversed depths, which carry their digits, far less.

@@ -196,5 +196,26 @@ TEST(DepthMapping, RejectsRangesWithoutExtent)
     EXPECT_NO_THROW((DepthMapping{{Projection::orthographic, -1, 5, false, {}}}));
 }
 
+TEST(DistanceMapping, CountsFromTheLight)
+{
+    const DepthMapping mapping = DepthMapping::of_distances(4, 50);
+    EXPECT_EQ(mapping.near_m(), 4);
+    EXPECT_EQ(mapping.far_m(), 50);
+    EXPECT_EQ(mapping.depth(4), 4 / 50.0);
+    EXPECT_EQ(mapping.depth(50), 1);
+    EXPECT_EQ(mapping.light_distance_m(0.5), 25);
+    EXPECT_EQ(mapping.slope_m(4), 50);
+    EXPECT_EQ(mapping.slope_m(50), 50);
+    EXPECT_EQ(mapping.light_distance_error_m(10, 0.25), 12.5);
+}
+
+TEST(DistanceMapping, RefusesRangesThatNoLightHas)
+{
+    EXPECT_THROW((void)DepthMapping::of_distances(-1, 50), std::domain_error);
+    EXPECT_THROW((void)DepthMapping::of_distances(50, 50), std::domain_error);
+    EXPECT_THROW((void)DepthMapping::of_distances(std::nan(""), 50), std::domain_error);
+    EXPECT_THROW((void)DepthMapping::of_distances(1, std::nan("")), std::domain_error);
+}
+
 } // namespace
 } // namespace gnomon::analysis

@@ -87,6 +87,21 @@ TEST(Sweep, GivesWhatCompareGivesForBiasesOfOneCurve)
     expect_rows_compare(job, run, axes, 4);
 }
 
+TEST(Sweep, GivesWhatCompareGivesForColourFormats)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write(
+        "job.toml", two_lights + "[sweep]\n"
+                                 "\"shadow_map.depth_format\" = [\"r32f\", \"r16f\", \"rgba8\"]\n"
+                                 "\"lookup.filter\" = [\"nearest\", \"pcf3\"]\n"
+                                 "\"bias.constant\" = [0.01, 0]\n");
+    const path run = folder.path() / "run";
+    swept(sweep(job, run, {"--no-keep-pixels", "--set", "shadow_map.resolution=24"}));
+    expect_rows_compare(
+        job, run,
+        {"shadow_map.resolution", "shadow_map.depth_format", "lookup.filter", "bias.constant"}, 24);
+}
+
 TEST(Sweep, GivesWhatCompareGivesWhereTheLookupIsMovedAndBiasesAreBelowZero)
 {
     const TemporaryFolder folder;
