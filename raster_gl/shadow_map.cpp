@@ -168,6 +168,10 @@ ShadowMapPass::ShadowMapPass(const Context& context, ConvertedCodes codes)
     : context_{context},
       codes_{codes}
 {
+    // The usual ones at once, so that no map waits for them; the others when they are asked for.
+    (void)program_of({});
+    (void)program_of({.converted = Kind::unorm});
+    context.check("compiling the shadow map programs");
 }
 
 void ShadowMapPass::release(int largest_texels)

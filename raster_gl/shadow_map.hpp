@@ -68,7 +68,7 @@ private:
 
     const Context& context_;
     ConvertedCodes codes_;
-    std::map<CasterOutput, Program> programs_; ///< made when first asked for
+    std::map<CasterOutput, Program> programs_;
     Framebuffer target_;
     ShadowMap map_;
     Texture

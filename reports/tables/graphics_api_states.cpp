@@ -121,20 +121,25 @@ ApiState direct3d_state(const TunedSetting& setting)
         return {"Direct3D", {no_format(setting, "Direct3D")}};
     }
     const bool reversed = setting.map.frustum.reversed;
-    return {"Direct3D",
-            {fmt::format("{}_VIEW_DESC::Format = {};{}",
-                         is_colour(setting) ? "D3D12_RENDER_TARGET" : "D3D12_DEPTH_STENCIL", format,
-                         is_cube(setting) ? " D3D12_RESOURCE_DESC::DepthOrArraySize = 6; "
-                                            "D3D12_SRV_DIMENSION_TEXTURECUBE"
-                                          : ""),
-             fmt::format("D3D12_RASTERIZER_DESC: CullMode = {}, FrontCounterClockwise = TRUE, "
-                         "DepthBias = 0, SlopeScaledDepthBias = 0, DepthClipEnable = TRUE;",
-                         cull_names(setting.map.cull).direct3d),
-             fmt::format("D3D12_DEPTH_STENCIL_DESC::DepthFunc = D3D12_COMPARISON_FUNC_{}; clear to "
-                         "{}",
-                         reversed ? "GREATER" : "LESS", reversed ? 0 : 1),
-             fmt::format("D3D12_SAMPLER_DESC::ComparisonFunc = D3D12_COMPARISON_FUNC_{};",
-                         reversed ? "GREATER_EQUAL" : "LESS_EQUAL")}};
+    ApiState state{
+        "Direct3D",
+        {fmt::format("{}_VIEW_DESC::Format = {};{}",
+                     is_colour(setting) ? "D3D12_RENDER_TARGET" : "D3D12_DEPTH_STENCIL", format,
+                     is_cube(setting) ? " D3D12_RESOURCE_DESC::DepthOrArraySize = 6; "
+                                        "D3D12_SRV_DIMENSION_TEXTURECUBE"
+                                      : ""),
+         fmt::format("D3D12_RASTERIZER_DESC: CullMode = {}, FrontCounterClockwise = TRUE, "
+                     "DepthBias = 0, SlopeScaledDepthBias = 0, DepthClipEnable = TRUE;",
+                     cull_names(setting.map.cull).direct3d),
+         fmt::format("D3D12_DEPTH_STENCIL_DESC::DepthFunc = D3D12_COMPARISON_FUNC_{}; clear to "
+                     "{}",
+                     reversed ? "GREATER" : "LESS", reversed ? 0 : 1)}};
+    if (!is_colour(setting)) {
+        state.lines.push_back(
+            fmt::format("D3D12_SAMPLER_DESC::ComparisonFunc = D3D12_COMPARISON_FUNC_{};",
+                        reversed ? "GREATER_EQUAL" : "LESS_EQUAL"));
+    }
+    return state;
 }
 
 ApiState vulkan_state(const TunedSetting& setting)
@@ -144,20 +149,24 @@ ApiState vulkan_state(const TunedSetting& setting)
         return {"Vulkan", {no_format(setting, "Vulkan")}};
     }
     const bool reversed = setting.map.frustum.reversed;
-    return {"Vulkan",
-            {fmt::format("VkImageCreateInfo::format = {};{}", format,
-                         is_cube(setting)
-                             ? " flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT, arrayLayers = 6"
-                             : ""),
-             fmt::format("VkPipelineRasterizationStateCreateInfo: cullMode = {}, frontFace = "
-                         "VK_FRONT_FACE_COUNTER_CLOCKWISE, depthBiasEnable = VK_FALSE, "
-                         "depthClampEnable = VK_FALSE;",
-                         cull_names(setting.map.cull).vulkan),
-             fmt::format("VkPipelineDepthStencilStateCreateInfo::depthCompareOp = "
-                         "VK_COMPARE_OP_{}; clear to {}",
-                         reversed ? "GREATER" : "LESS", reversed ? 0 : 1),
-             fmt::format("VkSamplerCreateInfo::compareOp = VK_COMPARE_OP_{};",
-                         reversed ? "GREATER_OR_EQUAL" : "LESS_OR_EQUAL")}};
+    ApiState state{
+        "Vulkan",
+        {fmt::format("VkImageCreateInfo::format = {};{}", format,
+                     is_cube(setting)
+                         ? " flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT, arrayLayers = 6"
+                         : ""),
+         fmt::format("VkPipelineRasterizationStateCreateInfo: cullMode = {}, frontFace = "
+                     "VK_FRONT_FACE_COUNTER_CLOCKWISE, depthBiasEnable = VK_FALSE, "
+                     "depthClampEnable = VK_FALSE;",
+                     cull_names(setting.map.cull).vulkan),
+         fmt::format("VkPipelineDepthStencilStateCreateInfo::depthCompareOp = "
+                     "VK_COMPARE_OP_{}; clear to {}",
+                     reversed ? "GREATER" : "LESS", reversed ? 0 : 1)}};
+    if (!is_colour(setting)) {
+        state.lines.push_back(fmt::format("VkSamplerCreateInfo::compareOp = VK_COMPARE_OP_{};",
+                                          reversed ? "GREATER_OR_EQUAL" : "LESS_OR_EQUAL"));
+    }
+    return state;
 }
 
 } // namespace

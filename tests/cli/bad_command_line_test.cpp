@@ -150,6 +150,8 @@ TEST(JobSettings, RefusesKernelsThatAMethodCannotHave)
     expect_settings_refused("wall",
                             {"method.name=vsm", "method.kernel_width=7", "shadow_map.resolution=4"},
                             "method.kernel_width = 7: wider than the map of 4 texels");
+    expect_settings_refused("wall", {"method.name=vsm", "shadow_map.depth_format=r16f"},
+                            "made of a depth texture");
     expect_settings_refused("wall", {"method.name=vsm", "method.kernel=disc"}, "method.kernel");
     expect_settings_refused("wall", {"method.name=vsm", "method.min_variance=1e-40"},
                             "method.min_variance");

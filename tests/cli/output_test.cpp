@@ -223,6 +223,9 @@ TEST(Memory, NeedGrowsWithImageAndMap)
     // A lookup needs no codes, so a u-format keeps none.
     job.shadow_map.depth_format = {scene::DepthFormat::Kind::unorm, 24};
     EXPECT_EQ(cli::needed_memory_bytes(job), with_map);
+    // A colour format has a depth buffer beside it.
+    job.shadow_map.depth_format = {scene::DepthFormat::Kind::rgba8, 32};
+    EXPECT_EQ(cli::needed_memory_bytes(job), with_map + 16384ULL * 16384 * 4);
     EXPECT_GT(cli::available_memory_bytes(), 0U);
 }
 

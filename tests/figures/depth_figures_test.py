@@ -92,6 +92,8 @@ class ErrorVsZ(unittest.TestCase):
             error_vs_z.draw(error_vs_z.read(paths("d32f")))
         with self.assertRaisesRegex(tables.InputError, "orthographic.csv: these depths are of no"):
             error_vs_z.draw(error_vs_z.read(paths("orthographic")))
+        with self.assertRaisesRegex(tables.InputError, "r16f.csv: these codes are of no"):
+            error_vs_z.draw(error_vs_z.read(paths("r16f")))
 
 
 class ToleranceVsZ(unittest.TestCase):

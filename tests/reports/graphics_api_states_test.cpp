@@ -1,0 +1,54 @@
+#include "reports/tables/graphics_api_states.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gnomon::reports {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The lines of all interfaces.
+std::string states_of(const char* format)
+{
+    analysis::TunedSetting setting;
+    setting.map.depth_format = scene::depth_format_from_name(format).value();
+    std::string text;
+    for (const ApiState& state : api_states(setting)) {
+        text += fmt::format("{}\n", fmt::join(state.lines, "\n"));
+    }
+    return text;
+}
+
+TEST(GraphicsApiStates, OfADepthFormatCompareInTheSampler)
+{
+    const std::string text = states_of("d16");
+    EXPECT_THAT(text, HasSubstr("D3D12_DEPTH_STENCIL_VIEW_DESC::Format = DXGI_FORMAT_D16_UNORM"));
+    EXPECT_THAT(text, HasSubstr("VkSamplerCreateInfo::compareOp"));
+    EXPECT_THAT(text, Not(HasSubstr("colour target")));
+}
+
+TEST(GraphicsApiStates, OfAColourFormatCompareInTheShader)
+{
+    const std::string text = states_of("rgba8");
+    EXPECT_THAT(text, HasSubstr("GL_RGBA8"));
+    EXPECT_THAT(text,
+                HasSubstr("D3D12_RENDER_TARGET_VIEW_DESC::Format = DXGI_FORMAT_R8G8B8A8_UNORM"));
+    EXPECT_THAT(text, HasSubstr("VK_FORMAT_R8G8B8A8_UNORM"));
+    EXPECT_THAT(text, HasSubstr("cleared to white"));
+    EXPECT_THAT(text, HasSubstr(", packed"));
+    EXPECT_THAT(text, Not(HasSubstr("VkSamplerCreateInfo::compareOp")));
+    EXPECT_THAT(text, Not(HasSubstr("D3D12_SAMPLER_DESC")));
+    EXPECT_THAT(states_of("r16f"), Not(HasSubstr(", packed")));
+}
+
+TEST(GraphicsApiStates, SayWhereNoFormatStoresIt)
+{
+    EXPECT_THAT(states_of("u13"), HasSubstr("no depth format of GL stores u13"));
+}
+
+} // namespace
+} // namespace gnomon::reports
