@@ -81,7 +81,7 @@ scene::JobSource read_job_source(const JobOptions& options)
     scene::JobSource source = options.builtin.empty()
                                   ? scene::read_job_source(options.job_path, settings)
                                   : scene::builtin_job_source(options.builtin, settings);
-    return options.light.empty() ? source : scene::only_light(source, options.light);
+    return options.light ? scene::only_light(source, *options.light) : source;
 }
 
 } // namespace gnomon::cli

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct JobOptions {
     std::string builtin;
     std::vector<std::string> settings;
     std::string case_name;
-    std::string light; ///< the one of several that the job is reduced to; empty: all
+    std::optional<std::string> light; ///< the one of several that the job is reduced to
 };
 
 void add_job_options(CLI::App& command, JobOptions& options);

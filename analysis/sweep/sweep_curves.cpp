@@ -47,6 +47,21 @@ void replace_constant_bias(JobParameters& parameters, const scene::Job& job)
     }
 }
 
+/// An axis tells configurations apart, also at a value that a job does not write out.
+void add_axis_values(JobParameters& parameters, const scene::SweepSpace& space,
+                     const scene::SweepPoint& point)
+{
+    for (std::size_t i = 0; i < space.axes().size(); ++i) {
+        const scene::SweepAxis& axis = space.axes()[i];
+        const bool is_written =
+            std::ranges::find(parameters, axis.key, &JobParameters::value_type::first) !=
+            parameters.end();
+        if (!is_written && scene::find_key(axis.key) != nullptr) {
+            parameters.emplace_back(axis.key, axis.values[point.values[i]]);
+        }
+    }
+}
+
 } // namespace
 
 SweepCurves::SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, std::string version)
@@ -166,7 +181,9 @@ void SweepCurves::describe(std::size_t request, const SceneIdentity& scene, cons
         configuration.ordinal = ordinal;
         configuration.light_values = space_.light_values(space_.at(ordinal));
         configuration.id = configuration_id(version_, name, configuration.parameters, true);
-        visit(configuration);
+        Configuration shown = configuration;
+        add_axis_values(shown.parameters, space_, space_.at(ordinal));
+        visit(shown);
     }
 }
 

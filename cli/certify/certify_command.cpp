@@ -159,7 +159,7 @@ std::string certificate_text(const CertifyOptions& options, const Certificate& c
 void certify(const CertifyOptions& options)
 {
     const scene::Job job = read_job(options.job).job;
-    store::Aov aov = store::read_aov(options.aov_path, job.image);
+    store::Aov aov = store::read_aov(options.aov_path, job.image, options.job.light.value_or(""));
     const scene::SceneFile file = scene::load_scene(job.scene);
     const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
     require_inputs(options, aov, file.scene, view);

@@ -25,25 +25,32 @@
 namespace gnomon::cli {
 namespace {
 
+/// "light sun: ", to begin a message; empty of the only one.
+std::string light_words(const analysis::Comparison& comparison)
+{
+    return comparison.light.empty() ? std::string{} : fmt::format("light {}: ", comparison.light);
+}
+
 /// @throws scene::EnvironmentError  if GL saw what neither snapping nor depth resolution explains.
 void require_no_mismatch(const analysis::Comparison& comparison)
 {
     const auto count = comparison.metrics.pixels.of(scene::ClassReason::mismatch);
     if (count > 0) {
         throw scene::EnvironmentError{fmt::format(
-            "{} pixels mismatch: GL's triangle is neither a first hit nor explained by snapping or "
+            "{}{} pixels mismatch: GL's triangle is neither a first hit nor explained by snapping "
+            "or "
             "depth resolution; report it with the job and the output of `gnomon doctor`",
-            count)};
+            light_words(comparison), count)};
     }
 }
 
 /// @throws scene::EnvironmentError  if verdicts are not what the critical biases say.
-void require_no_difference(std::string_view lookups, std::uint64_t differences,
+void require_no_difference(const std::string& lookups, std::uint64_t differences,
                            std::uint64_t verdicts)
 {
     if (differences > 0) {
         throw scene::EnvironmentError{fmt::format(
-            "{} of {} verdicts of GL's {} are not those of the bias curve: its numbers do not "
+            "{} of {} verdicts of {} are not those of the bias curve: its numbers do not "
             "hold for this driver; report it with the job and the output of `gnomon doctor`",
             differences, verdicts, lookups)};
     }
@@ -52,10 +59,12 @@ void require_no_difference(std::string_view lookups, std::uint64_t differences,
 void require_no_difference(const analysis::Comparison& comparison)
 {
     if (const auto& own = comparison.held) {
-        require_no_difference("lookup", own->differences, own->lit + own->shadowed);
+        require_no_difference(light_words(comparison) + "GL's lookup", own->differences,
+                              own->lit + own->shadowed);
     }
     if (const auto& reruns = comparison.verification) {
-        require_no_difference("reruns", reruns->differences(), reruns->verdicts());
+        require_no_difference(light_words(comparison) + "GL's reruns", reruns->differences(),
+                              reruns->verdicts());
     }
 }
 

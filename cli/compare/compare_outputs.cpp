@@ -86,11 +86,12 @@ std::vector<OutputOption> outputs(const CompareOptions& options,
 
 void write_layers(const std::string& path, std::span<const analysis::Comparison> lights)
 {
+    const auto points = points_of(lights.front()); // the camera's: the same of every light
     if (lights.front().light.empty()) {
-        return store::write_aov(path, lights.front(), points_of(lights.front()));
+        store::write_aov(path, lights.front(), points);
+    } else {
+        store::write_aov(path, lights, points);
     }
-    const std::vector<scene::Image<scene::Vec3f>> points(lights.size(), points_of(lights.front()));
-    store::write_aov(path, lights, points);
 }
 
 void write_pictures(const CompareOptions& options, const analysis::Comparison& comparison)

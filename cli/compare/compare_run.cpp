@@ -36,7 +36,8 @@ CompareRun::CompareRun(std::filesystem::path folder, bool may_replace)
       lock_{folder_},
       store_{folder_, store::RunStore::Access::write}
 {
-    if (!may_replace && store_.description().size > 1) {
+    const store::RunDescription earlier = store_.description();
+    if (!may_replace && earlier.size > std::max<std::size_t>(1, earlier.lights.size())) {
         throw scene::InputError(fmt::format(
             "--out {}: holds a sweep, whose plan this would replace: name another folder, or pass "
             "--force to replace it",

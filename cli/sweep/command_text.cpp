@@ -1,5 +1,6 @@
 #include "cli/sweep/command_text.hpp"
 
+#include "store/run/run_commands.hpp"
 #include "store/shell_text.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +37,9 @@ std::string command_text(std::string_view command, const JobOptions& options,
     }
     add("--builtin", options.builtin);
     add("--case", options.case_name);
-    add("--light", options.light);
+    if (options.light) {
+        words.push_back(store::light_option(*options.light));
+    }
     for (const std::string& setting : options.settings) {
         add("--set", setting);
     }

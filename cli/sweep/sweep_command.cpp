@@ -14,6 +14,7 @@
 #include "reports/tables/run_status_text.hpp"
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
+#include "scene/job/sweep_axes.hpp"
 #include "store/run/run_status.hpp"
 #include "store/shell_text.hpp"
 
@@ -170,10 +171,20 @@ void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
     }
 }
 
+/// With --light an axis may be named as among all lights, too.
+std::vector<std::string> axis_arguments(const SweepOptions& options)
+{
+    std::vector<std::string> arguments = options.axes;
+    for (std::string& argument : arguments) {
+        argument = scene::axis_argument_of_light(argument, options.job.light.value_or(""));
+    }
+    return arguments;
+}
+
 void sweep(const SweepOptions& options)
 {
     const scene::JobSource source = read_job_source(options.job);
-    const scene::SweepSpace space{source, options.axes, options.job.case_name};
+    const scene::SweepSpace space{source, axis_arguments(options), options.job.case_name};
     const KeptPixels kept = kept_pixels(options, space.size());
     const bool keeps = kept == KeptPixels::all;
     const store::Shard shard = read_shard(options.shard);

@@ -48,8 +48,7 @@ std::string point_text(const scene::SweepSpace& space, const scene::SweepPoint& 
     std::string text{space.case_name(point)};
     for (std::size_t i = 0; i < space.axes().size(); ++i) {
         const scene::SweepAxis& axis = space.axes()[i];
-        const bool is_of_curve = !space.is_bias_axis(i) && space.concerns(i, point);
-        if (with_bias || is_of_curve) {
+        if (space.concerns(i, point) && (with_bias || !space.is_bias_axis(i))) {
             text += text.empty() ? "" : ", ";
             text += fmt::format("{} {}", axis.key, axis.values[point.values[i]]);
         }

@@ -45,7 +45,7 @@ std::string lines(std::span<const analysis::Comparison> lights, const analysis::
     for (const analysis::Comparison& comparison : lights) {
         text += line_of(comparison.light, comparison.metrics);
     }
-    return text + line_of("together", total);
+    return text + line_of("all lights", total);
 }
 
 } // namespace
@@ -57,7 +57,7 @@ std::string lights_table(std::span<const analysis::Comparison> lights)
         text += heading_line("light " + comparison.light) + comparison_table(comparison) + "\n";
     }
     const analysis::Metrics total = analysis::total_of(analysis::results_of(lights)).metrics;
-    text += heading_line("all lights");
+    text += heading_line("totals");
     text += line("light", "scored", "false shadow", "false lit", "rate");
     text += lines(lights, total, error_line);
     const auto has_fractions = [](const analysis::Comparison& comparison) {

@@ -111,6 +111,16 @@ std::optional<ImportedCamera> camera_at(const aiCamera& camera, const aiScene& s
     return is_usable ? std::optional{result} : std::nullopt;
 }
 
+/// A spot without a shadow map of one camera, of 180 degrees and more, is none.
+std::optional<ImportedLight> spot_at(float outer_cone_rad, const PlacedNode& node)
+{
+    ImportedLight result{axis(node, 3), -axis(node, 2)};
+    result.outer_cone_rad = static_cast<double>(outer_cone_rad);
+    const bool is_usable =
+        result.outer_cone_rad > 0 && outer_cone_rad < std::numbers::pi_v<float> / 2;
+    return is_usable ? std::optional{result} : std::nullopt;
+}
+
 std::optional<ImportedLight> light_at(const aiLight& light, const PlacedNode& node)
 {
     ImportedLight result{axis(node, 3), -axis(node, 2)};
@@ -121,11 +131,18 @@ std::optional<ImportedLight> light_at(const aiLight& light, const PlacedNode& no
         result.is_point = 1;
         return result;
     }
-    result.outer_cone_rad = static_cast<double>(light.mAngleOuterCone);
-    // A cone of 180 degrees and more has no shadow map of one camera.
-    const bool is_usable = light.mType == aiLightSource_SPOT && result.outer_cone_rad > 0 &&
-                           light.mAngleOuterCone < std::numbers::pi_v<float> / 2;
-    return is_usable ? std::optional{result} : std::nullopt;
+    return light.mType == aiLightSource_SPOT ? spot_at(light.mAngleOuterCone, node) : std::nullopt;
+}
+
+std::optional<ImportedLight> light_at(const GltfLight& light, const PlacedNode& node)
+{
+    ImportedLight result{axis(node, 3), -axis(node, 2)};
+    if (light.type == "spot") {
+        return spot_at(light.outer_cone_rad, node);
+    }
+    result.is_point = light.type == "point" ? 1 : 0;
+    return light.type == "point" || light.type == "directional" ? std::optional{result}
+                                                                : std::nullopt;
 }
 
 void find_camera(const aiScene& scene, const std::vector<PlacedNode>& nodes, ImportHeader& header)
@@ -141,23 +158,35 @@ void find_camera(const aiScene& scene, const std::vector<PlacedNode>& nodes, Imp
     }
 }
 
+/// A light of the scene; empty if no shadow map may be of it.
 struct NamedLight {
-    ImportedLight light;
+    std::optional<ImportedLight> light;
     std::string name;
 };
 
-/// Those that a shadow map may be of, in the order of their nodes.
-std::vector<NamedLight> find_lights(const aiScene& scene, const std::vector<PlacedNode>& nodes)
+/// By the file's own JSON, of whose nodes Assimp's are known to be the same.
+std::vector<NamedLight> lights_of_gltf(const GltfFacts& gltf, const std::vector<PlacedNode>& nodes)
 {
+    const std::size_t added = gltf.root_count == 1 ? 0 : 1; // Assimp's own root
+    std::vector<NamedLight> lights;
+    for (const GltfLight& light : gltf.lights) {
+        lights.push_back({light_at(light, nodes[light.node + added]), light.name});
+    }
+    return lights;
+}
+
+/// In the order of their nodes.
+std::vector<NamedLight> find_lights(const aiScene& scene, const std::vector<PlacedNode>& nodes,
+                                    const GltfFacts& gltf)
+{
+    if (!gltf.lights.empty() && nodes.size() == gltf.node_count + (gltf.root_count == 1 ? 0 : 1)) {
+        return lights_of_gltf(gltf, nodes);
+    }
     std::vector<NamedLight> lights;
     for (const PlacedNode& node : nodes) {
         for (unsigned l = 0; l < scene.mNumLights; ++l) {
-            if (!stands_at(*scene.mLights[l], node)) {
-                continue;
-            }
-            if (const auto light = light_at(*scene.mLights[l], node)) {
-                lights.push_back({*light, node.node->mName.C_Str()});
-                lights.back().light.name_bytes = lights.back().name.size();
+            if (stands_at(*scene.mLights[l], node)) {
+                lights.push_back({light_at(*scene.mLights[l], node), node.node->mName.C_Str()});
             }
         }
     }
@@ -166,7 +195,9 @@ std::vector<NamedLight> find_lights(const aiScene& scene, const std::vector<Plac
 
 void write_light(const NamedLight& light, ImportWriter& writer)
 {
-    writer.put(light.light);
+    ImportedLight imported = *light.light;
+    imported.name_bytes = light.name.size();
+    writer.put(imported);
     writer.put_array(std::span<const char>{light.name});
 }
 
@@ -279,9 +310,6 @@ void count_placed(const aiScene& scene, const std::vector<PlacedNode>& nodes,
         for (unsigned c = 0; c < scene.mNumCameras; ++c) {
             counts.cameras += stands_at(*scene.mCameras[c], node) ? 1U : 0U;
         }
-        for (unsigned l = 0; l < scene.mNumLights; ++l) {
-            counts.lights += stands_at(*scene.mLights[l], node) ? 1U : 0U;
-        }
     }
     SurfaceCounter surfaces{scene};
     for (const Instance& instance : all) {
@@ -297,7 +325,9 @@ void write_scene(const aiScene& scene, const FileFacts& facts, const ImportLimit
     const std::vector<PlacedNode> nodes = placed_nodes(*scene.mRootNode);
     ImportHeader header;
     find_camera(scene, nodes, header);
-    const std::vector<NamedLight> lights = find_lights(scene, nodes);
+    std::vector<NamedLight> lights = find_lights(scene, nodes, facts.gltf);
+    header.contents.lights = lights.size();
+    std::erase_if(lights, [](const NamedLight& light) { return !light.light; });
     header.light_count = lights.size();
     std::vector<ImportedMesh> meshes;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {

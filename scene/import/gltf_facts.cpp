@@ -9,8 +9,10 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace gnomon::scene {
 
@@ -231,35 +233,74 @@ void require_whole_triangles_of_1_0(const Json& gltf)
     }
 }
 
+/// The nodes of the scene that is shown, parents before children and each once.
+std::vector<const Json*> shown_nodes(const Json& gltf)
+{
+    const Json& all_nodes = at(gltf, "nodes");
+    std::vector<bool> is_visited(all_nodes.size());
+    std::vector<const Json*> shown;
+    std::vector<const Json*> open; // indices of nodes, the next one last
+    const auto push = [&](const Json& indices) {
+        for (std::size_t i = indices.is_array() ? indices.size() : 0; i-- > 0;) {
+            open.push_back(&indices[i]);
+        }
+    };
+    push(at(at(at(gltf, "scenes"), number(at(gltf, "scene")).value_or(0)), "nodes"));
+    while (!open.empty()) {
+        const auto i = number(*open.back());
+        open.pop_back();
+        if (i && *i < is_visited.size() && !is_visited[*i]) {
+            is_visited[*i] = true;
+            shown.push_back(&at(all_nodes, *i));
+            push(at(*shown.back(), "children"));
+        }
+    }
+    return shown;
+}
+
 /// Which of the meshes stand in the scene that is shown.
 std::vector<bool> placed_meshes(const Json& gltf)
 {
-    const Json& all_nodes = at(gltf, "nodes");
     std::vector<bool> is_placed(at(gltf, "meshes").size());
-    std::vector<bool> is_visited(all_nodes.size());
-    const std::size_t shown = number(at(gltf, "scene")).value_or(0);
-    std::vector<const Json*> open{&at(at(at(gltf, "scenes"), shown), "nodes")};
-    while (!open.empty()) {
-        const Json& children = *open.back();
-        open.pop_back();
-        if (!children.is_array()) {
-            continue;
-        }
-        for (const Json& child : children) {
-            const auto i = number(child);
-            if (!i || *i >= is_visited.size() || is_visited[*i]) {
-                continue;
-            }
-            is_visited[*i] = true;
-            const Json& node = at(all_nodes, *i);
-            const auto mesh = number(at(node, "mesh"));
-            if (mesh && *mesh < is_placed.size()) {
-                is_placed[*mesh] = true;
-            }
-            open.push_back(&at(node, "children"));
+    for (const Json* node : shown_nodes(gltf)) {
+        const auto mesh = number(at(*node, "mesh"));
+        if (mesh && *mesh < is_placed.size()) {
+            is_placed[*mesh] = true;
         }
     }
     return is_placed;
+}
+
+std::string text_of(const Json& json)
+{
+    return json.is_string() ? json.get<std::string>() : std::string{};
+}
+
+const Json& punctual_lights(const Json& json)
+{
+    return at(at(json, "extensions"), "KHR_lights_punctual");
+}
+
+void read_lights(const Json& gltf, GltfFacts& facts)
+{
+    constexpr double default_outer_cone_rad = std::numbers::pi / 4; // KHR_lights_punctual
+    const Json& definitions = at(punctual_lights(gltf), "lights");
+    const std::vector<const Json*> nodes = shown_nodes(gltf);
+    facts.node_count = nodes.size();
+    facts.root_count =
+        at(at(at(gltf, "scenes"), number(at(gltf, "scene")).value_or(0)), "nodes").size();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Json& light = indexed(definitions, at(punctual_lights(*nodes[i]), "light"));
+        if (light.is_null()) {
+            continue;
+        }
+        const Json& angle = at(at(light, "spot"), "outerConeAngle");
+        const double outer_cone_rad =
+            angle.is_number() ? angle.get<double>() : default_outer_cone_rad;
+        std::string name = text_of(at(*nodes[i], "name"));
+        facts.lights.push_back({i, name.empty() ? text_of(at(light, "name")) : std::move(name),
+                                text_of(at(light, "type")), static_cast<float>(outer_cone_rad)});
+    }
 }
 
 std::uint64_t placed_triangles(const Json& gltf)
@@ -293,6 +334,7 @@ GltfFacts read_gltf_facts(const std::filesystem::path& scene_file)
     if (at(gltf, "meshes").is_array() && at(gltf, "nodes").is_array()) {
         require_bind_matrices(gltf);
         facts.triangles = placed_triangles(gltf);
+        read_lights(gltf, facts);
     } else if (at(gltf, "meshes").is_object()) {
         require_whole_triangles_of_1_0(gltf);
     }

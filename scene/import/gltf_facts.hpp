@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
@@ -15,11 +16,23 @@ class UnsupportedContent : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A punctual light where the file's own JSON puts it. Assimp joins lights and nodes by their
+/// names, which in glTF may come again, and keeps one of the nodes that share a light.
+struct GltfLight {
+    std::size_t node = 0; ///< its place among the scene's nodes, parents before children
+    std::string name;     ///< the node's; without one the light's
+    std::string type;     ///< "directional", "point", "spot"
+    float outer_cone_rad = 0;
+};
+
 /// What a glTF file's own JSON says and Assimp does not.
 struct GltfFacts {
     std::uint64_t triangles = 0; ///< of the meshes that stand in its scene, each once
     std::vector<std::string> unread_extensions; ///< that it can do without, as it says
     bool requires_draco = false;
+    std::size_t root_count = 0; ///< of the scene that is shown; glTF 2.0
+    std::size_t node_count = 0; ///< all of that scene's
+    std::vector<GltfLight> lights;
 };
 
 /// Reads the JSON of a .gltf or .glb file. The facts of any other file are the defaults; those of

@@ -135,11 +135,30 @@ Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Sett
     return layer;
 }
 
+constexpr std::string_view position_key = "lookup.position";
+
+/// What holds of every light where there are several: their receivers are the same.
+Layer layer_of_lights(const JobSource& source)
+{
+    return source.lights.empty() ? Layer{} : single_setting(position_key, "pixel", source.name);
+}
+
+void check_position(const JobSource& source, const Settings& settings)
+{
+    const Setting* position = find_setting(settings, position_key);
+    if (!source.lights.empty() && position != nullptr &&
+        std::get<std::string>(position->value) != "pixel") {
+        throw InputError(fmt::format("{}: with several lights it is \"pixel\", for they share "
+                                     "their receivers; remove it, or choose one light with --light",
+                                     position->label));
+    }
+}
+
 /// What is given of a light, the weakest first.
 std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes,
                                 std::string_view light)
 {
-    std::vector<Layer> layers{source.scene_lights, source.file};
+    std::vector<Layer> layers{layer_of_lights(source), source.scene_lights, source.file};
     if (chosen != nullptr) {
         layers.push_back(chosen->layer);
     }
@@ -203,6 +222,29 @@ void check_scene_lights(const JobSource& source, const Settings& settings)
     }
 }
 
+/// What files and the command line say of lights, whether it is looked at or not.
+void check_all_lights(const JobSource& source)
+{
+    check_lights(source.lights, source.file);
+    check_lights(source.lights, source.overrides);
+    for (const CaseLayer& each : source.cases) {
+        check_lights(source.lights, each.layer);
+    }
+}
+
+void check_axis_lights(const JobSource& source)
+{
+    for (const SweepAxis& axis : source.sweep.axes) {
+        const std::string light = find_written_key(axis.key).light;
+        if (!light.empty() && std::ranges::find(source.lights, light) == source.lights.end()) {
+            throw InputError(fmt::format("{}: [sweep] {}: the job has no light of that name; the "
+                                         "nearest is {}",
+                                         source.name, axis.key,
+                                         nearest_word(light, source.lights)));
+        }
+    }
+}
+
 } // namespace
 
 JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides)
@@ -233,6 +275,7 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
     }
     source.overrides = layer_from_overrides(overrides);
     add_scene_lights(source);
+    check_all_lights(source);
     return source;
 }
 
@@ -243,6 +286,7 @@ JobSource builtin_job_source(std::string_view name, const std::vector<Override>&
     source.file = single_setting("scene.builtin", std::string{name}, source.name);
     source.overrides = layer_from_overrides(overrides);
     add_scene_lights(source);
+    check_all_lights(source);
     return source;
 }
 
@@ -267,6 +311,7 @@ const CaseLayer& find_case(const JobSource& source, std::string_view name)
 JobSource only_light(const JobSource& source, std::string_view light)
 {
     require_light(source.lights, light, source.name);
+    check_axis_lights(source);
     JobSource only = source;
     only.lights.clear();
     const auto reduce = [&](Layer& layer) {
@@ -274,6 +319,8 @@ JobSource only_light(const JobSource& source, std::string_view light)
         layer = layer_of_light(layer, light);
     };
     reduce(only.scene_lights);
+    const Layer common = layer_of_lights(source);
+    only.scene_lights.insert(only.scene_lights.begin(), common.begin(), common.end());
     reduce(only.file);
     reduce(only.overrides);
     for (CaseLayer& each : only.cases) {
@@ -302,6 +349,7 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
         settings = lay_all(layers);
     }
     check_settings(settings, source.name);
+    check_position(source, settings);
     Job job;
     job.method.name = default_method();
     for (const KeySpec& spec : key_specs()) {

@@ -24,7 +24,7 @@ struct JobSource {
     std::string name;                ///< how messages speak of it
     std::filesystem::path folder;    ///< what a relative scene.file is relative to
     std::vector<std::string> lights; ///< names of the `[[lights]]`; empty: one light, `[light]`
-    Layer scene_lights; ///< with scene.lights = "all" what the scene file says of its lights
+    Layer scene_lights; ///< what lights are by themselves: those of the scene file, or of a choice
     Layer file;
     std::vector<CaseLayer> cases;
     Layer overrides;

@@ -272,6 +272,13 @@ void check_axis_lengths(const Sweep& sweep, const std::string& file)
     }
 }
 
+std::string axis_argument_of_light(const std::string& argument, std::string_view light)
+{
+    const std::size_t equals = std::min(argument.find('='), argument.size());
+    const WrittenKey key = find_written_key(std::string_view{argument}.substr(0, equals));
+    return key && key.light == light ? key.spec->key.name + argument.substr(equals) : argument;
+}
+
 std::vector<SweepAxis> axes_of_light(const std::vector<SweepAxis>& axes, std::string_view light)
 {
     std::vector<SweepAxis> of_light;

@@ -4,6 +4,8 @@
 #include "scene/job/toml.hpp"
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace gnomon::scene {
 
@@ -20,6 +22,11 @@ namespace gnomon::scene {
 /// Axes of `mode = "zip"` must be equally long, and no sweep holds too many values.
 /// @throws InputError  naming the axis.
 void check_axis_lengths(const Sweep& sweep, const std::string& file);
+
+/// "bias.slope=0,1" of "lights.sun.bias.slope=0,1": an argument of `--axis` as one of a job with
+/// that light alone. Others are as they are.
+[[nodiscard]] std::string axis_argument_of_light(const std::string& argument,
+                                                 std::string_view light);
 
 /// The axes of a sweep that one of several lights is told of, as one of a job with that light
 /// alone: those of all lights, but those that the light has for itself.

@@ -106,8 +106,24 @@ bool SweepSpace::is_set(const Layer& layer, std::size_t axis) const
     });
 }
 
+/// Of a light that has an axis for itself that of all lights would say nothing.
+void SweepSpace::check_axes_of_lights() const
+{
+    for (const WrittenKey& key : keys_) {
+        const WrittenKey of_all{key.spec, {}};
+        if (!key.light.empty() && std::ranges::any_of(keys_, [&](const WrittenKey& other) {
+                return other.spec == key.spec && other.light.empty();
+            })) {
+            throw InputError(fmt::format("{}: [sweep] {}: {} is an axis, too; keep one of the two, "
+                                         "or give each light its own",
+                                         source_.name, key.text(), of_all.text()));
+        }
+    }
+}
+
 void SweepSpace::check_keys() const
 {
+    check_axes_of_lights();
     for (std::size_t axis = 0; axis < axes().size(); ++axis) {
         const std::string& key = axes()[axis].key;
         if (is_set(source_.overrides, axis)) {
@@ -282,16 +298,9 @@ bool SweepSpace::is_bias_axis(std::size_t axis) const
     return is_constant_bias(keys_[axis].spec->key.name);
 }
 
-/// An axis of one light takes the place of the same one of all lights.
 bool SweepSpace::concerns(std::size_t axis, const SweepPoint& point) const
 {
-    const std::string_view light = light_name(point);
-    if (!keys_[axis].light.empty() || light.empty()) {
-        return keys_[axis].light == light;
-    }
-    return std::ranges::none_of(keys_, [&](const WrittenKey& key) {
-        return key.spec == keys_[axis].spec && key.light == light;
-    });
+    return keys_[axis].light.empty() || keys_[axis].light == light_name(point);
 }
 
 std::uint64_t SweepSpace::curve_group(const SweepPoint& point) const

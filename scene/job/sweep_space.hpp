@@ -83,6 +83,7 @@ public:
 private:
     void replace_axes(const std::vector<std::string>& arguments);
     void keep_case(std::string_view name);
+    void check_axes_of_lights() const;
     void check_keys() const;
     void resolve_values();
     void check_repetitions() const;

@@ -15,7 +15,15 @@ constexpr std::string_view heading =
 # [light], a scene file's own are used, or else a camera that frames it and the default light.
 )";
 
-constexpr std::string_view sweep_and_cases = R"(
+constexpr std::string_view lights_sweep_and_cases = R"(
+# Several lights in place of [light]: each has a name, its keys without their table, and where it
+# wants its own of [shadow_map], [lookup], [bias] and [method].
+# [[lights]]
+# name = "lamp"
+# type = "point"
+# position = [0, 3, 0]
+# shadow_map.resolution = 512
+
 # Axes of `gnomon sweep`: a key and a list of its values, or a range of them.
 # [sweep]
 # "bias.constant" = {from = 1e-6, to = 1e-1, count = 200, scale = "log"}   # scale: linear, log
@@ -71,7 +79,7 @@ std::string commented_job_file()
         }
         text += entry(spec, values);
     }
-    return text + std::string{sweep_and_cases};
+    return text + std::string{lights_sweep_and_cases};
 }
 
 } // namespace gnomon::scene

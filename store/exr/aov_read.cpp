@@ -7,7 +7,24 @@
 
 namespace gnomon::store {
 
-Aov read_aov(const std::filesystem::path& path, scene::ImageSize image)
+namespace {
+
+/// The texts of one light, by their names without its own, and those of all.
+std::map<std::string, std::string> texts_of(const std::map<std::string, std::string>& texts,
+                                            const std::string& prefix)
+{
+    std::map<std::string, std::string> of_light = texts;
+    for (const auto& [name, text] : texts) {
+        if (!prefix.empty() && name.starts_with(prefix)) {
+            of_light.insert_or_assign(name.substr(prefix.size()), text);
+        }
+    }
+    return of_light;
+}
+
+} // namespace
+
+Aov read_aov(const std::filesystem::path& path, scene::ImageSize image, const std::string& light)
 {
     LayerFile file{path, "write it again with `gnomon compare JOB --aov FILE.exr`"};
     const scene::ImageSize size = file.size();
@@ -17,12 +34,14 @@ Aov read_aov(const std::filesystem::path& path, scene::ImageSize image)
             "from",
             path.string(), size.width_px, size.height_px, image.width_px, image.height_px));
     }
+    const std::string prefix =
+        light.empty() || file.has("class") ? std::string{} : fmt::format("{}.", light);
     Aov aov;
-    aov.texts = file.texts();
-    aov.pixel_class = file.classes();
-    aov.truth = file.floats("truth");
-    aov.prim = file.integers("prim");
-    aov.witness = file.integers("witness");
+    aov.texts = texts_of(file.texts(), prefix);
+    aov.pixel_class = file.classes(prefix + "class");
+    aov.truth = file.floats(prefix + "truth");
+    aov.prim = file.integers(prefix + "prim");
+    aov.witness = file.integers(prefix + "witness");
     return aov;
 }
 

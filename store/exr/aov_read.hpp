@@ -25,9 +25,12 @@ struct Aov {
 ///
 /// The file may be hostile: its header is checked before anything is decoded or memory taken.
 /// @param image  the size that it must have.
+/// @param light  Whose channels and texts of a file of several lights; one of a single light has
+///               but its own.
 /// @throws scene::InputError  one line: missing, no EXR file of scanlines, of another size, a
 ///                            channel that is missing or of another type, truncated, or a class
 ///                            code beyond 6.
-[[nodiscard]] Aov read_aov(const std::filesystem::path& path, scene::ImageSize image);
+[[nodiscard]] Aov read_aov(const std::filesystem::path& path, scene::ImageSize image,
+                           const std::string& light = {});
 
 } // namespace gnomon::store

@@ -164,18 +164,18 @@ void write_aov(const std::filesystem::path& path, const analysis::Comparison& co
 }
 
 void write_aov(const std::filesystem::path& path, std::span<const analysis::Comparison> lights,
-               std::span<const scene::Image<scene::Vec3f>> points)
+               const scene::Image<scene::Vec3f>& points)
 {
     const Surface surface = seen_surface(lights.front()); // the camera's: the same of every light
     std::vector<ExrChannel> all;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        require_size(lights[i], points[i]);
-        for (ExrChannel& channel : channels(lights[i], points[i], surface)) {
-            channel.name = fmt::format("{}.{}", lights[i].light, channel.name);
+    for (const analysis::Comparison& light : lights) {
+        require_size(light, points);
+        for (ExrChannel& channel : channels(light, points, surface)) {
+            channel.name = fmt::format("{}.{}", light.light, channel.name);
             all.push_back(std::move(channel));
         }
     }
-    write_file(path, encode_exr(points.front().size(), all, exr_header(lights)));
+    write_file(path, encode_exr(points.size(), all, exr_header(lights)));
 }
 
 } // namespace gnomon::store

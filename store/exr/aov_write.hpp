@@ -21,8 +21,8 @@ void write_aov(const std::filesystem::path& path, const analysis::Comparison& co
                const scene::Image<scene::Vec3f>& points);
 
 /// The same of a job's several lights: the channels of each as `NAME.truth` and so on.
-/// @param points  of each light's comparison.
+/// @param lights  at least one; the camera, and so P, is the same of all.
 void write_aov(const std::filesystem::path& path, std::span<const analysis::Comparison> lights,
-               std::span<const scene::Image<scene::Vec3f>> points);
+               const scene::Image<scene::Vec3f>& points);
 
 } // namespace gnomon::store

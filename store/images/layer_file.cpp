@@ -23,8 +23,8 @@ using scene::ImageSize;
 /// Beyond these a header is no AOV's: the longest text is the job, some kilobytes.
 constexpr std::size_t longest_name = 255;
 constexpr std::size_t largest_attribute_bytes = 1U << 20;
-constexpr int most_attributes = 256;
-constexpr std::size_t most_channels = 64;
+constexpr int most_attributes = 4096; // of 64 lights, some 25 each
+constexpr std::size_t most_channels = 2048;
 
 [[noreturn]] void refuse_layers(const std::filesystem::path& path, std::string_view what,
                                 const std::string& advice)
@@ -300,9 +300,9 @@ std::map<std::string, std::string> LayerFile::texts()
     return result;
 }
 
-scene::Image<scene::PixelClass> LayerFile::classes()
+scene::Image<scene::PixelClass> LayerFile::classes(const std::string& name)
 {
-    const scene::Image<std::uint32_t> codes = integers("class");
+    const scene::Image<std::uint32_t> codes = integers(name);
     scene::Image<scene::PixelClass> result{codes.size()};
     for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
         if (codes[i] >= scene::pixel_class_count) {

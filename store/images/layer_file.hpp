@@ -38,7 +38,7 @@ public:
     /// A channel of any type that `type` names, as float32.
     [[nodiscard]] scene::Image<float> numbers(const std::string& name);
     /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
-    [[nodiscard]] scene::Image<scene::PixelClass> classes();
+    [[nodiscard]] scene::Image<scene::PixelClass> classes(const std::string& name = "class");
     /// "zip", "dwaa", …; empty: not said.
     [[nodiscard]] std::string compression();
     /// False where the display window is another than the data window.

@@ -40,13 +40,18 @@ std::string compare_command(const RunDescription& description, const std::string
     }
     for (const auto& [axis, value] : axes) {
         if (axis == scene::light_distinction) {
-            words.insert(words.end(), {"--light", value});
+            words.push_back(light_option(value));
         } else {
             words.insert(words.end(), {"--set", fmt::format("{}={}", axis, value)});
         }
     }
     words.insert(words.end(), {"--out", "DIR"});
     return fmt::format("{} {}", description.compare_command, shell_text(words));
+}
+
+std::string light_option(const std::string& light)
+{
+    return "--light=" + light;
 }
 
 std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row)

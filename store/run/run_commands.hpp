@@ -19,6 +19,9 @@ namespace gnomon::store {
 compare_command(const RunDescription& description, const std::string& case_name,
                 const std::vector<std::pair<std::string, std::string>>& axes);
 
+/// "--light=sun": in one word, as a light's name may begin with hyphens.
+[[nodiscard]] std::string light_option(const std::string& light);
+
 /// A configuration's job: its keys with their values as text, in the order of `job_columns`; keys
 /// without a value are left out.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row);

@@ -103,7 +103,7 @@ analysis::Renderers counted(analysis::Renderers renderers, Passes& passes)
 /// The lesson's own count: "three light sources: four renderings and three texture maps".
 TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
 {
-    const auto jobs = jobs_of("lookup.position = \"pixel\"\n" + three_lights);
+    const auto jobs = jobs_of(three_lights);
     const Compared compared{jobs.front().job};
     Passes passes;
     analysis::Renderers renderers = counted(compared.renderers(), passes);
@@ -122,12 +122,14 @@ TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
 /// Light clip coordinates that vertices carry are one light's.
 TEST(SeveralLights, AtVerticesDrawReceiversForEachLight)
 {
-    const auto jobs = jobs_of(three_lights);
+    auto jobs = jobs_of(three_lights);
     const Compared compared{jobs.front().job};
     Passes passes;
     analysis::Renderers renderers = counted(compared.renderers(), passes);
     analysis::LightComparisons lights{compared.file(), renderers};
-    for (const scene::LightJob& job : jobs) {
+    for (scene::LightJob& job : jobs) {
+        job.job.lookup.position =
+            job.light == "lamp" ? scene::LookupPosition::pixel : scene::LookupPosition::vertex;
         (void)lights.compare(job);
     }
     EXPECT_EQ(passes.receivers, 3);

@@ -147,7 +147,7 @@ TEST_F(Lights, TheTableEndsWithAllOfThem)
     }
     const Json all = json_of({"compare", job()});
     const auto together = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
-        return line.starts_with("together");
+        return line.starts_with("all lights ");
     });
     ASSERT_NE(together, lines.end());
     EXPECT_NE(together->find(fmt::format("{}", all.at("false_lit").get<int>())), std::string::npos);
@@ -219,7 +219,9 @@ TEST_F(Lights, ASweepOverOneLightsKeysRedoesNothingOfTheOthers)
     // Each light's rows are those of a sweep of that light alone.
     for (const std::string& name : light_names) {
         const path run = at("only-" + name);
-        out_of({"sweep", job(two_axes), "--light", name, "--out", run, "--no-keep-pixels"});
+        // An axis may be named as among all lights.
+        out_of({"sweep", job(two_axes), "--light", name, "--out", run, "--no-keep-pixels", "--axis",
+                fmt::format("lights.{}.lookup.outside=[\"lit\"]", name)});
         std::map<std::string, Row> alone;
         for (const Row& row : csv_rows(run / "results.csv")) {
             EXPECT_FALSE(row.contains("light"));
@@ -283,7 +285,7 @@ TEST_F(Lights, TheGateNamesTheLightThatIsWorse)
     EXPECT_EQ(gate.exit_code, 1) << gate.out;
     EXPECT_NE(gate.out.find("light = torch"), std::string::npos) << gate.out;
     EXPECT_EQ(gate.out.find("light = sun"), std::string::npos) << gate.out;
-    EXPECT_NE(gate.out.find("--light torch"), std::string::npos) << gate.out; // shows it
+    EXPECT_NE(gate.out.find("--light=torch"), std::string::npos) << gate.out; // shows it
 }
 
 TEST_F(Lights, ACompareRunKeepsThePixelsOfEach)
@@ -295,6 +297,12 @@ TEST_F(Lights, ACompareRunKeepsThePixelsOfEach)
         EXPECT_TRUE(std::filesystem::exists(at("run/pixels/" + rows[i].at("id") + ".exr")));
     }
     out_of({"report", at("run"), "--out", at("page")});
+    // As a comparison of one light, it may be repeated and replaced.
+    out_of({"compare", job(), "--out", at("run")});
+    out_of({"compare", job(), "--light", "sun", "--out", at("run")});
+    EXPECT_EQ(csv_rows(at("run") / "results.csv").size(), 1U);
+    out_of({"compare", job(), "--out", at("run")});
+    EXPECT_EQ(csv_rows(at("run") / "results.csv").size(), 4U);
 }
 
 TEST_F(Lights, TuneAndAdviceAnswerForEach)
@@ -312,6 +320,16 @@ TEST_F(Lights, TuneAndAdviceAnswerForEach)
     const Json advised = json_of({"compare", job(), "--advise"});
     for (const Json& light : advised.at("lights")) {
         EXPECT_FALSE(light.at("remedies").empty()) << light.at("name");
+    }
+}
+
+TEST_F(Lights, OfTheExampleAreThree)
+{
+    const path example = path{GNOMON_ROOT} / "examples" / "lights.toml";
+    const Json result = json_of(small({"compare", example}));
+    ASSERT_EQ(result.at("lights").size(), 3U);
+    for (const Json& light : result.at("lights")) {
+        EXPECT_GT(light.at("pixels").at("lit"), 0) << light.at("name");
     }
 }
 
@@ -357,11 +375,19 @@ TEST_F(Lights, OfASceneFileMayAllBeUsed)
 
 TEST_F(Lights, CommandsOfOneLightAskWhichOne)
 {
-    const path aov = at("lamp.exr");
-    out_of({"compare", job(), "--light", "lamp", "--aov", aov});
+    const path aov = at("all.exr");
+    out_of({"compare", job(), "--aov", aov});
     expect_refused(gnomon({"certify", aov, job()}), 2,
                    "the job has several lights: choose one with --light, sun or torch or lamp");
-    out_of({"certify", aov, job(), "--light", "lamp"});
+    const path lamp = at("lamp.exr");
+    out_of({"compare", job(), "--light", "lamp", "--aov", lamp});
+    out_of({"certify", lamp, job(), "--light", "lamp"});
+    for (const std::string& name : light_names) {
+        out_of({"certify", aov, job(), "--light", name});
+    }
+    expect_refused(gnomon({"certify", lamp, job(), "--light", "sun"}), 2,
+                   "give the job that the AOV was made from");
+    expect_refused(gnomon({"compare", job(), "--light", ""}), 2, "no light \"\"; there are sun");
     expect_refused(gnomon({"compare", job(), "--light", "moon"}), 2,
                    "no light \"moon\"; there are sun, torch, lamp");
     expect_refused(gnomon({"compare", "--builtin", "wall", "--light", "sun"}), 2,

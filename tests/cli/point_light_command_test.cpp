@@ -1,6 +1,7 @@
 // Point lights as the program is told of them: what they cannot have, and where they may stand.
 
 #include "child_process.hpp"
+#include "run_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -112,6 +113,24 @@ std::string lit_quad()
                  R"("extensions":{"KHR_lights_punctual":{"light":0}}}])";
     gltf.roots = "[0,1]";
     return gltf.text();
+}
+
+/// A job does not write out what its maps store where that is depth.
+TEST(PointLightSweep, TellsConfigurationsApartByWhatTheirMapsStore)
+{
+    const TemporaryFolder folder;
+    const auto run = folder.path() / "run";
+    const Ending sweep = gnomon({"sweep", "--builtin", "lamp-room", "--out", run, "--quiet",
+                                 "--set", "image.width=64", "--set", "image.height=36", "--axis",
+                                 "shadow_map.content=depth,distance"});
+    EXPECT_EQ(sweep.exit_code, 0) << sweep.err;
+    const auto rows = csv_rows(run / "results.csv");
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].at("shadow_map.content"), "depth");
+    EXPECT_EQ(rows[1].at("shadow_map.content"), "distance");
+    const auto baseline = folder.path() / "baseline.json";
+    EXPECT_EQ(gnomon({"baseline", "save", run, "--baseline", baseline}).exit_code, 0);
+    EXPECT_EQ(gnomon({"gate", run, "--baseline", baseline}).exit_code, 0);
 }
 
 /// What a file's own light refuses fails its own rows alone, in whatever order they come.

@@ -57,7 +57,7 @@ function compareCommand(run, values) {
   const words = chosen === null ? [] : ["--case", String(chosen)];
   run.axes.forEach((axis) => {
     const value = values.get(axis) ?? "";
-    words.push(...(axis === "light" ? ["--light", value] : ["--set", `${axis}=${value}`]));
+    words.push(...(axis === "light" ? [`--light=${value}`] : ["--set", `${axis}=${value}`]));
   });
   return [run.compare_command, ...words.map(shellWord), "--out DIR"].join(" ");
 }

@@ -26,6 +26,8 @@ std::string light_name(std::string_view node)
             name += is_kept ? small : '-';
         }
     }
+    constexpr std::size_t room_for_numbers = 4;
+    name.resize(std::min(name.size(), longest_light_name - room_for_numbers));
     while (name.ends_with('-')) {
         name.pop_back();
     }

@@ -14,6 +14,7 @@ namespace {
 
 struct NamedTable {
     std::string name;
+    std::uint32_t name_line = 0;
     TomlTable keys;
 };
 
@@ -33,10 +34,11 @@ NamedTable read_table(const TomlNode& node, const std::string& file, std::uint32
         const auto* name = std::get_if<std::string>(&member.node.value);
         if (name == nullptr || !is_light_name(*name)) {
             throw InputError(fmt::format("{}:{}: [[lights]] name = {}: must be made of the letters "
-                                         "a to z, digits, _ and -",
+                                         "a to z, digits, _ and -, 64 at most",
                                          file, member.line, toml_excerpt(member.node)));
         }
         read.name = *name;
+        read.name_line = member.line;
     }
     if (read.name.empty()) {
         throw InputError(label + ": has no name; give it a name of its own");
@@ -68,7 +70,8 @@ LightTables read_light_tables(const TomlMember& member, const std::string& file)
         if (std::ranges::find(lights.names, read.name) != lights.names.end()) {
             throw InputError(fmt::format("{}[[lights]] name = {}: two lights of that name; rename "
                                          "one",
-                                         place, toml_excerpt({read.name})));
+                                         KeyPlace{file, read.name_line}.text(),
+                                         toml_excerpt({read.name})));
         }
         // As if it stood in one table of all lights, under its name.
         TomlTable named{{read.name, {std::move(read.keys)}, member.line}};

@@ -69,7 +69,8 @@ WrittenKey find_written_key(std::string_view name)
         return {find_key(name), {}};
     }
     const KeySpec* spec = find_key(key_of_one_light(parts->rest));
-    const bool is_known = spec != nullptr && is_key_of_light(spec->key.name) &&
+    const bool is_known = spec != nullptr && is_light_name(parts->light) &&
+                          is_key_of_light(spec->key.name) &&
                           name_in_light(spec->key.name) == parts->rest;
     return is_known ? WrittenKey{spec, std::string{parts->light}} : WrittenKey{};
 }
@@ -104,7 +105,8 @@ std::string nearest_written_key(std::string_view name, std::vector<std::string> 
 bool is_light_name(std::string_view text)
 {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_-";
-    return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
+    return !text.empty() && text.size() <= longest_light_name &&
+           text.find_first_not_of(letters) == std::string_view::npos;
 }
 
 } // namespace gnomon::scene

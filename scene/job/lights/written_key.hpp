@@ -2,6 +2,7 @@
 
 #include "scene/job/keys.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,10 @@ struct WrittenKey {
 [[nodiscard]] std::string nearest_written_key(std::string_view name,
                                               std::vector<std::string> candidates = {});
 
-/// Whether the text names a light: letters from a to z, digits, _ and -.
+/// Names of files and channels begin with it.
+inline constexpr std::size_t longest_light_name = 64;
+
+/// Whether the text names a light: up to 64 letters from a to z, digits, _ and -.
 [[nodiscard]] bool is_light_name(std::string_view text);
 
 } // namespace gnomon::scene

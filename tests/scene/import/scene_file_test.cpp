@@ -380,6 +380,51 @@ TEST(SceneFile, KnowsAllLightsThatAShadowMapMayBeOf)
     EXPECT_TRUE(load_gltf(QuadGltf{}).lights.empty());
 }
 
+std::string named_light_node(std::string_view name, int light, int x)
+{
+    return fmt::format(R"({{"name":"{}","translation":[{},0,0],"extensions":)"
+                       R"({{"KHR_lights_punctual":{{"light":{}}}}}}})",
+                       name, x, light);
+}
+
+/// Assimp joins them by name, and keeps one light of those that share a definition.
+TEST(SceneFile, KnowsLightsThatShareANameOrADefinition)
+{
+    const auto places = [](const std::string& nodes, const std::string& roots) {
+        const auto gltf = gltf_with_lights(
+            R"({"type":"point"},{"type":"spot","spot":{"outerConeAngle":0.4}})", nodes, roots);
+        const TemporaryFolder folder;
+        std::vector<std::string> found;
+        for (const FileLight& light :
+             load_scene_file(folder.write("l.glb", gltf.binary())).lights) {
+            found.push_back(fmt::format("{} {} {}", light.name,
+                                        light_type_name(light.settings.type),
+                                        light.settings.position->x));
+        }
+        return found;
+    };
+    const std::string mesh = R"({"mesh":0})";
+    const auto list = [](const auto&... nodes) {
+        return fmt::format("[{}]", fmt::join(std::vector<std::string>{nodes...}, ","));
+    };
+    EXPECT_EQ(
+        places(list(mesh, named_light_node("A", 0, 1), named_light_node("B", 0, 2)), "[0,1,2]"),
+        (std::vector<std::string>{"A point 1", "B point 2"}));
+    EXPECT_EQ(places(list(mesh, named_light_node("Lamp", 0, 1), named_light_node("Lamp", 1, 2)),
+                     "[0,1,2]"),
+              (std::vector<std::string>{"Lamp point 1", "Lamp spot 2"}));
+    // Under one root, and deeper than it.
+    EXPECT_EQ(
+        places(list(R"({"mesh":0,"children":[1,2]})", R"({"translation":[10,0,0],"children":[3]})",
+                    named_light_node("Lamp", 1, 2), named_light_node("Lamp", 1, 5)),
+               "[0]"),
+        (std::vector<std::string>{"Lamp spot 15", "Lamp spot 2"}));
+    EXPECT_EQ(places(list(mesh, R"({"extensions":{"KHR_lights_punctual":{"light":7}}})",
+                          named_light_node("", 0, 3)),
+                     "[0,1,2]"),
+              (std::vector<std::string>{" point 3"}));
+}
+
 TEST(SceneFile, GivesASpotWithoutAnglesTheDefaultCone)
 {
     const auto light = load_gltf(gltf_with_lights(R"({"type":"spot","spot":{}})",

@@ -5,6 +5,7 @@
 #include "scene/import/scene_file.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/source.hpp"
+#include "scene/job/sweep_axes.hpp"
 
 #include <fmt/format.h>
 
@@ -105,6 +106,24 @@ TEST(JobLights, ReplaceWhatOtherTypesOfLightNeed)
     EXPECT_FALSE(jobs[0].job.light->direction);
 }
 
+/// The receivers are the same for all of them, which those with light coordinates are not.
+TEST(JobLights, AreLookedUpAtThePixel)
+{
+    for (const LightJob& job : jobs_of(two)) {
+        EXPECT_EQ(lookup_position(job.job), LookupPosition::pixel) << job.light;
+    }
+    EXPECT_EQ(lights_refusal(two, {{"lookup.position", "vertex"}}),
+              "--set lookup.position=vertex: with several lights it is \"pixel\", for they share "
+              "their receivers; remove it, or choose one light with --light");
+    EXPECT_THAT(lights_refusal(two, {{"lights.sun.lookup.position", "vertex"}}),
+                HasSubstr("with several lights it is \"pixel\""));
+    const auto alone = [&](const std::vector<Override>& overrides) {
+        return make_job(only_light(read_job_source(write_job(two), overrides), "sun"));
+    };
+    EXPECT_EQ(lookup_position(alone({})), LookupPosition::pixel);
+    EXPECT_EQ(lookup_position(alone({{"lookup.position", "vertex"}})), LookupPosition::vertex);
+}
+
 TEST(JobLights, OneOfThemIsAJobOfItsOwn)
 {
     const JobSource source = read_job_source(
@@ -129,11 +148,11 @@ TEST(JobLights, RefuseNamesThatAreNone)
     for (const char* const name : {"\"a b\"", "\"\"", "\"Sun\"", "\"sun.\"", "\"ß\"", "3"}) {
         EXPECT_EQ(lights_refusal(head + fmt::format("[[lights]]\nname = {}\n", name)),
                   fmt::format("job.toml:4: [[lights]] name = {}: must be made of the letters a to "
-                              "z, digits, _ and -",
+                              "z, digits, _ and -, 64 at most",
                               name));
     }
     EXPECT_EQ(lights_refusal(two + sun_table),
-              "job.toml:3: [[lights]] name = \"sun\": two lights of that name; rename one");
+              "job.toml:12: [[lights]] name = \"sun\": two lights of that name; rename one");
     EXPECT_EQ(lights_refusal(head + "[[lights]]\ntype = \"point\"\n"),
               "job.toml:3: [[lights]]: has no name; give it a name of its own");
 }
@@ -165,6 +184,26 @@ TEST(JobLights, RefuseKeysThatALightCannotHave)
     EXPECT_THAT(lights_refusal(two + "light.position = [0, 0, 0]\n"),
                 StartsWith("job.toml:11: unknown table"));
     EXPECT_EQ(lights_refusal(two + "position = [1, 2, 3]\n").substr(0, 12), "job.toml:11:");
+}
+
+TEST(JobLights, RefuseALightWithoutAName)
+{
+    for (const char* const key : {"lights..bias.slope", "lights.a b.bias.slope", "lights..type"}) {
+        EXPECT_THAT(lights_refusal(two, {{key, "1"}}), HasSubstr("unknown key")) << key;
+    }
+    EXPECT_THAT(lights_refusal(two + "[[case]]\nname = \"noon\"\nlights.\"\".bias.slope = 3\n"),
+                HasSubstr("unknown"));
+    EXPECT_THAT(space_refusal(two, {"lights..bias.slope=0,1"}), HasSubstr("unknown key"));
+}
+
+TEST(JobLights, RefuseUnknownLightsInWhatIsNotLookedAt)
+{
+    EXPECT_THAT(lights_refusal(two + "[[case]]\nname = \"noon\"\nlights.moon.bias.slope = 3\n"),
+                HasSubstr("the job has no light of that name; the nearest is sun"));
+    const JobSource source =
+        read_job_source(write_job(two + "[sweep]\n\"lights.moon.bias.slope\" = [1, 2]\n"), {});
+    EXPECT_THAT(error_of([&] { return only_light(source, "sun"); }),
+                HasSubstr("[sweep] lights.moon.bias.slope: the job has no light of that name"));
 }
 
 TEST(JobLights, RefuseWhatIsSaidOfNoLightOrOfAll)
@@ -308,6 +347,16 @@ TEST(SweepOfLights, ASampleKeepsAllLights)
     }
 }
 
+TEST(SweepOfLights, ArgumentsMayNameTheOnlyLight)
+{
+    EXPECT_EQ(axis_argument_of_light("lights.sun.bias.slope=[0, 1]", "sun"), "bias.slope=[0, 1]");
+    EXPECT_EQ(axis_argument_of_light("lights.sun.type=spot", "sun"), "light.type=spot");
+    for (const std::string argument :
+         {"lights.sun.bias.slope=0", "bias.slope=0", "bias.slope", ""}) {
+        EXPECT_EQ(axis_argument_of_light(argument, "lamp"), argument);
+    }
+}
+
 TEST(SweepOfLights, RefusesAxesThatAreSetBelow)
 {
     EXPECT_THAT(space_refusal(two + "[sweep]\n\"lights.moon.bias.slope\" = [1, 2]\n"),
@@ -316,6 +365,10 @@ TEST(SweepOfLights, RefusesAxesThatAreSetBelow)
                 StartsWith("--set bias.slope: bias.slope is an axis of the sweep"));
     EXPECT_EQ(space_refusal(two, {"lights.sun.bias.slope=1,2"}, {}, {{"bias.slope", "4"}}),
               "no error");
+    EXPECT_EQ(
+        space_refusal(two, {"lights.sun.bias.slope=1,2", "bias.slope=3,4"}),
+        "job.toml: [sweep] lights.sun.bias.slope: bias.slope is an axis, too; keep one of the "
+        "two, or give each light its own");
 }
 
 } // namespace
