@@ -12,16 +12,16 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr std::size_t name_columns = 24;
-constexpr std::size_t value_columns = 14;
-constexpr std::size_t rate_columns = 12;
+constexpr std::size_t light_columns = 24;
+constexpr std::size_t number_columns = 14;
+constexpr std::size_t share_columns = 12;
 
 std::string line(std::string_view name, std::string_view scored, std::string_view shadow,
                  std::string_view light, std::string_view rate)
 {
-    return pad_right(name, name_columns) + pad_left(scored, value_columns) +
-           pad_left(shadow, value_columns) + pad_left(light, value_columns) +
-           pad_left(rate, rate_columns) + "\n";
+    return pad_right(name, light_columns) + pad_left(scored, number_columns) +
+           pad_left(shadow, number_columns) + pad_left(light, number_columns) +
+           pad_left(rate, share_columns) + "\n";
 }
 
 std::string error_line(const std::string& name, const analysis::Metrics& metrics)

@@ -143,11 +143,10 @@ void SweepSpace::check_keys() const
 
 void SweepSpace::resolve_values()
 {
-    for (std::size_t axis = 0; axis < axes().size(); ++axis) {
+    for (const auto& [key, texts] : axes()) {
         Layer& values = values_.emplace_back();
         std::vector<std::size_t>& firsts = first_equal_.emplace_back();
         std::map<std::string_view, std::size_t> first_of;
-        const auto& [key, texts] = axes()[axis];
         for (std::size_t i = 0; i < texts.size(); ++i) {
             const std::string& value = texts[i];
             Setting& setting = values.emplace_back(layer_from_overrides({{key, value}}).front());
