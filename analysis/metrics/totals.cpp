@@ -1,7 +1,10 @@
 #include "analysis/metrics/totals.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -22,6 +25,14 @@ void add(CauseAmounts& sum, const CauseAmounts& amounts)
     sum.light_softening += amounts.light_softening;
 }
 
+/// The pixels that have a length, of which no more is known: their quantiles do not add up.
+std::optional<Quantiles> counted(std::uint64_t pixels)
+{
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    return pixels == 0 ? std::nullopt
+                       : std::optional{Quantiles{pixels, unknown, unknown, unknown, unknown}};
+}
+
 } // namespace
 
 ConfigurationResult total_of(std::span<const ConfigurationResult> results)
@@ -29,6 +40,7 @@ ConfigurationResult total_of(std::span<const ConfigurationResult> results)
     ClassCounts pixels;
     VerdictErrors errors;
     ConfigurationResult total;
+    std::uint64_t gap_pixels = 0;
     const bool has_causes = std::ranges::all_of(
         results, [](const ConfigurationResult& result) { return result.causes.has_value(); });
     if (has_causes) {
@@ -42,8 +54,10 @@ ConfigurationResult total_of(std::span<const ConfigurationResult> results)
         if (has_causes) {
             add(*total.causes, *result.causes);
             add(total.amounts, result.amounts);
+            gap_pixels += result.peter_panning.metres ? result.peter_panning.metres->count : 0;
         }
     }
+    total.peter_panning = {counted(gap_pixels), counted(gap_pixels)};
     total.metrics = make_metrics(pixels, errors);
     return total;
 }

@@ -164,10 +164,16 @@ struct NamedLight {
     std::string name;
 };
 
+/// Assimp's own root above several of the file's.
+std::size_t added_roots(const GltfFacts& gltf)
+{
+    return gltf.root_count == 1 ? 0 : 1;
+}
+
 /// By the file's own JSON, of whose nodes Assimp's are known to be the same.
 std::vector<NamedLight> lights_of_gltf(const GltfFacts& gltf, const std::vector<PlacedNode>& nodes)
 {
-    const std::size_t added = gltf.root_count == 1 ? 0 : 1; // Assimp's own root
+    const std::size_t added = added_roots(gltf);
     std::vector<NamedLight> lights;
     for (const GltfLight& light : gltf.lights) {
         lights.push_back({light_at(light, nodes[light.node + added]), light.name});
@@ -179,7 +185,7 @@ std::vector<NamedLight> lights_of_gltf(const GltfFacts& gltf, const std::vector<
 std::vector<NamedLight> find_lights(const aiScene& scene, const std::vector<PlacedNode>& nodes,
                                     const GltfFacts& gltf)
 {
-    if (!gltf.lights.empty() && nodes.size() == gltf.node_count + (gltf.root_count == 1 ? 0 : 1)) {
+    if (!gltf.lights.empty() && nodes.size() == gltf.node_count + added_roots(gltf)) {
         return lights_of_gltf(gltf, nodes);
     }
     std::vector<NamedLight> lights;

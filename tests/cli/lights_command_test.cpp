@@ -305,6 +305,25 @@ TEST_F(Lights, ACompareRunKeepsThePixelsOfEach)
     EXPECT_EQ(csv_rows(at("run") / "results.csv").size(), 4U);
 }
 
+TEST_F(Lights, TotalsAreTheSameInJsonAndCsv)
+{
+    const Json all = json_of({"compare", job(), "--out", at("run")}).flatten();
+    const Row total = csv_rows(at("run") / "results.csv").front();
+    int compared = 0;
+    for (const auto& [pointer, value] : all.items()) {
+        std::string column = pointer.substr(1);
+        std::ranges::replace(column, '/', '.');
+        const auto cell = total.find(column);
+        if (cell != total.end() && (value.is_number() || value.is_null()) && column != "schema") {
+            EXPECT_EQ(cell->second.empty(), value.is_null()) << column;
+            EXPECT_TRUE(value.is_null() || std::stod(cell->second) == value.get<double>())
+                << column;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 50);
+}
+
 TEST_F(Lights, TuneAndAdviceAnswerForEach)
 {
     const Json tuned =

@@ -1,3 +1,4 @@
+#include "analysis/metrics/metric_table.hpp"
 #include "analysis/metrics/totals.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ ConfigurationResult result_with(std::uint64_t lit, std::uint64_t blocked, Verdic
     result.causes->by_label[static_cast<std::size_t>(Label::acne)] = errors.false_shadow;
     result.amounts.by_cause[static_cast<std::size_t>(Cause::filter)] = 0.25;
     result.amounts.shadow_softening = 0.5;
-    result.peter_panning.metres = Quantiles{};
+    result.peter_panning.metres = Quantiles{3, 1, 2, 4, 5};
     result.cells.resize(1);
     return result;
 }
@@ -59,9 +60,19 @@ TEST(TotalOf, CountsEveryPairOfPixelAndLight)
 TEST(TotalOf, LeavesOutWhatAddsUpToNothing)
 {
     std::vector<ConfigurationResult> lights{result_with(60, 20, {}), result_with(20, 0, {})};
-    EXPECT_FALSE(total_of(lights).peter_panning.metres);
+    ASSERT_TRUE(total_of(lights).peter_panning.metres);
+    EXPECT_EQ(total_of(lights).peter_panning.metres->count, 6U);
+    for (const auto& metric : configuration_metrics()) {
+        const auto value = metric.value(total_of(lights));
+        if (metric.name == "peter_panning_gap_pixels") {
+            EXPECT_EQ(value, MetricValue{std::uint64_t{6}});
+        } else if (metric.name.starts_with("peter_panning_gap")) {
+            EXPECT_EQ(value, MetricValue{}) << metric.name;
+        }
+    }
     EXPECT_TRUE(total_of(lights).cells.empty());
     lights.back().causes.reset();
+    EXPECT_FALSE(total_of(lights).peter_panning.metres);
     EXPECT_FALSE(total_of(lights).causes);
     EXPECT_EQ(total_of(lights).amounts.softening(), 0.0);
 }
