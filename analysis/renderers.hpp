@@ -32,6 +32,7 @@ struct Environment {
 struct ExactDepths {
     const scene::Image<float>& map;       ///< of texels, as shaders see them (`maps_image_size`)
     const scene::Image<float>& receivers; ///< of pixels
+    const scene::Image<float>& next_receivers; ///< in the map that is mixed in; empty: none is
     /// Like `map`, of each sample of the texels; empty where the method asks for one, the centre.
     std::span<const scene::Image<float>> samples;
 };

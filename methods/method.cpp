@@ -104,7 +104,8 @@ const Method& method_of(const scene::Job& job)
 
 Promises promises(const scene::Job& job)
 {
-    return method_of(job).promises(job);
+    const Promises promised = method_of(job).promises(job);
+    return scene::mixes_maps(job) ? mixed(promised) : promised;
 }
 
 void check(const scene::Job& job)

@@ -2,6 +2,16 @@
 
 namespace gnomon::methods {
 
+Promises mixed(Promises promised)
+{
+    promised.verdict = Verdict::fraction;
+    promised.compares = Compares::none;
+    if (promised.curve == Curve::by_formula) {
+        promised.curve = Curve::by_bisection;
+    }
+    return promised;
+}
+
 std::string_view name(Verdict verdict)
 {
     switch (verdict) {

@@ -99,7 +99,11 @@ struct Promises {
         const auto width = static_cast<std::size_t>(width_texels);
         return width * width;
     }
-    [[nodiscard]] constexpr bool has_one_tap() const { return width_texels == 1; }
+    /// Whether the verdict is one texel's comparison.
+    [[nodiscard]] constexpr bool has_one_tap() const
+    {
+        return width_texels == 1 && has_exact_causes();
+    }
     /// Whether a verdict can lie between 0 and 1.
     [[nodiscard]] constexpr bool has_fractions() const { return verdict == Verdict::fraction; }
     /// Whether taps lie around the point looked up, and not about the texel that holds it.
@@ -127,6 +131,10 @@ struct Promises {
         return is_made_of_taps() && weights == Weights::equal ? static_cast<int>(tap_count()) : 0;
     }
 };
+
+/// Of verdicts that are mixed of two maps': they lie between both, rise where both do, and follow
+/// from no comparison that one lookup returns. The footprint is that of one of the maps.
+[[nodiscard]] Promises mixed(Promises promised);
 
 /// Each value as results and documents spell it: "each_tap".
 [[nodiscard]] std::string_view name(Verdict verdict);

@@ -117,6 +117,8 @@ std::string map_choice(const scene::View& view)
         return source("map_choice.glsl");
     case scene::MapChoice::cube_face:
         return face_tables() + source("cube_faces.glsl");
+    case scene::MapChoice::view_depth:
+        return source("view_slices.glsl");
     }
     return {};
 }
@@ -179,7 +181,9 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
         {"BISECTS", flag(computes.critical_bias)},
         {"GRADIENTS", flag(pieces.passes.has_gradients())},
-        {"DEPTH_IS_GIVEN", flag(computes.depths != nullptr)},
+        {"DEPTH_IS_GIVEN", flag(computes.depths.own != nullptr)},
+        {"BLENDS", flag(!view.slices.mixed_from.empty())},
+        {"SCALED_BIAS", flag(!view.bias_scales.empty())},
     };
     add_definitions(pieces.passes.lookup, definitions);
     for (const methods::ActiveBias& bias : pieces.biases) {
@@ -197,22 +201,32 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     return programs_.emplace(std::move(key), std::move(made)).first->second;
 }
 
-void LookupPass::allocate(scene::ImageSize size, std::size_t maps)
+void LookupPass::allocate(const scene::View& view)
 {
-    const bool has_maps = maps > 1;
-    if (size_ == size && has_maps != maps_.empty()) {
+    const scene::ImageSize size = view.image;
+    const bool has_maps = view.maps.size() > 1;
+    const bool has_next = !view.slices.mixed_from.empty();
+    if (size_ == size && has_maps != maps_.empty() && has_next != next_texels_.empty()) {
         return;
     }
-    samples_ = make_texture(GL_RGBA32F, size.width_px, size.height_px);
-    texels_ = make_texture(GL_RG32F, size.width_px, size.height_px);
+    const auto made_if = [&](bool is_asked, GLenum format) {
+        return is_asked ? make_texture(format, size.width_px, size.height_px) : Texture{};
+    };
+    samples_ = made_if(true, GL_RGBA32F);
+    texels_ = made_if(true, GL_RG32F);
+    maps_ = made_if(has_maps, GL_R8UI);
+    next_texels_ = made_if(has_next, GL_RG32F);
     target_ = make_framebuffer();
-    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, samples_.name(), 0);
-    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT1, texels_.name(), 0);
-    maps_ = has_maps ? make_texture(GL_R8UI, size.width_px, size.height_px) : Texture{};
-    glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT2, maps_.name(), 0);
-    constexpr std::array<GLenum, 3> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                            GL_COLOR_ATTACHMENT2};
-    glNamedFramebufferDrawBuffers(target_.name(), has_maps ? 3 : 2, outputs.data());
+    std::array<GLenum, 4> outputs{};
+    GLenum attachment = GL_COLOR_ATTACHMENT0;
+    for (const Texture* texture : {&samples_, &texels_, &maps_, &next_texels_}) {
+        const bool is_written = !texture->empty();
+        outputs.at(attachment - GL_COLOR_ATTACHMENT0) = is_written ? attachment : GL_NONE;
+        glNamedFramebufferTexture(target_.name(), attachment, texture->name(), 0);
+        ++attachment;
+    }
+    glNamedFramebufferDrawBuffers(target_.name(), static_cast<GLsizei>(outputs.size()),
+                                  outputs.data());
     context_.check(fmt::format("allocating a {}×{} lookup", size.width_px, size.height_px));
     size_ = size;
 }
@@ -263,9 +277,9 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
 }
 
 void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                        const scene::Image<float>* receiver_depths)
+                        const ReceiverDepths& receiver_depths)
 {
-    allocate(view.image, view.maps.size());
+    allocate(view);
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     draw(from, job, view, {.depths = receiver_depths});
     equal_taps_ = methods::promises(job).equal_taps();
@@ -320,6 +334,11 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     set_uniform(lookup, "far", static_cast<float>(first.far_m));
     set_uniform(lookup, "half_side",
                 std::array{static_cast<float>(first.right_side), static_cast<float>(first.top)});
+    set_uniform(lookup, "bias_scale", view.bias_scales);
+    set_uniform(lookup, "view_eye", view.slices.eye);
+    set_uniform(lookup, "view_forward", view.slices.forward);
+    set_uniform(lookup, "slice_ends", view.slices.ends);
+    set_uniform(lookup, "mixed_from", view.slices.mixed_from);
     Texture faces;
     if (is_cube(view)) {
         const scene::Vec2d row = clip_depth_row(first.depth_range());
@@ -331,9 +350,14 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
         }
     }
     Texture depths;
-    if (computes.depths != nullptr) {
-        depths = upload(*computes.depths);
+    Texture next_depths;
+    if (computes.depths.own != nullptr) {
+        depths = upload(*computes.depths.own);
         glBindTextureUnit(7, depths.name());
+    }
+    if (computes.depths.next != nullptr) {
+        next_depths = upload(*computes.depths.next);
+        glBindTextureUnit(9, next_depths.name());
     }
     glBindVertexArray(no_attributes_.name());
     glUseProgram(lookup.name());
@@ -355,6 +379,9 @@ scene::LookupLayers LookupPass::read() const
     }
     if (!maps_.empty()) {
         layers.maps = read_texture<std::uint8_t>(maps_, size_, GL_RED_INTEGER, GL_UNSIGNED_BYTE);
+    }
+    if (!next_texels_.empty()) {
+        layers.next_texels = read_texture<scene::Vec2f>(next_texels_, size_, GL_RG, GL_FLOAT);
     }
     context_.check("reading the lookup");
     return layers;

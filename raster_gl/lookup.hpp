@@ -29,11 +29,16 @@ struct LookedUp {
         nullptr; ///< what a prefilter made of the map; nullptr: nothing
 };
 
+/// Of each pixel the receiver's depth, in place of the one that GL computes; nullptr: GL's.
+struct ReceiverDepths {
+    const scene::Image<float>* own = nullptr;  ///< in the map that it reads
+    const scene::Image<float>* next = nullptr; ///< in the map that is mixed in, where one is
+};
+
 /// What a bisection looks for.
 struct Bisection {
     float lit_from = 0.5F; ///< the least verdict that is enough
-    /// Of each pixel the receiver's depth, in place of the one that GL computes; nullptr: GL's.
-    const scene::Image<float>* receiver_depths = nullptr;
+    ReceiverDepths receiver_depths;
 };
 
 /// Looks every receiver up in the shadow map, or in what a method made of it; of several maps in
@@ -47,12 +52,11 @@ public:
     explicit LookupPass(const Context& context);
 
     /// Draws the lookup; read the result with `read`.
-    /// @param receiver_depths  of each pixel, in place of the one that GL computes; nullptr: GL's.
     /// @throws std::invalid_argument  if the receivers are not of the view's size, there are not
     ///                                as many maps as the view has, or several are looked up from
     ///                                vertices.
     void render(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                const scene::Image<float>* receiver_depths = nullptr);
+                const ReceiverDepths& receiver_depths = {});
 
     /// What `render` drew last, in images of the view's size, top left first. Shares of equal taps
     /// are the float32 next to them: the shader's division may miss it (GLSL 4.5, 4.7.1: 2.5 ulp).
@@ -74,9 +78,9 @@ public:
 private:
     /// What is computed of each pixel.
     struct Computes {
-        bool critical_bias = false;                  ///< else the verdict
-        const scene::Image<float>* depths = nullptr; ///< of receivers; nullptr: GL's
-        float lit_from = {};                         ///< of a critical bias
+        bool critical_bias = false; ///< else the verdict
+        ReceiverDepths depths;
+        float lit_from = {}; ///< of a critical bias
     };
     /// What a program is compiled with for a job.
     struct Pieces {
@@ -85,8 +89,7 @@ private:
     };
     const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
                            const Pieces& pieces, const Computes& computes);
-    /// @param maps  of the light.
-    void allocate(scene::ImageSize size, std::size_t maps);
+    void allocate(const scene::View& view);
     /// Draws to the bound framebuffer.
     void draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
               const Computes& computes);
@@ -104,7 +107,8 @@ private:
     Framebuffer target_;
     Texture samples_;
     Texture texels_;
-    Texture maps_; ///< where the light has several
+    Texture maps_;        ///< where the light has several
+    Texture next_texels_; ///< where two are mixed
     scene::ImageSize size_{0, 0};
     int equal_taps_ = 0; ///< of what was drawn last
 };

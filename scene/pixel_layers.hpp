@@ -5,7 +5,10 @@
 #include "scene/pixel_class.hpp"
 #include "scene/vec.hpp"
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace gnomon::scene {
@@ -31,11 +34,22 @@ struct LookupLayers {
     /// map's lower left, the centre texel is the floor.
     Image<Vec2f> texels = {};
     MapIndices maps = {}; ///< which of the light's maps each lookup reads
+    /// Where the verdict is mixed with the next map's, the same there; NaN at other pixels; empty
+    /// where no maps are mixed.
+    Image<Vec2f> next_texels = {};
 
     /// Where the pixel's lookup reads.
     [[nodiscard]] MapPoint at(std::size_t pixel) const
     {
         return {texels[pixel], map_of(maps, pixel)};
+    }
+    /// Where it reads the next map, or nothing.
+    [[nodiscard]] std::optional<MapPoint> next_at(std::size_t pixel) const
+    {
+        if (next_texels.empty() || std::isnan(next_texels[pixel].x)) {
+            return std::nullopt;
+        }
+        return MapPoint{next_texels[pixel], map_of(maps, pixel) + 1};
     }
 };
 

@@ -66,10 +66,14 @@ BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own,
                           const std::optional<Recommendation>& recommended)
 {
     SlopeAnswers by_slope = answer_slopes(question, own, recommended);
-    BiasMap map = map_biases({own.critical_bias, question.curves.classes, question.curves.samples,
-                              question.light_distance_m, question.view.first_map(),
-                              question.job.shadow_map.resolution_texels,
-                              question.job.shadow_map.depth_format});
+    BiasMap map = map_biases({own.critical_bias,
+                              question.curves.classes,
+                              question.curves.samples,
+                              question.light_distance_m,
+                              {question.view.maps, question.curves.samples.maps,
+                               question.job.shadow_map.resolution_texels},
+                              question.job.shadow_map.depth_format,
+                              question.view.bias_scales});
     return {
         std::move(own.critical_bias), std::move(own.curve), own.best, own.bounds, std::move(map),
         std::move(by_slope.all),      by_slope.best};

@@ -54,9 +54,10 @@ ExactDepths ExactDepthCache::of(const CauseInputs& inputs, std::span<const scene
     trace(inputs.light, traced);
     if (!knows_receivers_) {
         find_receivers(inputs);
+        find_next_receivers(inputs);
     }
     const bool has_samples = places.size() > 1;
-    return {traced.depths.front(), receivers_,
+    return {traced.depths.front(), receivers_, next_receivers_,
             has_samples ? std::span<const scene::Image<float>>{traced.depths}
                         : std::span<const scene::Image<float>>{}};
 }
@@ -89,12 +90,16 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::u
         if (!scene::is_scored(classes[i])) {
             continue;
         }
-        footprint.visit_taps(inputs.unbiased.at(i), [&](const Tap& tap) {
+        const auto want = [&](const Tap& tap) {
             // Beyond the map's edge a prefilter reads the nearest texel on it.
             const int x = std::clamp(tap.texel.x, 0, last);
             const int y = std::clamp(tap.texel.y, 0, last);
             at_texel(texels, {x, y, tap.texel.map}) |= is_wanted;
-        });
+        };
+        footprint.visit_taps(inputs.unbiased.at(i), want);
+        if (const auto next = inputs.unbiased.next_at(i)) {
+            footprint.visit_taps(*next, want);
+        }
     }
 }
 
@@ -125,6 +130,26 @@ void ExactDepthCache::find_receivers(const CauseInputs& inputs)
         receivers_[pixels[i]] = depths[i];
     }
     knows_receivers_ = true;
+}
+
+void ExactDepthCache::find_next_receivers(const CauseInputs& inputs)
+{
+    if (inputs.unbiased.next_texels.empty()) {
+        return;
+    }
+    std::vector<std::size_t> pixels;
+    scene::MapIndices maps = inputs.unbiased.maps;
+    for (std::size_t i = 0; i < receivers_.pixel_count(); ++i) {
+        if (scene::is_scored(inputs.truth.pixel_class[i]) && inputs.unbiased.next_at(i)) {
+            pixels.push_back(i);
+            ++maps[i];
+        }
+    }
+    next_receivers_ = scene::Image<float>{receivers_.size()};
+    const std::vector<float> depths = inputs.light.receiver_depths(pixels, maps);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        next_receivers_[pixels[i]] = depths[i];
+    }
 }
 
 } // namespace gnomon::analysis

@@ -38,10 +38,12 @@ private:
     static void want_texels(const CauseInputs& inputs, scene::Image<std::uint8_t>& texels);
     static void trace(const scene::ExactLight& light, Traced& traced);
     void find_receivers(const CauseInputs& inputs);
+    void find_next_receivers(const CauseInputs& inputs);
 
     scene::ImageSize maps_;
     std::deque<Traced> traced_; ///< those that are there stay where they are
     scene::Image<float> receivers_;
+    scene::Image<float> next_receivers_; ///< in the next map, where one is mixed in
     bool knows_receivers_ = false;
 };
 

@@ -107,8 +107,8 @@ LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLoo
 
 scene::LookupLayers LookupAnswers::make_deciding() const
 {
-    return has_taps() ? deciding_samples({lookup_.layers.samples}, lookup_.layers,
-                                         lookup_.map_depths, rule_)
+    return has_taps() ? deciding_samples({lookup_.layers.samples, {}, lookup_.layers.maps},
+                                         lookup_.layers, lookup_.map_depths, rule_)
                       : scene::LookupLayers{};
 }
 

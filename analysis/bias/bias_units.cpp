@@ -110,15 +110,18 @@ BiasMap map_biases(const BiasMapInputs& inputs)
         const bool allows_all = critical == std::numeric_limits<float>::infinity();
         const bool is_allowed = inputs.classes[i] == PixelClass::blocked && !allows_all;
         const double bias{is_allowed ? previous_bias(critical) : critical};
+        const auto map_of = static_cast<std::size_t>(scene::map_of(inputs.maps.of_pixels, i));
+        const double scale = inputs.bias_scales.empty() ? 1.0 : double{inputs.bias_scales[map_of]};
+        const scene::LightFrustum& frustum = inputs.maps.map_of(i);
         const double light_distance_m{inputs.light_distance_m[i]};
-        const double length_m = bias_length_m(inputs.frustum, bias, light_distance_m);
+        const double length_m = bias_length_m(frustum, scale * bias, light_distance_m);
         const double texel_m =
-            inputs.frustum.texel_width_m(light_distance_m, inputs.resolution_texels);
+            frustum.texel_width_m(light_distance_m, inputs.maps.resolution_texels);
         const float depth = inputs.lookup.samples[i].receiver_depth;
         map.depth[i] = static_cast<float>(bias);
         map.metres[i] = static_cast<float>(length_m);
         map.texels[i] = static_cast<float>(length_m / texel_m);
-        map.steps[i] = static_cast<float>(bias / depth_step(inputs.depth_format, depth));
+        map.steps[i] = static_cast<float>(scale * bias / depth_step(inputs.depth_format, depth));
     };
     for_each_run(inputs.classes.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "analysis/maps_of_pixels.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
+
+#include <span>
 
 namespace gnomon::analysis {
 
@@ -54,7 +57,7 @@ namespace gnomon::analysis {
 /// −∞ and +∞ stay what they are: a lit pixel needs no bias or none helps; a blocked pixel allows
 /// none, or every one.
 struct BiasMap {
-    scene::Image<float> depth;  ///< depth units
+    scene::Image<float> depth;  ///< depth units, of the first map where biases are scaled
     scene::Image<float> metres; ///< along the light's axis at the receiver [m]
     scene::Image<float> texels; ///< those metres over the world width of a texel at the receiver
     scene::Image<float> steps;  ///< over the format's smallest step at the receiver's depth
@@ -66,9 +69,9 @@ struct BiasMapInputs {
     const scene::Image<scene::PixelClass>& classes;
     const scene::LookupLayers& lookup;
     const scene::Image<float>& light_distance_m; ///< light distance of each receiver [m]
-    const scene::LightFrustum& frustum;
-    int resolution_texels;
+    MapsOfPixels maps;
     scene::DepthFormat depth_format;
+    std::span<const float> bias_scales = {}; ///< by map (`scene::View::bias_scales`)
 };
 
 /// The bias that each scored pixel needs or allows; NaN elsewhere.

@@ -297,11 +297,15 @@ private:
     [[nodiscard]] std::size_t first_repaired(std::size_t pixel, float exact_critical) const
     {
         const float slope_term = inputs_.rule.slope * inputs_.deciding.samples[pixel].tan_theta;
-        if (slope_term == 0) {
+        const float scale = inputs_.rule.bias_scale(scene::map_of(inputs_.deciding.maps, pixel));
+        if (slope_term == 0 && scale == 1) {
             return index_.first_from(exact_critical);
         }
         const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
-            return !(bias + slope_term >= exact_critical);
+            // GL's own lookups over exact depths scale the bias that they find.
+            const bool is_scaled = !promises_.has_exact_causes();
+            const float whole = is_scaled ? bias + slope_term / scale : bias * scale + slope_term;
+            return !(whole >= exact_critical);
         });
         return static_cast<std::size_t>(first - biases_.begin());
     }

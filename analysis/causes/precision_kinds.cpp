@@ -65,7 +65,9 @@ private:
     [[nodiscard]] float kept_bias(std::size_t pixel) const
     {
         const float slope_term = bias_.slope * floats_.job.samples[pixel].tan_theta;
-        return is_lit_truth(pixel) ? bias_.constant + slope_term : 0;
+        const float constant =
+            bias_.constant * rule_.bias_scale(scene::map_of(floats_.job.maps, pixel));
+        return is_lit_truth(pixel) ? constant + slope_term : 0;
     }
 
     const CauseInputs& floats_;

@@ -119,6 +119,25 @@ float critical_bias(float r, float d, float slope_term, bool reversed)
     return std::isnan(guess) ? search_critical_bias(comparison) : guess;
 }
 
+float unscaled_bias(float scaled, float scale)
+{
+    if (scaled == 0 || std::isinf(scaled)) {
+        return scaled;
+    }
+    const auto reaches = [&](std::int32_t rank) { return bias_of_rank(rank) * scale >= scaled; };
+    const double guess = double{scaled} / double{scale};
+    constexpr double largest{std::numeric_limits<float>::max()};
+    const auto rounded = static_cast<float>(std::clamp(guess, -largest, largest));
+    std::int32_t rank = std::fpclassify(rounded) == FP_NORMAL ? bias_rank(rounded) : 0;
+    while (rank <= largest_bias_rank && !reaches(rank)) {
+        ++rank;
+    }
+    while (rank > -largest_bias_rank && reaches(rank - 1)) {
+        --rank;
+    }
+    return bias_of_rank(rank);
+}
+
 void set_verdicts(scene::LookupLayers& lookup, const scene::Image<float>& criticals, float bias)
 {
     for_each_run(criticals.pixel_count(), [&](std::size_t first, std::size_t last) {
@@ -154,8 +173,11 @@ scene::Image<float> critical_biases(const scene::LookupLayers& lookup, const Loo
             }
             const auto criticals = block.solve(count);
             for (std::size_t i = 0; i < count; ++i) {
+                const float scale = rule.bias_scale(scene::map_of(lookup.maps, start + i));
                 result[start + i] =
-                    std::isnan(samples[i].map_depth) ? rule.border_critical_bias() : criticals[i];
+                    std::isnan(samples[i].map_depth)
+                        ? rule.border_critical_bias()
+                        : (scale == 1 ? criticals[i] : unscaled_bias(criticals[i], scale));
             }
         }
     });

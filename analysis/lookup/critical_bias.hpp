@@ -24,6 +24,14 @@ namespace gnomon::analysis {
 /// Source: docs/bias_curve.md#critical-bias.
 [[nodiscard]] float critical_bias(float r, float d, float slope_term, bool reversed);
 
+/// The smallest bias that times the scale is at least `scaled`: with which a map compares alike.
+///
+///     the smallest b with   fl(b · scale) >= scaled
+///
+/// @param scaled  A bias, or ±∞, which stays what it is.
+/// @param scale   Positive, finite.
+[[nodiscard]] float unscaled_bias(float scaled, float scale);
+
 /// A lookup's comparison, both depth directions in one form: negating both sides of
 /// fl(r − y) <= d gives fl(y − r) >= −d, for rounding is symmetric.
 struct OneWayComparison {

@@ -33,8 +33,12 @@ bool LookupRule::border_decides(float r, std::span<const Tap> taps) const
 
 LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
 {
-    return {methods::promises(job), job.lookup.outside, view.first_map().reversed, view.bias.slope,
-            view.map_choice == scene::MapChoice::cube_face};
+    return {methods::promises(job),
+            job.lookup.outside,
+            view.first_map().reversed,
+            view.bias.slope,
+            view.map_choice == scene::MapChoice::cube_face,
+            view.bias_scales};
 }
 
 } // namespace gnomon::analysis

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace gnomon::analysis {
 
@@ -19,15 +20,22 @@ struct LookupRule {
     bool reversed = false;
     float slope = 0;        ///< depth units per unit of tan θ
     bool has_seams = false; ///< the maps are the faces of a cube
+    /// What the constant bias is multiplied with in each map (`scene::View::bias_scales`).
+    std::vector<float> bias_scales = {};
 
     /// The comparison of a receiver's depth with a map's.
     ///
     ///     fl(r − bias) <= d      reversed:   fl(r + bias) >= d
     ///
-    /// @param bias  The whole of it: fl(constant + slope · tan θ).
+    /// @param bias  The whole of it: fl(fl(constant · scale) + slope · tan θ).
     [[nodiscard]] bool is_lit(float r, float d, float bias = 0) const
     {
         return reversed ? r + bias >= d : r - bias <= d;
+    }
+    /// What the constant bias is multiplied with for a pixel that reads this map.
+    [[nodiscard]] float bias_scale(int map) const
+    {
+        return bias_scales.empty() ? 1.0F : bias_scales[static_cast<std::size_t>(map)];
     }
     [[nodiscard]] MapEdge edge() const { return map_edge(outside, has_seams); }
     /// The depth of what a map cannot see: the far plane's.

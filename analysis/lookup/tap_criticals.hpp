@@ -51,7 +51,17 @@ public:
         const auto flush = [&] {
             const auto criticals = block.solve(count * taps_each_);
             for (std::size_t i = 0; i < count; ++i) {
-                visit(pixels[i], criticals.subspan(i * taps_each_, taps_each_));
+                const auto of_taps = criticals.subspan(i * taps_each_, taps_each_);
+                const float scale = rule_.bias_scale(scene::map_of(lookup_.maps, pixels[i]));
+                if (scale == 1) {
+                    visit(pixels[i], of_taps);
+                    continue;
+                }
+                std::array<float, methods::most_taps> unscaled; // filled as far as it is read
+                std::ranges::transform(of_taps, unscaled.begin(), [&](float critical) {
+                    return unscaled_bias(critical, scale);
+                });
+                visit(pixels[i], std::span<const float>{unscaled}.first(taps_each_));
             }
             count = 0;
         };

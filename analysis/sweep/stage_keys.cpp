@@ -90,7 +90,8 @@ Parts sort_keys(const scene::Job& job)
 StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
 {
     const Parts parts = sort_keys(job);
-    const bool follows_camera = job.shadow_map.frustum.fit == scene::Fit::camera;
+    const bool has_cascades = scene::map_layout(job) == scene::MapLayout::cascades;
+    const bool follows_camera = has_cascades || job.shadow_map.frustum.fit == scene::Fit::camera;
     const std::string bias = parts.slope + parts.constant;
     StageKeys keys;
     keys.scene = parts.scene;
@@ -109,6 +110,8 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.exact = placed + parts.map + parts.place;
     keys.lookup = keys.exact + parts.format + parts.filtered + parts.verdict;
     keys.lookup += looks_up_every_bias ? bias : std::string{};
+    // In metres a curve's bias is another number in each map.
+    keys.lookup += has_cascades && job.bias.constant_m ? "constant_m\n" : "";
     keys.curve = keys.lookup + parts.slope;
     return keys;
 }

@@ -26,6 +26,12 @@ std::vector<raster_gl::Texture> upload_samples(std::span<const scene::Image<floa
     return textures;
 }
 
+/// Of exact depths those that stand for GL's.
+raster_gl::ReceiverDepths receiver_depths_of(const analysis::ExactDepths& depths)
+{
+    return {&depths.receivers, depths.next_receivers.empty() ? nullptr : &depths.next_receivers};
+}
+
 } // namespace
 
 GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleScene& triangles)
@@ -128,7 +134,7 @@ GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View&
     std::vector<scene::Image<float>> criticals;
     for (const float least : lit_from) {
         criticals.push_back(lookup_pass_.find_critical_biases(looked_up(), job, unbiased,
-                                                              {least, &depths.receivers}));
+                                                              {least, receiver_depths_of(depths)}));
     }
     return criticals;
 }
@@ -143,7 +149,7 @@ std::vector<scene::Image<float>> GlRenderer::look_up_exactly(const scene::Job& j
     for (const scene::Bias& bias : biases) {
         scene::View biased = view;
         biased.bias = bias;
-        lookup_pass_.render(looked_up(), job, biased, &depths.receivers);
+        lookup_pass_.render(looked_up(), job, biased, receiver_depths_of(depths));
         const auto samples = lookup_pass_.read().samples;
         scene::Image<float>& of_bias = verdicts.emplace_back(samples.size());
         for (std::size_t i = 0; i < samples.pixel_count(); ++i) {

@@ -2,7 +2,8 @@
 //
 //     vec4 moved_position(Receiver receiver)         light clip, that is looked up
 //     float moved_depth(Receiver receiver, float r)  the receiver's, that is compared
-//     float varied_bias(Receiver receiver)           b of the bias curve
+//     float varied_bias(Receiver receiver)           b of the bias curve, in each map times
+//                                                    bias_scale, where there is one
 //     float added_bias(Receiver receiver)            what is added to it: the slope term
 //
 // and the filter's piece, which gives
@@ -10,7 +11,7 @@
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
 // MAPS, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// DISTANCE, POSITION_OF_PIXEL, BISECTS and DEPTH_IS_GIVEN are defined by the program that compiles
+// DISTANCE, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the program that compiles
 // this. Where no formula tells of other biases, BISECTS finds the smallest bias with which the very
 // same verdict is at least `lit_from`: it rises with the bias.
 #if BISECTS
@@ -22,10 +23,19 @@ layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lo
 #if MAPS > 1
 layout(location = 2) out uint map_out;
 #endif
+#if BLENDS
+layout(location = 3) out vec2 next_texel_out; // in the next map, where that is mixed in; else NaN
+#endif
 #endif
 
 #if DEPTH_IS_GIVEN
 layout(binding = 7) uniform sampler2D receiver_depth;
+#if BLENDS
+layout(binding = 9) uniform sampler2D next_receiver_depth; // in the next map
+#endif
+#endif
+#if SCALED_BIAS
+uniform float bias_scale[MAPS];
 #endif
 
 // Is the whole footprint of an interpolating lookup, the kernels about 2 × 2 texels, beyond the map?
@@ -39,6 +49,61 @@ bool footprint_is_outside(vec2 texel)
     return any(lessThan(first, vec2(-1.0 - reach))) ||
            any(greaterThanEqual(first, vec2(resolution + reach)));
 #endif
+}
+
+// Where a map is read for a receiver, and what is compared there.
+struct Place {
+    float r;
+    vec2 uv;
+    vec2 texel;
+    bool is_border; // the border mode decides, whatever the bias
+};
+
+// What a verdict is made of, but for the bias that a curve varies.
+struct Lookup {
+    Place place; // in the map of map_index
+    float slope_term;
+#if BLENDS
+    Place next;  // in the one after it
+    float share; // of the next one's verdict
+#endif
+};
+
+// The verdict of the map of map_index; d is no depth where the border mode decides.
+float verdict_of_map(Place place, float varied, float slope_term, out float d)
+{
+    d = not_a_depth;
+    if (place.is_border) {
+        return OUTSIDE_VERDICT;
+    }
+#if SCALED_BIAS
+    precise float scaled = varied * bias_scale[map_index];
+    precise float bias = scaled + slope_term;
+#else
+    precise float bias = varied + slope_term;
+#endif
+    return visibility(place.r, bias, place.uv, place.texel, d);
+}
+
+// Of both maps, where two are mixed: each product and sum rounded, so that it never falls when one
+// of them rises, and is 1 where both are.
+float mixed_verdict(Lookup lookup, float varied, out float d)
+{
+    float own = verdict_of_map(lookup.place, varied, lookup.slope_term, d);
+#if BLENDS
+    if (lookup.share > 0.0) {
+        float next_d;
+        ++map_index;
+        float next = verdict_of_map(lookup.next, varied, lookup.slope_term, next_d);
+        --map_index;
+        precise float kept = 1.0 - lookup.share;
+        precise float of_own = kept * own;
+        precise float of_next = lookup.share * next;
+        precise float mixed = of_own + of_next;
+        return mixed;
+    }
+#endif
+    return own;
 }
 
 #if BISECTS
@@ -55,23 +120,22 @@ float bias_of_rank(int rank)
     return uintBitsToFloat(rank < 0 ? magnitude | 0x80000000u : magnitude);
 }
 
-bool is_lit_with(int rank, float r, float slope_term, vec2 uv, vec2 texel)
+bool is_lit_with(int rank, Lookup lookup)
 {
-    precise float bias = bias_of_rank(rank) + slope_term;
     float d;
-    return visibility(r, bias, uv, texel, d) >= lit_from;
+    return mixed_verdict(lookup, bias_of_rank(rank), d) >= lit_from;
 }
 
-float critical_bias(float r, float slope_term, vec2 uv, vec2 texel)
+float critical_bias(Lookup lookup)
 {
-    if (is_lit_with(-largest_rank, r, slope_term, uv, texel)) {
+    if (is_lit_with(-largest_rank, lookup)) {
         return -infinity;
     }
     int shadowed = -largest_rank;
     int lit = largest_rank + 1;
     for (int i = 0; i < 32; ++i) { // there are fewer than 2^32 ranks
         int middle = (shadowed & lit) + ((shadowed ^ lit) >> 1); // their mean, rounded down
-        if (is_lit_with(middle, r, slope_term, uv, texel)) {
+        if (is_lit_with(middle, lookup)) {
             lit = middle;
         } else {
             shadowed = middle;
@@ -91,16 +155,9 @@ void write_nothing()
 #if MAPS > 1
     map_out = 0u;
 #endif
+#if BLENDS
+    next_texel_out = vec2(not_a_depth);
 #endif
-}
-
-// Where the border mode decides, whatever the bias.
-void write_border(float r, float tan_theta)
-{
-#if BISECTS
-    critical_out = OUTSIDE_VERDICT > 0.5 ? -infinity : infinity;
-#else
-    sample_out = vec4(r, not_a_depth, tan_theta, OUTSIDE_VERDICT);
 #endif
 }
 
@@ -151,6 +208,57 @@ vec2 uv_change(ivec2 pixel, ivec2 towards, uint triangle)
 }
 #endif
 
+// Of a receiver, whose clip position is in the map of map_index; of a cube that may become another.
+Place place_in_map(Receiver receiver)
+{
+    Place place;
+    vec4 clip = moved_position(receiver);
+#if CUBE
+    clip = on_its_face(clip);
+#endif
+    precise vec3 ndc = clip.xyz / clip.w;
+    precise vec2 uv = ndc.xy * 0.5 + 0.5;
+    precise vec2 texel = uv * resolution;
+#if CUBE
+    // The seam itself is this face's.
+    texel = min(texel, uintBitsToFloat(floatBitsToUint(resolution) - 1u));
+#endif
+#if DISTANCE
+    precise float r = distance_over_far(clip);
+    r = moved_depth(receiver, r);
+    bool beyond_far = !(r <= 1.0);
+#elif REVERSED
+    precise float r = ndc.z;
+    r = moved_depth(receiver, r);
+    bool beyond_far = !(r >= 0.0);
+#else
+    precise float r = ndc.z * 0.5 + 0.5;
+    r = moved_depth(receiver, r);
+    bool beyond_far = !(r <= 1.0);
+#endif
+    place.uv = uv;
+    place.texel = texel;
+    place.r = r;
+    place.is_border = false;
+#if !OUTSIDE_CLAMP
+    place.is_border = beyond_far || !(clip.w > 0.0);
+#if INTERPOLATES
+    place.is_border = place.is_border || footprint_is_outside(texel);
+#endif
+#endif
+    return place;
+}
+
+// As the border mode clamp compares it.
+float compared_depth(float r)
+{
+#if OUTSIDE_CLAMP
+    return clamp(r, 0.0, 1.0);
+#else
+    return r;
+#endif
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -180,63 +288,42 @@ void main()
     float tan_theta = min(
         length(cross(receiver.normal, receiver.to_light)) / abs(receiver.cosine), 3.0e38);
     receiver.tan_theta = tan_theta;
-    clip = moved_position(receiver);
-#if CUBE
-    clip = on_its_face(clip);
+
+    Lookup lookup;
+    lookup.place = place_in_map(receiver);
+    lookup.slope_term = added_bias(receiver);
+#if DEPTH_IS_GIVEN
+    lookup.place.r = texelFetch(receiver_depth, pixel, 0).r;
 #endif
-#if MAPS > 1 && !BISECTS
+    lookup.place.r = compared_depth(lookup.place.r);
+#if !BISECTS
+    texel_out = lookup.place.texel;
+#if MAPS > 1
     map_out = uint(map_index);
 #endif
-
-    precise vec3 ndc = clip.xyz / clip.w;
-    precise vec2 uv = ndc.xy * 0.5 + 0.5;
-    precise vec2 texel = uv * resolution;
-#if CUBE
-    // The seam itself is this face's.
-    texel = min(texel, uintBitsToFloat(floatBitsToUint(resolution) - 1u));
 #endif
-#if DISTANCE
-    precise float r = distance_over_far(clip);
-    r = moved_depth(receiver, r);
-    bool beyond_far = !(r <= 1.0);
-#elif REVERSED
-    precise float r = ndc.z;
-    r = moved_depth(receiver, r);
-    bool beyond_far = !(r >= 0.0);
-#else
-    precise float r = ndc.z * 0.5 + 0.5;
-    r = moved_depth(receiver, r);
-    bool beyond_far = !(r <= 1.0);
-#endif
+#if BLENDS
+    lookup.share = share_of_next(receiver.position);
+    if (lookup.share > 0.0) {
+        ++map_index;
+        receiver.clip = clip_position(light_clip_from_world[map_index], receiver.position);
+        lookup.next = place_in_map(receiver);
+        --map_index;
 #if DEPTH_IS_GIVEN
-    r = texelFetch(receiver_depth, pixel, 0).r;
+        lookup.next.r = texelFetch(next_receiver_depth, pixel, 0).r;
 #endif
-    float slope_term = added_bias(receiver);
+        lookup.next.r = compared_depth(lookup.next.r);
 #if !BISECTS
-    texel_out = texel;
+        next_texel_out = lookup.next.texel;
 #endif
-
-#if OUTSIDE_CLAMP
-    r = clamp(r, 0.0, 1.0);
-#else
-    if (beyond_far || !(clip.w > 0.0)) {
-        write_border(r, tan_theta);
-        return;
     }
-#if INTERPOLATES
-    if (footprint_is_outside(texel)) {
-        write_border(r, tan_theta);
-        return;
-    }
-#endif
 #endif
 
 #if BISECTS
-    critical_out = critical_bias(r, slope_term, uv, texel);
+    critical_out = critical_bias(lookup);
 #else
-    precise float bias = varied_bias(receiver) + slope_term;
     float d;
-    float verdict = visibility(r, bias, uv, texel, d);
-    sample_out = vec4(r, d, tan_theta, verdict);
+    float verdict = mixed_verdict(lookup, varied_bias(receiver), d);
+    sample_out = vec4(lookup.place.r, d, tan_theta, verdict);
 #endif
 }

@@ -1,5 +1,6 @@
 #include "reports/json/diagnosis_json.hpp"
 
+#include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/subset_table.hpp"
 #include "methods/list.hpp"
 #include "reports/json/advice_json.hpp"
@@ -140,18 +141,31 @@ store::Json counts_by_name(const std::array<std::string_view, size>& names,
     return json;
 }
 
+store::Json map_facts_json(const analysis::MapFacts& map)
+{
+    store::Json json{
+        {"map", map.name}, {"near_m", map.near_m}, {"far_m", map.far_m}, {"texel_m", map.texel_m}};
+    if (map.begin_m && map.end_m) {
+        json["begin_m"] = *map.begin_m;
+        json["end_m"] = *map.end_m;
+    }
+    if (map.bias) {
+        json["bias"] = {{"constant", map.bias->constant},
+                        {"constant_m", map.bias->constant_m},
+                        {"constant_texels", map.bias->constant_texels},
+                        {"normal_offset_m", map.bias->normal_offset_m}};
+    }
+    return json;
+}
+
 /// An entry a map.
 store::Json by_map(const analysis::Comparison& comparison)
 {
     const auto& of_maps = comparison.diagnosis->by_map;
-    const int resolution_texels = comparison.job.shadow_map.resolution_texels;
     store::Json json = store::Json::array();
     for (std::size_t i = 0; i < of_maps.size(); ++i) {
-        const scene::LightFrustum& map = comparison.view.maps[i];
-        store::Json entry{{"map", comparison.view.map_name(i)},
-                          {"near_m", map.near_m},
-                          {"far_m", map.far_m},
-                          {"texel_m", map.texel_width_m(1.0, resolution_texels)}};
+        store::Json entry =
+            map_facts_json(analysis::facts_of_map(comparison.job, comparison.view, i));
         entry.update(subset_json(of_maps[i].counts));
         const analysis::CauseCounts& causes = of_maps[i].causes;
         entry["causes"] = counts_by_name(analysis::cause_names, causes.by_cause);

@@ -1,6 +1,7 @@
 #include "reports/tables/diagnosis_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
+#include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/ratio.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/words/findings.hpp"
@@ -58,6 +59,25 @@ std::string named_amounts(std::string_view head, std::span<const std::string_vie
     return text;
 }
 
+/// What each cascade sees, and what the job's biases are there; empty without cascades.
+std::string cascade_table(const analysis::Comparison& comparison)
+{
+    std::string text;
+    for (std::size_t i = 0; i < comparison.view.maps.size(); ++i) {
+        const analysis::MapFacts map = analysis::facts_of_map(comparison.job, comparison.view, i);
+        if (!map.bias) {
+            return "";
+        }
+        text += setting_line(i == 0 ? "cascades" : "",
+                             fmt::format("{}: view depth {:.4g} to {:.4g} m, texel {:.3g} m, range "
+                                         "{:.4g} m; bias {:.3g} m, {:.3g} texels",
+                                         map.name, *map.begin_m, *map.end_m, map.texel_m,
+                                         map.far_m - map.near_m, map.bias->constant_m,
+                                         map.bias->constant_texels));
+    }
+    return fmt::format("\n{}", text);
+}
+
 /// Of several maps, one a line.
 std::string map_table(const analysis::Comparison& comparison)
 {
@@ -72,7 +92,7 @@ std::string map_table(const analysis::Comparison& comparison)
         text += count_line(comparison.view.map_name(i), grouped(counts.false_shadow),
                            grouped(counts.false_lit), grouped(counts.lit + counts.blocked));
     }
-    return text;
+    return text + cascade_table(comparison);
 }
 
 std::string causes(const analysis::Comparison& comparison)

@@ -1,6 +1,8 @@
 #include "scene/depth/depth_format.hpp"
 #include "scene/error.hpp"
+#include "scene/job/cascade_keys.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/job.hpp"
 #include "scene/job/setting_layers.hpp"
 
 #include <fmt/format.h>
@@ -13,11 +15,6 @@ namespace {
 
 /// Most pixels of an image: 16384 x 8192.
 constexpr std::int64_t most_pixels = 134'217'728;
-
-[[noreturn]] void refuse(const Setting& setting, std::string_view why)
-{
-    throw InputError(fmt::format("{}: {}", setting.label, why));
-}
 
 /// Refuses `first` and `second` together.
 void check_exclusive(const Settings& settings, std::string_view first, std::string_view second)
@@ -156,37 +153,71 @@ void check_format(const Settings& settings)
     }
 }
 
-/// Refuses maps that the light cannot have, and keys that they have no use for.
-void check_layout(const Settings& settings, KnownLight light)
+/// The layout that the settings say, or else mean.
+MapLayout known_layout(const Settings& settings, KnownLight light)
 {
     const Setting* layout = find_setting(settings, "shadow_map.layout");
-    const bool is_single = layout != nullptr && std::get<std::string>(layout->value) == "single";
-    if (layout != nullptr && is_single && light == KnownLight::point) {
-        refuse(*layout, "a point light's maps are the faces of a cube; remove it, or set "
-                        "light.type = \"spot\"");
+    if (layout == nullptr) {
+        return light == KnownLight::point ? MapLayout::cube : MapLayout::single;
     }
-    if (layout != nullptr && !is_single && light != KnownLight::point &&
-        light != KnownLight::unknown) {
-        refuse(*layout, "only a point light's maps are the faces of a cube; remove it, or set "
-                        "light.type = \"point\"");
-    }
-    if (light != KnownLight::point) {
+    const std::string& name = std::get<std::string>(layout->value);
+    return name == "cube"       ? MapLayout::cube
+           : name == "cascades" ? MapLayout::cascades
+                                : MapLayout::single;
+}
+
+/// Refuses maps that the light cannot have.
+void check_layout_of_light(const Settings& settings, MapLayout layout, KnownLight light)
+{
+    const Setting* setting = find_setting(settings, "shadow_map.layout");
+    if (setting == nullptr || light == KnownLight::unknown) {
         return;
     }
+    if (layout != MapLayout::cube && light == KnownLight::point) {
+        refuse(*setting, "a point light's maps are the faces of a cube; remove it, or set "
+                         "light.type = \"spot\"");
+    }
+    if (layout == MapLayout::cube && light != KnownLight::point) {
+        refuse(*setting, "only a point light's maps are the faces of a cube; remove it, or set "
+                         "light.type = \"point\"");
+    }
+    if (layout == MapLayout::cascades && light == KnownLight::spot) {
+        refuse(*setting, "cascades are for a light that shines on all that the camera sees; remove "
+                         "it, or set light.type = \"directional\"");
+    }
+}
+
+/// Refuses keys that the faces of a cube, or cascades, have no use for.
+void check_keys_of_layout(const Settings& settings, MapLayout layout)
+{
+    const bool is_cube = layout == MapLayout::cube;
+    const std::string_view maps = is_cube ? "a point light" : "cascades";
+    const std::string_view why =
+        is_cube ? "its six maps see all around" : "each map has a slice of the camera's view";
     for (const auto& [key, word] :
          {std::pair{"shadow_map.fit", "scene"}, {"lookup.position", "pixel"}}) {
         const Setting* setting = find_setting(settings, key);
         if (setting != nullptr && std::get<std::string>(setting->value) != word) {
-            refuse(*setting, fmt::format("with a point light it is \"{}\", for its six maps "
-                                         "see all around; remove it",
-                                         word));
+            refuse(*setting,
+                   fmt::format("with {} it is \"{}\", for {}; remove it", maps, word, why));
         }
     }
     const Setting* roll = find_setting(settings, "shadow_map.roll_deg");
-    if (roll != nullptr && std::get<double>(roll->value) != 0) {
+    if (is_cube && roll != nullptr && std::get<double>(roll->value) != 0) {
         refuse(*roll, "a point light's maps look along the world's axes; remove it, or turn the "
                       "scene");
     }
+}
+
+/// Refuses maps that the light cannot have, and keys that they have no use for.
+void check_layout(const Settings& settings, KnownLight light)
+{
+    const MapLayout layout = known_layout(settings, light);
+    check_layout_of_light(settings, layout, light);
+    if (layout == MapLayout::single || (layout == MapLayout::cube && light != KnownLight::point)) {
+        return;
+    }
+    check_keys_of_layout(settings, layout);
 }
 
 void check_planes(const Settings& settings, KnownLight light)
@@ -295,6 +326,7 @@ void check_settings(const Settings& settings, const std::string& source)
         check_directional(settings);
     }
     check_layout(settings, light);
+    check_cascades(settings);
     check_content(settings, light);
     check_format(settings);
     check_fit(settings, light);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::string_view, 3> outside_names{"lit", "shadowed", "clamp"};
 constexpr std::array<std::string_view, 2> position_names{"vertex", "pixel"};
 constexpr std::array<std::string_view, 3> cull_names{"none", "front", "back"};
-constexpr std::array<std::string_view, 2> layout_names{"single", "cube"};
+constexpr std::array<std::string_view, 3> layout_names{"single", "cube", "cascades"};
 constexpr std::array<std::string_view, 2> content_names{"depth", "distance"};
 constexpr std::array<std::string_view, 3> fit_names{"scene", "camera", "fixed"};
 
@@ -54,7 +54,20 @@ MapLayout map_layout(const Job& job)
 
 std::size_t map_count(const Job& job)
 {
-    return map_layout(job) == MapLayout::cube ? cube_face_count : 1;
+    switch (map_layout(job)) {
+    case MapLayout::single:
+        return 1;
+    case MapLayout::cube:
+        return cube_face_count;
+    case MapLayout::cascades:
+        return static_cast<std::size_t>(job.shadow_map.cascades.count);
+    }
+    return 1;
+}
+
+bool mixes_maps(const Job& job)
+{
+    return map_layout(job) == MapLayout::cascades && job.shadow_map.cascades.blend > 0;
 }
 
 LookupPosition lookup_position(const Job& job)

@@ -4,6 +4,7 @@
 #include "scene/filter.hpp"
 #include "scene/image.hpp"
 #include "scene/job/value.hpp"
+#include "scene/light/cascades.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"
 #include "scene/view/camera.hpp"
@@ -35,8 +36,9 @@ enum class Cull : std::uint8_t { none, front, back };
 
 /// How many maps a light has, and what each of them sees.
 enum class MapLayout : std::uint8_t {
-    single, ///< one
-    cube,   ///< of a point light the six faces of a cube (`cube_faces`)
+    single,   ///< one
+    cube,     ///< of a point light the six faces of a cube (`cube_faces`)
+    cascades, ///< of a directional light one for each slice of the camera's view (`fit_cascades`)
 };
 enum class Outside : std::uint8_t { lit, shadowed, clamp };
 
@@ -67,6 +69,7 @@ struct ShadowMapSettings {
     int resolution_texels = 1024;    ///< [1, 16384]
     DepthFormat depth_format;
     FrustumSettings frustum;
+    CascadeSettings cascades; ///< layout = cascades
     Cull cull = Cull::none;
 };
 
@@ -100,6 +103,8 @@ struct Job {
 [[nodiscard]] MapLayout map_layout(const Job& job);
 /// How many maps its light has.
 [[nodiscard]] std::size_t map_count(const Job& job);
+/// Whether verdicts of neighbouring cascades are mixed.
+[[nodiscard]] bool mixes_maps(const Job& job);
 /// What the job says, or `pixel` for several maps, else `vertex`.
 [[nodiscard]] LookupPosition lookup_position(const Job& job);
 

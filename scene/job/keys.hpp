@@ -56,6 +56,9 @@ struct KeySpec {
 /// The scene's own rows of `[shadow_map]`, `[lookup]` and `[bias]`.
 [[nodiscard]] std::vector<KeySpec> map_key_specs();
 
+/// Those of them that are for `layout = "cascades"`.
+[[nodiscard]] std::vector<KeySpec> cascade_key_specs();
+
 [[nodiscard]] constexpr Stages operator|(Stage a, Stage b)
 {
     return static_cast<Stages>(static_cast<Stages>(a) | static_cast<Stages>(b));

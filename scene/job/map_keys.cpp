@@ -42,11 +42,13 @@ KeySpec depth_format_key()
 KeySpec layout_key()
 {
     KeySpec spec = word_key<MapLayout>(
-        make_key("shadow_map.layout",
-                 "how many maps, and what they see: one, or of a point light, which has no other, "
-                 "the six faces of a cube",
-                 "\"single\"", light_matrix),
-        2, map_layout_name, [](Job & job) -> auto& { return job.shadow_map.layout; }, map_layout);
+        make_key(
+            "shadow_map.layout",
+            "how many maps, and what they see: one; of a point light, which has no other, the "
+            "six faces of a cube; or of a directional light one for each slice of the camera's "
+            "view",
+            "\"single\"", light_matrix),
+        3, map_layout_name, [](Job & job) -> auto& { return job.shadow_map.layout; }, map_layout);
     spec.get = [](const Job& job) -> std::optional<JobValue> {
         const MapLayout layout = map_layout(job);
         return layout == MapLayout::single ? std::nullopt
@@ -250,6 +252,9 @@ std::vector<KeySpec> map_key_specs()
         IntegerDomain{1, largest_side},
         [](auto& job) -> auto& { return job.shadow_map.resolution_texels; }));
     specs.push_back(layout_key());
+    for (KeySpec& spec : cascade_key_specs()) {
+        specs.push_back(std::move(spec));
+    }
     specs.push_back(content_key());
     specs.push_back(depth_format_key());
     for (KeySpec& spec : frustum_keys()) {

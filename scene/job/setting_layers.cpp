@@ -1,6 +1,7 @@
 #include "scene/job/setting_layers.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/cascade_keys.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/one_line.hpp"
 
@@ -21,20 +22,25 @@ struct Replacement {
     std::array<std::string_view, 9> drops;
 };
 
-constexpr std::array<Replacement, 12> replacements{{
+constexpr std::array<Replacement, 15> replacements{{
     {"scene.builtin", "", {"scene.file"}},
     {"scene.file", "", {"scene.builtin"}},
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
     {"camera.orthographic_height", "", {"camera.vertical_fov_deg"}},
-    {"light.type", "directional", {"light.cone_deg", "shadow_map.fov_deg", "shadow_map.layout"}},
-    {"light.type", "spot", {"light.direction", "shadow_map.half_extent", "shadow_map.layout"}},
+    {"light.type", "directional", {"light.cone_deg", "shadow_map.fov_deg"}},
+    {"light.type", "spot", {"light.direction", "shadow_map.half_extent"}},
     {"light.type",
      "point",
-     {"light.direction", "light.target", "light.cone_deg", "shadow_map.layout", "shadow_map.fit",
+     {"light.direction", "light.target", "light.cone_deg", "shadow_map.fit",
       "shadow_map.half_extent", "shadow_map.fov_deg", "shadow_map.roll_deg", "lookup.position"}},
     {"light.target", "", {"light.direction"}},
     {"shadow_map.fit", "scene", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
     {"shadow_map.fit", "camera", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
+    {"shadow_map.layout",
+     "cascades",
+     {"shadow_map.fit", "shadow_map.half_extent", "lookup.position"}},
+    {"shadow_map.split", "uniform", {"shadow_map.split_lambda"}},
+    {"shadow_map.split", "logarithmic", {"shadow_map.split_lambda"}},
     {"bias.constant", "", {"bias.constant_m"}},
     {"bias.constant_m", "", {"bias.constant"}},
 }};
@@ -55,6 +61,23 @@ void drop_parameters(Settings& settings, const Setting& choice)
     });
 }
 
+/// Another light leaves behind a layout that it cannot have, and another layout the keys of
+/// cascades.
+void drop_layout(Settings& settings, const Setting& choice)
+{
+    const std::string& word = std::get<std::string>(choice.value);
+    const bool is_layout = choice.spec->key.name == "shadow_map.layout";
+    const Setting* layout = find_setting(settings, "shadow_map.layout");
+    const bool had_cascades =
+        layout != nullptr && std::get<std::string>(layout->value) == "cascades";
+    if (!is_layout && !(word == "directional" && had_cascades)) {
+        settings.erase("shadow_map.layout");
+    }
+    if (is_layout ? word != "cascades" : word != "directional") {
+        std::erase_if(settings, [](const auto& entry) { return is_cascade_key(entry.first); });
+    }
+}
+
 void drop_replaced(Settings& settings, const Setting& setting)
 {
     const std::string& key = setting.spec->key.name;
@@ -66,6 +89,9 @@ void drop_replaced(Settings& settings, const Setting& setting)
                 settings.erase(std::string{dropped});
             }
         }
+    }
+    if (key == "light.type" || key == "shadow_map.layout") {
+        drop_layout(settings, setting);
     }
     if (key == "method.name") {
         std::erase_if(settings, [&](const auto& entry) {
@@ -239,6 +265,11 @@ Layer layer_of_light(const Layer& layer, std::string_view light)
         }
     }
     return of_light;
+}
+
+void refuse(const Setting& setting, std::string_view why)
+{
+    throw InputError(fmt::format("{}: {}", setting.label, why));
 }
 
 void lay_over(Settings& settings, const Layer& layer)

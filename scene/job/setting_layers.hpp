@@ -81,6 +81,10 @@ void check_settings(const Settings& settings, const std::string& source);
 /// `check_settings`, for the keys that say which scene it is.
 void check_scene_choice(const Settings& settings, const std::string& source);
 
+/// Refuses a setting, naming it.
+/// @throws InputError  always: "label: why".
+[[noreturn]] void refuse(const Setting& setting, std::string_view why);
+
 /// The setting of that key, or nullptr.
 [[nodiscard]] inline const Setting* find_setting(const Settings& settings, std::string_view key)
 {

@@ -1,6 +1,7 @@
 #include "scene/light/frustum.hpp"
 
 #include "scene/error.hpp"
+#include "scene/light/light_camera.hpp"
 #include "scene/light/near_far.hpp"
 #include "scene/view/clip.hpp"
 
@@ -9,7 +10,6 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,9 +25,7 @@ struct LightViewExtent {
 
     void include(const LightFrustum& frustum, const Vec3d& point)
     {
-        const Vec3d q = point - frustum.origin;
-        const Vec3d p{glm::dot(frustum.right, q), glm::dot(frustum.up, q),
-                      glm::dot(frustum.forward, q)};
+        const Vec3d p = in_light_view(frustum, point);
         lower = glm::min(lower, p);
         upper = glm::max(upper, p);
         const double side = std::max(std::abs(p.x), std::abs(p.y));
@@ -36,33 +34,6 @@ struct LightViewExtent {
     }
     [[nodiscard]] bool empty() const { return !(lower.x <= upper.x); }
 };
-
-/// Cosine and sine of an angle; of quarter turns exactly.
-Vec2d turn_by(double angle_deg)
-{
-    const double quarters = angle_deg / 90;
-    if (quarters != std::round(quarters)) {
-        return {std::cos(glm::radians(angle_deg)), std::sin(glm::radians(angle_deg))};
-    }
-    constexpr std::array<std::array<double, 2>, 4> turns{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-    const auto& turn = turns.at(static_cast<std::size_t>(static_cast<int>(quarters) & 3));
-    return {turn[0], turn[1]};
-}
-
-/// Axes of the light's view: v grows upwards (towards +z for a light that travels vertically), then
-/// the roll turns both.
-void set_axes(LightFrustum& frustum, const Vec3d& direction, double roll_deg)
-{
-    frustum.forward = glm::normalize(direction);
-    const Vec3d world_up{0, 1, 0};
-    const bool vertical = glm::length(glm::cross(frustum.forward, world_up)) < 1e-3;
-    const Vec3d hint = vertical ? Vec3d{0, 0, 1} : world_up;
-    const Vec3d right = glm::normalize(glm::cross(frustum.forward, hint));
-    const Vec3d up = glm::cross(right, frustum.forward);
-    const Vec2d roll = turn_by(roll_deg);
-    frustum.right = roll.x * right + roll.y * up;
-    frustum.up = roll.x * up - roll.y * right;
-}
 
 LightViewExtent extent_of_scene(const LightFrustum& frustum, const TriangleScene& scene)
 {
@@ -105,12 +76,18 @@ void set_sides(LightFrustum& frustum, const FrustumSettings& settings, const Lig
     set_symmetric_sides(frustum, narrow ? std::min(tangent, extent.largest_tangent) : tangent);
 }
 
-Vec3d camera_position(const LightSettings& settings, const Light& light, const Box& box)
+/// high − low. On a grid of texels it is a float32, which the difference misses by a rounding that
+/// depends on where the map lies.
+double width_of(const LightFrustum& frustum, double low, double high)
 {
-    if (light.type == LightType::spot) {
-        return light.position;
-    }
-    return settings.position ? rounded_to_float32(*settings.position) : box.centre();
+    const double width = high - low;
+    return frustum.grid_texels > 0 ? double{static_cast<float>(width)} : width;
+}
+
+/// A translation in clip space, moved to the next multiple of a texel's width there.
+double on_grid(double translation, int texels)
+{
+    return texels > 0 ? std::round(translation * texels / 2) * 2 / texels : translation;
 }
 
 } // namespace
@@ -128,7 +105,9 @@ void compose_matrix(LightFrustum& f)
     const Vec4d light_distance = affine(f.forward);
     const Vec4d w = perspective ? light_distance : Vec4d{0, 0, 0, 1};
     const auto side = [&](const Vec3d& axis, double low, double high) {
-        return (2.0 * affine(axis) - (high + low) * w) / (high - low);
+        Vec4d row = (2.0 * affine(axis) - (high + low) * w) / width_of(f, low, high);
+        row.w = on_grid(row.w, f.grid_texels);
+        return row;
     };
     const Vec2d depth = clip_depth_row(f.depth_range());
     const Vec4d z = depth.x * light_distance + Vec4d{0, 0, 0, depth.y};
@@ -153,15 +132,7 @@ LightFrustum fit_light_frustum(const FrustumSettings& settings, const LightSetti
                                ImageSize image)
 {
     const Box box = scene.bounds();
-    LightFrustum frustum;
-    frustum.projection =
-        light.type == LightType::spot ? Projection::perspective : Projection::orthographic;
-    frustum.content = settings.content;
-    frustum.reversed = settings.reversed;
-    frustum.clip_range = clip_range_of(settings);
-    frustum.origin = camera_position(light_settings, light, box);
-    set_axes(frustum, light.direction, settings.roll_deg);
-
+    LightFrustum frustum = place_light_camera(settings, light_settings, light, box);
     const LightViewExtent whole = extent_of_scene(frustum, scene);
     LightViewExtent seen;
     if (settings.fit == Fit::camera) {

@@ -57,6 +57,10 @@ struct LightFrustum {
     double far_m = 100;
     bool reversed = false;
     ClipRange clip_range = ClipRange::minus_one_to_one;
+    /// The map's resolution, a power of two, where its sides are whole texels from the world's
+    /// origin, of a width that is a float32: then the matrix's translation along u and v is a
+    /// multiple of 2/grid_texels. 0: they are anywhere.
+    int grid_texels = 0;
     Mat4d light_clip_from_world_exact{1}; ///< composed in double
     Mat4f light_clip_from_world{1};       ///< rounded once: this one is GL's, and exact input
 

@@ -149,6 +149,15 @@ void set_near_far(std::span<LightFrustum> maps, const FrustumSettings& settings,
     }
 }
 
+void set_near_far_around(LightFrustum& map, const FrustumSettings& settings,
+                         const LightDistanceRange& range)
+{
+    const NearFar planes = chosen_planes(settings, map.projection, padded(range));
+    check_planes(planes, map.projection);
+    map.near_m = planes.near_m;
+    map.far_m = planes.far_m;
+}
+
 void make_room_for_distances(std::span<LightFrustum> maps, const FrustumSettings& settings,
                              const TriangleScene& scene)
 {

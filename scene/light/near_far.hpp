@@ -39,4 +39,10 @@ void make_room_for_distances(std::span<LightFrustum> maps, const FrustumSettings
 void set_near_far(std::span<LightFrustum> maps, const FrustumSettings& settings,
                   const TriangleScene& scene, const WholeScene& whole);
 
+/// Sets near and far of one map: those of the settings, else around a range, with the padding,
+/// whatever the sides hold.
+/// @throws InputError  as above.
+void set_near_far_around(LightFrustum& map, const FrustumSettings& settings,
+                         const LightDistanceRange& range);
+
 } // namespace gnomon::scene

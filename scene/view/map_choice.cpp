@@ -2,6 +2,9 @@
 
 #include "scene/light/cube_faces.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace gnomon::scene {
 
 namespace {
@@ -40,13 +43,30 @@ bool contains(const LightFrustum& map, const Vec4f& clip)
            clip.z >= nearest && clip.z <= clip.w;
 }
 
-std::size_t chosen_map(std::span<const LightFrustum> maps, MapChoice choice, const Vec3f& point)
+float ViewSlices::view_depth_m(const Vec3f& point) const
+{
+    const Vec3f from_eye = point - eye;
+    const float across = forward.x * from_eye.x + forward.y * from_eye.y;
+    return across + forward.z * from_eye.z;
+}
+
+std::size_t ViewSlices::slice_of(const Vec3f& point) const
+{
+    const float depth_m = view_depth_m(point);
+    const auto end = std::ranges::find_if(ends, [&](float m) { return depth_m < m; });
+    return std::min(static_cast<std::size_t>(std::distance(ends.begin(), end)), ends.size() - 1);
+}
+
+std::size_t chosen_map(std::span<const LightFrustum> maps, MapChoice choice,
+                       const ViewSlices& slices, const Vec3f& point)
 {
     switch (choice) {
     case MapChoice::containing:
         return first_that_contains(maps, point);
     case MapChoice::cube_face:
         return cube_face_towards(point - Vec3f{maps.front().origin});
+    case MapChoice::view_depth:
+        return slices.slice_of(point);
     }
     return 0;
 }

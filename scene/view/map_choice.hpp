@@ -6,14 +6,36 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace gnomon::scene {
 
-/// Which of a light's maps a receiver reads. raster_gl/shaders/map_choice.glsl and cube_faces.glsl
-/// are the same rules in GLSL, equal to the bit.
+/// Which of a light's maps a receiver reads. raster_gl/shaders/map_choice.glsl, cube_faces.glsl and
+/// view_slices.glsl are the same rules in GLSL, equal to the bit.
 enum class MapChoice : std::uint8_t {
     containing, ///< the first that contains it; the last where none does
     cube_face,  ///< the face of `cube_faces` that fl(P − L) meets (`cube_face_towards`)
+    view_depth, ///< that of the slice of the camera's view in which it lies (`ViewSlices`)
+};
+
+/// The slices of a camera's view, along its axis, in float32.
+struct ViewSlices {
+    Vec3f eye;               ///< [m]
+    Vec3f forward;           ///< unit, up to rounding
+    std::vector<float> ends; ///< view depth of each slice's end, ascending [m]; of cascades, one
+                             ///< for each map
+
+    float begin = 0; ///< view depth at which the first slice begins [m]
+    /// View depth from which on each slice's verdict is mixed with the next one's, the last one's
+    /// its end [m]; empty: nowhere.
+    std::vector<float> mixed_from = {};
+
+    /// Of a point, each difference, product and sum rounded:
+    ///
+    ///     (f.x·(P.x − e.x) + f.y·(P.y − e.y)) + f.z·(P.z − e.z)
+    [[nodiscard]] float view_depth_m(const Vec3f& point) const;
+    /// The first slice that ends beyond the point; the last where none does.
+    [[nodiscard]] std::size_t slice_of(const Vec3f& point) const;
 };
 
 /// The clip position of a point, in float32, each product and each sum rounded, in the order
@@ -29,9 +51,10 @@ enum class MapChoice : std::uint8_t {
 [[nodiscard]] bool contains(const LightFrustum& map, const Vec4f& clip);
 
 /// Index of the map that a receiver reads.
-/// @param maps   of a light, in their order; at least one.
-/// @param point  where the receiver is [m].
+/// @param maps    of a light, in their order; at least one.
+/// @param slices  for the choice `view_depth`.
+/// @param point   where the receiver is [m].
 [[nodiscard]] std::size_t chosen_map(std::span<const LightFrustum> maps, MapChoice choice,
-                                     const Vec3f& point);
+                                     const ViewSlices& slices, const Vec3f& point);
 
 } // namespace gnomon::scene

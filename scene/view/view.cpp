@@ -90,12 +90,14 @@ Box framed_box(const TriangleScene& scene)
 /// A scene's own light is known no earlier.
 void require_layout(const Job& job, LightType light)
 {
-    const bool is_cube = map_layout(job) == MapLayout::cube;
-    if (is_cube != (light == LightType::point)) {
+    const MapLayout layout = map_layout(job);
+    const bool is_wrong_cube = (layout == MapLayout::cube) != (light == LightType::point);
+    const bool is_wrong_cascade = layout == MapLayout::cascades && light != LightType::directional;
+    if (is_wrong_cube || is_wrong_cascade) {
         throw InputError(fmt::format(
             "shadow_map.layout = \"{}\": the scene's light is a {} light; remove the key, or give "
             "a light under [light]",
-            map_layout_name(map_layout(job)), light_type_name(light)));
+            map_layout_name(layout), light_type_name(light)));
     }
     const bool has_distances = job.shadow_map.frustum.content == MapContent::distance;
     if (has_distances && light == LightType::directional) {
@@ -126,6 +128,59 @@ void require_no_other_cube(const Job& job)
     }
 }
 
+void set_cascades(View& view, const Job& job, const TriangleScene& scene,
+                  const LightSettings& light)
+{
+    const CascadeSettings& cascades = job.shadow_map.cascades;
+    const std::vector<double> splits = split_view(cascades, scene, view.camera, view.image);
+    view.maps = fit_cascades({cascades, job.shadow_map.frustum, light, view.light, scene,
+                              view.camera, view.image, job.shadow_map.resolution_texels},
+                             splits);
+    view.map_choice = cascades.select == CascadeSelect::view_depth ? MapChoice::view_depth
+                                                                   : MapChoice::containing;
+    view.slices = {
+        Vec3f{view.camera.eye}, Vec3f{view.camera.forward}, {}, static_cast<float>(splits.front())};
+    for (std::size_t i = 1; i < splits.size(); ++i) {
+        view.slices.ends.push_back(static_cast<float>(splits[i]));
+        if (cascades.blend > 0) {
+            const bool is_last = i + 1 == splits.size();
+            const double share = is_last ? 0 : cascades.blend;
+            view.slices.mixed_from.push_back(
+                static_cast<float>(splits[i] - share * (splits[i] - splits[i - 1])));
+        }
+    }
+}
+
+void set_maps(View& view, const Job& job, const TriangleScene& scene, const LightSettings& light)
+{
+    switch (map_layout(job)) {
+    case MapLayout::single:
+        view.maps = {fit_light_frustum(job.shadow_map.frustum, light, view.light, scene,
+                                       view.camera, view.image)};
+        return;
+    case MapLayout::cube:
+        require_no_other_cube(job);
+        view.maps = fit_cube_faces(job.shadow_map.frustum, view.light, scene);
+        view.map_choice = MapChoice::cube_face;
+        return;
+    case MapLayout::cascades:
+        set_cascades(view, job, scene, light);
+        return;
+    }
+}
+
+/// So that a bias in metres is as long in every map.
+std::vector<float> bias_scales_of(const Job& job, const View& view)
+{
+    std::vector<float> scales;
+    if (job.bias.constant_m && view.maps.size() > 1) {
+        for (const LightFrustum& map : view.maps) {
+            scales.push_back(static_cast<float>(view.first_map().range_m() / map.range_m()));
+        }
+    }
+    return scales;
+}
+
 LightSettings default_light()
 {
     LightSettings light;
@@ -151,7 +206,8 @@ const LightFrustum& View::first_map() const
 
 double View::light_distance_m(const Vec3d& point) const
 {
-    const std::size_t map = maps.size() > 1 ? chosen_map(maps, map_choice, Vec3f{point}) : 0;
+    const std::size_t map =
+        maps.size() > 1 ? chosen_map(maps, map_choice, slices, Vec3f{point}) : 0;
     return map < maps.size() ? maps[map].light_distance_m(point)
                              : first_map().light_distance_m(point);
 }
@@ -202,19 +258,12 @@ View resolve_view_without_maps(const Job& job, const TriangleScene& scene,
 View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefaults& defaults)
 {
     View view = resolve_view_without_maps(job, scene, defaults);
-    const FrustumSettings& settings = job.shadow_map.frustum;
     const Job with_own_layout = with_layout(job, defaults);
     require_layout(with_own_layout, view.light.type);
-    if (view.light.type == LightType::point) {
-        require_no_other_cube(with_own_layout);
-        view.maps = fit_cube_faces(settings, view.light, scene);
-        view.map_choice = MapChoice::cube_face;
-    } else {
-        view.maps = {fit_light_frustum(settings, resolve_light(job, defaults), view.light, scene,
-                                       view.camera, job.image)};
-    }
+    set_maps(view, with_own_layout, scene, resolve_light(job, defaults));
     view.bias = resolve_bias(job.bias, view.first_map());
     view.bias.handed = resolve_handed_biases(job);
+    view.bias_scales = bias_scales_of(job, view);
     return view;
 }
 

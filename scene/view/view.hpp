@@ -41,6 +41,11 @@ struct View {
     std::vector<LightFrustum> maps;
     Bias bias;
     MapChoice map_choice = MapChoice::containing; ///< which of several maps a receiver reads
+    ViewSlices slices;                            ///< of cascades
+    /// What the constant bias is multiplied with in each map, in float32, where one number of depth
+    /// units is not the same length in all and the job gives metres; the first is 1. Empty: with
+    /// nothing.
+    std::vector<float> bias_scales;
 
     /// The first map's, and of a light with one map the only one: whose ranges are those of all.
     /// @throws std::logic_error  if there is no map.

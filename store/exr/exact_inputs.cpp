@@ -64,6 +64,21 @@ void add_camera(std::vector<ExactInput>& inputs, const scene::Camera& camera)
     inputs.push_back({"half_height", numbers({camera.half_height})});
 }
 
+/// Of each map where they differ.
+void add_planes(std::vector<ExactInput>& inputs, const scene::View& view)
+{
+    if (view.slices.ends.empty()) {
+        inputs.push_back({"near", numbers({view.first_map().near_m})});
+        inputs.push_back({"far", numbers({view.first_map().far_m})});
+        return;
+    }
+    for (std::size_t i = 0; i < view.maps.size(); ++i) {
+        inputs.push_back({fmt::format("near_{}", i), numbers({view.maps[i].near_m})});
+        inputs.push_back({fmt::format("far_{}", i), numbers({view.maps[i].far_m})});
+        inputs.push_back({fmt::format("slice_end_{}", i), numbers({double{view.slices.ends[i]}})});
+    }
+}
+
 void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
 {
     for (std::size_t i = 0; i < view.maps.size(); ++i) {
@@ -71,8 +86,7 @@ void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
                                                 : fmt::format("light_clip_from_world_{}", i),
                           row_major(view.maps[i].light_clip_from_world)});
     }
-    inputs.push_back({"near", numbers({view.first_map().near_m})});
-    inputs.push_back({"far", numbers({view.first_map().far_m})});
+    add_planes(inputs, view);
     inputs.push_back({"bias_constant", numbers({static_cast<double>(view.bias.constant)})});
     inputs.push_back({"bias_slope", numbers({static_cast<double>(view.bias.slope)})});
     inputs.push_back(

@@ -58,8 +58,8 @@ TEST(TheFaceOfACube, IsTheSameInGlslToTheBit)
                 if (triangles[p] == scene::no_triangle) {
                     continue;
                 }
-                const std::size_t expected =
-                    chosen_map(c.view.maps, c.view.map_choice, scene::Vec3f{positions[p]});
+                const std::size_t expected = chosen_map(c.view.maps, c.view.map_choice,
+                                                        c.view.slices, scene::Vec3f{positions[p]});
                 ASSERT_EQ(lookup.maps[p], expected) << builtin << ", pixel " << p;
                 // A cube has no outside.
                 ASSERT_TRUE(lookup.texels[p].x >= 0 && lookup.texels[p].x < 64 &&
@@ -158,10 +158,10 @@ TEST(ACubesNormalOffset, LeadsOverSeams)
         }
         ASSERT_TRUE(moved.texels[p].x >= 0 && moved.texels[p].x < 128);
         ASSERT_TRUE(moved.texels[p].y >= 0 && moved.texels[p].y < 128);
-        over_seams +=
-            moved.maps[p] != chosen_map(c.view.maps, c.view.map_choice, scene::Vec3f{positions[p]})
-                ? 1U
-                : 0U;
+        over_seams += moved.maps[p] != chosen_map(c.view.maps, c.view.map_choice, c.view.slices,
+                                                  scene::Vec3f{positions[p]})
+                          ? 1U
+                          : 0U;
     }
     EXPECT_GT(over_seams, 100U);
 }

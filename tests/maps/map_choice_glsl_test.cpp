@@ -62,8 +62,8 @@ TEST(TheChosenMap, IsTheSameInGlslToTheBit)
                 EXPECT_EQ(maps[i], 0);
                 continue;
             }
-            const std::size_t expected =
-                chosen_map(c.view.maps, c.view.map_choice, scene::Vec3f{positions[i]});
+            const std::size_t expected = chosen_map(c.view.maps, c.view.map_choice, c.view.slices,
+                                                    scene::Vec3f{positions[i]});
             ASSERT_EQ(maps[i], expected) << shown.builtin << ", pixel " << i;
             ++chosen_of_map.at(expected);
             ++compared;

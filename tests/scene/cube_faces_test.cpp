@@ -122,7 +122,7 @@ TEST(CubeMaps, EncloseAllTriangles)
         const TriangleScene scene = some_triangles(light.position, 4);
         const auto maps = fit_cube_faces({}, light, scene);
         for (const Vec3f& vertex : scene.vertices) {
-            const std::size_t map = chosen_map(maps, MapChoice::cube_face, vertex);
+            const std::size_t map = chosen_map(maps, MapChoice::cube_face, {}, vertex);
             const double distance_m = maps[map].light_distance_m(Vec3d{vertex});
             EXPECT_LE(distance_m, maps[map].far_m);
             EXPECT_GE(distance_m, std::min(maps[map].near_m, 1e-3 * maps[map].far_m));

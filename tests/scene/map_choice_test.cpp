@@ -60,10 +60,10 @@ TEST(TheChosenMap, IsTheFirstThatContainsThePoint)
 {
     const std::vector<LightFrustum> maps{cube_of({0, 0, 0}), cube_of({1, 0, 0}),
                                          cube_of({5, 0, 0})};
-    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {0, 0, 0}), 0U);
-    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {1, 0, 0}), 1U);
-    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {4.5F, 0, 0}), 2U);
-    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {-7, 0, 0}), 2U); // none: the last
+    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {}, {0, 0, 0}), 0U);
+    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {}, {1, 0, 0}), 1U);
+    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {}, {4.5F, 0, 0}), 2U);
+    EXPECT_EQ(chosen_map(maps, MapChoice::containing, {}, {-7, 0, 0}), 2U); // none: the last
 }
 
 TEST(AViewWithoutMaps, HasNoFirstOne)

@@ -131,8 +131,9 @@ TEST(BiasMap, HoldsWhatLitPixelsNeedAndBlockedPixelsAllow)
     const scene::LookupLayers lookup{scene::Image<scene::LookupSample>{size, {0.5F, 0, 0, 0}}};
     const scene::Image<float> light_distance_m{size, 6.0F};
     const DepthFormat d32f{DepthFormat::Kind::d32f, 32};
+    const std::array maps{directional()};
     const BiasMap map =
-        map_biases({criticals, classes, lookup, light_distance_m, directional(), 4, d32f});
+        map_biases({criticals, classes, lookup, light_distance_m, {maps, lookup.maps, 4}, d32f});
     EXPECT_EQ(map.depth[0], 0.25F);
     EXPECT_EQ(map.metres[0], 2.0F);
     EXPECT_EQ(map.texels[0], 4.0F); // texels of half a metre
@@ -153,7 +154,9 @@ TEST(BiasMap, KeepsInfinities)
     classes[2] = classes[3] = PixelClass::blocked;
     const scene::LookupLayers lookup{scene::Image<scene::LookupSample>{size, {0.5F, 0, 0, 0}}};
     const scene::Image<float> light_distance_m{size, 6.0F};
-    const BiasMap map = map_biases({criticals, classes, lookup, light_distance_m, spot(), 4, {}});
+    const std::array maps{spot()};
+    const BiasMap map =
+        map_biases({criticals, classes, lookup, light_distance_m, {maps, lookup.maps, 4}, {}});
     for (const auto* image : {&map.depth, &map.metres, &map.texels, &map.steps}) {
         EXPECT_EQ((*image)[0], inf);
         EXPECT_EQ((*image)[1], -inf);
@@ -168,7 +171,9 @@ TEST(BiasMap, RejectsImagesOfDifferentSize)
     const scene::Image<PixelClass> classes{{1, 1}};
     const scene::LookupLayers lookup{scene::Image<scene::LookupSample>{{1, 1}}};
     const scene::Image<float> light_distance_m{{1, 1}};
-    EXPECT_THROW((void)map_biases({criticals, classes, lookup, light_distance_m, spot(), 4, {}}),
+    const std::array maps{spot()};
+    EXPECT_THROW((void)map_biases(
+                     {criticals, classes, lookup, light_distance_m, {maps, lookup.maps, 4}, {}}),
                  std::invalid_argument);
 }
 

@@ -31,6 +31,8 @@ const std::vector<Override> spot{{"light.type", "spot"},
                                  {"light.target", "[0, 0, 0]"},
                                  {"bias.constant", "0"}};
 
+const std::vector<Override> cascades{{"shadow_map.layout", "cascades"}};
+
 std::vector<Override> with(std::vector<Override> first, const std::vector<Override>& more)
 {
     first.insert(first.end(), more.begin(), more.end());
@@ -96,6 +98,21 @@ const std::map<std::string, KeyCases> key_cases{
       {}}},
     {"shadow_map.layout",
      {{"\"cube\""}, {"\"ring\"", "6"}, {{"light.type", "point"}, {"light.position", "[0, 3, 1]"}}}},
+    {"shadow_map.cascades", beside({{"2", "4", "8"}, {"1", "9", "4.5", "\"two\""}, {}}, cascades)},
+    {"shadow_map.split",
+     beside({{"\"uniform\"", "\"logarithmic\"", "\"practical\""}, {"\"even\"", "1"}, {}},
+            cascades)},
+    {"shadow_map.split_lambda", beside({{"0", "0.5", "1"}, {"-0.1", "2", "\"a\""}, {}}, cascades)},
+    {"shadow_map.cascade_near",
+     beside({{"\"auto\"", "1e-06", "0.5"}, {"0", "-1", "\"Auto\"", "2e15"}, {}}, cascades)},
+    {"shadow_map.cascade_far",
+     beside({{"\"auto\"", "1e-06", "1e+15"}, {"0", "-1", "\"Auto\"", "2e15"}, {}}, cascades)},
+    {"shadow_map.cascade_fit",
+     beside({{"\"tight\"", "\"stabilised\""}, {"\"stable\"", "1"}, {}},
+            with(cascades, {{"shadow_map.cascade_near", "1"}, {"shadow_map.cascade_far", "9"}}))},
+    {"shadow_map.select",
+     beside({{"\"view_depth\"", "\"containing\""}, {"\"nearest\"", "1"}, {}}, cascades)},
+    {"shadow_map.blend", beside({{"0", "0.1", "0.999"}, {"1", "-0.1", "\"a\""}, {}}, cascades)},
     {"shadow_map.content", {{"\"distance\""}, {"\"depths\"", "1"}, spot}},
     {"shadow_map.fit", {{"\"scene\"", "\"camera\"", "\"fixed\""}, {"\"tight\"", "0"}, {}}},
     {"shadow_map.half_extent",

@@ -1,0 +1,41 @@
+#include "analysis/metrics/map_facts.hpp"
+
+#include "analysis/bias/bias_units.hpp"
+
+namespace gnomon::analysis {
+
+namespace {
+
+MapBias bias_in(const scene::LightFrustum& map, const scene::Bias& bias, double scale,
+                double texel_m)
+{
+    MapBias in_map;
+    in_map.constant = double{bias.constant} * scale;
+    in_map.constant_m = bias_length_m(map, in_map.constant, 1.0);
+    in_map.constant_texels = in_map.constant_m / texel_m;
+    in_map.normal_offset_m = double{bias.normal_texels} * texel_m;
+    return in_map;
+}
+
+} // namespace
+
+MapFacts facts_of_map(const scene::Job& job, const scene::View& view, std::size_t map)
+{
+    const scene::LightFrustum& frustum = view.maps.at(map);
+    MapFacts facts;
+    facts.name = view.map_name(map);
+    facts.near_m = frustum.near_m;
+    facts.far_m = frustum.far_m;
+    facts.texel_m = frustum.texel_width_m(1.0, job.shadow_map.resolution_texels);
+    const scene::ViewSlices& slices = view.slices;
+    if (slices.ends.empty()) {
+        return facts;
+    }
+    facts.end_m = double{slices.ends[map]};
+    facts.begin_m = double{map == 0 ? slices.begin : slices.ends[map - 1]};
+    const double scale = view.bias_scales.empty() ? 1.0 : double{view.bias_scales[map]};
+    facts.bias = bias_in(frustum, view.bias, scale, facts.texel_m);
+    return facts;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,43 @@
+// Which cascade a receiver reads, after lookup_map.glsl: that of the slice of the camera's view in
+// which it lies. scene/view/map_choice.hpp has the rule, equal to the bit.
+
+uniform vec3 view_eye;
+uniform vec3 view_forward;
+uniform float slice_ends[MAPS]; // view depths, ascending
+#if BLENDS
+uniform float mixed_from[MAPS]; // view depth from which on the next cascade is mixed in; the last
+                                // one's is its end
+#endif
+
+float view_depth(vec3 position)
+{
+    precise vec3 from_eye = position - view_eye;
+    precise float depth = view_forward.x * from_eye.x + view_forward.y * from_eye.y;
+    depth = depth + view_forward.z * from_eye.z;
+    return depth;
+}
+
+int chosen_map(vec3 position)
+{
+    float depth = view_depth(position);
+    for (int i = 0; i < MAPS - 1; ++i) {
+        if (depth < slice_ends[i]) {
+            return i;
+        }
+    }
+    return MAPS - 1;
+}
+
+#if BLENDS
+// Of the next cascade in a verdict: 0 up to where mixing begins, 1 at the slice's end.
+float share_of_next(vec3 position)
+{
+    int map = chosen_map(position);
+    float from = mixed_from[map];
+    float depth = view_depth(position);
+    if (map == MAPS - 1 || !(depth > from)) {
+        return 0.0;
+    }
+    return min((depth - from) / (slice_ends[map] - from), 1.0);
+}
+#endif

@@ -1,0 +1,211 @@
+#include "scene/job/cascade_keys.hpp"
+
+#include "scene/error.hpp"
+#include "scene/job/job.hpp"
+#include "scene/job/keys.hpp"
+#include "scene/light/cascades.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::scene {
+namespace {
+
+/// Cascades follow the camera: receivers stay, every map is drawn anew.
+constexpr Stages light_matrix = Stage::receivers | Stage::shadow_map;
+/// A slice without a share of its own would have no place for its own verdict.
+constexpr double largest_blend = 0.999;
+constexpr double least_view_depth_m = 1e-6;
+
+/// Left out where the maps are no cascades.
+KeySpec of_cascades(KeySpec spec)
+{
+    spec.get = [get = std::move(spec.get)](const Job& job) {
+        return map_layout(job) == MapLayout::cascades ? get(job) : std::nullopt;
+    };
+    return spec;
+}
+
+KeySpec lambda_key()
+{
+    KeySpec spec = member_key<double>(
+        make_key("shadow_map.split_lambda",
+                 "split = \"practical\": 0 splits uniformly, 1 logarithmically", "0.5",
+                 light_matrix),
+        RealDomain{.lower = 0, .upper = 1},
+        [](auto& job) -> auto& { return job.shadow_map.cascades.split_lambda; });
+    spec.get = [get = std::move(spec.get)](const Job& job) {
+        const bool is_asked = job.shadow_map.cascades.split == CascadeSplit::practical;
+        return is_asked ? get(job) : std::nullopt;
+    };
+    return spec;
+}
+
+/// `cascade_near` or `cascade_far`: metres of view depth, or "auto".
+KeySpec view_depth_key(std::string name, std::string description,
+                       std::optional<double> CascadeSettings::*depth)
+{
+    return {.key = make_key(std::move(name), std::move(description), "\"auto\"", light_matrix, "m"),
+            .domain = RealDomain{.lower = least_view_depth_m, .upper = farthest_m, .or_auto = true},
+            .set =
+                [depth](Job& job, const JobValue& value) {
+                    const double* number = std::get_if<double>(&value);
+                    job.shadow_map.cascades.*depth =
+                        number != nullptr ? std::optional<double>{*number} : std::nullopt;
+                },
+            .get = [depth](const Job& job) -> std::optional<JobValue> {
+                const auto& number = job.shadow_map.cascades.*depth;
+                return number ? held(*number) : held(std::string{"auto"});
+            },
+            .example = {}};
+}
+
+std::vector<KeySpec> split_keys()
+{
+    return {member_key<std::int64_t>(
+                make_key("shadow_map.cascades",
+                         "how many slices the camera's view is split into, with a map each", "4",
+                         light_matrix),
+                IntegerDomain{least_cascades, most_cascades},
+                [](auto& job) -> auto& { return job.shadow_map.cascades.count; }),
+            word_key<CascadeSplit>(
+                make_key("shadow_map.split",
+                         "where slices end: all equally deep, each deeper by the same factor, or "
+                         "between the two, by split_lambda",
+                         "\"practical\"", light_matrix),
+                3, cascade_split_name,
+                [](auto& job) -> auto& { return job.shadow_map.cascades.split; }),
+            lambda_key(),
+            view_depth_key("shadow_map.cascade_near",
+                           "view depth at which the first slice begins [{unit}]; auto: that of the "
+                           "nearest receiver in view",
+                           &CascadeSettings::near_m),
+            view_depth_key("shadow_map.cascade_far",
+                           "view depth at which the last slice ends [{unit}]; auto: that of the "
+                           "farthest receiver in view",
+                           &CascadeSettings::far_m)};
+}
+
+std::vector<KeySpec> choice_keys()
+{
+    return {
+        word_key<CascadeFit>(
+            make_key("shadow_map.cascade_fit",
+                     "what a map covers: the light-view box around its slice, or a sphere "
+                     "around it, on a grid of texels that stands still in the world",
+                     "\"tight\"", light_matrix),
+            2, cascade_fit_name, [](auto& job) -> auto& { return job.shadow_map.cascades.fit; }),
+        word_key<CascadeSelect>(
+            make_key("shadow_map.select",
+                     "which cascade a receiver reads: that of its slice, or the first whose map "
+                     "contains it",
+                     "\"view_depth\"", only(Stage::lookup)),
+            2, cascade_select_name,
+            [](auto& job) -> auto& { return job.shadow_map.cascades.select; }),
+        member_key<double>(
+            make_key("shadow_map.blend",
+                     "share of each slice, at its end, in which the next cascade's verdict is "
+                     "mixed in",
+                     "0", light_matrix),
+            RealDomain{.lower = 0, .upper = largest_blend},
+            [](auto& job) -> auto& { return job.shadow_map.cascades.blend; })};
+}
+
+const double* number_of(const Settings& settings, std::string_view key)
+{
+    const Setting* setting = find_setting(settings, key);
+    return setting == nullptr ? nullptr : std::get_if<double>(&setting->value);
+}
+
+bool is_word(const Settings& settings, std::string_view key, std::string_view word)
+{
+    const Setting* setting = find_setting(settings, key);
+    return setting != nullptr && std::get<std::string>(setting->value) == word;
+}
+
+void check_stabilised(const Settings& settings)
+{
+    const Setting& fit = settings.at("shadow_map.cascade_fit");
+    for (const std::string_view needed : {"shadow_map.cascade_near", "shadow_map.cascade_far"}) {
+        if (number_of(settings, needed) == nullptr) {
+            refuse(fit, fmt::format("needs shadow_map.cascade_near and shadow_map.cascade_far in "
+                                    "metres, lest the slices change with the view; {} is missing",
+                                    needed));
+        }
+    }
+    const Setting* resolution = find_setting(settings, "shadow_map.resolution");
+    if (resolution == nullptr) {
+        return; // the default is a power of two
+    }
+    const auto texels = static_cast<std::uint64_t>(std::get<std::int64_t>(resolution->value));
+    if (texels < 2 || !std::has_single_bit(texels)) {
+        refuse(
+            *resolution,
+            fmt::format("must be a power of two, from 2 on, lest float32 cannot hold the grid of "
+                        "texels that {} keeps still",
+                        fit.label));
+    }
+}
+
+} // namespace
+
+std::vector<KeySpec> cascade_key_specs()
+{
+    std::vector<KeySpec> specs;
+    for (std::vector<KeySpec> keys : {split_keys(), choice_keys()}) {
+        for (KeySpec& spec : keys) {
+            specs.push_back(of_cascades(std::move(spec)));
+        }
+    }
+    return specs;
+}
+
+bool is_cascade_key(std::string_view name)
+{
+    static const std::vector<KeySpec> specs = cascade_key_specs();
+    return std::ranges::any_of(specs, [&](const KeySpec& spec) { return spec.key.name == name; });
+}
+
+void check_cascades(const Settings& settings)
+{
+    if (!is_word(settings, "shadow_map.layout", "cascades")) {
+        for (const auto& [key, setting] : settings) {
+            if (is_cascade_key(key)) {
+                refuse(setting, "only for shadow_map.layout = \"cascades\"; set that too, or "
+                                "remove this key");
+            }
+        }
+        return;
+    }
+    const Setting* lambda = find_setting(settings, "shadow_map.split_lambda");
+    if (lambda != nullptr && find_setting(settings, "shadow_map.split") != nullptr &&
+        !is_word(settings, "shadow_map.split", "practical")) {
+        refuse(*lambda, "only for shadow_map.split = \"practical\"; remove it, or set that: 0 "
+                        "splits uniformly, 1 logarithmically");
+    }
+    const double* near_m = number_of(settings, "shadow_map.cascade_near");
+    const double* far_m = number_of(settings, "shadow_map.cascade_far");
+    if (near_m != nullptr && far_m != nullptr && !(*near_m < *far_m)) {
+        refuse(settings.at("shadow_map.cascade_near"),
+               fmt::format("must be less than shadow_map.cascade_far ({})",
+                           settings.at("shadow_map.cascade_far").label));
+    }
+    if (is_word(settings, "shadow_map.cascade_fit", "stabilised")) {
+        check_stabilised(settings);
+    }
+    const double* blend = number_of(settings, "shadow_map.blend");
+    if (blend != nullptr && *blend > 0 && is_word(settings, "shadow_map.select", "containing")) {
+        refuse(settings.at("shadow_map.blend"),
+               "neighbours are mixed by view depth; set shadow_map.select = \"view_depth\", or "
+               "remove this key");
+    }
+}
+
+} // namespace gnomon::scene
