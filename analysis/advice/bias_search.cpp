@@ -113,6 +113,9 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     if (views_.size() == 1) {
         told_like_ = job.bias;
     }
+    if (told_like_.constant_m && scene::map_count(job) > 1) {
+        added.job.bias.constant_m = 0; // as long in each map
+    }
     added.view = scene::resolve_view(added.job, file_.scene, file_.defaults);
     added.set_constant = scene::resolve_bias(job.bias, added.view.first_map()).constant;
     added.judged = &judged;

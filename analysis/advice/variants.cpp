@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -106,6 +107,37 @@ void add_finer_maps(Variants& variants)
     }
 }
 
+/// Cascades that resolve more: more of them, a split that spares more for what is near, and boxes
+/// in place of spheres.
+void add_finer_cascades(Variants& variants)
+{
+    const bool is_coarse = variants.has(Cause::resolution) || variants.has(Cause::filter);
+    if (!is_coarse || scene::map_layout(variants.job()) != scene::MapLayout::cascades) {
+        return;
+    }
+    const scene::CascadeSettings& own = variants.job().shadow_map.cascades;
+    if (own.count < scene::most_cascades) {
+        const int count = std::min(2 * own.count, scene::most_cascades);
+        variants.add({fmt::format("shadow_map.cascades = {}", count)},
+                     [count](Job& job) { job.shadow_map.cascades.count = count; });
+    }
+    for (const double lambda : {0.5, 0.9}) {
+        if (own.split == scene::CascadeSplit::practical && own.split_lambda == lambda) {
+            continue;
+        }
+        variants.add({"shadow_map.split = \"practical\"",
+                      fmt::format("shadow_map.split_lambda = {}", lambda)},
+                     [lambda](Job& job) {
+                         job.shadow_map.cascades.split = scene::CascadeSplit::practical;
+                         job.shadow_map.cascades.split_lambda = lambda;
+                     });
+    }
+    if (own.fit == scene::CascadeFit::stabilised) {
+        variants.add({"shadow_map.cascade_fit = \"tight\""},
+                     [](Job& job) { job.shadow_map.cascades.fit = scene::CascadeFit::tight; });
+    }
+}
+
 /// Maps that store depths more finely.
 void add_finer_depths(Variants& variants)
 {
@@ -155,6 +187,7 @@ std::vector<Variant> variants_for(const Comparison& comparison)
     Variants variants{comparison};
     add_biases(variants, comparison.diagnosis->biases);
     add_finer_maps(variants);
+    add_finer_cascades(variants);
     add_finer_depths(variants);
     add_wider_maps(variants);
     return variants.take();

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 namespace gnomon::analysis {
 
@@ -20,7 +22,8 @@ PastedBias pasted_bias(float middle, const BiasInterval& run, const scene::BiasS
                                     : static_cast<float>(std::stod(text));
         const bool is_bias = bias == 0 || std::isnormal(bias);
         if (is_bias && bias >= run.lo && bias <= run.hi) {
-            return {fmt::format("{} = {}", key, text), bias};
+            return {fmt::format("{} = {}", key, text), bias,
+                    in_metres ? std::optional{std::stod(text)} : std::nullopt};
         }
     }
     return {fmt::format("bias.constant = {}", middle), middle};

@@ -3,6 +3,7 @@
 #include "analysis/bias/bias_curve.hpp"
 #include "scene/job/job.hpp"
 
+#include <optional>
 #include <string>
 
 namespace gnomon::analysis {
@@ -11,6 +12,7 @@ namespace gnomon::analysis {
 struct PastedBias {
     std::string key; ///< "bias.constant = 0.0075", or of constant_m where the job has metres
     float bias = 0;  ///< what it amounts to, depth units
+    std::optional<double> constant_m = {}; ///< where the key is in metres
 };
 
 /// The bias near `middle` with the fewest digits, two or more, that lies in the run.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -43,14 +44,14 @@ public:
           views_{views},
           limits_{limits},
           progress_{progress},
-          frusta_{distinct_frusta()},
+          shapes_{distinct_shapes()},
           filters_{tuned_filters(job)}
     {
     }
 
     TuneResult run()
     {
-        if (frusta_.empty()) { // says why
+        if (shapes_.empty()) { // says why
             (void)scene::resolve_view(views_.own().view.job, file_.scene, file_.defaults);
         }
         const auto sizes = map_sizes(job_, limits_);
@@ -70,28 +71,29 @@ public:
     }
 
 private:
-    /// Those of the frusta to try that make a map in every view, and are not another's in all
-    /// views.
-    [[nodiscard]] std::vector<scene::FrustumSettings> distinct_frusta() const
+    /// Those of the shapes to try that make maps in every view, and are not another's in all views.
+    [[nodiscard]] std::vector<MapShape> distinct_shapes() const
     {
-        std::vector<scene::FrustumSettings> distinct;
+        std::vector<MapShape> distinct;
         std::vector<std::vector<scene::Mat4f>> known;
-        for (const scene::FrustumSettings& frustum : frusta(job_)) {
+        for (const MapShape& shape : map_shapes(job_)) {
             std::vector<scene::Mat4f> matrices;
             try {
                 for (const JudgedView& judged : views_.views) {
                     Job job = with_view_of(job_, judged.view.job);
-                    job.shadow_map.frustum = frustum;
-                    matrices.push_back(scene::resolve_view(job, file_.scene, file_.defaults)
-                                           .first_map()
-                                           .light_clip_from_world);
+                    job.shadow_map.frustum = shape.frustum;
+                    job.shadow_map.cascades = shape.cascades;
+                    for (const scene::LightFrustum& map :
+                         scene::resolve_view(job, file_.scene, file_.defaults).maps) {
+                        matrices.push_back(map.light_clip_from_world);
+                    }
                 }
             } catch (const scene::InputError&) {
                 continue; // planes that do not go together there
             }
             if (std::ranges::find(known, matrices) == known.end()) {
                 known.push_back(std::move(matrices));
-                distinct.push_back(frustum);
+                distinct.push_back(shape);
             }
         }
         return distinct;
@@ -126,15 +128,16 @@ private:
     /// A costly filter, with the best map of each resolution that cheaper ones have found.
     void try_best_maps(std::span<const MapSize> sizes, Filter filter)
     {
-        std::set<int> done;
+        std::set<std::pair<int, int>> done;
         for (const MapSize& size : sizes) {
-            if (is_hopeless(size) || !done.insert(size.resolution_texels).second) {
+            if (is_hopeless(size) || !done.insert({size.resolution_texels, size.cascades}).second) {
                 continue;
             }
             const TunedSetting* best = nullptr;
             for (const TunedSetting& setting : result_.considered) {
                 const bool is_of_size = setting.map.resolution_texels == size.resolution_texels &&
-                                        setting.cost.map_bytes == size.bytes;
+                                        setting.cost.map_bytes == size.bytes &&
+                                        has_cascades(setting.map, size.cascades);
                 if (is_of_size && !is_costly(setting.filter) &&
                     (best == nullptr || is_better(setting, *best))) {
                     best = &setting;
@@ -161,17 +164,34 @@ private:
         return std::ranges::find(result_.hopeless, size) != result_.hopeless.end();
     }
 
-    /// All frusta with the job's culling; the best of them with other culling.
+    /// Whether the maps are so many cascades; any are where the layout is another.
+    static bool has_cascades(const scene::ShadowMapSettings& map, int cascades)
+    {
+        return cascades == 0 || map.cascades.count == cascades;
+    }
+
+    /// A stabilised cascade's grid needs a power of two.
+    static bool can_be_stable(const scene::ShadowMapSettings& map)
+    {
+        return map.cascades.fit != scene::CascadeFit::stabilised ||
+               std::has_single_bit(static_cast<unsigned>(map.resolution_texels));
+    }
+
+    /// All shapes with the job's culling; the best of them with other culling.
     void try_size(const MapSize& size, Filter filter)
     {
         const std::size_t first = result_.considered.size();
-        for (const scene::FrustumSettings& frustum : frusta_) {
+        for (const MapShape& shape : shapes_) {
             scene::ShadowMapSettings map = job_.shadow_map;
             map.layout = scene::map_layout(scene::with_layout(job_, file_.defaults));
             map.resolution_texels = size.resolution_texels;
             map.depth_format = size.format;
-            map.frustum = frustum;
-            try_map(map, filter);
+            map.frustum = shape.frustum;
+            map.cascades = shape.cascades;
+            map.cascades.count = size.cascades > 0 ? size.cascades : map.cascades.count;
+            if (can_be_stable(map)) {
+                try_map(map, filter);
+            }
         }
         const auto best = std::min_element(
             result_.considered.begin() + static_cast<std::ptrdiff_t>(first),
@@ -263,7 +283,7 @@ private:
     const JudgedViews& views_;
     const TuneLimits& limits_;
     const std::function<void(const TunedSetting&)>& progress_;
-    std::vector<scene::FrustumSettings> frusta_;
+    std::vector<MapShape> shapes_;
     std::vector<Filter> filters_;
     TuneResult result_;
 };
@@ -297,6 +317,9 @@ Job tuned_job(const Job& job, const TunedSetting& setting)
     tuned.bias = {0, std::nullopt, setting.slope, setting.normal_texels};
     if (!setting.bias.outcomes.empty()) {
         tuned.bias.constant = double{setting.bias.constant()};
+    }
+    if (job.bias.constant_m && scene::map_count(job) > 1) { // as long in each map
+        tuned.bias.constant_m = setting.bias.pasted.constant_m.value_or(0);
     }
     return tuned;
 }

@@ -15,14 +15,45 @@ namespace gnomon::analysis {
 using scene::DepthFormat;
 using scene::Filter;
 using scene::Fit;
-using scene::FrustumSettings;
 using scene::Job;
 
 namespace {
 
-bool is_same_fit(const FrustumSettings& a, const FrustumSettings& b)
+bool is_same_shape(const MapShape& a, const MapShape& b)
 {
-    return a.fit == b.fit && a.near_m == b.near_m && a.far_m == b.far_m;
+    return a.frustum.fit == b.frustum.fit && a.frustum.near_m == b.frustum.near_m &&
+           a.frustum.far_m == b.frustum.far_m && a.cascades.split == b.cascades.split &&
+           a.cascades.split_lambda == b.cascades.split_lambda && a.cascades.fit == b.cascades.fit;
+}
+
+/// Tight and stabilised, split by other λ.
+std::vector<MapShape> cascade_shapes(const MapShape& own)
+{
+    using scene::CascadeFit;
+    std::vector<CascadeFit> fits{CascadeFit::tight};
+    if (own.cascades.near_m && own.cascades.far_m) {
+        fits.push_back(CascadeFit::stabilised);
+    }
+    std::vector<MapShape> shapes;
+    for (const CascadeFit fit : fits) {
+        MapShape shape = own;
+        shape.cascades.fit = fit;
+        shapes.push_back(shape);
+        for (const double lambda : {0.5, 0.9}) {
+            shape.cascades.split = scene::CascadeSplit::practical;
+            shape.cascades.split_lambda = lambda;
+            shapes.push_back(shape);
+        }
+    }
+    return shapes;
+}
+
+/// 0 where the maps are no cascades.
+std::set<int> cascade_counts(const Job& job)
+{
+    return scene::map_layout(job) == scene::MapLayout::cascades
+               ? std::set<int>{2, 3, 4, job.shadow_map.cascades.count}
+               : std::set<int>{0};
 }
 
 std::set<int> resolutions(const Job& job, const TuneLimits& limits)
@@ -53,33 +84,45 @@ std::vector<MapSize> map_sizes(const Job& job, const TuneLimits& limits)
 {
     std::vector<MapSize> sizes;
     for (const int resolution : resolutions(job, limits)) {
-        for (const DepthFormat format : formats(job)) {
-            Job sized = job;
-            sized.shadow_map.resolution_texels = resolution;
-            sized.shadow_map.depth_format = format;
-            sizes.push_back({resolution, format, methods::promises(sized).map_bytes});
+        for (const int cascades : cascade_counts(job)) {
+            for (const DepthFormat format : formats(job)) {
+                Job sized = job;
+                sized.shadow_map.resolution_texels = resolution;
+                sized.shadow_map.depth_format = format;
+                if (cascades > 0) {
+                    sized.shadow_map.cascades.count = cascades;
+                }
+                sizes.push_back({resolution, format, cascades, methods::promises(sized).map_bytes});
+            }
         }
     }
     std::ranges::stable_sort(sizes, {}, &MapSize::bytes);
     return sizes;
 }
 
-std::vector<FrustumSettings> frusta(const Job& job)
+std::vector<MapShape> map_shapes(const Job& job)
 {
-    std::vector<FrustumSettings> tried;
-    const auto add = [&](const FrustumSettings& frustum) {
+    std::vector<MapShape> tried;
+    const auto add = [&](const MapShape& shape) {
         if (std::ranges::none_of(
-                tried, [&](const FrustumSettings& known) { return is_same_fit(known, frustum); })) {
-            tried.push_back(frustum);
+                tried, [&](const MapShape& known) { return is_same_shape(known, shape); })) {
+            tried.push_back(shape);
         }
     };
-    const FrustumSettings& own = job.shadow_map.frustum;
+    const MapShape own{job.shadow_map.frustum, job.shadow_map.cascades};
+    MapShape fitted = own;
+    fitted.frustum.near_m.reset();
+    fitted.frustum.far_m.reset();
     add(own);
-    for (const Fit fit : {own.fit, Fit::scene, Fit::camera}) {
-        FrustumSettings fitted = own;
-        fitted.fit = fit;
-        fitted.near_m.reset();
-        fitted.far_m.reset();
+    add(fitted);
+    if (scene::map_layout(job) == scene::MapLayout::cascades) {
+        for (const MapShape& shape : cascade_shapes(fitted)) {
+            add(shape);
+        }
+        return tried;
+    }
+    for (const Fit fit : {Fit::scene, Fit::camera}) {
+        fitted.frustum.fit = fit;
         add(fitted);
     }
     return tried;

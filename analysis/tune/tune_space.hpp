@@ -12,18 +12,26 @@ namespace gnomon::analysis {
 struct MapSize {
     int resolution_texels = 0;
     scene::DepthFormat format;
+    int cascades = 0; ///< how many; 0: the layout is another
 
     std::uint64_t bytes = 0; ///< that the job's method takes for it
 
     friend bool operator==(const MapSize&, const MapSize&) = default;
 };
-/// Powers of two from 256 up and the job's own, in d16, d24, d32f and the job's own format: from
-/// the fewest bytes, of as many the smaller resolution first.
+/// Powers of two from 256 up and the job's own, in d16, d24, d32f and the job's own format, of
+/// cascades 2, 3, 4 and the job's own number: from the fewest bytes, of as many the smaller
+/// resolution first.
 [[nodiscard]] std::vector<MapSize> map_sizes(const scene::Job& job, const TuneLimits& limits);
 
-/// The job's fit, near and far; the same with near and far fitted; and fitted to the scene and to
-/// what the camera sees. Each once.
-[[nodiscard]] std::vector<scene::FrustumSettings> frusta(const scene::Job& job);
+/// What the maps see.
+struct MapShape {
+    scene::FrustumSettings frustum;
+    scene::CascadeSettings cascades; ///< but their number
+};
+/// The job's own, near and far, and the same with near and far fitted. One map: fitted to the scene
+/// and to what the camera sees, too. Cascades: tight and, as far as the job has what it takes,
+/// stabilised, split practically by 1/2 and 9/10. Each once.
+[[nodiscard]] std::vector<MapShape> map_shapes(const scene::Job& job);
 
 /// The kinds of culling other than the job's.
 [[nodiscard]] std::vector<scene::Cull> other_culls(const scene::Job& job);

@@ -38,6 +38,40 @@ store::Json plane_json(const std::optional<double>& plane_m)
     return plane_m ? store::Json(*plane_m) : store::Json("auto");
 }
 
+bool has_cascades(const TunedSetting& setting)
+{
+    return setting.map.layout == scene::MapLayout::cascades;
+}
+
+/// "scene"; of cascades "4 tight, 0.5", their number, fit and λ, or their split.
+std::string shape_text(const TunedSetting& setting)
+{
+    if (!has_cascades(setting)) {
+        return std::string{scene::fit_name(setting.map.frustum.fit)};
+    }
+    const scene::CascadeSettings& cascades = setting.map.cascades;
+    return fmt::format("{} {}, {}", cascades.count, scene::cascade_fit_name(cascades.fit),
+                       cascades.split == scene::CascadeSplit::practical
+                           ? fmt::format("{}", cascades.split_lambda)
+                           : std::string{scene::cascade_split_name(cascades.split)});
+}
+
+/// Its lines in a job file: `fit`, or those of cascades.
+std::string shape_toml(const TunedSetting& setting, scene::Fit own_fit)
+{
+    if (!has_cascades(setting)) {
+        return analysis::fit_setting(own_fit, setting.map.frustum.fit);
+    }
+    const scene::CascadeSettings& cascades = setting.map.cascades;
+    const std::string lambda = cascades.split == scene::CascadeSplit::practical
+                                   ? fmt::format("split_lambda = {}\n", cascades.split_lambda)
+                                   : std::string{};
+    return fmt::format(
+        "layout = \"cascades\"\ncascades = {}\nsplit = \"{}\"\n{}cascade_fit = \"{}\"",
+        cascades.count, scene::cascade_split_name(cascades.split), lambda,
+        scene::cascade_fit_name(cascades.fit));
+}
+
 store::Json setting_json(const TunedSetting& setting)
 {
     const analysis::BiasInterval& run = setting.bias.run;
@@ -55,6 +89,15 @@ store::Json setting_json(const TunedSetting& setting)
         {"bias.normal_texels", setting.normal_texels},
         {"map_bytes", setting.cost.map_bytes},
         {"taps", setting.cost.taps}};
+    if (has_cascades(setting)) {
+        const scene::CascadeSettings& cascades = setting.map.cascades;
+        json["shadow_map.cascades"] = cascades.count;
+        json["shadow_map.split"] = scene::cascade_split_name(cascades.split);
+        json["shadow_map.cascade_fit"] = scene::cascade_fit_name(cascades.fit);
+        if (cascades.split == scene::CascadeSplit::practical) {
+            json["shadow_map.split_lambda"] = cascades.split_lambda;
+        }
+    }
     json.update(outcome_json(setting.pooled()));
     json["best_interval"] = {run.lo,
                              std::isfinite(run.hi) ? store::Json(run.hi) : store::Json(nullptr)};
@@ -72,7 +115,7 @@ std::string_view filter_text(const TunedSetting& setting)
 /// Maps that differ only in slope, offset and bias share a line: the best of them.
 std::vector<const TunedSetting*> best_of_each_map(const TuneResult& result)
 {
-    using Key = std::tuple<int, std::string, scene::Fit, std::optional<double>,
+    using Key = std::tuple<int, std::string, std::string, std::optional<double>,
                            std::optional<double>, scene::Cull, scene::Filter>;
     std::map<Key, std::size_t> lines;
     std::vector<const TunedSetting*> best;
@@ -80,7 +123,7 @@ std::vector<const TunedSetting*> best_of_each_map(const TuneResult& result)
         const scene::FrustumSettings& frustum = setting.map.frustum;
         const Key key{setting.map.resolution_texels,
                       scene::depth_format_name(setting.map.depth_format),
-                      frustum.fit,
+                      shape_text(setting),
                       frustum.near_m,
                       frustum.far_m,
                       setting.map.cull,
@@ -112,12 +155,18 @@ std::string map_name(const TunedSetting& setting)
                        scene::depth_format_name(setting.map.depth_format));
 }
 
+/// Columns of the table for `shape_text`.
+int shape_width(const TunedSetting& setting)
+{
+    return has_cascades(setting) ? 26 : 8;
+}
+
 std::string table_line(const TunedSetting& setting)
 {
     const ViewOutcome pooled = setting.pooled();
-    return fmt::format("{:<11}{:<8}{:<13}{:<7}{:<10}{:>10}{:>12.4g}{:>11.4g}{:>8.3g}{:>14}{:>12}  "
+    return fmt::format("{:<11}{:<{}}{:<13}{:<7}{:<10}{:>10}{:>12.4g}{:>11.4g}{:>8.3g}{:>14}{:>12}  "
                        "{}\n",
-                       map_name(setting), scene::fit_name(setting.map.frustum.fit),
+                       map_name(setting), shape_text(setting), shape_width(setting),
                        range(setting.map.frustum), scene::cull_name(setting.map.cull),
                        filter_text(setting), mebibytes(setting.cost.map_bytes),
                        setting.bias.constant(), setting.slope, setting.normal_texels,
@@ -128,8 +177,9 @@ std::string table_line(const TunedSetting& setting)
 std::string table(const TuneResult& result, TuneDetail detail)
 {
     std::string text =
-        fmt::format("{:<11}{:<8}{:<13}{:<7}{:<10}{:>10}{:>12}{:>11}{:>8}{:>14}{:>12}  {}\n", "map",
-                    "fit", "near, far", "cull", "filter", "memory", "constant", "slope", "offset",
+        fmt::format("{:<11}{:<{}}{:<13}{:<7}{:<10}{:>10}{:>12}{:>11}{:>8}{:>14}{:>12}  {}\n", "map",
+                    has_cascades(result.best()) ? "cascades" : "fit", shape_width(result.best()),
+                    "near, far", "cull", "filter", "memory", "constant", "slope", "offset",
                     "false shadow", "false lit", "limits");
     if (detail == TuneDetail::tried) {
         for (const TunedSetting& setting : result.considered) {
@@ -274,8 +324,7 @@ std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit, const std
                        "normal_texels = {}\n",
                        heading, table, setting.map.resolution_texels,
                        scene::depth_format_name(setting.map.depth_format),
-                       analysis::fit_setting(own_fit, setting.map.frustum.fit),
-                       plane_text(setting.map.frustum.near_m),
+                       shape_toml(setting, own_fit), plane_text(setting.map.frustum.near_m),
                        plane_text(setting.map.frustum.far_m), scene::cull_name(setting.map.cull),
                        setting.has_filter ? fmt::format("[{}lookup]\nfilter = \"{}\"\n", table,
                                                         scene::filter_name(setting.filter))
@@ -287,12 +336,12 @@ std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit, const std
 std::string tuned_setting_line(const TunedSetting& setting)
 {
     const ViewOutcome pooled = setting.pooled();
-    return fmt::format("{}, fit {}, cull {}, {}, slope {:.4g}, offset {:.3g}: false shadow {}, "
+    return fmt::format("{}, {} {}, cull {}, {}, slope {:.4g}, offset {:.3g}: false shadow {}, "
                        "false lit {}{}",
-                       map_name(setting), scene::fit_name(setting.map.frustum.fit),
-                       scene::cull_name(setting.map.cull), filter_text(setting), setting.slope,
-                       setting.normal_texels, percent(pooled.shadow_rate()),
-                       percent(pooled.light_rate()),
+                       map_name(setting), has_cascades(setting) ? "cascades" : "fit",
+                       shape_text(setting), scene::cull_name(setting.map.cull),
+                       filter_text(setting), setting.slope, setting.normal_texels,
+                       percent(pooled.shadow_rate()), percent(pooled.light_rate()),
                        setting.meets_limits() ? ", meets the limits" : "");
 }
 

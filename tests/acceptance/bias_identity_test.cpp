@@ -59,7 +59,18 @@ const std::vector<Setting>& settings()
          true},
         {"yard", {{"lookup.outside", "shadowed"}, {"lookup.position", "pixel"}}},
         {"wall", {{"lookup.outside", "lit"}}},
-        {"lamp-room", {{"shadow_map.resolution", "128"}}}};
+        {"lamp-room", {{"shadow_map.resolution", "128"}}},
+        {"columns",
+         {{"shadow_map.layout", "cascades"},
+          {"shadow_map.resolution", "128"},
+          {"shadow_map.reversed", "true"},
+          {"bias.constant_m", "0.02"}}},
+        {"terrain",
+         {{"shadow_map.layout", "cascades"},
+          {"shadow_map.resolution", "128"},
+          {"shadow_map.select", "containing"},
+          {"bias.constant", "0.001"},
+          {"bias.normal_texels", "0.5"}}}};
     return all;
 }
 
@@ -256,6 +267,56 @@ TEST_P(BiasIdentityOfDistances, HoldsForGlsOwnRerunInEveryPixel)
 
 INSTANTIATE_TEST_SUITE_P(Filters, BiasIdentityOfDistances,
                          testing::Values("nearest", "hardware", "pcf3", "pcf9"));
+
+class BiasIdentityOfMixedVerdicts : public testing::TestWithParam<const char*> {};
+
+/// Of every share of light that a verdict can reach, not of half alone: so amounts follow, too.
+TEST_P(BiasIdentityOfMixedVerdicts, HoldsForGlsOwnRerunInEveryPixel)
+{
+    GNOMON_REQUIRE_GL();
+    for (const Setting& setting : {Setting{"columns", {{"bias.constant_m", "0.02"}}},
+                                   Setting{"terrain", {{"bias.slope", "0.002"}}}}) {
+        auto keys = keys_of(setting, "d24", GetParam(), "0");
+        keys.push_back({"shadow_map.layout", "cascades"});
+        keys.push_back({"shadow_map.blend", "0.1"});
+        keys.push_back({"shadow_map.resolution", "128"});
+        GlCase c{setting.builtin, keys};
+        c.draw_all();
+        EXPECT_FALSE(analysis::lookup_rule(c.job, c.view).promises.has_formula());
+        const auto triangles = read_triangles(*shared_context(), *c.receivers);
+        std::vector<std::pair<float, scene::Image<float>>> levels;
+        std::vector<float> seen;
+        for (const float lit_from : {0.01F, 0.25F, 0.5F, 0.75F, 1.0F}) {
+            levels.emplace_back(lit_from, c.lookup_pass.find_critical_biases(
+                                              c.looked_up(), c.job, c.view, {lit_from, {}}));
+            for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
+                if (triangles[i] != scene::no_triangle) {
+                    seen.push_back(levels.back().second[i]);
+                }
+            }
+        }
+        std::size_t fractions = 0;
+        for (const float bias : biases_to_try(seen, is_full_run() ? 200 : 24)) {
+            c.view.bias.constant = bias;
+            c.look_up();
+            const auto samples = c.lookup_pass.read().samples;
+            std::size_t different = 0;
+            for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
+                const float verdict = samples[i].verdict;
+                fractions += verdict > 0 && verdict < 1 ? 1U : 0U;
+                for (const auto& [lit_from, criticals] : levels) {
+                    const bool is_seen = triangles[i] != scene::no_triangle;
+                    different += is_seen && (verdict >= lit_from) != (criticals[i] <= bias) ? 1U : 0U;
+                }
+            }
+            EXPECT_EQ(different, 0U) << setting.builtin << " " << GetParam() << " bias " << bias;
+        }
+        EXPECT_GT(fractions, 100U) << setting.builtin;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, BiasIdentityOfMixedVerdicts,
+                         testing::Values("nearest", "linear", "hardware", "pcf3"));
 
 class Bisection : public testing::TestWithParam<std::size_t> {};
 
