@@ -80,12 +80,26 @@ double median_off_ray(const View& view, const scene::CaseLayers& layers, bool ro
     return *middle;
 }
 
-bool is_cube(const scene::CaseFile& file)
+/// Whether the file says that a key is this word.
+bool says(const scene::CaseFile& file, std::string_view key, std::string_view word)
+{
+    return std::ranges::any_of(file.source.file, [&](const scene::Setting& setting) {
+        const auto* said = std::get_if<std::string>(&setting.value);
+        return setting.spec->key.name == key && said != nullptr && *said == word;
+    });
+}
+
+bool has_several_maps(const scene::CaseFile& file)
+{
+    return says(file, "light.type", scene::light_type_name(scene::LightType::point)) ||
+           says(file, "shadow_map.layout", scene::map_layout_name(scene::MapLayout::cascades));
+}
+
+bool mixes_maps(const scene::CaseFile& file)
 {
     return std::ranges::any_of(file.source.file, [](const scene::Setting& setting) {
-        const auto* word = std::get_if<std::string>(&setting.value);
-        return setting.spec->key.name == "light.type" && word != nullptr &&
-               *word == scene::light_type_name(scene::LightType::point);
+        const auto* share = std::get_if<double>(&setting.value);
+        return setting.spec->key.name == "shadow_map.blend" && share != nullptr && *share > 0;
     });
 }
 
@@ -101,7 +115,7 @@ std::vector<std::string> missing_layers(const scene::CaseFile& file,
     need(!layers.z_light.empty(), "z.light");
     need(!layers.z_map.empty(), "z.map");
     need(!layers.texels.empty(), "texel.X and texel.Y");
-    need(!layers.maps.empty() || !is_cube(file), "map_index");
+    need(!layers.maps.empty() || !has_several_maps(file), "map_index");
     const bool has_filter = std::ranges::any_of(file.source.file, [](const scene::Setting& key) {
         const auto* word = std::get_if<std::string>(&key.value);
         return key.spec->key.name == "lookup.filter" && word != nullptr && *word != "nearest";
@@ -119,7 +133,7 @@ std::vector<std::string> missing_for_causes(const scene::CaseFile& file,
     for (const std::string_view key :
          {"camera.target", "shadow_map.resolution", "shadow_map.depth_format", "shadow_map.fit",
           "shadow_map.near", "shadow_map.far", "lookup.filter", "lookup.outside"}) {
-        const bool is_needed = key != "shadow_map.fit" || !is_cube(file);
+        const bool is_needed = key != "shadow_map.fit" || !has_several_maps(file);
         if (is_needed && !file.says(key)) {
             missing.emplace_back(key);
         }
@@ -132,6 +146,9 @@ std::vector<std::string> missing_for_causes(const scene::CaseFile& file,
     }
     if (file.space.is_mirrored() || file.space.metres_per_unit != 1) {
         missing.emplace_back("right-handed axes and metres");
+    }
+    if (mixes_maps(file)) { // of mixed verdicts GL's own lookups tell the causes
+        missing.emplace_back("shadow_map.blend = 0");
     }
     return missing;
 }
@@ -146,9 +163,9 @@ std::string find_disagreement(const View& view, const scene::CaseLayers& layers,
         layers.unmoved.samples.empty() ? layers.maps : layers.unmoved.maps;
     if (view.maps.size() > 1 && (maps.empty() || std::ranges::max(maps) >= view.maps.size())) {
         return fmt::format(
-            "unmoved.map_index, or without it map_index, from 0 to {}: of the cube's "
-            "faces +x −x +y −y +z −z",
-            view.maps.size() - 1);
+            "unmoved.map_index, or without it map_index, from 0 to {}: of {}", view.maps.size() - 1,
+            view.map_choice == scene::MapChoice::cube_face ? "the cube's faces +x −x +y −y +z −z"
+                                                           : "the cascades, nearest first");
     }
     const ReceiverGeometry geometry{triangles, view, receivers};
     std::vector<double> lengths_m;

@@ -71,6 +71,43 @@ bool is_cube(const TunedSetting& setting)
     return setting.map.layout == scene::MapLayout::cube;
 }
 
+/// How many cascades; 0 of another layout.
+int cascades_of(const TunedSetting& setting)
+{
+    return setting.map.layout == scene::MapLayout::cascades ? setting.map.cascades.count : 0;
+}
+
+/// The texture that holds a light's maps.
+std::string gl_storage(const TunedSetting& setting, std::string_view format)
+{
+    const int texels = setting.map.resolution_texels;
+    if (const int cascades = cascades_of(setting); cascades > 0) {
+        return fmt::format("glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, {0}, {1}, {1}, {2});", format,
+                           texels, cascades);
+    }
+    return fmt::format("glTexStorage2D({2}, 1, {0}, {1}, {1});{3}", format, texels,
+                       is_cube(setting) ? "GL_TEXTURE_CUBE_MAP" : "GL_TEXTURE_2D",
+                       is_cube(setting) ? " glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);" : "");
+}
+
+std::string direct3d_maps(const TunedSetting& setting)
+{
+    const int cascades = cascades_of(setting);
+    const int maps = is_cube(setting) ? 6 : cascades;
+    return maps == 0 ? std::string{}
+                     : fmt::format(" D3D12_RESOURCE_DESC::DepthOrArraySize = {}; "
+                                   "D3D12_SRV_DIMENSION_{}",
+                                   maps, cascades > 0 ? "TEXTURE2DARRAY" : "TEXTURECUBE");
+}
+
+std::string vulkan_maps(const TunedSetting& setting)
+{
+    if (const int cascades = cascades_of(setting); cascades > 0) {
+        return fmt::format(" arrayLayers = {}; VK_IMAGE_VIEW_TYPE_2D_ARRAY", cascades);
+    }
+    return is_cube(setting) ? " flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT, arrayLayers = 6" : "";
+}
+
 bool is_colour(const TunedSetting& setting)
 {
     return traits_of(setting.map.depth_format).is_colour;
@@ -102,11 +139,8 @@ ApiState gl_state(const TunedSetting& setting)
     }
     const bool reversed = setting.map.frustum.reversed;
     return {"GL",
-            {fmt::format("glTexStorage2D({2}, 1, {0}, {1}, {1});{3}", format,
-                         setting.map.resolution_texels,
-                         is_cube(setting) ? "GL_TEXTURE_CUBE_MAP" : "GL_TEXTURE_2D",
-                         is_cube(setting) ? " glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);" : ""),
-             std::string{cull_names(setting.map.cull).gl}, "glDisable(GL_POLYGON_OFFSET_FILL);",
+            {gl_storage(setting, format), std::string{cull_names(setting.map.cull).gl},
+             "glDisable(GL_POLYGON_OFFSET_FILL);",
              reversed ? "glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);"
                       : "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);",
              fmt::format("glDepthFunc({0}); glClearDepth({1}); // lookup compares with {2}",
@@ -125,9 +159,7 @@ ApiState direct3d_state(const TunedSetting& setting)
         "Direct3D",
         {fmt::format("{}_VIEW_DESC::Format = {};{}",
                      is_colour(setting) ? "D3D12_RENDER_TARGET" : "D3D12_DEPTH_STENCIL", format,
-                     is_cube(setting) ? " D3D12_RESOURCE_DESC::DepthOrArraySize = 6; "
-                                        "D3D12_SRV_DIMENSION_TEXTURECUBE"
-                                      : ""),
+                     direct3d_maps(setting)),
          fmt::format("D3D12_RASTERIZER_DESC: CullMode = {}, FrontCounterClockwise = TRUE, "
                      "DepthBias = 0, SlopeScaledDepthBias = 0, DepthClipEnable = TRUE;",
                      cull_names(setting.map.cull).direct3d),
@@ -151,10 +183,7 @@ ApiState vulkan_state(const TunedSetting& setting)
     const bool reversed = setting.map.frustum.reversed;
     ApiState state{
         "Vulkan",
-        {fmt::format("VkImageCreateInfo::format = {};{}", format,
-                     is_cube(setting)
-                         ? " flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT, arrayLayers = 6"
-                         : ""),
+        {fmt::format("VkImageCreateInfo::format = {};{}", format, vulkan_maps(setting)),
          fmt::format("VkPipelineRasterizationStateCreateInfo: cullMode = {}, frontFace = "
                      "VK_FRONT_FACE_COUNTER_CLOCKWISE, depthBiasEnable = VK_FALSE, "
                      "depthClampEnable = VK_FALSE;",

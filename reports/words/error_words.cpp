@@ -44,6 +44,20 @@ std::string_view words(Cause cause)
     return "";
 }
 
+std::string_view for_resolution(scene::MapLayout layout)
+{
+    switch (layout) {
+    case scene::MapLayout::single:
+        break;
+    case scene::MapLayout::cube:
+        return "For resolution, try larger maps: a cube's faces have no tighter fit";
+    case scene::MapLayout::cascades:
+        return "For resolution, try larger maps, more cascades, or another split of the view";
+    }
+    return "For resolution, try more texels on what the camera sees: a larger map or a tighter "
+           "fit";
+}
+
 /// What of the map to look at for a cause; empty for the bias, which is not the map's.
 std::string_view to_try(Cause cause, scene::MapLayout layout)
 {
@@ -51,10 +65,7 @@ std::string_view to_try(Cause cause, scene::MapLayout layout)
     case Cause::precision:
         return "For precision, try a format with more bits, or near and far closer together";
     case Cause::resolution:
-        return layout == scene::MapLayout::cube
-                   ? "For resolution, try larger maps: a cube's faces have no tighter fit"
-                   : "For resolution, try more texels on what the camera sees: a larger map or a "
-                     "tighter fit";
+        return for_resolution(layout);
     case Cause::coverage:
         return "For coverage, look at near, far, the frustum and culling: the light's camera "
                "misses casters";
