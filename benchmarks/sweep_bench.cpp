@@ -40,6 +40,8 @@ constexpr std::string_view spot = R"(type = "spot"
 position = [-14, 19, 10]
 target = [0, 0, 0]
 cone_deg = 60)";
+constexpr std::string_view sun = R"(type = "directional"
+direction = [0.5, -1, -0.35])";
 constexpr std::string_view point = R"(type = "point"
 position = [0.3, 8, 0.2])";
 
@@ -48,6 +50,7 @@ struct SweepShape {
     std::string_view light = spot;
     std::string_view resolutions = "512, 1024, 2048, 4096, 8192";
     std::string_view near_m = "0.1, 0.3, 0.6, 1, 2";
+    std::string_view map = ""; ///< more of `[shadow_map]`
 };
 
 /// columns at 1280×720: 1000 biases × resolutions × 4 formats × near planes × 2 cameras.
@@ -59,6 +62,8 @@ builtin = "columns"
 width = 1280
 height = 720
 [light]
+{}
+[shadow_map]
 {}
 [sweep]
 "bias.constant" = {{from = 1e-7, to = 1e-2, count = 1000, scale = "log"}}
@@ -72,7 +77,7 @@ camera.eye = [11.5, 3.6, 11.5]
 name = "front"
 camera.eye = [2, 4, 16]
 )",
-                       shape.light, shape.resolutions, shape.near_m);
+                       shape.light, shape.map, shape.resolutions, shape.near_m);
 }
 
 /// An empty folder, which goes with everything in it.
@@ -271,6 +276,8 @@ void sweep_against_floor(benchmark::State& state, const SweepShape& shape)
 constexpr SweepShape small{spot, "1024, 4096", "0.1, 0.6"};
 constexpr SweepShape one_map{spot, "512, 2048", "0.1, 0.6"};
 constexpr SweepShape six_maps{point, "512, 2048", "0.1, 0.6"};
+constexpr SweepShape suns_map{sun, "512, 2048", "-60, -40"};
+constexpr SweepShape cascades{sun, "512, 2048", "-60, -40", "layout = \"cascades\""};
 
 BENCHMARK_CAPTURE(sweep_against_floor, columns_32000, small)
     ->Unit(benchmark::kMillisecond)
@@ -281,6 +288,14 @@ BENCHMARK_CAPTURE(sweep_against_floor, columns_spot_32000, one_map)
     ->UseManualTime()
     ->Iterations(1);
 BENCHMARK_CAPTURE(sweep_against_floor, columns_cube_32000, six_maps)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(sweep_against_floor, columns_sun_32000, suns_map)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime()
+    ->Iterations(1);
+BENCHMARK_CAPTURE(sweep_against_floor, columns_cascades_32000, cascades)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime()
     ->Iterations(1);

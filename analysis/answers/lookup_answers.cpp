@@ -271,8 +271,7 @@ void LookupAnswers::break_down(const scene::LookupLayers& own, int verdict_taps,
                                  diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
                                  diagnosis.map_error_m, verdict_taps};
     diagnosis.by_distance = errors_by_bin(exact_->distances(), inputs);
-    add_envelopes(diagnosis.by_distance, lookup_.view.first_map(),
-                  lookup_.job.shadow_map.depth_format);
+    add_envelopes(diagnosis.by_distance, lookup_.view.maps, lookup_.job.shadow_map.depth_format);
     diagnosis.by_angle = errors_by_bin(bin_by_angle(classes(), own), inputs);
     diagnosis.by_object = errors_by_object(classes(), own, exact_->receivers().receivers().triangle,
                                            exact_->triangles(), verdict_taps);

@@ -78,8 +78,9 @@ std::vector<ConfigurationResult> LookupAnswers::rows(const SlopeCurve& curve,
 CurveResult LookupAnswers::describe_map() const
 {
     CurveResult result;
-    result.near_m = lookup_.view.first_map().near_m;
-    result.far_m = lookup_.view.first_map().far_m;
+    const auto& maps = lookup_.view.maps;
+    result.near_m = std::ranges::min(maps, {}, &scene::LightFrustum::near_m).near_m;
+    result.far_m = std::ranges::max(maps, {}, &scene::LightFrustum::far_m).far_m;
     result.map_bytes = rule_.promises.map_bytes;
     return result;
 }
@@ -99,7 +100,7 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     const std::array<float, 2> biases{profile_bias, curve.best.recommended()};
     auto by_bin = lookup_.reruns ? rerun_profiles(curve, biases) : profiles(curve, biases);
     for (std::vector<ErrorBin>& profile : by_bin) {
-        add_envelopes(profile, lookup_.view.first_map(), lookup_.job.shadow_map.depth_format);
+        add_envelopes(profile, lookup_.view.maps, lookup_.job.shadow_map.depth_format);
     }
     result.by_distance = {{At::job_bias, biases[0], std::move(by_bin[0])},
                           {At::best_bias, biases[1], std::move(by_bin[1])}};

@@ -142,15 +142,17 @@ void add_allowances(CurveMetrics& metrics)
 
 CurveMetrics describe_map_metrics()
 {
-    return {{measured("map_near_m", "m", "near plane of the shadow map, as fitted", Worse::both),
-             [](const CurveResult& curve) { return number(curve.near_m); }},
-            {measured("map_far_m", "m", "far plane", Worse::both),
-             [](const CurveResult& curve) { return number(curve.far_m); }},
-            {MetricDescription{"map_bytes", MetricType::count, "bytes", "memory of the shadow map",
-                               Worse::up},
-             [](const CurveResult& curve) {
-                 return curve.map_bytes ? MetricValue{*curve.map_bytes} : none;
-             }}};
+    return {
+        {measured("map_near_m", "m",
+                  "near plane of the shadow map, as fitted; of several the nearest", Worse::both),
+         [](const CurveResult& curve) { return number(curve.near_m); }},
+        {measured("map_far_m", "m", "far plane; of several the farthest", Worse::both),
+         [](const CurveResult& curve) { return number(curve.far_m); }},
+        {MetricDescription{"map_bytes", MetricType::count, "bytes", "memory of the shadow map",
+                           Worse::up},
+         [](const CurveResult& curve) {
+             return curve.map_bytes ? MetricValue{*curve.map_bytes} : none;
+         }}};
 }
 
 CurveMetrics describe_curve_metrics()

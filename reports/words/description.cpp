@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <variant>
 
 namespace gnomon::reports {
@@ -48,10 +50,13 @@ std::string describe_map(const scene::Job& job)
                              scene::map_layout_name(layout));
 }
 
-std::string describe_range(const scene::LightFrustum& frustum, scene::Cull cull)
+/// Of several maps from the nearest near plane to the farthest far plane.
+std::string describe_range(std::span<const scene::LightFrustum> maps, scene::Cull cull)
 {
-    return fmt::format("near {:.4g}, far {:.4g}, cull {}{}", frustum.near_m, frustum.far_m,
-                       scene::cull_name(cull), frustum.reversed ? ", reversed" : "");
+    const double near_m = std::ranges::min(maps, {}, &scene::LightFrustum::near_m).near_m;
+    const double far_m = std::ranges::max(maps, {}, &scene::LightFrustum::far_m).far_m;
+    return fmt::format("near {:.4g}, far {:.4g}, cull {}{}", near_m, far_m, scene::cull_name(cull),
+                       maps.front().reversed ? ", reversed" : "");
 }
 
 std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias& bias)
@@ -97,8 +102,7 @@ Description describe(const analysis::Comparison& comparison)
         .size = describe_size(comparison.scene),
         .light = describe_light(view.light),
         .map = describe_map(job),
-        .range = view.maps.empty() ? std::string{}
-                                   : describe_range(view.first_map(), job.shadow_map.cull),
+        .range = view.maps.empty() ? std::string{} : describe_range(view.maps, job.shadow_map.cull),
         .lookup = fmt::format("{}, outside {}", lookup_name(job),
                               scene::outside_name(job.lookup.outside)),
         .bias = describe_bias(job.bias, view.bias),

@@ -233,6 +233,26 @@ TEST(CriticalBias, NeverGrowsWithTheMapDepth)
     }
 }
 
+TEST(UnscaledBias, IsTheSmallestThatReachesTheScaledOne)
+{
+    std::mt19937 random{4};
+    std::uniform_real_distribution<float> mantissas{-1, 1};
+    std::uniform_int_distribution<int> exponents{-30, 2};
+    std::uniform_real_distribution<float> scales{0.05F, 20};
+    for (int i = 0; i < 1'000'000; ++i) {
+        const float scaled = std::ldexp(mantissas(random), exponents(random));
+        const float scale = scales(random);
+        const float bias = unscaled_bias(scaled, scale);
+        ASSERT_TRUE(bias * scale >= scaled && !(previous_bias(bias) * scale >= scaled))
+            << scaled << " by " << scale;
+    }
+    for (const float end : {-infinity, 0.0F, infinity}) {
+        EXPECT_EQ(unscaled_bias(end, 3), end);
+    }
+    EXPECT_EQ(unscaled_bias(3, 0x1p-126F), 3 * 0x1p126F);
+    EXPECT_EQ(unscaled_bias(8, 0x1p-126F), infinity); // no bias is so large
+}
+
 TEST(CriticalBiases, MultipliesSlopeAndTangentInFloat32)
 {
     LookupRule rule;

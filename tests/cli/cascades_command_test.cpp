@@ -1,0 +1,201 @@
+// Jobs with cascades, as the program is used: results, layers, sweeps, advice.
+
+#include "child_process.hpp"
+#include "row_compared.hpp"
+#include "run_folder.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using std::filesystem::path;
+using ::testing::HasSubstr;
+using CascadeJson = nlohmann::json;
+
+const std::string four_cascades = R"([scene]
+builtin = "columns"
+[image]
+width = 192
+height = 108
+[shadow_map]
+layout = "cascades"
+resolution = 128
+)";
+
+CascadeJson json_from(std::vector<std::string> arguments)
+{
+    arguments.emplace_back("--json");
+    const Ending ending = gnomon(arguments);
+    EXPECT_EQ(ending.exit_code, 0) << ending.command << "\n" << ending.err;
+    return CascadeJson::parse(ending.out);
+}
+
+class CascadesCommand : public ::testing::Test {
+protected:
+    [[nodiscard]] path at(const std::string& name) const { return folder_.path() / name; }
+    [[nodiscard]] path job(const std::string& more = {}) const
+    {
+        return folder_.write("job.toml", four_cascades + more);
+    }
+
+private:
+    TemporaryFolder folder_;
+};
+
+TEST_F(CascadesCommand, TellOfEachMapWhatItSeesAndWhatTheBiasIsThere)
+{
+    const CascadeJson json = json_from(
+        {"compare", job(), "--set", "bias.constant_m=0.05", "--set", "bias.normal_texels=2"});
+    const CascadeJson& maps = json.at("by_map");
+    ASSERT_EQ(maps.size(), 4U);
+    std::uint64_t wrong = 0;
+    std::uint64_t scored = 0;
+    double end_m = maps[0].at("begin_m");
+    for (const CascadeJson& map : maps) {
+        EXPECT_EQ(map.at("begin_m"), end_m);
+        end_m = map.at("end_m");
+        const CascadeJson& bias = map.at("bias");
+        const double range_m = map.at("far_m").get<double>() - map.at("near_m").get<double>();
+        const double texel_m = map.at("texel_m");
+        // Three roundings to float32: of the bias, its scale, and their product's place here.
+        EXPECT_NEAR(bias.at("constant_m").get<double>(), 0.05, 0.05 * 3 * 0x1p-24);
+        EXPECT_DOUBLE_EQ(bias.at("constant_m").get<double>(),
+                         bias.at("constant").get<double>() * range_m);
+        EXPECT_DOUBLE_EQ(bias.at("constant_texels").get<double>(),
+                         bias.at("constant_m").get<double>() / texel_m);
+        EXPECT_DOUBLE_EQ(bias.at("normal_offset_m").get<double>(), 2 * texel_m);
+        wrong +=
+            map.at("false_shadow").get<std::uint64_t>() + map.at("false_lit").get<std::uint64_t>();
+        scored += map.at("lit").get<std::uint64_t>() + map.at("blocked").get<std::uint64_t>();
+    }
+    EXPECT_EQ(wrong, json.at("false_shadow").get<std::uint64_t>() +
+                         json.at("false_lit").get<std::uint64_t>());
+    EXPECT_EQ(scored, json.at("pixels").at("lit").get<std::uint64_t>() +
+                          json.at("pixels").at("blocked").get<std::uint64_t>());
+    const Ending table = gnomon({"compare", job()});
+    EXPECT_THAT(table.out, HasSubstr("4 of 128x128 d24, cascades"));
+    EXPECT_THAT(table.out, HasSubstr("cascades        0: view depth "));
+    EXPECT_THAT(table.out, HasSubstr("in map           false shadow"));
+}
+
+TEST_F(CascadesCommand, AreTheSameInASweepAsAlone)
+{
+    const path sweep = job("blend = 0.2\n[sweep]\n\"shadow_map.cascades\" = [2, 4]\n"
+                           "\"bias.constant_m\" = [0.01, 0.2]\n\"lookup.filter\" = [\"nearest\", "
+                           "\"pcf3\"]\n");
+    const Ending ending = gnomon({"sweep", sweep, "--out", at("run"), "--verify", "--quiet"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    const auto rows = csv_rows(at("run") / "results.csv");
+    ASSERT_EQ(rows.size(), 8U);
+    for (const auto& row : rows) {
+        const Ending alone = gnomon(
+            {"compare", sweep, "--set", "shadow_map.cascades=" + row.at("shadow_map.cascades"),
+             "--set", "bias.constant_m=" + row.at("bias.constant_m"), "--set",
+             "lookup.filter=" + row.at("lookup.filter"), "--json"});
+        ASSERT_EQ(alone.exit_code, 0) << alone.err;
+        expect_row_compares(row, CascadeJson::parse(alone.out));
+    }
+}
+
+TEST_F(CascadesCommand, HaveTheirIndexInTheLayersAndAMapEach)
+{
+    const Ending ending =
+        gnomon({"compare", job(), "--aov", at("a.exr"), "--depth-map", at("d.exr")});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    const auto layers = OIIO::ImageInput::open(at("a.exr").string());
+    ASSERT_NE(layers, nullptr) << OIIO::geterror();
+    const auto& names = layers->spec().channelnames;
+    EXPECT_NE(std::ranges::find(names, "map_index"), names.end());
+    for (const char* attribute : {"gnomon:light_clip_from_world_3", "gnomon:near_3", "gnomon:far_0",
+                                  "gnomon:slice_end_2"}) {
+        EXPECT_NE(layers->spec().find_attribute(attribute), nullptr) << attribute;
+    }
+    const auto maps = OIIO::ImageInput::open(at("d.exr").string());
+    ASSERT_NE(maps, nullptr) << OIIO::geterror();
+    int parts = 0;
+    while (maps->seek_subimage(parts, 0)) {
+        EXPECT_EQ(maps->spec().width, 128);
+        ++parts;
+    }
+    EXPECT_EQ(parts, 4);
+    EXPECT_EQ(gnomon({"certify", at("a.exr"), job(), "--sample", "300"}).exit_code, 0);
+}
+
+TEST_F(CascadesCommand, AreEvaluatedAsAnotherRenderersMask)
+{
+    const std::vector<std::string> keys{"compare", job(), "--export-case", at("case")};
+    ASSERT_EQ(gnomon(keys).exit_code, 0);
+    const CascadeJson own = json_from({"compare", job()});
+    const CascadeJson evaluated = json_from({"evaluate", at("case")});
+    for (const char* member : {"false_shadow", "false_lit", "causes", "by_map"}) {
+        EXPECT_EQ(evaluated.at(member), own.at(member)) << member;
+    }
+    ASSERT_EQ(
+        gnomon({"compare", job(), "--set", "shadow_map.blend=0.2", "--export-case", at("mixed")})
+            .exit_code,
+        0);
+    const Ending mixed = gnomon({"evaluate", at("mixed")});
+    EXPECT_EQ(mixed.exit_code, 0) << mixed.err;
+    EXPECT_THAT(mixed.out, HasSubstr("needs shadow_map.blend = 0"));
+}
+
+TEST_F(CascadesCommand, AreTunedAndAdvised)
+{
+    const std::vector<std::string> tune{"tune", job(), "--max-resolution", "256"};
+    std::vector<std::string> with_json = tune;
+    with_json.emplace_back("--json");
+    const CascadeJson tuned = CascadeJson::parse(gnomon(with_json).out); // meets the limits or not
+    std::set<int> counts;
+    std::set<double> lambdas;
+    for (const CascadeJson& setting : tuned.at("considered")) {
+        EXPECT_EQ(setting.at("shadow_map.cascade_fit"), "tight"); // auto slices cannot be stable
+        counts.insert(setting.at("shadow_map.cascades").get<int>());
+        lambdas.insert(setting.at("shadow_map.split_lambda").get<double>());
+    }
+    EXPECT_EQ(counts, (std::set<int>{2, 3, 4}));
+    EXPECT_EQ(lambdas, (std::set<double>{0.5, 0.9}));
+
+    std::vector<std::string> with_keys = tune;
+    with_keys.emplace_back("--quiet");
+    const path pasted = at("pasted.toml");
+    std::ofstream{pasted} << "[scene]\nbuiltin = \"columns\"\n[image]\nwidth = 192\nheight = 108\n"
+                          << gnomon(with_keys).out;
+    const CascadeJson compared = json_from({"compare", pasted});
+    EXPECT_EQ(compared.at("false_shadow"), tuned.at("recommended").at("false_shadow"));
+    EXPECT_EQ(compared.at("false_lit"), tuned.at("recommended").at("false_lit"));
+
+    const Ending advised = gnomon({"compare", job(), "--advise"});
+    EXPECT_THAT(advised.out, HasSubstr("shadow_map.cascades = 8"));
+}
+
+TEST_F(CascadesCommand, RefuseWhatTheyCannotSeeInOneLine)
+{
+    const Ending behind = gnomon({"compare", job(), "--set", "shadow_map.cascade_near=500"});
+    EXPECT_EQ(behind.exit_code, 2);
+    EXPECT_THAT(behind.err, HasSubstr("shadow_map.cascade_near = 500 is not below "
+                                      "shadow_map.cascade_far = "));
+    const Ending spot =
+        gnomon({"compare", "--builtin", "two-distances", "--set", "shadow_map.layout=cascades"});
+    EXPECT_EQ(spot.exit_code, 2);
+    EXPECT_THAT(spot.err, HasSubstr("light.type = \"directional\""));
+    const Ending orthographic =
+        gnomon({"compare", job(), "--set", "camera.orthographic_height=12"});
+    EXPECT_EQ(orthographic.exit_code, 0) << orthographic.err;
+}
+
+} // namespace
+} // namespace gnomon::testing
