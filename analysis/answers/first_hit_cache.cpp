@@ -1,11 +1,30 @@
 #include "analysis/answers/first_hit_cache.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace gnomon::analysis {
 
 using scene::Texel;
 using scene::TexelHit;
+
+namespace {
+
+/// Whether one of several maps is the same in both, as cascades are that others were mixed with.
+bool shares_a_map(std::span<const scene::LightFrustum> a, std::span<const scene::LightFrustum> b)
+{
+    if (a.size() != b.size() || a.size() < 2) {
+        return false;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a[i].light_clip_from_world == b[i].light_clip_from_world) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
 
 FirstHitCache::Packed FirstHitCache::packed(const Texel& texel)
 {
@@ -26,6 +45,26 @@ FirstHitCache::Seen* FirstHitCache::find(const Maps& maps)
     return found == seen_.end() ? nullptr : &*found;
 }
 
+std::vector<std::uint32_t> FirstHitCache::known_triangles(const Seen& seen,
+                                                          std::span<const Texel> texels)
+{
+    std::vector<std::pair<Packed, std::uint32_t>> by_texel(seen.texels.size());
+    for (std::size_t i = 0; i < by_texel.size(); ++i) {
+        by_texel[i] = {seen.texels[i], seen.triangles[i]};
+    }
+    std::ranges::sort(by_texel);
+    std::vector<std::uint32_t> triangles(texels.size(), scene::no_triangle);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const Packed asked = packed(texels[i]);
+        const auto found =
+            std::ranges::lower_bound(by_texel, asked, {}, &std::pair<Packed, std::uint32_t>::first);
+        if (found != by_texel.end() && found->first == asked) {
+            triangles[i] = found->second;
+        }
+    }
+    return triangles;
+}
+
 std::vector<TexelHit> FirstHitCache::first_hits(const Maps& maps, std::span<const Texel> texels)
 {
     const Seen* const seen = find(maps);
@@ -39,7 +78,13 @@ std::vector<TexelHit> FirstHitCache::first_hits(const Maps& maps, std::span<cons
     if (is_known) {
         return maps.light.first_hits(texels, scene::KnownHits{seen->frusta, seen->triangles});
     }
-    std::vector<TexelHit> hits = maps.light.first_hits(texels, scene::HitDetail::placed);
+    std::vector<TexelHit> hits;
+    if (seen != nullptr && shares_a_map(seen->frusta, maps.frusta)) {
+        const auto triangles = known_triangles(*seen, texels);
+        hits = maps.light.first_hits(texels, scene::KnownHits{seen->frusta, triangles});
+    } else {
+        hits = maps.light.first_hits(texels, scene::HitDetail::placed);
+    }
     remember(maps, texels, hits);
     return hits;
 }

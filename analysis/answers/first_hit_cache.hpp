@@ -12,7 +12,7 @@
 namespace gnomon::analysis {
 
 /// What one light saw first through the texels of its maps, for maps that differ in the near plane
-/// alone.
+/// alone, and of several maps for those that stay the same beside others.
 class FirstHitCache {
 public:
     /// @param most_texels  that it remembers, of all maps together: 8 bytes each.
@@ -27,7 +27,8 @@ public:
     };
 
     /// The texels' first hits, placed, in their order; as a rule without tracing where the same
-    /// texels were asked for with a nearer near plane.
+    /// texels were asked for with a nearer near plane, or a texel of a map that is one of several
+    /// and was the same.
     [[nodiscard]] std::vector<scene::TexelHit> first_hits(const Maps& maps,
                                                           std::span<const scene::Texel> texels);
 
@@ -47,6 +48,9 @@ private:
     static Packed packed(const scene::Texel& texel);
     [[nodiscard]] static bool is_of(const Seen& seen, std::span<const scene::Texel> texels);
     [[nodiscard]] Seen* find(const Maps& maps);
+    /// Of each texel the triangle seen there, `no_triangle` where that is not known.
+    [[nodiscard]] static std::vector<std::uint32_t>
+    known_triangles(const Seen& seen, std::span<const scene::Texel> texels);
     void remember(const Maps& maps, std::span<const scene::Texel> texels,
                   std::span<const scene::TexelHit> hits);
 

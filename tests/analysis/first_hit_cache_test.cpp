@@ -90,6 +90,26 @@ TEST(FirstHitCache, TellsMapsApart)
     EXPECT_EQ(light.known_frusta.size(), 2U);
 }
 
+TEST(FirstHitCache, KnowsTheTexelsOfAMapThatStaysBesideAnother)
+{
+    FirstHitCache cache{100};
+    FakeLight light;
+    show(light);
+    std::vector<scene::LightFrustum> maps{frustum_from(1), frustum_from(1)};
+    const std::vector<Texel> before{{1, 2, 0}, {16383, 0, 0}, {1, 2, 1}};
+    (void)cache.first_hits({light, maps, 16384}, before);
+    EXPECT_EQ(light.traced_texels, 3U);
+    maps[1].light_clip_from_world[3][0] = 0.5F; // moved aside
+    const std::vector<Texel> after{{16383, 0, 0}, {5, 5, 1}, {4, 4, 0}};
+    (void)cache.first_hits({light, maps, 16384}, after);
+    ASSERT_EQ(light.known_triangles.size(), 1U);
+    EXPECT_THAT(light.known_triangles[0], ElementsAre(9U, scene::no_triangle, scene::no_triangle));
+    maps[0].light_clip_from_world[3][0] = 0.25F;
+    maps[1].light_clip_from_world[3][0] = 0.25F;
+    (void)cache.first_hits({light, maps, 16384}, before); // of other maps
+    EXPECT_EQ(light.known_triangles.size(), 1U);
+}
+
 TEST(FirstHitCache, TakesNoMoreThanItMay)
 {
     FirstHitCache cache{5};
