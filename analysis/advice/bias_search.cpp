@@ -112,18 +112,19 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     added.job.bias = {.normal_texels = job.bias.normal_texels};
     if (views_.size() == 1) {
         told_like_ = job.bias;
+        const bool is_directional =
+            scene::resolve_light(job, file_.defaults).type == scene::LightType::directional;
+        if (in_metres_ && is_directional && !told_like_.constant_m) {
+            told_like_.constant_m = 0; // carried from light to light as a length
+        }
     }
-    if (told_like_.constant_m && scene::map_count(job) > 1) {
-        added.job.bias.constant_m = 0; // as long in each map
-    }
+    added.job.bias.constant_m = told_like_.constant_m;
+    added.job.bias.constant_m =
+        scene::scales_bias(added.job) ? std::optional{0.0} : std::nullopt; // as long in each map
     added.view = scene::resolve_view(added.job, file_.scene, file_.defaults);
     added.set_constant = scene::resolve_bias(job.bias, added.view.first_map()).constant;
+    added.set_scales = scene::scales_bias(job) ? added.view.bias_scales : std::vector<float>{};
     added.judged = &judged;
-    const bool is_directional =
-        added.view.first_map().projection == scene::Projection::orthographic;
-    if (views_.size() == 1 && in_metres_ && is_directional && !told_like_.constant_m) {
-        told_like_.constant_m = 0; // carried from light to light as a length
-    }
     draw(views_.size() - 1);
     scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);
     if (counts_errors()) {
@@ -245,11 +246,13 @@ void BiasSearch::draw_if_asked(std::size_t view) const
     }
 }
 
-ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float slope) const
+ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float slope,
+                                       const std::vector<float>& scales) const
 {
     draw(view);
     const SearchedView& searched = views_[view];
     scene::View biased = searched.view;
+    biased.bias_scales = scales;
     biased.bias.constant = constant;
     biased.bias.slope = slope;
     const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
@@ -347,7 +350,8 @@ std::vector<ViewOutcome> BiasSearch::measure_as_set(float slope) const
 {
     std::vector<ViewOutcome> outcomes;
     for (std::size_t view = 0; view < views_.size(); ++view) {
-        outcomes.push_back(measured_by_gl(view, views_[view].set_constant, slope));
+        outcomes.push_back(
+            measured_by_gl(view, views_[view].set_constant, slope, views_[view].set_scales));
     }
     return outcomes;
 }
@@ -356,7 +360,8 @@ std::vector<ViewOutcome> BiasSearch::measure(float constant, float slope) const
 {
     std::vector<ViewOutcome> outcomes;
     for (std::size_t view = 0; view < views_.size(); ++view) {
-        outcomes.push_back(measured_by_gl(view, carried(view, constant), slope));
+        outcomes.push_back(
+            measured_by_gl(view, carried(view, constant), slope, views_[view].view.bias_scales));
     }
     return outcomes;
 }

@@ -63,7 +63,8 @@ private:
     struct SearchedView {
         scene::Job job;
         scene::View view;
-        float set_constant = 0; ///< of its job [depth units]
+        float set_constant = 0;        ///< of its job [depth units]
+        std::vector<float> set_scales; ///< that go with it (`scene::View::bias_scales`)
         const JudgedView* judged = nullptr;
         scene::LookupLayers deciding;           ///< empty where verdicts are fractions
         std::unique_ptr<LookupAnswers> answers; ///< there alone
@@ -96,7 +97,8 @@ private:
     /// What each of them gives in a view.
     [[nodiscard]] std::vector<ViewOutcome> outcomes_in(std::size_t view, float slope,
                                                        std::span<const float> biases) const;
-    [[nodiscard]] ViewOutcome measured_by_gl(std::size_t view, float constant, float slope) const;
+    [[nodiscard]] ViewOutcome measured_by_gl(std::size_t view, float constant, float slope,
+                                             const std::vector<float>& scales) const;
     /// The bias to take of a valley, in the first view, and the same with few digits.
     [[nodiscard]] float middle_of(const Valley& found) const;
     [[nodiscard]] PastedBias pasted_of(const Valley& found) const;

@@ -167,6 +167,20 @@ void add_wider_maps(Variants& variants)
         variants.add({"shadow_map.cull = \"none\""},
                      [](Job& job) { job.shadow_map.cull = scene::Cull::none; });
     }
+    const scene::CascadeSettings& cascades = variants.job().shadow_map.cascades;
+    if (scene::map_layout(variants.job()) == scene::MapLayout::cascades &&
+        (cascades.near_m || cascades.far_m)) {
+        std::vector<std::string> keys{"shadow_map.cascade_near = \"auto\"",
+                                      "shadow_map.cascade_far = \"auto\""};
+        if (cascades.fit == scene::CascadeFit::stabilised) { // that cannot be with auto
+            keys.emplace_back("shadow_map.cascade_fit = \"tight\"");
+        }
+        variants.add(std::move(keys), [](Job& job) {
+            job.shadow_map.cascades.near_m.reset();
+            job.shadow_map.cascades.far_m.reset();
+            job.shadow_map.cascades.fit = scene::CascadeFit::tight;
+        });
+    }
     const scene::FrustumSettings& frustum = variants.job().shadow_map.frustum;
     if (frustum.fit != scene::Fit::scene) {
         variants.add({"shadow_map." + fit_setting(frustum.fit, scene::Fit::scene),

@@ -160,12 +160,14 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
 void find_some_causes(const Case& subject, const Comparison& comparison, Evaluation& evaluation)
 {
     const scene::CaseLayers& layers = subject.layers;
-    const bool has_one_tap =
-        subject.file.says("lookup.filter") && methods::promises(comparison.job).has_one_tap();
+    const bool has_one_tap = subject.file.says("lookup.filter") &&
+                             comparison.job.lookup.filter == scene::Filter::nearest;
     std::vector<std::string> missing;
-    for (const auto& [is_there, what] : {std::pair{!layers.z_light.empty(), "z.light"},
-                                         {!layers.z_map.empty(), "z.map"},
-                                         {has_one_tap, "lookup.filter = \"nearest\""}}) {
+    for (const auto& [is_there, what] :
+         {std::pair{!layers.z_light.empty(), "z.light"},
+          {!layers.z_map.empty(), "z.map"},
+          {has_one_tap, "lookup.filter = \"nearest\""},
+          {!scene::mixes_maps(comparison.job), "shadow_map.blend = 0"}}) {
         if (!is_there) {
             missing.emplace_back(what);
         }

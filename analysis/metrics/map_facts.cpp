@@ -13,6 +13,7 @@ MapBias bias_in(const scene::LightFrustum& map, const scene::Bias& bias, double 
     in_map.constant = double{bias.constant} * scale;
     in_map.constant_m = bias_length_m(map, in_map.constant, 1.0);
     in_map.constant_texels = in_map.constant_m / texel_m;
+    in_map.slope_m = bias_length_m(map, double{bias.slope}, 1.0);
     in_map.normal_offset_m = double{bias.normal_texels} * texel_m;
     return in_map;
 }

@@ -9,11 +9,12 @@
 
 namespace gnomon::analysis {
 
-/// What one number of a job's biases is in one map of a directional light.
+/// What a job's biases are in one cascade.
 struct MapBias {
     double constant = 0;        ///< depth units of this map
     double constant_m = 0;      ///< along the light's axis
     double constant_texels = 0; ///< those metres over the width of a texel
+    double slope_m = 0;         ///< of the slope bias, per unit of tan θ
     double normal_offset_m = 0; ///< that the lookup is moved by
 };
 

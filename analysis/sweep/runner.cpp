@@ -97,6 +97,7 @@ private:
     {
         if (task_curve_ != step.curve) {
             task_ = hooks_.task(step.curve);
+            in_metres_ = !task_.rows.empty() && task_.rows.front().bias.constant_m.has_value();
             task_curve_ = step.curve;
         }
         switch (step.kind) {
@@ -123,12 +124,16 @@ private:
         return scene::resolve_view(job, file.scene, file.defaults);
     }
     /// The task's job, with what its scene decides, without constant bias: an invalid bias fails
-    /// its own row, not the stages.
+    /// its own row, not the stages. What one is multiplied with in each map stays: it is the same
+    /// of all rows.
     [[nodiscard]] scene::Job stage_job() const
     {
         scene::Job job = scene::with_layout(task_.job, require_result(scene_)->open.file->defaults);
         job.bias.constant = 0;
-        job.bias.constant_m.reset();
+        job.bias.constant_m = in_metres_ ? std::optional{0.0} : std::nullopt;
+        if (!scene::scales_bias(job)) {
+            job.bias.constant_m.reset();
+        }
         return job;
     }
     /// The view of a stage that comes before the lookup: what only that refuses is no matter here,
@@ -397,6 +402,7 @@ private:
     ResultSink sink_{hooks_};
     PlanCounts counts_;
     SweepTask task_;                        ///< of the step
+    bool in_metres_ = false;                ///< the constant biases of its rows
     std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
     StageResult<ReadScene> scene_;
     std::vector<StageResult<scene::ReceiverLayers>> receivers_; ///< by slot

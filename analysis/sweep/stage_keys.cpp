@@ -111,7 +111,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.lookup = keys.exact + parts.format + parts.filtered + parts.verdict;
     keys.lookup += looks_up_every_bias ? bias : std::string{};
     // In metres a curve's bias is another number in each map.
-    keys.lookup += has_cascades && job.bias.constant_m ? "constant_m\n" : "";
+    keys.lookup += scene::scales_bias(job) ? "constant_m\n" : "";
     keys.curve = keys.lookup + parts.slope;
     return keys;
 }

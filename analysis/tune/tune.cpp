@@ -315,11 +315,13 @@ Job tuned_job(const Job& job, const TunedSetting& setting)
     tuned.shadow_map = setting.map;
     tuned.lookup.filter = setting.filter;
     tuned.bias = {0, std::nullopt, setting.slope, setting.normal_texels};
-    if (!setting.bias.outcomes.empty()) {
-        tuned.bias.constant = double{setting.bias.constant()};
-    }
-    if (job.bias.constant_m && scene::map_count(job) > 1) { // as long in each map
-        tuned.bias.constant_m = setting.bias.pasted.constant_m.value_or(0);
+    const bool is_found = !setting.bias.outcomes.empty();
+    tuned.bias.constant_m = is_found ? setting.bias.pasted.constant_m : job.bias.constant_m;
+    if (!scene::scales_bias(tuned)) { // else it is as long in each map
+        tuned.bias.constant_m.reset();
+        tuned.bias.constant = is_found ? double{setting.bias.constant()} : 0;
+    } else if (!is_found) {
+        tuned.bias.constant_m = 0;
     }
     return tuned;
 }

@@ -202,6 +202,7 @@ std::uint64_t bytes_of(const scene::Job& job)
     for (std::uint64_t level = side / 2; level > 0 && passes.makes_mipmaps; level /= 2) {
         texels += level * level;
     }
+    texels *= scene::map_count(job);
     const std::uint64_t drawn = map_bytes(job);
     const std::uint64_t sampled =
         passes.samples > 1 ? static_cast<std::uint64_t>(passes.samples) * drawn : 0;

@@ -11,9 +11,9 @@
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
 // MAPS, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// DISTANCE, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the program that compiles
-// this. Where no formula tells of other biases, BISECTS finds the smallest bias with which the very
-// same verdict is at least `lit_from`: it rises with the bias.
+// DISTANCE, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the
+// program that compiles this. Where no formula tells of other biases, BISECTS finds the smallest
+// bias with which the very same verdict is at least `lit_from`: it rises with the bias.
 #if BISECTS
 uniform float lit_from;
 layout(location = 0) out float critical_out; // −∞: lit with every bias; +∞: with none

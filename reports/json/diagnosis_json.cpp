@@ -153,6 +153,7 @@ store::Json map_facts_json(const analysis::MapFacts& map)
         json["bias"] = {{"constant", map.bias->constant},
                         {"constant_m", map.bias->constant_m},
                         {"constant_texels", map.bias->constant_texels},
+                        {"slope_m", map.bias->slope_m},
                         {"normal_offset_m", map.bias->normal_offset_m}};
     }
     return json;

@@ -59,6 +59,20 @@ std::string named_amounts(std::string_view head, std::span<const std::string_vie
     return text;
 }
 
+/// "bias 0.06 m, 1.2 texels, slope 0.1 m, offset 0.05 m": of the last two those that are not 0.
+std::string bias_words(const analysis::MapBias& bias)
+{
+    std::string text =
+        fmt::format("bias {:.3g} m, {:.3g} texels", bias.constant_m, bias.constant_texels);
+    if (bias.slope_m != 0) {
+        text += fmt::format(", slope {:.3g} m", bias.slope_m);
+    }
+    if (bias.normal_offset_m != 0) {
+        text += fmt::format(", offset {:.3g} m", bias.normal_offset_m);
+    }
+    return text;
+}
+
 /// What each cascade sees, and what the job's biases are there; empty without cascades.
 std::string cascade_table(const analysis::Comparison& comparison)
 {
@@ -70,10 +84,9 @@ std::string cascade_table(const analysis::Comparison& comparison)
         }
         text += setting_line(i == 0 ? "cascades" : "",
                              fmt::format("{}: view depth {:.4g} to {:.4g} m, texel {:.3g} m, range "
-                                         "{:.4g} m; bias {:.3g} m, {:.3g} texels",
+                                         "{:.4g} m; {}",
                                          map.name, *map.begin_m, *map.end_m, map.texel_m,
-                                         map.far_m - map.near_m, map.bias->constant_m,
-                                         map.bias->constant_texels));
+                                         map.far_m - map.near_m, bias_words(*map.bias)));
     }
     return fmt::format("\n{}", text);
 }
@@ -160,11 +173,12 @@ std::string verification(const analysis::Comparison& comparison)
 }
 
 /// "recommended 0.029 (0.21 m, 3 texels); 0.021 to 0.04 are nearly as good"
-std::string recommended_bias(const analysis::Recommendation& recommended)
+/// @param where  said of the length, where it is another elsewhere.
+std::string recommended_bias(const analysis::Recommendation& recommended, std::string_view where)
 {
     const analysis::BiasLength& bias = recommended.pasted_length;
-    std::string text = fmt::format("recommended {:.4g} ({:.3g} m, {:.3g} texels)", bias.depth,
-                                   bias.metres, bias.texels);
+    std::string text = fmt::format("recommended {:.4g} ({:.3g} m, {:.3g} texels{})", bias.depth,
+                                   bias.metres, bias.texels, where);
     text += std::isfinite(recommended.high.depth)
                 ? fmt::format("; {:.4g} to {:.4g} are nearly as good", recommended.low.depth,
                               recommended.high.depth)
@@ -204,7 +218,9 @@ std::string constant_bias(const analysis::Comparison& comparison)
     text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
                                          acne_limit(lenient), limit(lenient.panning_free, "-")));
     if (const auto& recommended = comparison.diagnosis->curve.recommended) {
-        text += setting_line("", recommended_bias(*recommended));
+        const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades &&
+                            !scene::scales_bias(comparison.job);
+        text += setting_line("", recommended_bias(*recommended, varies ? " in cascade 0" : ""));
     }
     return text + verification(comparison);
 }

@@ -89,6 +89,9 @@ store::Json setting_json(const TunedSetting& setting)
         {"bias.normal_texels", setting.normal_texels},
         {"map_bytes", setting.cost.map_bytes},
         {"taps", setting.cost.taps}};
+    if (setting.bias.pasted.constant_m) {
+        json["bias.constant_m"] = *setting.bias.pasted.constant_m;
+    }
     if (has_cascades(setting)) {
         const scene::CascadeSettings& cascades = setting.map.cascades;
         json["shadow_map.cascades"] = cascades.count;
@@ -230,8 +233,10 @@ std::vector<std::string> hopeless_maps(const TuneResult& result)
 {
     std::vector<std::string> names;
     for (const analysis::MapSize& size : result.hopeless) {
-        names.push_back(
-            fmt::format("{} {}", size.resolution_texels, scene::depth_format_name(size.format)));
+        const std::string maps =
+            size.cascades > 0 ? fmt::format("{} × ", size.cascades) : std::string{};
+        names.push_back(fmt::format("{}{} {}", maps, size.resolution_texels,
+                                    scene::depth_format_name(size.format)));
     }
     return names;
 }

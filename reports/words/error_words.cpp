@@ -67,8 +67,11 @@ std::string_view to_try(Cause cause, scene::MapLayout layout)
     case Cause::resolution:
         return for_resolution(layout);
     case Cause::coverage:
-        return "For coverage, look at near, far, the frustum and culling: the light's camera "
-               "misses casters";
+        return layout == scene::MapLayout::cascades
+                   ? "For coverage, look at cascade_near, cascade_far, near, far and culling: the "
+                     "cascades miss receivers or casters"
+                   : "For coverage, look at near, far, the frustum and culling: the light's camera "
+                     "misses casters";
     case Cause::filter:
         return "For the filter, try a smaller kernel, or more texels under it";
     case Cause::bias:

@@ -174,8 +174,9 @@ void check_layout_of_light(const Settings& settings, MapLayout layout, KnownLigh
         return;
     }
     if (layout != MapLayout::cube && light == KnownLight::point) {
-        refuse(*setting, "a point light's maps are the faces of a cube; remove it, or set "
-                         "light.type = \"spot\"");
+        refuse(*setting, fmt::format("a point light's maps are the faces of a cube; remove it, or "
+                                     "set light.type = \"{}\"",
+                                     layout == MapLayout::cascades ? "directional" : "spot"));
     }
     if (layout == MapLayout::cube && light != KnownLight::point) {
         refuse(*setting, "only a point light's maps are the faces of a cube; remove it, or set "

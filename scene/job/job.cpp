@@ -65,6 +65,11 @@ std::size_t map_count(const Job& job)
     return 1;
 }
 
+bool scales_bias(const Job& job)
+{
+    return map_layout(job) == MapLayout::cascades && job.bias.constant_m;
+}
+
 bool mixes_maps(const Job& job)
 {
     return map_layout(job) == MapLayout::cascades && job.shadow_map.cascades.blend > 0;

@@ -103,6 +103,9 @@ struct Job {
 [[nodiscard]] MapLayout map_layout(const Job& job);
 /// How many maps its light has.
 [[nodiscard]] std::size_t map_count(const Job& job);
+/// Whether the constant bias is another number of depth units in each map, to be as long in all: in
+/// metres, over cascades.
+[[nodiscard]] bool scales_bias(const Job& job);
 /// Whether verdicts of neighbouring cascades are mixed.
 [[nodiscard]] bool mixes_maps(const Job& job);
 /// What the job says, or `pixel` for several maps, else `vertex`.

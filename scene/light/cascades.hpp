@@ -52,8 +52,8 @@ struct CascadeSettings {
     std::optional<double> far_m;  ///< view depth at which the last slice ends; empty: auto
     CascadeFit fit = CascadeFit::tight;
     CascadeSelect select = CascadeSelect::view_depth;
-    double blend =
-        0; ///< [0, 1): the share of a slice, at its end, in which the next one is mixed in
+    /// [0, 0.999]: the share of a slice, at its end, in which the next one is mixed in.
+    double blend = 0;
 };
 
 /// Where the slices of a camera's view begin and end: k + 1 view depths, ascending [m].

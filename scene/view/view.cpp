@@ -173,7 +173,7 @@ void set_maps(View& view, const Job& job, const TriangleScene& scene, const Ligh
 std::vector<float> bias_scales_of(const Job& job, const View& view)
 {
     std::vector<float> scales;
-    if (job.bias.constant_m && view.maps.size() > 1) {
+    if (scales_bias(job)) {
         for (const LightFrustum& map : view.maps) {
             scales.push_back(static_cast<float>(view.first_map().range_m() / map.range_m()));
         }

@@ -94,21 +94,43 @@ TEST_F(CascadesCommand, TellOfEachMapWhatItSeesAndWhatTheBiasIsThere)
 
 TEST_F(CascadesCommand, AreTheSameInASweepAsAlone)
 {
-    const path sweep = job("blend = 0.2\n[sweep]\n\"shadow_map.cascades\" = [2, 4]\n"
+    const path sweep = job("[sweep]\n\"shadow_map.cascades\" = [2, 4]\n"
                            "\"bias.constant_m\" = [0.01, 0.2]\n\"lookup.filter\" = [\"nearest\", "
-                           "\"pcf3\"]\n");
-    const Ending ending = gnomon({"sweep", sweep, "--out", at("run"), "--verify", "--quiet"});
-    ASSERT_EQ(ending.exit_code, 0) << ending.err;
-    const auto rows = csv_rows(at("run") / "results.csv");
-    ASSERT_EQ(rows.size(), 8U);
-    for (const auto& row : rows) {
-        const Ending alone = gnomon(
-            {"compare", sweep, "--set", "shadow_map.cascades=" + row.at("shadow_map.cascades"),
-             "--set", "bias.constant_m=" + row.at("bias.constant_m"), "--set",
-             "lookup.filter=" + row.at("lookup.filter"), "--json"});
-        ASSERT_EQ(alone.exit_code, 0) << alone.err;
-        expect_row_compares(row, CascadeJson::parse(alone.out));
+                           "\"pcf3\"]\n\"shadow_map.blend\" = [0, 0.2]\n");
+    // Each row by a comparison of its own, or by its curve.
+    for (const char* pixels : {"--keep-pixels", "--no-keep-pixels"}) {
+        const path run = at(std::string{"run"} + pixels);
+        const Ending ending = gnomon({"sweep", sweep, "--out", run, pixels, "--verify", "--quiet"});
+        ASSERT_EQ(ending.exit_code, 0) << ending.err;
+        const auto rows = csv_rows(run / "results.csv");
+        ASSERT_EQ(rows.size(), 16U);
+        for (const auto& row : rows) {
+            std::vector<std::string> alone{"compare", sweep, "--json"};
+            for (const char* key :
+                 {"shadow_map.cascades", "shadow_map.blend", "bias.constant_m", "lookup.filter"}) {
+                alone.insert(alone.end(), {"--set", fmt::format("{}={}", key, row.at(key))});
+            }
+            const Ending compared = gnomon(alone);
+            ASSERT_EQ(compared.exit_code, 0) << compared.err;
+            expect_row_compares(row, CascadeJson::parse(compared.out));
+        }
     }
+}
+
+/// What is told of other lights is measured in the job's own view as GL would.
+TEST_F(CascadesCommand, AreTunedOverLightsInTheUnitThatIsTold)
+{
+    const path depth_units = job("[bias]\nconstant = 0.001\n");
+    const Ending tuned =
+        gnomon({"tune", depth_units, "--lights", "1", "--max-resolution", "256", "--json"});
+    const CascadeJson result = CascadeJson::parse(tuned.out);
+    ASSERT_TRUE(result.at("recommended").contains("bias.constant_m")) << tuned.err;
+    const path pasted = at("pasted.toml");
+    std::ofstream{pasted} << "[scene]\nbuiltin = \"columns\"\n[image]\nwidth = 192\nheight = 108\n"
+                          << result.at("toml").get<std::string>();
+    const CascadeJson compared = json_from({"compare", pasted});
+    EXPECT_EQ(compared.at("false_shadow"), result.at("measured").at("false_shadow"));
+    EXPECT_EQ(compared.at("false_lit"), result.at("measured").at("false_lit"));
 }
 
 TEST_F(CascadesCommand, HaveTheirIndexInTheLayersAndAMapEach)
