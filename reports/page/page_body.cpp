@@ -1,6 +1,7 @@
 #include "reports/page/page_body.hpp"
 
 #include "reports/page/page_html.hpp"
+#include "reports/page/part_tables.hpp"
 #include "reports/words/text.hpp"
 #include "store/run/run_commands.hpp"
 #include "store/run/run_status.hpp"
@@ -10,8 +11,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,34 +20,6 @@
 namespace gnomon::reports {
 
 namespace {
-
-constexpr std::size_t most_parts = 40;
-
-/// A cell of numbers, which a reader compares down a column.
-std::string number_cell(std::string_view text)
-{
-    return fmt::format("<td class=\"number\">{}</td>", escaped(text));
-}
-
-std::string row_heading(std::string_view text)
-{
-    return fmt::format("<th scope=\"row\"><bdi>{}</bdi></th>", escaped(text));
-}
-
-std::string table_head(std::string_view caption, std::initializer_list<std::string_view> columns)
-{
-    std::string html = fmt::format(
-        "<div class=\"scroll\"><table><caption>{}</caption>\n<thead><tr>", escaped(caption));
-    bool is_first = true;
-    for (const std::string_view column : columns) {
-        html += fmt::format("<th scope=\"col\"{}>{}</th>", is_first ? "" : " class=\"number\"",
-                            escaped(column));
-        is_first = false;
-    }
-    return html + "</tr></thead>\n<tbody>\n";
-}
-
-constexpr std::string_view table_end = "</tbody></table></div>\n";
 
 std::string count_cells(const OverviewRow& overview)
 {
@@ -198,82 +171,6 @@ std::string script_section(std::string_view id, std::string_view heading)
     return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-heading\" hidden>\n"
                        "<h2 id=\"{0}-heading\">{1}</h2>\n</section>\n",
                        id, heading);
-}
-
-std::uint64_t member(const store::Json& object, const char* name)
-{
-    const auto found = object.find(name);
-    return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
-}
-
-std::optional<double> rate(const store::Json& object, const char* name)
-{
-    const auto found = object.find(name);
-    return found != object.end() && found->is_number() ? std::optional{found->get<double>()}
-                                                       : std::nullopt;
-}
-
-/// Those of a detail's breakdown that any scored pixel belongs to, most errors first.
-std::vector<const store::Json*> parts_of(const store::Json& detail, const char* breakdown)
-{
-    std::vector<const store::Json*> parts;
-    if (detail.is_object() && detail.contains(breakdown) && detail[breakdown].is_array()) {
-        for (const store::Json& part : detail[breakdown]) {
-            if (part.is_object() && member(part, "lit") + member(part, "blocked") > 0) {
-                parts.push_back(&part);
-            }
-        }
-    }
-    const auto wrong = [](const store::Json* part) {
-        return member(*part, "false_shadow") + member(*part, "false_lit");
-    };
-    std::stable_sort(parts.begin(), parts.end(), [&](const store::Json* a, const store::Json* b) {
-        return wrong(a) > wrong(b);
-    });
-    return parts;
-}
-
-/// @param name  the member that names a part, and the heading of the names.
-std::string parts_table(std::string_view caption, const char* name,
-                        const std::vector<const store::Json*>& parts)
-{
-    std::string html = table_head(
-        caption, {name, "false shadow", "of lit", "false lit", "of blocked", "mean error"});
-    for (std::size_t i = 0; i < std::min(parts.size(), most_parts); ++i) {
-        const store::Json& part = *parts[i];
-        const auto named = part.find(name);
-        html += "<tr>" +
-                row_heading(named != part.end() && named->is_string() ? named->get<std::string>()
-                                                                      : std::string{}) +
-                number_cell(grouped(member(part, "false_shadow"))) +
-                number_cell(percent(rate(part, "false_shadow_rate"))) +
-                number_cell(grouped(member(part, "false_lit"))) +
-                number_cell(percent(rate(part, "false_lit_rate"))) +
-                number_cell(percent(rate(part, "mean_abs_error"))) + "</tr>\n";
-    }
-    html += table_end;
-    if (parts.size() > most_parts) {
-        html += fmt::format("<p>{} more {}s are in the page’s data.</p>\n",
-                            grouped(parts.size() - most_parts), name);
-    }
-    return html;
-}
-
-std::string objects_table(const store::Json& detail)
-{
-    const auto objects = parts_of(detail, "by_object");
-    if (objects.empty()) {
-        return "<p>Errors by object are not known: the layers of this configuration were not "
-               "kept.</p>\n";
-    }
-    return parts_table("By object, most errors first", "object", objects);
-}
-
-/// Empty of a light with one map.
-std::string maps_table(const store::Json& detail)
-{
-    const auto maps = parts_of(detail, "by_map");
-    return maps.empty() ? std::string{} : parts_table("By map, most errors first", "map", maps);
 }
 
 std::string counts_table(std::string_view caption, const store::ResultRow& row,

@@ -78,6 +78,34 @@ std::string escaped(std::string_view text)
     return html;
 }
 
+std::string number_cell(std::string_view text)
+{
+    return fmt::format("<td class=\"number\">{}</td>", escaped(text));
+}
+
+std::string row_heading(std::string_view text)
+{
+    return fmt::format("<th scope=\"row\"><bdi>{}</bdi></th>", escaped(text));
+}
+
+std::string table_head(std::string_view caption, std::span<const std::string_view> columns)
+{
+    std::string html = fmt::format(
+        "<div class=\"scroll\"><table><caption>{}</caption>\n<thead><tr>", escaped(caption));
+    bool is_first = true;
+    for (const std::string_view column : columns) {
+        html += fmt::format("<th scope=\"col\"{}>{}</th>", is_first ? "" : " class=\"number\"",
+                            escaped(column));
+        is_first = false;
+    }
+    return html + "</tr></thead>\n<tbody>\n";
+}
+
+std::string table_head(std::string_view caption, std::initializer_list<std::string_view> columns)
+{
+    return table_head(caption, std::span{columns.begin(), columns.size()});
+}
+
 std::string whole_page(std::string_view title, std::string_view body, const store::Json& data,
                        std::span<const std::string> blocks)
 {

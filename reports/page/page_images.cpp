@@ -102,7 +102,7 @@ void add_indices(std::vector<NamedLayer>& layers, store::LayerFile& file)
                 return static_cast<std::uint16_t>(std::min(object, none));
             }));
     }
-    for (const char* const name : {"cause", "label"}) {
+    for (const char* const name : {"cause", "label", "map_index"}) {
         if (file.has(name)) {
             layers.push_back(small(name, file.integers(name)));
         }

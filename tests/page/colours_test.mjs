@@ -7,7 +7,16 @@ import { loadScripts } from "./scripts.mjs";
 
 const page = loadScripts(
   ["numbers.js", "charts/scales.js", "charts/colours.js"],
-  ["okabeIto", "causeColours", "labelColours", "errorColours", "mixStops", "shareOnScale", "texelScale"],
+  [
+    "okabeIto",
+    "causeColours",
+    "labelColours",
+    "errorColours",
+    "mapColours",
+    "mixStops",
+    "shareOnScale",
+    "texelScale",
+  ],
 );
 const source = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), "utf8");
 
@@ -34,6 +43,14 @@ describe("Colours", () => {
     assert.deepEqual(Object.values(page.labelColours), colours("label_colours"));
     const all = [...Object.values(page.causeColours), ...Object.values(page.labelColours)];
     assert.equal(new Set(all).size, all.length);
+  });
+
+  it("of maps are all different, as many as a light has, and mean nothing else", () => {
+    const most = 8; // cascades; a cube has 6 faces
+    assert.equal(page.mapColours.length, most);
+    const others = [page.okabeIto, page.causeColours, page.labelColours, page.errorColours];
+    const all = new Set([...page.mapColours, ...others.flatMap(Object.values)]);
+    assert.equal(all.size, most + new Set(others.flatMap(Object.values)).size);
   });
 
   it("of errors are those of the pictures", () => {

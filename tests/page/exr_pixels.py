@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "notebooks"))
 import gnomon  # noqa: E402
 
 NAMES = ("class", "verdict", "receiver_depth", "map_depth", "critical_bias", "needed_bias_m",
-         "needed_bias_texels", "cause", "label", "prim", "witness")
+         "needed_bias_texels", "cause", "label", "prim", "witness", "map_index")
 
 
 def value_of(number):

@@ -2,7 +2,9 @@
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
+import { readdirSync, readFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import {
   gnomon,
@@ -44,6 +46,19 @@ const jobs = {
     "shadow_map.reversed=true",
   ),
   directional: sized(96, 54, "--builtin", "columns", "--set", "shadow_map.resolution=512"),
+  cascades: sized(
+    96,
+    54,
+    "--builtin",
+    "columns",
+    "--set",
+    "shadow_map.layout=cascades",
+    "--set",
+    "shadow_map.resolution=128",
+    "--set",
+    "bias.constant_m=0.02",
+  ),
+  cube: sized(96, 54, "--builtin", "lamp-room", "--set", "shadow_map.resolution=64"),
 };
 
 function exrPixels(run, count) {
@@ -56,8 +71,16 @@ function exrPixels(run, count) {
   );
 }
 
+/** The JSON of a run's only configuration. */
+function detailOf(run) {
+  const [name] = readdirSync(join(run, "pixels")).filter((file) => file.endsWith(".json"));
+  return JSON.parse(readFileSync(join(run, "pixels", name), "utf8"));
+}
+
 /** Compares the texts of a pixel with the image's values, floats bit by bit. */
-function assertFacts(facts, pixel, told) {
+function assertFacts(facts, pixel, told, maps = undefined) {
+  const map = maps?.[pixel.map_index]?.map ?? (maps ? "\u2013" : undefined);
+  assert.equal(facts.map?.split(":")[0], map, told);
   assert.equal(facts.x, String(pixel.x), told);
   assert.equal(facts.y, String(pixel.y), told);
   assert.equal(facts.class, classes[pixel.class], told);
@@ -249,6 +272,7 @@ describe("A hovered pixel", () => {
     it(`shows the numbers of the EXR, float32 by float32: ${name}`, async () => {
       const { run, page: file } = makeReport(`hover-${name}`, "compare", ...job);
       const image = exrPixels(run, 80);
+      const { by_map: maps } = detailOf(run);
       const page = await openPage(file);
       await page.locator("#inspector .stage").scrollIntoViewIfNeeded();
       // The wipe's handle is out of the way at either end; it covers but a few pixels there.
@@ -260,11 +284,132 @@ describe("A hovered pixel", () => {
         for (const pixel of image.pixels.filter(({ x }) => isHere(x))) {
           const at = await pixelPoint(page, image, pixel.x, pixel.y);
           await page.mouse.move(at.x, at.y);
-          assertFacts(await readFacts(page), pixel, `${name}, seed ${seed}, pixel ${pixel.x}, ${pixel.y}`);
+          assertFacts(await readFacts(page), pixel, `${name}, seed ${seed}, pixel ${pixel.x}, ${pixel.y}`, maps);
         }
       }
       assert.deepEqual(page.faults, []);
       await page.close();
     });
   }
+});
+
+describe("Several maps of a light", () => {
+  const runs = {};
+  before(() => {
+    for (const name of ["cascades", "cube"]) {
+      runs[name] = makeReport(`maps-${name}`, "compare", ...jobs[name]);
+    }
+  });
+  after(stopBrowser);
+
+  /** The cells of the table of maps, by its headings. */
+  const tableRows = (page) =>
+    page
+      .locator("#objects table")
+      .filter({ has: page.getByText("Errors by map", { exact: true }) })
+      .evaluate((table) => {
+        const headings = [...table.tHead.rows[0].cells].map((cell) => cell.textContent);
+        return [...table.tBodies[0].rows].map((row) =>
+          Object.fromEntries([...row.cells].map((cell, i) => [headings[i], cell.textContent])),
+        );
+      });
+
+  it("are a layer with a legend that names them", async () => {
+    for (const { run, page: file } of Object.values(runs)) {
+      const page = await openPage(file);
+      const { by_map: maps } = detailOf(run);
+      await page.getByLabel("Layer A", { exact: true }).selectOption("maps");
+      await page.getByLabel("Wipe", { exact: true }).fill("100");
+      const names = await page.locator("#inspector .legend").first().locator("li").allTextContents();
+      assert.deepEqual(
+        names.slice(0, -1).map((name) => name.split(":")[0]),
+        maps.map(({ map }) => map),
+      );
+      assert.deepEqual(page.faults, []);
+      await page.close();
+    }
+  });
+
+  it("have a row each with their errors, and cascades what they see", async () => {
+    for (const [name, { run, page: file }] of Object.entries(runs)) {
+      const page = await openPage(file);
+      const { by_map: maps } = detailOf(run);
+      const rows = await tableRows(page);
+      assert.equal(rows.length, maps.length);
+      maps.forEach((map, i) => {
+        const row = rows[i];
+        assert.equal(row.cascade ?? row.map, map.map);
+        assert.equal(numberOf(row["false shadow"]), map.false_shadow);
+        assert.equal(numberOf(row["false lit"]), map.false_lit);
+        assert.equal("view depth [m]" in row, name === "cascades");
+        if (name === "cascades") {
+          const close = (text, value) =>
+            assert.ok(Math.abs(numberOf(text) - value) <= 5e-4 * Math.abs(value), `${text}, ${value}`);
+          const [begin, end] = row["view depth [m]"].split(" to ");
+          close(begin, map.begin_m);
+          close(end, map.end_m);
+          close(row["texel [m]"], map.texel_m);
+          close(row["range [m]"], map.far_m - map.near_m);
+          close(row["bias [m]"], map.bias.constant_m);
+        }
+      });
+      await page.close();
+    }
+  });
+
+  it("are compared in a chart, whose data are their rates", async () => {
+    const page = await openPage(runs.cascades.page);
+    const { by_map: maps } = detailOf(runs.cascades.run);
+    const figure = page.locator("#objects .chart-figure").filter({ hasText: "by map" });
+    await figure.locator("summary").click();
+    const rows = await figure
+      .locator("tbody tr")
+      .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+    assert.equal(rows.length, maps.length);
+    const isRate = (text, rate) =>
+      rate === null ? Number.isNaN(numberOf(text)) : Math.abs(numberOf(text) - rate) <= 1e-8 * rate;
+    rows.forEach(([map, shadow, light], i) => {
+      assert.equal(map.split(":")[0], maps[i].map);
+      assert.ok(isRate(shadow, maps[i].false_shadow_rate), shadow);
+      assert.ok(isRate(light, maps[i].false_lit_rate), light);
+    });
+    await page.close();
+  });
+
+  it("are forgotten where the configuration shown next has one", async () => {
+    const { page: file } = makeReport(
+      "maps-layouts",
+      "sweep",
+      ...sized(96, 54, "--builtin", "columns", "--set", "shadow_map.resolution=128"),
+      "--axis",
+      "shadow_map.layout=cascades,single",
+      "--keep-pixels",
+      "--quiet",
+    );
+    const page = await openPage(file);
+    const shown = async (layout) => {
+      await page.locator(".rows tr[data-place]").filter({ hasText: layout }).click();
+      await page.waitForFunction(
+        (name) => document.querySelector("#inspector .caption").textContent.includes(name),
+        layout,
+      );
+      await page.getByLabel("Go to pixel").fill("48,40");
+      await page.getByLabel("Go to pixel").press("Enter");
+      await settle(page);
+      const layers = await page
+        .getByLabel("Layer A", { exact: true })
+        .locator("option")
+        .evaluateAll((all) => all.map(({ value }) => value));
+      const tables = await page.locator("#objects caption").allTextContents();
+      return [
+        "map" in (await readFacts(page)),
+        layers.includes("maps"),
+        tables.some((caption) => caption.startsWith("Errors by map")),
+      ];
+    };
+    assert.deepEqual(await shown("cascades"), [true, true, true]);
+    assert.deepEqual(await shown("single"), [false, false, false]);
+    assert.deepEqual(page.faults, []);
+    await page.close();
+  });
 });

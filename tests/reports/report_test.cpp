@@ -228,6 +228,63 @@ analysis::Comparison with_critical_biases()
     return comparison;
 }
 
+/// The example as if its light had two cascades, the pixels of its left half in the first.
+analysis::Comparison with_two_cascades()
+{
+    analysis::Comparison comparison = with_critical_biases();
+    scene::View& view = comparison.view;
+    view.maps.push_back(view.first_map());
+    view.slices.begin = 1;
+    view.slices.ends = {4.5F, 20};
+    view.bias.constant = 0.25F;
+    const scene::ImageSize size = comparison.truth.pixel_class.size();
+    comparison.lookup.maps = scene::MapIndices{size};
+    for (std::size_t i = 0; i < comparison.lookup.maps.pixel_count(); ++i) {
+        const bool is_left = i % static_cast<std::size_t>(size.width_px) < 48;
+        comparison.lookup.maps[i] = is_left ? 0 : 1;
+    }
+    comparison.diagnosis->by_map = {{{100, 20, 7, 3, 7, 3}, {}}, {{50, 10, 5, 1, 5, 1}, {}}};
+    return comparison;
+}
+
+TEST(Report, HoldsWhichMapEachScoredPixelReads)
+{
+    const store::TemporaryFolder folder;
+    const analysis::Comparison comparison = with_two_cascades();
+    keep_example(folder / "run", comparison);
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    const auto maps = page.bits(page.data().at("images").at(0).at("layers").at("map_index"));
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const bool is_scored = scene::is_scored(comparison.truth.pixel_class[i]);
+        ASSERT_EQ(maps[i], is_scored ? comparison.lookup.maps[i] : 255U) << i;
+    }
+}
+
+TEST(Report, OfALightWithOneMapSaysNothingOfMaps)
+{
+    const store::TemporaryFolder folder;
+    keep_example(folder / "run");
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    EXPECT_FALSE(page.data().at("images").at(0).at("layers").contains("map_index"));
+    EXPECT_THAT(page.html(), Not(HasSubstr("<caption>By map</caption>")));
+}
+
+TEST(Report, TellsWhatEachCascadeSees)
+{
+    const store::TemporaryFolder folder;
+    keep_example(folder / "run", with_two_cascades());
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    const double range_m = store::example().comparison.view.first_map().range_m();
+    EXPECT_THAT(page.html(), HasSubstr("<caption>By map</caption>"));
+    for (const char* const slice : {"1 to 4.5", "4.5 to 20"}) {
+        EXPECT_THAT(page.html(), HasSubstr(fmt::format("<td class=\"number\">{}</td>", slice)));
+    }
+    EXPECT_THAT(page.html(),
+                HasSubstr(fmt::format("<td class=\"number\">{:.4g}</td><td class=\"number\">"
+                                      "{:.3g}</td><td class=\"number\">7</td>",
+                                      range_m, 0.25 * range_m)));
+}
+
 TEST(Report, ThinsAnImageThatIsTooLargeForThePage)
 {
     const store::TemporaryFolder folder;

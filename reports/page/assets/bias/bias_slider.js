@@ -21,9 +21,28 @@ function biasGoals(image) {
   ];
 }
 
+/** What a bias, in depth units of the first cascade, is in each; a job's metres are as long in all of them. */
+function cascadeLengths(maps, bias, isInMetres) {
+  const rangeM = ({ near_m: nearM, far_m: farM }) => farM - nearM;
+  if (isInMetres) {
+    const lengthM = bias * rangeM(maps[0]);
+    const texels = maps.map(({ texel_m: texelM }) => readable(lengthM / texelM));
+    return `${readable(lengthM)} m along the light, ${texels.slice(0, -1).join(", ")} and ${texels.at(-1)} texels of the cascades`;
+  }
+  const lengths = maps.map((map) => {
+    const lengthM = bias * rangeM(map);
+    return `${readable(lengthM)} m (${readable(lengthM / map.texel_m)} texels)`;
+  });
+  return `along the light ${lengths.slice(0, -1).join(", ")} and ${lengths.at(-1)} in the cascades`;
+}
+
 /** A bias in metres and texels; of a perspective light these depend on the distance. */
 function biasLengths(image, bias) {
   const { frustum } = image;
+  const { by_map: maps, job } = image.detail;
+  if (maps && areCascades(maps)) {
+    return cascadeLengths(maps, bias, "bias.constant_m" in job);
+  }
   if (frustum.projection === "perspective") {
     const lightDistanceM = image.medianDistanceM;
     const lengthM = biasLengthM(frustum, bias, lightDistanceM);

@@ -201,9 +201,10 @@ function dataTable(spec) {
   const format = (value) => (typeof value === "number" ? String(Number(value.toPrecision(9))) : value);
   const title =
     shown.length < ordered.length ? `${spec.title}: ${shown.length} of ${ordered.length} points` : spec.title;
+  const formatOf = (index) => (index === 0 && spec.x.isText ? spec.x.layout.format : format);
   return sortedTable(
     title,
-    columns.map((name) => ({ title: name, numeric: true, format })),
+    columns.map((name, index) => ({ title: name, numeric: true, format: formatOf(index) })),
     shown,
   );
 }
@@ -211,7 +212,7 @@ function dataTable(spec) {
 /**
  * A chart with its title, its summary for screen readers, and its data.
  *
- * spec: title; summary; x and y {label, layout, low, high, name}; series [{name, colour, points [[x, y]],
+ * spec: title; summary; x and y {label, layout, low, high, name}, x.isText where its values stand for texts; series [{name, colour, points [[x, y]],
  * dash, radius, isLine}]; bands [{name, colour, points [[x, low, high]]}]; onPick(series, point).
  * A y of null is a gap.
  */

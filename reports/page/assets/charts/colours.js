@@ -45,6 +45,11 @@ const classColours = {
   lit: okabeIto.yellow,
   blocked: okabeIto.blue,
 };
+/**
+ * Of a light's several maps, by their place: Tol's light scheme, made for areas. None means anything else, and
+ * neighbours differ in lightness or in hue for any colour vision.
+ */
+const mapColours = ["#77AADD", "#EE8866", "#EEDD88", "#FFAABB", "#99DDFF", "#44BB99", "#BBCC33", "#AAAA00"];
 const noValueColour = "#E9E9E7";
 
 // From blue over white to vermilion, and from dark to light: both change in lightness all the way.
@@ -119,12 +124,16 @@ const depthErrorScale = { layout: symlogLayout(1e-6), low: -1, high: 1, stops: d
 /** Error rates, logarithmic beyond 0.001 %. */
 const rateScale = { layout: rateLayout(), low: 0, high: 1, stops: errorStops, unit: "" };
 
-/** Distances between the planes of the shadow map. */
-function distanceScale(frustum) {
+/**
+ * Distances between the planes of the shadow map, of several between the nearest and the farthest.
+ * @param {?object[]} maps  "by_map" of `gnomon compare --json`
+ */
+function distanceScale(frustum, maps) {
+  const planes = maps?.length ? maps : [frustum];
   return {
     layout: linearLayout(),
-    low: frustum.near_m,
-    high: frustum.far_m,
+    low: Math.min(...planes.map(({ near_m: nearM }) => nearM)),
+    high: Math.max(...planes.map(({ far_m: farM }) => farM)),
     stops: sequentialStops,
     unit: "m",
   };

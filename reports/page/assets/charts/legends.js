@@ -1,12 +1,15 @@
 // Legends in HTML: swatches for categories, a ramp with ticks for fixed scales.
 
+/** A small square of a colour. */
+function swatchElement(colour) {
+  const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
+  swatch.style.backgroundColor = colour;
+  return swatch;
+}
+
 /** @param {{name: string, colour: string}[]} entries */
 function swatchLegend(entries) {
-  const items = entries.map(({ name, colour }) => {
-    const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
-    swatch.style.backgroundColor = colour;
-    return element("li", {}, swatch, name);
-  });
+  const items = entries.map(({ name, colour }) => element("li", {}, swatchElement(colour), name));
   return element("ul", { class: "swatches" }, ...items);
 }
 

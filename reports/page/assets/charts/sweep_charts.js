@@ -30,7 +30,7 @@ function axisSpec(axis) {
   if (axis.isText) {
     const short = (place) => axis.values[Math.round(place)]?.slice(0, 18) ?? "";
     const layout = { ...linearLayout(short), ticks: () => axis.values.map((_, i) => i) };
-    return { label: axis.name, layout, low: -0.5, high: last + 0.5, at: (code) => code };
+    return { label: axis.name, layout, isText: true, low: -0.5, high: last + 0.5, at: (code) => code };
   }
   const ends = last > 0 ? { low: axis.values[0], high: axis.values[last] } : {};
   return { label: axis.name, layout: layoutForValues(axis.values), ...ends, at: (code) => axis.values[code] };

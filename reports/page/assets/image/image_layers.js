@@ -139,6 +139,32 @@ function classLayer(image) {
   );
 }
 
+/** Which of a light's several maps each pixel reads, over the shaded truth; none where it has one. */
+function mapLayers(image, scene) {
+  const { map_index: maps } = image.layers;
+  const { by_map: facts } = image.detail;
+  if (maps === undefined || !facts) {
+    return [];
+  }
+  const colours = Object.values(mapColoursByName(facts));
+  const legend = () =>
+    swatchLegend([
+      ...facts.map((map, i) => ({ name: mapTitle(map), colour: colours[i] })),
+      { name: "not compared", colour: legendColours.faded },
+    ]);
+  const note = areCascades(facts) ? "the cascade that a pixel reads, by view depth" : "the one that a pixel reads";
+  return [
+    stillLayer({ id: "maps", title: "Maps", note, legend }, () => {
+      const lit = colours.map((colour) => packedColour(channels(colour)));
+      const dark = colours.map((colour) => packedColour(shadedColour(channels(colour))));
+      const classes = image.layers.class;
+      return scene.faded.map((faded, i) =>
+        maps[i] === noMap ? faded : (classes[i] === classLit ? lit : dark)[maps[i]],
+      );
+    }),
+  ];
+}
+
 /** Shares of a filter's taps. */
 const verdictScale = {
   layout: linearLayout(),
@@ -169,7 +195,7 @@ function verdictErrors({ class: classes, verdict }) {
 }
 
 /** What each layer of numbers is; its values are undefined where the image lacks them. */
-function numberLayerSpecs({ layers, frustum, filter }) {
+function numberLayerSpecs({ layers, frustum, filter, detail }) {
   return [
     {
       id: "needed",
@@ -192,8 +218,10 @@ function numberLayerSpecs({ layers, frustum, filter }) {
       values: layers.light_distance_m,
       title: "Light distance",
       note: "of the receiver",
-      scale: distanceScale(frustum),
-      ends: { low: "the map’s near plane", high: "far plane" },
+      scale: distanceScale(frustum, detail.by_map),
+      ends: detail.by_map
+        ? { low: "the maps’ nearest plane", high: "farthest plane" }
+        : { low: "the map’s near plane", high: "far plane" },
     },
     {
       id: "amount",
@@ -245,6 +273,7 @@ function imageLayers(image) {
     errorLayer(image, scene, thresholds),
     ...categories.map((category) => categoryLayer(image, scene, category)),
     ...numberLayers(image),
+    ...mapLayers(image, scene),
     classLayer(image),
   ];
 }

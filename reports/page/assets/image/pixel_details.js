@@ -30,6 +30,16 @@ function verdictText(image, index, bias) {
   return (isLit ? "lit" : "shadowed") + (wrong[`${pixelClass}${isLit}`] ?? "");
 }
 
+/** Which of a light's several maps the pixel reads; no fact where it has one. */
+function mapFacts({ layers, detail }, index) {
+  const { map_index: maps } = layers;
+  if (maps === undefined || !detail.by_map) {
+    return [];
+  }
+  const title = areCascades(detail.by_map) ? "Cascade" : "Map";
+  return [["map", title, maps[index] === noMap ? noValue : mapTitle(detail.by_map[maps[index]])]];
+}
+
 /**
  * @param {PixelImage} image
  * @param {number} index  of the pixel, row by row
@@ -50,6 +60,7 @@ function pixelFacts(image, index, bias) {
     ["truth", "Truth", truthText(pixelClass)],
     ["shown", image.hasCurve ? "Verdict (slider’s bias)" : "Verdict", verdictText(image, index, bias)],
     ["verdict", "Verdict (job’s bias)", pixelClass === classBackground ? noValue : exact(value("verdict"))],
+    ...mapFacts(image, index),
     ["receiver_depth", "Receiver depth r", exact(value("receiver_depth"))],
     ["map_depth", "Map depth d", exact(value("map_depth"))],
     ["critical_bias", "Critical bias", exact(critical)],
@@ -101,8 +112,18 @@ class PixelDetails {
     const [x, y] = imagePlace(image, pixel);
     this.heading.textContent = `Pixel ${x}, ${y}${isPinned ? " (pinned)" : ""}`;
     const facts = pixelFacts(image, pixel.y * image.width + pixel.x, bias);
+    this.keepKeys(facts.map(([key]) => key).join(" "));
     for (const [key, title, text] of [["x", "x", String(x)], ["y", "y", String(y)], ...facts]) {
       this.set(key, title, text);
+    }
+  }
+
+  /** Empties the list where the image that is shown has other facts than the one before. */
+  keepKeys(keys) {
+    if (this.keys !== keys) {
+      this.keys = keys;
+      this.entries.clear();
+      this.list.replaceChildren();
     }
   }
 

@@ -8,6 +8,7 @@ const classLit = 5;
 const classBlocked = 6;
 const noTriangle = 0xffffffff;
 const noObject = 0xffff;
+const noMap = 0xff;
 
 /** Whether a pixel of this class takes part in rates. */
 function isScored(pixelClass) {

@@ -31,6 +31,11 @@ function surfaceLight(cosine, sky, lit) {
   return ambientTint.map((tint, i) => ambient * tint + 0.8 * cosine * lit * diffuseTint[i]);
 }
 
+/** What a mark's colour, 0 to 255, is in shadow. */
+function shadedColour(colour) {
+  return colour.map((value) => Math.round(0.78 * value));
+}
+
 /** Fades a linear colour so that only marks are coloured. */
 function fadedLight(colour) {
   const grey = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];

@@ -1,39 +1,34 @@
-// Errors by object, by map and by cause of the shown configuration.
+// Errors by object and by cause of the shown configuration, and by map where its light has several.
 
-const countColumn = (title) => ({ title, numeric: true, format: grouped });
-const rateColumn = (title) => ({ title, numeric: true, format: percent });
+const partColumn = (title, member, format) => ({ title, numeric: true, format, valueOf: (part) => part[member] });
+const errorColumns = [
+  partColumn("lit", "lit", grouped),
+  partColumn("blocked", "blocked", grouped),
+  partColumn("false shadow", "false_shadow", grouped),
+  partColumn("of its lit", "false_shadow_rate", percent),
+  partColumn("false lit", "false_lit", grouped),
+  partColumn("of its blocked", "false_lit_rate", percent),
+  partColumn("mean error", "mean_abs_error", percent),
+];
 
 /**
- * A table of parts of the pixels, from `gnomon compare --json`.
- * @param {string} member  of a part: its name, and what it is
+ * A table of parts of the pixels and their errors, from `gnomon compare --json`.
+ * @param {object[]} columns  of sortedTable, each with its valueOf(part); the errors follow them
  */
-function partTable(caption, member, parts) {
-  const columns = [
-    { title: member },
-    countColumn("lit"),
-    countColumn("blocked"),
-    countColumn("false shadow"),
-    rateColumn("of its lit"),
-    countColumn("false lit"),
-    rateColumn("of its blocked"),
-    rateColumn("mean error"),
-  ];
-  const wrong = (part) => part.false_shadow + part.false_lit;
-  const seen = parts.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
+function partTable(caption, columns, parts) {
+  const all = [...columns, ...errorColumns];
   return sortedTable(
     caption,
-    columns,
-    seen.map((part) => [
-      part[member],
-      part.lit,
-      part.blocked,
-      part.false_shadow,
-      part.false_shadow_rate,
-      part.false_lit,
-      part.false_lit_rate,
-      part.mean_abs_error,
-    ]),
+    all,
+    parts.map((part) => all.map(({ valueOf }) => valueOf(part))),
   );
+}
+
+function objectTable(objects) {
+  const wrong = (object) => object.false_shadow + object.false_lit;
+  const seen = objects.filter(({ lit, blocked }) => lit + blocked > 0).sort((a, b) => wrong(b) - wrong(a));
+  const name = { title: "object", valueOf: ({ object }) => object };
+  return partTable("Errors by object, most errors first", [name], seen);
 }
 
 /**
@@ -42,18 +37,16 @@ function partTable(caption, member, parts) {
  */
 function kindTable(caption, heading, counts, amounts, colours) {
   const whole = Object.values(counts).reduce((sum, count) => sum + count, 0);
-  const rows = Object.entries(counts).map(([name, count]) => {
-    const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
-    swatch.style.backgroundColor = colours[name];
-    return element(
+  const rows = Object.entries(counts).map(([name, count]) =>
+    element(
       "tr",
       {},
-      element("th", { scope: "row" }, swatch, spoken(name)),
+      element("th", { scope: "row" }, swatchElement(colours[name]), spoken(name)),
       element("td", { class: "number", text: grouped(count) }),
       element("td", { class: "number", text: percent(rate(count, whole)) }),
       ...(amounts === null ? [] : [element("td", { class: "number", text: groupedAmount(amounts[name]) })]),
-    );
-  });
+    ),
+  );
   const head = element(
     "tr",
     {},
@@ -100,8 +93,8 @@ class ObjectTables {
         this.section,
         element("p", { class: "caption name", text: caption }),
         kindTables(detail),
-        partTable("Errors by object, most errors first", "object", detail.by_object ?? []),
-        ...(detail.by_map ? [partTable("Errors by map, most errors first", "map", detail.by_map)] : []),
+        objectTable(detail.by_object ?? []),
+        ...(detail.by_map ? mapParts(detail.by_map) : []),
       );
     } else if (row === this.headline) {
       this.section.replaceChildren(...this.original);

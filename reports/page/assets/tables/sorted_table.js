@@ -2,8 +2,8 @@
 
 /**
  * @param {string} caption
- * @param {{title: string, numeric: boolean, wraps: boolean, format: ?function}[]} columns  the first one heads the row;
- *     texts are cut unless they wrap
+ * @param {{title: string, numeric: boolean, wraps: boolean, format: ?function, colours: ?object}[]} columns  the first
+ *     one heads the row; texts are cut unless they wrap; colours, by value, give it a swatch
  * @param {Array[]} rows  values; null where there is none
  * @return {HTMLElement}  a scrolling region with the table
  */
@@ -30,12 +30,13 @@ function sortedTable(caption, columns, rows) {
 /** One row of a table. */
 function tableRow(columns, row) {
   const cells = row.map((value, index) => {
-    const { numeric, wraps, format } = columns[index];
+    const { numeric, wraps, format, colours } = columns[index];
     const tag = index === 0 ? "th" : "td";
     const text = value === null ? noValue : (format ?? String)(value);
     return element(
       tag,
       { scope: index === 0 ? "row" : null, class: numeric ? "number" : null },
+      ...(colours?.[value] === undefined ? [] : [swatchElement(colours[value])]),
       numeric || wraps ? text : nameElement(text),
     );
   });
