@@ -20,9 +20,12 @@ namespace {
 
 /// The name of the job's bias curve; without one each bias is by itself.
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
-                     const JobParameters& parameters)
+                     JobParameters parameters)
 {
     const bool has_curve = methods::promises(job).has_curve();
+    if (has_curve && scene::scales_bias(job)) {
+        parameters.emplace_back("bias", "in metres");
+    }
     return configuration_id(version, scene_name, parameters, !has_curve);
 }
 
