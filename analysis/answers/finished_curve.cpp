@@ -14,6 +14,8 @@ ConfigurationResult result_of(const Comparison& comparison)
         result.amounts = comparison.diagnosis->causes.amounts;
         result.peter_panning = comparison.diagnosis->peter_panning;
         result.cells = comparison.diagnosis->cells;
+        result.by_map =
+            results_of_maps(comparison.job, comparison.view, comparison.diagnosis->by_map);
     }
     return result;
 }

@@ -156,6 +156,9 @@ private:
     /// The same, each from GL's own lookup.
     [[nodiscard]] std::vector<ConfigurationResult> rerun_rows(const SlopeCurve& curve,
                                                               std::span<const float> biases);
+    /// The errors by map at a bias, with what each map sees.
+    [[nodiscard]] std::vector<MapResult> maps_at(float bias,
+                                                 const std::vector<MapErrors>& errors) const;
     /// GL's own lookup, held to the curve: what it has otherwise is kept in `contradictions_`.
     [[nodiscard]] scene::LookupLayers look_up_again(const SlopeCurve& curve, float bias);
     /// The rule with another slope.

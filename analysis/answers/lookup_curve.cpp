@@ -2,6 +2,7 @@
 
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
+#include "analysis/metrics/map_rows.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 #include "analysis/recommendation/tried_biases.hpp"
 #include "scene/infinity.hpp"
@@ -64,15 +65,29 @@ std::vector<ConfigurationResult> LookupAnswers::rows(const SlopeCurve& curve,
     const auto errors_by = amounts(curve, biases);
     const auto counts = count_rows(inputs, curve.curve, errors_by, biases);
     const auto cells = count_error_cells(exact_->cells(), inputs, biases);
+    const auto by_map =
+        count_map_errors(lookup_.layers.maps, lookup_.view.maps.size(), inputs, biases);
     const auto gaps = find_gaps_at(panning_gaps(curve.critical_bias, biases.back()), biases);
     std::vector<ConfigurationResult> rows;
     for (std::size_t i = 0; i < biases.size(); ++i) {
         const ErrorCounts& errors = counts[i].errors;
         rows.push_back({make_metrics(exact_->receivers().classes(),
                                      {errors.false_shadow, errors.false_lit, errors_by[i]}),
-                        counts[i].causes, counts[i].amounts, gaps[i], cells[i]});
+                        counts[i].causes, counts[i].amounts, gaps[i], cells[i],
+                        maps_at(biases[i], by_map[i])});
     }
     return rows;
+}
+
+std::vector<MapResult> LookupAnswers::maps_at(float bias,
+                                              const std::vector<MapErrors>& errors) const
+{
+    if (errors.empty()) {
+        return {};
+    }
+    scene::View view = lookup_.view;
+    view.bias.constant = bias;
+    return results_of_maps(lookup_.job, view, errors);
 }
 
 CurveResult LookupAnswers::describe_map() const

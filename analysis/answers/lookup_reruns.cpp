@@ -118,10 +118,13 @@ std::vector<ConfigurationResult> LookupAnswers::rerun_rows(const SlopeCurve& cur
     for (const float bias : biases) {
         const scene::LookupLayers own = look_up_again(curve, bias);
         Explained found = explain(own, bias, curve.slope);
+        const auto by_map =
+            errors_by_map({classes(), own, lookup_.layers.maps, lookup_.view.maps.size(),
+                           found.causes, rule_.promises.equal_taps()});
         rows.push_back(
             {analysis::measure(exact_->receivers().truth(), own, rule_.promises.equal_taps()),
-             found.causes.counts, found.causes.amounts, found.peter_panning,
-             std::move(found.cells)});
+             found.causes.counts, found.causes.amounts, found.peter_panning, std::move(found.cells),
+             maps_at(bias, by_map)});
     }
     return rows;
 }

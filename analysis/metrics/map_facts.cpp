@@ -39,4 +39,14 @@ MapFacts facts_of_map(const scene::Job& job, const scene::View& view, std::size_
     return facts;
 }
 
+std::vector<MapResult> results_of_maps(const scene::Job& job, const scene::View& view,
+                                       const std::vector<MapErrors>& errors)
+{
+    std::vector<MapResult> results;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        results.push_back({facts_of_map(job, view, i), errors[i]});
+    }
+    return results;
+}
+
 } // namespace gnomon::analysis

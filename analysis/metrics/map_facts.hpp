@@ -1,11 +1,13 @@
 #pragma once
 
+#include "analysis/metrics/breakdown.hpp"
 #include "scene/job/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gnomon::analysis {
 
@@ -32,5 +34,16 @@ struct MapFacts {
 /// @param map  index among the view's maps.
 [[nodiscard]] MapFacts facts_of_map(const scene::Job& job, const scene::View& view,
                                     std::size_t map);
+
+/// What was measured of the pixels that read one of a light's several maps.
+struct MapResult {
+    MapFacts facts;
+    MapErrors errors;
+};
+
+/// @param errors  By map; none of a light with one map.
+/// @param view    with the constant bias that the errors belong to.
+[[nodiscard]] std::vector<MapResult> results_of_maps(const scene::Job& job, const scene::View& view,
+                                                     const std::vector<MapErrors>& errors);
 
 } // namespace gnomon::analysis

@@ -6,6 +6,7 @@
 #include "analysis/causes/cause.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/recommendation/recommendation.hpp"
@@ -51,6 +52,7 @@ struct ConfigurationResult {
     Gaps peter_panning;
     /// By object and light distance, sorted so; empty: not known, or too many.
     std::vector<ErrorCell> cells = {};
+    std::vector<MapResult> by_map = {}; ///< empty: the light has but one map, or causes are unknown
 };
 
 /// Whether a configuration that failed may pass when it is tried again, everything else as it was.

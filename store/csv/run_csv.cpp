@@ -1,9 +1,10 @@
 #include "store/csv/run_csv.hpp"
 
+#include "store/csv/csv_file.hpp"
 #include "store/csv/csv_text.hpp"
 #include "store/csv/light_rows.hpp"
-#include "store/output_file.hpp"
 #include "store/run/results_columns.hpp"
+#include "store/run/run_columns.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_schema.hpp"
 
@@ -30,18 +31,6 @@ using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
 
-void append_cell(std::string& out, const sqlite::ValueView& value)
-{
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-        const fmt::format_int text{*integer};
-        out.append(text.data(), text.size());
-    } else if (const auto* real = std::get_if<double>(&value)) {
-        append_csv_number(out, *real);
-    } else if (const auto* text = std::get_if<std::string_view>(&value)) {
-        append_csv_text(out, *text);
-    }
-}
-
 sqlite::ValueView view_of(const sqlite::Value& value)
 {
     if (const auto* text = std::get_if<std::string>(&value)) {
@@ -53,80 +42,6 @@ sqlite::ValueView view_of(const sqlite::Value& value)
     const auto* const real = std::get_if<double>(&value);
     return real == nullptr ? sqlite::ValueView{} : sqlite::ValueView{*real};
 }
-
-/// Appends columns of the statement's row, with commas between them.
-void append_cells(std::string& out, const Statement& statement, int first, int count)
-{
-    for (int i = first; i < first + count; ++i) {
-        if (i > first) {
-            out += ',';
-        }
-        append_cell(out, statement.value(i));
-    }
-}
-
-/// Appends the statement's rows, as far as it has any.
-/// @param most_bytes  where to stop, after a whole row.
-/// @return  False after the last row.
-bool append_rows(std::string& out, Statement& statement, std::size_t most_bytes)
-{
-    const int columns = statement.column_count();
-    while (out.size() < most_bytes) {
-        if (!statement.step()) {
-            return false;
-        }
-        append_cells(out, statement, 0, columns);
-        out += '\n';
-    }
-    return true;
-}
-
-/// A CSV file that is written row by row, and appears when it is whole.
-class CsvFile {
-public:
-    explicit CsvFile(const std::filesystem::path& path) : file_{path} {}
-
-    void write_header(const Statement& statement)
-    {
-        for (int i = 0; i < statement.column_count(); ++i) {
-            pending_ += i == 0 ? "" : ",";
-            append_csv_text(pending_, statement.column_name(i));
-        }
-        pending_ += '\n';
-    }
-
-    void write_rows(Statement& statement)
-    {
-        while (append_rows(pending_, statement, block_bytes)) {
-            flush();
-        }
-    }
-
-    /// Whole rows, after those that were written before.
-    void write_text(std::string_view rows)
-    {
-        flush();
-        file_.write(rows);
-    }
-
-    void commit()
-    {
-        flush();
-        file_.commit();
-    }
-
-private:
-    static constexpr std::size_t block_bytes = 1U << 18U;
-
-    void flush()
-    {
-        file_.write(pending_);
-        pending_.clear();
-    }
-
-    OutputFile file_;
-    std::string pending_;
-};
 
 /// A curve that a result of this part belongs to.
 struct ExportedCurve {
@@ -379,6 +294,36 @@ std::string error_vs_z_query()
            " ORDER BY b.\"at\" DESC, b.bias, b.lower_m";
 }
 
+/// The errors by map of each configuration of this part, in the order of the sweep.
+std::string by_map_query()
+{
+    std::string columns;
+    for (const auto& column : map_error_columns()) {
+        columns += fmt::format(", m.{0} AS {0}", sqlite::sql_name(column.name));
+    }
+    return fmt::format("SELECT c.id AS id, v.id AS curve, m.map_index AS map_index{}"
+                       " FROM (SELECT configuration, min(ordinal) AS first FROM part"
+                       " GROUP BY configuration) p"
+                       " JOIN configurations c ON c.number = p.configuration"
+                       " JOIN curves v ON v.number = c.curve"
+                       " JOIN map_errors m ON m.configuration = c.number"
+                       " WHERE c.status = 'done' ORDER BY p.first, m.map_index",
+                       columns);
+}
+
+/// Writes the file where there are such errors.
+void write_by_map(const Database& database, const std::filesystem::path& path)
+{
+    if (!has_map_errors(database) || database.integer("SELECT count(*) FROM map_errors") == 0) {
+        return;
+    }
+    CsvFile file{path};
+    Statement rows{database, by_map_query()};
+    file.write_header(rows);
+    file.write_rows(rows);
+    file.commit();
+}
+
 } // namespace
 
 std::string cell_text(const sqlite::ValueView& value)
@@ -397,10 +342,11 @@ std::string cell_text(const sqlite::ValueView& value)
 void write_run_csv(const Database& database, const std::filesystem::path& folder)
 {
     Transaction moment{database, Transaction::Kind::read};
-    const auto [results, error_vs_z, bias_curves] = run_csv_names;
+    const auto [results, error_vs_z, bias_curves, by_map] = run_csv_names;
     const std::filesystem::path results_file = folder / results;
     const std::filesystem::path error_file = folder / error_vs_z;
     const std::filesystem::path curves_file = folder / bias_curves;
+    const std::filesystem::path maps_file = folder / by_map;
     tbb::parallel_invoke([&] { write_results(database.path(), results_file); },
                          [&] {
                              const auto curves = exported_curves(database);
@@ -408,6 +354,7 @@ void write_run_csv(const Database& database, const std::filesystem::path& folder
                              write_curves(database, curves,
                                           "SELECT * FROM bias_curves WHERE curve = ? ORDER BY bias",
                                           curves_file);
+                             write_by_map(database, maps_file);
                          });
     moment.commit();
 }

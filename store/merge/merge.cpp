@@ -74,8 +74,8 @@ void require_vacant(const Database& database, const std::filesystem::path& out)
         refuse_run(out, "holds a run already: name a new folder");
     }
     Transaction transaction{database};
-    for (const char* const table : {"verifications", "curve_bins", "curve_points", "plan",
-                                    "configurations", "curves", "environments", "run"}) {
+    for (const char* const table : {"map_errors", "verifications", "curve_bins", "curve_points",
+                                    "plan", "configurations", "curves", "environments", "run"}) {
         database.run(fmt::format("DELETE FROM {}", table));
     }
     transaction.commit();
@@ -94,7 +94,11 @@ void require_same_sweep(const Database& database, const std::filesystem::path& r
 
 void require_no_conflict(const Database& database, const std::filesystem::path& run)
 {
-    for (const merge_sql::Conflict& conflict : merge_sql::conflicts()) {
+    std::vector<merge_sql::Conflict> conflicts = merge_sql::conflicts();
+    if (has_map_errors(database, "input")) {
+        conflicts.push_back(merge_sql::map_conflict());
+    }
+    for (const merge_sql::Conflict& conflict : conflicts) {
         Statement find{database, conflict.query};
         if (find.step()) {
             refuse_run(run,
@@ -115,6 +119,9 @@ void unite(const Database& database, const std::filesystem::path& run)
         require_no_conflict(database, run);
         for (const std::string& statement : merge_sql::union_statements()) {
             database.run(statement);
+        }
+        if (has_map_errors(database, "input")) {
+            database.run(merge_sql::new_map_errors());
         }
         transaction.commit();
     }

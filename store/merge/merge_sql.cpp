@@ -60,6 +60,13 @@ Names bin_names()
     return names;
 }
 
+Names map_error_names()
+{
+    Names names{"map_index"};
+    append_names(names, map_error_columns());
+    return names;
+}
+
 /// "m.a, m.b"
 std::string listed(std::string_view table, const Names& names)
 {
@@ -235,6 +242,30 @@ std::vector<Conflict> conflicts()
             {"curve", curves},
             {"curve", other_rows("curve_points", point_names(), "", "bias curve")},
             {"curve", other_rows("curve_bins", bin_names(), "job_bias", "error by distance")}};
+}
+
+Conflict map_conflict()
+{
+    // Those that either side lacks are left out: an older run has none.
+    return {"configuration",
+            fmt::format("SELECT m.id, 'error by map' FROM main.configurations m"
+                        " JOIN input.configurations i ON i.id = m.id"
+                        " JOIN main.map_errors t ON t.configuration = m.number"
+                        " JOIN input.map_errors u ON u.configuration = i.number"
+                        " AND u.map_index = t.map_index"
+                        " WHERE m.status = 'done' AND i.status = 'done' AND ({}) <> ({}) LIMIT 1",
+                        listed("t", map_error_names()), listed("u", map_error_names()))};
+}
+
+std::string new_map_errors()
+{
+    const Names names = map_error_names();
+    return fmt::format("INSERT OR IGNORE INTO main.map_errors (configuration, {0})"
+                       " SELECT m.number, {1} FROM input.configurations i"
+                       " JOIN main.configurations m ON m.id = i.id"
+                       " JOIN input.map_errors t ON t.configuration = i.number"
+                       " WHERE m.status = 'done' AND i.status = 'done'",
+                       fmt::join(names, ", "), listed("t", names));
 }
 
 std::vector<std::string> union_statements()

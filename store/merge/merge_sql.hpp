@@ -18,8 +18,12 @@ struct Conflict {
     std::string query;
 };
 [[nodiscard]] std::vector<Conflict> conflicts();
+/// The same of errors by map, where the input has them.
+[[nodiscard]] Conflict map_conflict();
 
 /// What makes the main run the union, once there are no conflicts; in this order.
 [[nodiscard]] std::vector<std::string> union_statements();
+/// Copies errors by map after all of these, where the input has them.
+[[nodiscard]] std::string new_map_errors();
 
 } // namespace gnomon::store::merge_sql

@@ -26,6 +26,7 @@ using analysis::ConfigurationResult;
 using analysis::CurveResult;
 using analysis::CurveSample;
 using analysis::ErrorBin;
+using analysis::MapResult;
 using analysis::Quantiles;
 using sqlite::Value;
 
@@ -204,6 +205,36 @@ const ResultColumns& cell_columns()
 const CurveColumns& bias_curve_columns()
 {
     static const CurveColumns columns = columns_of(analysis::curve_metrics());
+    return columns;
+}
+
+const std::vector<RunColumn<MapResult>>& map_error_columns()
+{
+    static const std::vector<RunColumn<MapResult>> columns = [] {
+        std::vector<RunColumn<MapResult>> all{
+            {"map", text_type, [](const MapResult& map) { return Value{map.facts.name}; }},
+            {"near_m", real_type, [](const MapResult& map) { return Value{map.facts.near_m}; }},
+            {"far_m", real_type, [](const MapResult& map) { return Value{map.facts.far_m}; }},
+            {"texel_m", real_type, [](const MapResult& map) { return Value{map.facts.texel_m}; }},
+            {"begin_m", real_type, [](const MapResult& map) { return number(map.facts.begin_m); }},
+            {"end_m", real_type, [](const MapResult& map) { return number(map.facts.end_m); }},
+            {"bias_m", real_type, [](const MapResult& map) {
+                 return map.facts.bias ? Value{map.facts.bias->constant_m} : Value{};
+             }}};
+        for (const analysis::SubsetQuantity& quantity : analysis::subset_quantities()) {
+            all.push_back({std::string{quantity.name}, type_of(quantity.type),
+                           [value = quantity.value](const MapResult& map) {
+                               return cell(value(map.errors.counts));
+                           }});
+        }
+        for (std::size_t cause = 1; cause < analysis::cause_names.size(); ++cause) {
+            all.push_back({fmt::format("causes.{}", analysis::cause_names[cause]), integer_type,
+                           [cause](const MapResult& map) {
+                               return count(map.errors.causes.by_cause[cause]);
+                           }});
+        }
+        return all;
+    }();
     return columns;
 }
 

@@ -42,6 +42,8 @@ struct JobColumn {
 /// Of the database alone: no CSV file has them.
 [[nodiscard]] const std::vector<RunColumn<analysis::ConfigurationResult>>& cell_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveResult>>& bias_curve_columns();
+/// Of one of a light's several maps: what it sees, and the errors of the pixels that read it.
+[[nodiscard]] const std::vector<RunColumn<analysis::MapResult>>& map_error_columns();
 /// Points of bias curves, and bins of light distance.
 [[nodiscard]] const std::vector<RunColumn<analysis::CurveSample>>& point_columns();
 [[nodiscard]] const std::vector<RunColumn<analysis::ErrorBin>>& bin_columns();

@@ -96,6 +96,8 @@ RunRecorder::RunRecorder(const Database& database)
                                      " (SELECT environment FROM curves WHERE number = ?1) <> ?2"},
       insert_verification_{database, "INSERT OR REPLACE INTO verifications VALUES (?, ?, ?, ?)"},
       update_configuration_{database, configuration_update()},
+      delete_maps_{database, "DELETE FROM map_errors WHERE configuration = ?"},
+      insert_map_{database, insertion("map_errors", 2, map_error_columns())},
       find_configuration_{database, "SELECT configuration FROM plan WHERE ordinal = ?"},
       fail_configuration_{database, "UPDATE configurations SET status = 'failed', message = ?,"
                                     " may_pass = ? WHERE number = ? AND status <> 'done'"}
@@ -202,6 +204,31 @@ void RunRecorder::write_row(const FinishedCurve::Row& row, std::int64_t curve,
     if (database_->changes() != 1) {
         refuse_ordinal("RunStore::record", row.ordinal);
     }
+    write_maps(row);
+}
+
+void RunRecorder::write_maps(const FinishedCurve::Row& row)
+{
+    if (row.result.by_map.empty()) {
+        return;
+    }
+    const std::int64_t configuration = configuration_of(row.ordinal, "RunStore::record");
+    delete_maps_.bind(1, configuration).run();
+    std::int64_t index = 0;
+    for (const analysis::MapResult& map : row.result.by_map) {
+        insert_map_.bind(1, configuration).bind(2, index++);
+        bind_columns(insert_map_, 3, map_error_columns(), map);
+        insert_map_.run();
+    }
+}
+
+std::int64_t RunRecorder::configuration_of(std::uint64_t ordinal, std::string_view function)
+{
+    const auto number = find_configuration_.bind(1, static_cast<std::int64_t>(ordinal)).first();
+    if (!number) {
+        refuse_ordinal(function, ordinal);
+    }
+    return *number;
 }
 
 void RunRecorder::record_failure(std::span<const std::uint64_t> ordinals,
@@ -210,13 +237,9 @@ void RunRecorder::record_failure(std::span<const std::uint64_t> ordinals,
     const std::string line = scene::one_line(message);
     Transaction transaction{*database_};
     for (const std::uint64_t ordinal : ordinals) {
-        const auto number = find_configuration_.bind(1, static_cast<std::int64_t>(ordinal)).first();
-        if (!number) {
-            refuse_ordinal("RunStore::record_failure", ordinal);
-        }
         fail_configuration_.bind(1, std::string_view{line})
             .bind(2, std::int64_t{retry == analysis::Retry::may_help ? 1 : 0})
-            .bind(3, *number)
+            .bind(3, configuration_of(ordinal, "RunStore::record_failure"))
             .run();
     }
     transaction.commit();

@@ -33,6 +33,8 @@ private:
                             std::int64_t environment);
     void write_row(const analysis::FinishedCurve::Row& row, std::int64_t curve,
                    std::int64_t environment);
+    void write_maps(const analysis::FinishedCurve::Row& row);
+    [[nodiscard]] std::int64_t configuration_of(std::uint64_t ordinal, std::string_view function);
 
     const sqlite::Database* database_;
     sqlite::Statement find_curve_;
@@ -45,6 +47,8 @@ private:
     sqlite::Statement delete_verification_;
     sqlite::Statement insert_verification_;
     sqlite::Statement update_configuration_;
+    sqlite::Statement delete_maps_;
+    sqlite::Statement insert_map_;
     sqlite::Statement find_configuration_;
     sqlite::Statement fail_configuration_;
 };

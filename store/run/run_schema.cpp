@@ -88,6 +88,17 @@ std::string bins_table()
                        definitions(bin_columns()));
 }
 
+constexpr std::string_view map_errors = "map_errors";
+
+/// Not among `table_statements`: runs without it are older, and no less readable.
+std::string map_errors_table()
+{
+    return fmt::format("CREATE TABLE {} (configuration INTEGER NOT NULL REFERENCES configurations,"
+                       " map_index INTEGER{}, PRIMARY KEY (configuration, map_index))"
+                       " WITHOUT ROWID",
+                       map_errors, definitions(map_error_columns()));
+}
+
 /// The rows of `plan` that this run computes: all of them unless the sweep is divided.
 std::string part_view()
 {
@@ -201,13 +212,10 @@ void create_schema(const Database& database)
     for (const std::string& statement : schema_statements({})) {
         database.run(statement);
     }
+    database.run(map_errors_table());
     database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application_id,
                              run_schema));
 }
-
-} // namespace
-
-namespace {
 
 constexpr std::int64_t oldest_readable = 1;
 
@@ -341,11 +349,22 @@ void require_run_schema(const Database& database)
                                               version, run_schema));
     }
     // A key or a result that came or went makes other columns.
-    for (const std::string& statement : schema_statements(light_columns(database))) {
+    std::vector<std::string> statements = schema_statements(light_columns(database));
+    if (has_map_errors(database)) {
+        statements.push_back(map_errors_table());
+    }
+    for (const std::string& statement : statements) {
         if (!was_made_by(database, statement)) {
             refuse_database(database, "a Gnomon with other keys or results wrote it");
         }
     }
+}
+
+bool has_map_errors(const Database& database, const std::string& schema)
+{
+    return database.integer(fmt::format("SELECT count(*) FROM {}.sqlite_schema"
+                                        " WHERE type = 'table' AND name = '{}'",
+                                        sql_name(schema), map_errors)) > 0;
 }
 
 void show_light_columns(const Database& database)
@@ -370,6 +389,8 @@ void prepare_run(Database& database)
         Transaction transaction{database};
         create_schema(database);
         transaction.commit();
+    } else if (!has_map_errors(database)) {
+        database.run(map_errors_table());
     }
 }
 

@@ -19,6 +19,12 @@ inline constexpr int run_schema = 2;
 /// SELECT and a WHERE.
 [[nodiscard]] std::string error_vs_z_columns();
 
+/// Whether the database has errors by map, `map_errors`: an older one may not. A configuration of a
+/// light with one map has none there.
+/// @param schema  "main", or that of an attached database.
+[[nodiscard]] bool has_map_errors(const sqlite::Database& database,
+                                  const std::string& schema = "main");
+
 /// @throws scene::InputError  if it is not a run's database, or one of another schema.
 void require_run_schema(const sqlite::Database& database);
 

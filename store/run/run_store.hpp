@@ -186,9 +186,9 @@ public:
     /// How many failed configurations of this part may pass when they are tried again.
     [[nodiscard]] std::uint64_t retriable() const;
 
-    /// Writes RUN/results.csv, RUN/error_vs_z.csv and RUN/bias_curves.csv (docs/csv_schema.md),
-    /// each atomically: the rows of this part, in the order of their ordinals. The same results
-    /// give the same bytes.
+    /// Writes RUN/results.csv, RUN/error_vs_z.csv and RUN/bias_curves.csv, and RUN/by_map.csv where
+    /// a configuration of a light with several maps is done (docs/csv_schema.md), each atomically:
+    /// the rows of this part, in the order of their ordinals. The same results give the same bytes.
     void write_csv() const;
 
 private:

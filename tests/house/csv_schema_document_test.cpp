@@ -59,8 +59,9 @@ std::vector<std::string> documented_columns(const std::string& section)
 TEST(CsvSchemaDocument, DescribesEveryColumnInItsOrder)
 {
     const store::TemporaryFolder folder;
-    store::ExampleRun{1, 1}.compute(folder.path());
-    for (const char* const file : {"results.csv", "error_vs_z.csv", "bias_curves.csv"}) {
+    store::ExampleRun{1, 1, 1, 2}.compute(folder.path());
+    for (const char* const file :
+         {"results.csv", "error_vs_z.csv", "bias_curves.csv", "by_map.csv"}) {
         EXPECT_EQ(documented_columns(file), store::read_csv(folder / file).columns) << file;
     }
 }

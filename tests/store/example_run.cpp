@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace gnomon::store {
 
@@ -50,6 +51,19 @@ analysis::ConfigurationResult example_result(std::uint64_t ordinal)
         result.peter_panning.metres = quantiles(0.01F);
         result.peter_panning.texels = quantiles(3);
     }
+    return result;
+}
+
+/// Of a cascade, as the errors of an ordinal.
+analysis::MapResult example_map(std::uint64_t ordinal, std::uint64_t map)
+{
+    const auto place = static_cast<double>(map);
+    analysis::MapResult result;
+    result.facts = {std::to_string(map), 0.1 + place, 10.0 / 3, 0.01 * (place + 1),
+                    place + 1,           place + 2,   {}};
+    result.facts.bias = analysis::MapBias{0, 0.001 / 3 * static_cast<double>(ordinal + 1), 0, 0};
+    result.errors.counts = {1000 + map, 500, 10 + ordinal, map, 10.25 + place, place / 3};
+    result.errors.causes.by_cause = {0, 1, 2, 7 + ordinal, map, 0};
     return result;
 }
 
@@ -135,6 +149,9 @@ analysis::FinishedCurve ExampleRun::curve(std::uint64_t number) const
     for (std::uint64_t b = 0; b < biases; ++b) {
         const std::uint64_t ordinal = number * biases + b;
         finished.rows.push_back({ordinal, example_result(ordinal)});
+        for (std::uint64_t map = 0; map < maps && maps > 1; ++map) {
+            finished.rows.back().result.by_map.push_back(example_map(ordinal, map));
+        }
     }
     return finished;
 }

@@ -15,6 +15,7 @@ struct ExampleRun {
     std::uint64_t curves = 3;
     std::uint64_t biases = 4;
     std::uint32_t shards = 1; ///< curve c belongs to shard c mod shards + 1
+    std::uint64_t maps = 1;   ///< of the light: cascades, if there are several
 
     [[nodiscard]] RunDescription description(std::uint32_t shard = 1) const;
     [[nodiscard]] std::vector<analysis::Configuration> configurations() const;
@@ -27,7 +28,7 @@ struct ExampleRun {
     void compute(const std::filesystem::path& folder, std::uint32_t shard = 1) const;
 };
 
-/// The contents of a run's three CSV files, one after the other.
+/// The contents of a run's three CSV files that it always has, one after the other.
 [[nodiscard]] std::string csv_texts(const std::filesystem::path& folder);
 
 } // namespace gnomon::store

@@ -41,7 +41,8 @@ TEST(Leftovers, AreTheTemporariesOfTheRunsOwnFiles)
     const TemporaryFolder folder;
     for (const char* const name :
          {".results.csv.4711-0.tmp", ".error_vs_z.csv.1-12.tmp", ".bias_curves.csv.99999-3.tmp",
-          "pixels/.0123456789abcdef.exr.4711-0.tmp", "pixels/.fedcba9876543210.exr.4711-1.tmp"}) {
+          ".by_map.csv.4711-3.tmp", "pixels/.0123456789abcdef.exr.4711-0.tmp",
+          "pixels/.fedcba9876543210.exr.4711-1.tmp"}) {
         touch_below(folder.path(), name);
     }
     remove_leftovers(folder.path());

@@ -299,6 +299,116 @@ TEST(BiasCurvesCsv, HasThePointsOfEachCurveInOrder)
     EXPECT_EQ(std::stod(row.at("mean_abs_error")), (960.25 + 5.0 / 3) / 538'000);
 }
 
+TEST(ByMapCsv, HasARowForEachConfigurationAndMap)
+{
+    const TemporaryFolder folder;
+    const ExampleRun example{2, 3, 1, 4};
+    example.compute(folder.path());
+    const CsvTable table = read_csv(folder / "by_map.csv");
+    ASSERT_EQ(table.rows.size(), 2 * 3 * 4U);
+    const auto& row = table.rows.at(4 * 4 + 2);
+    const analysis::MapResult map = example.curve(1).rows.at(1).result.by_map.at(2);
+    EXPECT_EQ(row.at("id"), example.configurations()[4].id);
+    EXPECT_EQ(row.at("curve"), example.configurations()[4].curve);
+    EXPECT_EQ(row.at("map_index"), "2");
+    EXPECT_EQ(row.at("map"), "2");
+    EXPECT_EQ(std::stod(row.at("near_m")), map.facts.near_m);
+    EXPECT_EQ(std::stod(row.at("far_m")), map.facts.far_m);
+    EXPECT_EQ(std::stod(row.at("texel_m")), map.facts.texel_m);
+    EXPECT_EQ(std::stod(row.at("begin_m")), map.facts.begin_m);
+    EXPECT_EQ(std::stod(row.at("end_m")), map.facts.end_m);
+    EXPECT_EQ(std::stod(row.at("bias_m")), map.facts.bias->constant_m);
+    EXPECT_EQ(row.at("lit"), "1002");
+    EXPECT_EQ(row.at("blocked"), "500");
+    EXPECT_EQ(row.at("false_shadow"), "14");
+    EXPECT_EQ(row.at("false_lit"), "2");
+    EXPECT_EQ(std::stod(row.at("shadow_amount")), 12.25);
+    EXPECT_EQ(std::stod(row.at("light_amount")), 2.0 / 3);
+    EXPECT_EQ(row.at("causes.bias"), "1");
+    EXPECT_EQ(row.at("causes.resolution"), "11");
+}
+
+TEST(ByMapCsv, LeavesCellsEmptyWithoutCascades)
+{
+    const TemporaryFolder folder;
+    const ExampleRun example{1, 1};
+    std::filesystem::create_directories(folder.path());
+    RunStore store{folder.path(), RunStore::Access::write};
+    store.plan(example.description(), example.configurations());
+    FinishedCurve curve = example.curve(0);
+    curve.rows[0].result.by_map.resize(6);
+    curve.rows[0].result.by_map[0].facts.name = "+x";
+    store.record(curve);
+    store.write_csv();
+    const CsvTable table = read_csv(folder / "by_map.csv");
+    ASSERT_EQ(table.rows.size(), 6U);
+    EXPECT_EQ(table.rows[0].at("map"), "'+x"); // no formula
+    for (const char* const column : {"begin_m", "end_m", "bias_m"}) {
+        EXPECT_EQ(table.rows[0].at(column), "");
+    }
+}
+
+TEST(ByMapCsv, IsNotThereWhereNoLightHasSeveralMaps)
+{
+    const TemporaryFolder folder;
+    ExampleRun{2, 3}.compute(folder.path());
+    EXPECT_FALSE(exists(folder / "by_map.csv"));
+}
+
+TEST(ByMapCsv, ChangesNoOtherFile)
+{
+    const TemporaryFolder folder;
+    ExampleRun{2, 3}.compute(folder / "one");
+    ExampleRun{2, 3, 1, 4}.compute(folder / "several");
+    EXPECT_EQ(csv_texts(folder / "several"), csv_texts(folder / "one"));
+}
+
+TEST(ByMapCsv, IsOfTheLastResultsOfAConfiguration)
+{
+    const TemporaryFolder folder;
+    const ExampleRun example{1, 2, 1, 3};
+    example.compute(folder.path());
+    const std::string first = read_text(folder / "by_map.csv");
+    RunStore store{folder.path(), RunStore::Access::write};
+    FinishedCurve curve = example.curve(0);
+    curve.rows[1].result.by_map[0].errors.counts.false_lit = 77;
+    store.record(curve);
+    store.write_csv();
+    EXPECT_EQ(read_csv(folder / "by_map.csv").rows.at(3).at("false_lit"), "77");
+    store.record(example.curve(0));
+    store.write_csv();
+    EXPECT_EQ(read_text(folder / "by_map.csv"), first);
+}
+
+/// As a Gnomon left it that did not know errors by map.
+void forget_map_errors(const std::filesystem::path& run)
+{
+    sqlite::Database{run / "results.sqlite", sqlite::Database::Access::write}.run(
+        "DROP TABLE map_errors");
+}
+
+TEST(ByMapCsv, IsOfWhatAnOlderRunGetsAnew)
+{
+    const TemporaryFolder folder;
+    const ExampleRun example{2, 2, 1, 3};
+    {
+        std::filesystem::create_directories(folder.path());
+        RunStore store{folder.path(), RunStore::Access::write};
+        store.plan(example.description(), example.configurations());
+        example.record(store, 1, {1});
+    }
+    forget_map_errors(folder.path());
+    EXPECT_EQ(RunStore(folder.path(), RunStore::Access::read).description().size, 4U);
+    RunStore store{folder.path(), RunStore::Access::write};
+    store.write_csv();
+    EXPECT_FALSE(exists(folder / "by_map.csv"));
+    store.record(example.curve(1));
+    store.write_csv();
+    const CsvTable table = read_csv(folder / "by_map.csv");
+    ASSERT_EQ(table.rows.size(), 2 * 3U);
+    EXPECT_EQ(table.rows[0].at("id"), example.configurations()[2].id);
+}
+
 TEST(RunCsv, IsTheSameEveryTime)
 {
     const TemporaryFolder folder;

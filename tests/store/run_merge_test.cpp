@@ -78,6 +78,47 @@ TEST(Merge, OfAllShardsIsTheUndividedRun)
     EXPECT_TRUE(read_run_status(folder / "all", 1).is_complete());
 }
 
+/// A run of two parts whose lights have three maps.
+const ExampleRun of_several_maps{2, 3, 2, 3};
+
+Paths parts_with_maps(const TemporaryFolder& folder)
+{
+    const Paths runs{folder / "first", folder / "second"};
+    of_several_maps.compute(runs[0], 1);
+    of_several_maps.compute(runs[1], 2);
+    return runs;
+}
+
+TEST(Merge, TakesErrorsByMapAlong)
+{
+    const TemporaryFolder folder;
+    const Paths runs = parts_with_maps(folder);
+    (void)merge(folder / "all", {runs[1], runs[0], runs[1]});
+    ExampleRun{2, 3, 1, 3}.compute(folder / "whole");
+    EXPECT_EQ(read_text(folder / "all/by_map.csv"), read_text(folder / "whole/by_map.csv"));
+}
+
+TEST(Merge, TakesRunsThatAreOlderThanErrorsByMap)
+{
+    const TemporaryFolder folder;
+    const Paths runs = parts_with_maps(folder);
+    sqlite::Database{runs[0] / "results.sqlite", sqlite::Database::Access::write}.run(
+        "DROP TABLE map_errors");
+    EXPECT_EQ(merge(folder / "all", runs).done, 6U);
+    EXPECT_EQ(read_csv(folder / "all/by_map.csv").rows.size(), 3 * 3U);
+}
+
+TEST(Merge, RefusesErrorsByMapThatDiffer)
+{
+    const TemporaryFolder folder;
+    const Paths runs = parts_with_maps(folder);
+    of_several_maps.compute(folder / "other", 1);
+    sqlite::Database{folder / "other/results.sqlite", sqlite::Database::Access::write}.run(
+        "UPDATE map_errors SET lit = lit + 1 WHERE map_index = 1");
+    EXPECT_THAT(refusal(folder / "all", {runs[0], folder / "other"}),
+                AllOf(HasSubstr("configuration "), HasSubstr(" has another error by map than")));
+}
+
 TEST(Merge, DoesNotDependOnTheOrderOrOnRunsGivenTwice)
 {
     const TemporaryFolder folder;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ const Words cascades{"--builtin", "columns",
                      "--set",     "shadow_map.layout=cascades",
                      "--set",     "shadow_map.resolution=64",
                      "--set",     "bias.slope=0.5"};
+const Words cube{"--builtin", "lamp-room", "--set", "shadow_map.resolution=32"};
+
 /// Runs a sweep into a folder.
 void sweep_into(const path& run, const Words& job, const Words& more)
 {
@@ -42,6 +45,113 @@ Json compared(const Words& job, const Row& row, const Words& keys)
     return Json::parse(ending.out);
 }
 
+void expect_number(const Row& row, const std::string& column, const Json& value)
+{
+    ASSERT_FALSE(row.at(column).empty()) << column;
+    EXPECT_EQ(std::strtod(row.at(column).c_str(), nullptr), value.get<double>()) << column;
+}
+
+/// Holds every column of a map's row against its entry in the JSON.
+void expect_map_compares(const Row& row, const Json& map)
+{
+    const std::string name = map.at("map");
+    EXPECT_EQ(row.at("map"), (name.find_first_of("+-") == 0 ? "'" : "") + name);
+    for (const char* const column : {"near_m", "far_m", "texel_m", "lit", "blocked", "false_shadow",
+                                     "false_lit", "shadow_amount", "light_amount"}) {
+        expect_number(row, column, map.at(column));
+    }
+    for (const auto& [cause, pixels] : map.at("causes").items()) {
+        expect_number(row, "causes." + cause, pixels);
+    }
+    if (map.contains("begin_m")) {
+        expect_number(row, "begin_m", map.at("begin_m"));
+        expect_number(row, "end_m", map.at("end_m"));
+        expect_number(row, "bias_m", map.at("bias").at("constant_m"));
+    } else {
+        EXPECT_EQ(row.at("begin_m") + row.at("end_m") + row.at("bias_m"), "");
+    }
+}
+
+/// Holds the rows of each configuration of a run against the comparison of it alone.
+void expect_maps_compare(const path& run, const Words& job, const Words& keys, std::size_t maps)
+{
+    const auto rows = csv_rows(run / "by_map.csv");
+    const auto results = csv_rows(run / "results.csv");
+    ASSERT_EQ(rows.size(), maps * results.size());
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const Json alone = compared(job, results[i], keys);
+        ASSERT_EQ(alone.at("by_map").size(), maps);
+        std::size_t wrong = 0;
+        for (std::size_t map = 0; map < maps; ++map) {
+            const Row& row = rows[maps * i + map];
+            SCOPED_TRACE("row " + std::to_string(maps * i + map));
+            EXPECT_EQ(row.at("id"), results[i].at("id"));
+            EXPECT_EQ(row.at("curve"), results[i].at("curve"));
+            EXPECT_EQ(row.at("map_index"), std::to_string(map));
+            expect_map_compares(row, alone.at("by_map").at(map));
+            wrong += std::stoul(row.at("false_shadow")) + std::stoul(row.at("false_lit"));
+        }
+        EXPECT_EQ(wrong, std::stoul(results[i].at("false_shadow")) +
+                             std::stoul(results[i].at("false_lit")));
+    }
+}
+
+const Words filters_and_biases{"--axis", "lookup.filter=nearest,pcf3", "--axis",
+                               "bias.constant=-0.001,0,0.003,0.05"};
+const Words swept_keys{"lookup.filter", "bias.constant"};
+
+TEST(ErrorsByMap, OfCascadesAreThoseOfAComparison)
+{
+    const TemporaryFolder folder;
+    const path run = folder.path() / "run";
+    sweep_into(run, cascades, with(filters_and_biases, {"--no-keep-pixels"}));
+    expect_maps_compare(run, cascades, swept_keys, 4);
+}
+
+TEST(ErrorsByMap, OfACubeAreThoseOfAComparison)
+{
+    const TemporaryFolder folder;
+    const path run = folder.path() / "run";
+    sweep_into(run, cube, with(filters_and_biases, {"--no-keep-pixels"}));
+    expect_maps_compare(run, cube, swept_keys, 6);
+}
+
+TEST(ErrorsByMap, OfMixedCascadesAreThoseOfAComparison)
+{
+    const TemporaryFolder folder;
+    const path run = folder.path() / "run";
+    const Words mixed = with(cascades, {"--set", "shadow_map.blend=0.3"});
+    sweep_into(run, mixed, {"--axis", "bias.constant=0,0.003", "--no-keep-pixels"});
+    expect_maps_compare(run, mixed, {"bias.constant"}, 4);
+}
+
+TEST(ErrorsByMap, AreTheSameWhetherPixelsAreKeptOrNot)
+{
+    const TemporaryFolder folder;
+    for (const Words& job : {cascades, cube}) {
+        std::string first;
+        for (const char* const pixels : {"--keep-pixels", "--no-keep-pixels"}) {
+            const path run = folder.path() / "run";
+            sweep_into(run, job, with(filters_and_biases, {pixels}));
+            const std::string text = text_of(run / "by_map.csv");
+            EXPECT_TRUE(first.empty() || text == first);
+            first = text;
+            std::filesystem::remove_all(run);
+        }
+    }
+}
+
+TEST(ErrorsByMap, AreOfTheConfigurationsAloneThatHaveSeveralMaps)
+{
+    const TemporaryFolder folder;
+    const path run = folder.path() / "run";
+    sweep_into(run, cascades, {"--axis", "shadow_map.cascades=2,3"});
+    EXPECT_EQ(csv_rows(run / "by_map.csv").size(), 5U);
+    const path other = folder.path() / "other";
+    sweep_into(other, {"--builtin", "wall"}, {"--axis", "bias.constant=0,0.01"});
+    EXPECT_FALSE(exists(other / "by_map.csv"));
+}
+
 /// A bias in metres is another number in each cascade: its curve is not that of depth units.
 TEST(SweepOfMetres, IsOfCascadesWhatComparisonsAre)
 {
@@ -51,6 +161,7 @@ TEST(SweepOfMetres, IsOfCascadesWhatComparisonsAre)
     for (const Row& row : csv_rows(run / "results.csv")) {
         expect_row_compares(row, compared(cascades, row, {"bias.constant_m"}));
     }
+    expect_maps_compare(run, cascades, {"bias.constant_m"}, 4);
 }
 
 TEST(SweepOfMetres, HasACurveBesideThatOfDepthUnits)
