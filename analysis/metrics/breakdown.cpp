@@ -1,7 +1,6 @@
 #include "analysis/metrics/breakdown.hpp"
 
 #include "analysis/metrics/amounts.hpp"
-#include "analysis/pixel_runs.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -9,9 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string_view>
 
@@ -53,12 +49,15 @@ private:
     AmountSum light_;
 };
 
-void require_bins(std::string_view function, int bins)
+SubsetCounts count_verdicts(std::span<const std::uint32_t> pixels,
+                            const scene::Image<PixelClass>& classes,
+                            const scene::LookupLayers& lookup, int taps)
 {
-    if (bins < 1 || bins > Binning::most_bins) {
-        throw std::invalid_argument(
-            fmt::format("{}: bins: {} is not from 1 to {}", function, bins, Binning::most_bins));
+    CellTally tally{taps};
+    for (const std::uint32_t i : pixels) {
+        tally.add(classes[i], lookup.samples[i].verdict);
     }
+    return tally.counts();
 }
 
 void require_size(std::string_view function, scene::ImageSize size, scene::ImageSize expected)
@@ -66,77 +65,6 @@ void require_size(std::string_view function, scene::ImageSize size, scene::Image
     if (size != expected) {
         throw std::invalid_argument(fmt::format("{}: the images differ in size", function));
     }
-}
-
-struct Range {
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = -std::numeric_limits<double>::infinity();
-};
-
-Range scored_range(const scene::Image<PixelClass>& classes,
-                   const scene::Image<float>& light_distance_m)
-{
-    Range range;
-    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (!scene::is_scored(classes[i])) {
-            continue;
-        }
-        if (!std::isfinite(light_distance_m[i])) {
-            throw std::invalid_argument(
-                fmt::format("bin_by_distance: light_distance_m: that of scored pixel {} is {}", i,
-                            light_distance_m[i]));
-        }
-        range.lower = std::min(range.lower, double{light_distance_m[i]});
-        range.upper = std::max(range.upper, double{light_distance_m[i]});
-    }
-    return range;
-}
-
-/// The value's bin; the quotient may round across an edge, and the edges decide.
-std::uint8_t bin_of(const Binning& binning, double value)
-{
-    if (!(binning.upper > binning.lower)) {
-        return 0;
-    }
-    const int last = binning.bins - 1;
-    const double position =
-        (value - binning.lower) / (binning.upper - binning.lower) * binning.bins;
-    int i = std::min(static_cast<int>(std::max(position, 0.0)), last);
-    while (i > 0 && value < binning.edge(i)) {
-        --i;
-    }
-    while (i < last && value >= binning.edge(i + 1)) {
-        ++i;
-    }
-    return static_cast<std::uint8_t>(i);
-}
-
-/// Puts each scored pixel into the bin of its value.
-template <typename ValueOf>
-void fill(Binning& binning, const scene::Image<PixelClass>& classes, const ValueOf& value_of)
-{
-    constexpr std::uint8_t no_bin = 255;
-    scene::Image<std::uint8_t> bin{classes.size(), no_bin};
-    for_each_run(classes.pixel_count(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i != last; ++i) {
-            if (scene::is_scored(classes[i])) {
-                bin[i] = bin_of(binning, value_of(i));
-            }
-        }
-    });
-    std::array<std::size_t, no_bin + std::size_t{1}> next{}; // where each bin's next pixel goes
-    for (const std::uint8_t each : bin) {
-        ++next[each];
-    }
-    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
-    binning.image = classes.size();
-    binning.pixels.resize(next[no_bin]);
-    for (std::size_t i = 0; i < bin.pixel_count(); ++i) {
-        if (bin[i] != no_bin) {
-            binning.pixels[next[bin[i]]++] = static_cast<std::uint32_t>(i);
-        }
-    }
-    binning.ends.assign(next.begin(), next.begin() + binning.bins);
 }
 
 /// What a bin's pixels are measured by.
@@ -223,40 +151,6 @@ void require_inputs(const Binning& binning, const BreakdownInputs& inputs)
 
 } // namespace
 
-double Binning::edge(int i) const
-{
-    return std::lerp(lower, upper, static_cast<double>(i) / bins);
-}
-
-Binning bin_by_distance(const scene::Image<PixelClass>& classes,
-                        const scene::Image<float>& light_distance_m, int bins)
-{
-    require_bins("bin_by_distance", bins);
-    require_size("bin_by_distance", light_distance_m.size(), classes.size());
-    const Range range = scored_range(classes, light_distance_m);
-    Binning binning;
-    if (range.lower <= range.upper) {
-        binning.lower = range.lower;
-        binning.upper = range.upper;
-        binning.bins = range.lower < range.upper ? bins : 1;
-    }
-    fill(binning, classes, [&](std::size_t i) { return double{light_distance_m[i]}; });
-    return binning;
-}
-
-Binning bin_by_angle(const scene::Image<PixelClass>& classes, const scene::LookupLayers& lookup,
-                     int bins)
-{
-    require_bins("bin_by_angle", bins);
-    require_size("bin_by_angle", lookup.samples.size(), classes.size());
-    Binning binning;
-    binning.upper = std::numbers::pi / 2;
-    binning.bins = bins;
-    fill(binning, classes,
-         [&](std::size_t i) { return std::atan(double{lookup.samples[i].tan_theta}); });
-    return binning;
-}
-
 std::vector<std::vector<ErrorBin>>
 errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases,
               std::span<const scene::Image<std::uint8_t>> lit_taps)
@@ -285,13 +179,23 @@ std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInput
     tbb::parallel_for(std::size_t{0}, bins.size(), [&](std::size_t bin) {
         BinValues values = gather(binning, bin, inputs);
         bins[bin] = measure_spread(binning, bin, values);
-        CellTally tally{inputs.taps};
-        for (const std::uint32_t i : binning.pixels_of(bin)) {
-            tally.add(inputs.classes[i], inputs.lookup.samples[i].verdict);
-        }
-        bins[bin].counts = tally.counts();
+        bins[bin].counts =
+            count_verdicts(binning.pixels_of(bin), inputs.classes, inputs.lookup, inputs.taps);
     });
     return bins;
+}
+
+std::vector<SubsetCounts> count_by_bin(const Binning& binning,
+                                       const scene::Image<PixelClass>& classes,
+                                       const scene::LookupLayers& lookup, int taps)
+{
+    require_size("count_by_bin", binning.image, classes.size());
+    require_size("count_by_bin", lookup.samples.size(), classes.size());
+    std::vector<SubsetCounts> counts(static_cast<std::size_t>(binning.bins));
+    for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+        counts[bin] = count_verdicts(binning.pixels_of(bin), classes, lookup, taps);
+    }
+    return counts;
 }
 
 std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& classes,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/bias/bias_rows.hpp"
+#include "analysis/metrics/binning.hpp"
 #include "analysis/metrics/quantiles.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_layers.hpp"
@@ -45,39 +46,6 @@ struct ErrorBin {
     std::optional<double> envelope_m;
 };
 
-/// Bins of equal width, and which scored pixels fall into each.
-struct Binning {
-    double lower = 0;
-    double upper = 0;
-    int bins = 0;
-    scene::ImageSize image;
-    std::vector<std::uint32_t> pixels; ///< those of the first bin, of the second, …
-    std::vector<std::size_t> ends;     ///< of each bin's pixels
-    static constexpr int most_bins = 254;
-
-    [[nodiscard]] std::span<const std::uint32_t> pixels_of(std::size_t bin) const
-    {
-        const std::size_t first = bin == 0 ? 0 : ends[bin - 1];
-        return std::span{pixels}.subspan(first, ends[bin] - first);
-    }
-
-    /// The i-th bin's lower edge; for i = `bins` the upper edge of the last.
-    [[nodiscard]] double edge(int i) const;
-};
-
-/// By light distance ζ [m], over the range of the scored pixels; one bin if they are all equally
-/// far, none if there are none.
-/// @throws std::invalid_argument  if `bins` is not in [1, 254], the images differ in size, or a
-///                                scored pixel's ζ is not finite.
-[[nodiscard]] Binning bin_by_distance(const scene::Image<scene::PixelClass>& classes,
-                                      const scene::Image<float>& light_distance_m, int bins = 32);
-
-/// By the receiver's angle θ between geometric normal and light [rad], from 0 to π/2, 5 degrees a
-/// bin unless told otherwise.
-/// @throws std::invalid_argument  as `bin_by_distance`.
-[[nodiscard]] Binning bin_by_angle(const scene::Image<scene::PixelClass>& classes,
-                                   const scene::LookupLayers& lookup, int bins = 18);
-
 /// The errors of each bin. Needed bias and map error do not depend on the bias: they are found once
 /// for all of `biases`.
 /// @param biases    Verdicts are those of these constant biases, by the critical biases.
@@ -91,6 +59,13 @@ errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<c
 /// The same with the lookup's own verdicts.
 [[nodiscard]] std::vector<ErrorBin> errors_by_bin(const Binning& binning,
                                                   const BreakdownInputs& inputs);
+
+/// The lookup's own verdicts in each bin, and nothing of biases or of what the map stores.
+/// @param taps  as in `BreakdownInputs`.
+/// @throws std::invalid_argument  if the images differ in size.
+[[nodiscard]] std::vector<SubsetCounts> count_by_bin(const Binning& binning,
+                                                     const scene::Image<scene::PixelClass>& classes,
+                                                     const scene::LookupLayers& lookup, int taps);
 
 struct ObjectErrors {
     std::string name;

@@ -2,6 +2,7 @@
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/lights/light_comparisons.hpp"
+#include "analysis/metrics/binning.hpp"
 #include "cli/compare/compare_options.hpp"
 #include "cli/compare/compare_outputs.hpp"
 #include "cli/compare/compare_run.hpp"
@@ -222,6 +223,16 @@ void add_compare_command(CLI::App& program)
             "NAME=FILE.png: a picture of needed-bias, depth-error, amount, cause or label, "
             "with the same colours for the same values in every image; repeatable")
         ->allow_extra_args(false);
+    CLI::Option* const view_depths = command->add_option(
+        "--view-depths", options->view_depths_path,
+        "Write the errors by view depth, the distance along the camera's axis, into a CSV file "
+        "(docs/csv_schema.md)");
+    command
+        ->add_option("--view-depth-bands", options->view_depth_bands,
+                     "How many bands of view depth it has")
+        ->check(CLI::Range(1, analysis::Binning::most_bins))
+        ->needs(view_depths)
+        ->capture_default_str();
     command->add_option("--out", options->folder,
                         "RUN, a folder for the result with all its layers, as of `gnomon sweep`");
     command->add_option("--export-case", options->case_folder,

@@ -17,8 +17,10 @@ struct CompareOptions {
     std::string picture_path;
     std::string depth_map_path;
     std::vector<std::string> heat_maps; ///< NAME=FILE
-    std::string folder;                 ///< RUN
-    std::string case_folder;            ///< of --export-case
+    std::string view_depths_path;
+    int view_depth_bands = 16;
+    std::string folder;      ///< RUN
+    std::string case_folder; ///< of --export-case
     bool force = false;
     std::string truth = "exact";
     bool audit = false;

@@ -11,8 +11,10 @@
 #include "reports/tables/lights_table.hpp"
 #include "scene/error.hpp"
 #include "store/case/case_write.hpp"
+#include "store/csv/view_depth_csv.hpp"
 #include "store/exr/aov_write.hpp"
 #include "store/exr/depth_map.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,6 +79,8 @@ std::vector<OutputOption> outputs(const CompareOptions& options,
             {"--picture", file_of_light(options.picture_path, light), OutputKind::picture});
         all.push_back(
             {"--depth-map", file_of_light(options.depth_map_path, light), OutputKind::layers});
+        all.push_back(
+            {"--view-depths", file_of_light(options.view_depths_path, light), OutputKind::csv});
         for (const HeatMapFile& file : heat_maps) {
             all.push_back({"--heat-map", file_of_light(file.path, light), OutputKind::picture});
         }
@@ -91,6 +95,14 @@ void write_layers(const std::string& path, std::span<const analysis::Comparison>
         store::write_aov(path, lights.front(), points);
     } else {
         store::write_aov(path, lights, points);
+    }
+}
+
+void write_view_depths(const CompareOptions& options, const analysis::Comparison& comparison)
+{
+    if (!options.view_depths_path.empty()) {
+        store::write_file(file_of_light(options.view_depths_path, comparison.light),
+                          store::view_depth_csv(comparison, options.view_depth_bands));
     }
 }
 
@@ -152,6 +164,7 @@ void write_outputs(const CompareOptions& options, std::span<const analysis::Comp
     }
     for (const analysis::Comparison& comparison : lights) {
         write_pictures(options, comparison);
+        write_view_depths(options, comparison);
     }
     print(result_text(options, lights));
 }

@@ -60,6 +60,13 @@ draw peter-panning "$data/wall"
     --axis shadow_map.resolution=128,256,512,1024,2048,4096 --axis lookup.filter=nearest,pcf3,pcf5
 draw map-resolution "$data/resolution"
 
+# A view in four slices, and one map of as many bytes.
+columns=$root/examples/cascades_columns.toml
+for layout in cascades one_map; do
+    "$gnomon" compare "$columns" --case "$layout" --view-depths "$data/$layout.csv" >/dev/null
+done
+draw cascades "$data"/{cascades,one_map}.csv
+
 # Every figure of a run: two resolutions, two filters, 41 biases.
 "$gnomon" sweep --builtin sphere-plane --out "$data/sweep" --quiet --no-keep-pixels \
     --set image.width=640 --set image.height=360 --axis shadow_map.resolution=256,1024 \

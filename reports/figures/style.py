@@ -109,12 +109,13 @@ def lay_out(figure, left_in=0.85, right_in=0.15, bottom_in=0.55, top_in=1.0, **s
     )
 
 
-def add_legend(figure, ncol, markerscale=3):
-    """One legend for all panels, under the settings; each label once."""
-    entries = {}
-    for axes in figure.axes:
-        for handle, label in zip(*axes.get_legend_handles_labels()):
-            entries.setdefault(label, handle)
+def add_legend(figure, ncol, markerscale=3, entries=None):
+    """One legend for all panels, under the settings; each label once, or handles by label."""
+    if entries is None:
+        entries = {}
+        for axes in figure.axes:
+            for handle, label in zip(*axes.get_legend_handles_labels()):
+                entries.setdefault(label, handle)
     height_in = figure.get_size_inches()[1]
     figure.legend(entries.values(), entries.keys(), loc="upper center", ncol=ncol,
                   bbox_to_anchor=(0.5, 1 - (0.55 + figure.added_in) / height_in),

@@ -159,10 +159,12 @@ TEST_F(Lights, TheTableEndsWithAllOfThem)
 TEST_F(Lights, EachHasFilesOfItsOwn)
 {
     out_of({"compare", job(), "--picture", at("p.png"), "--depth-map", at("d.exr"), "--heat-map",
-            fmt::format("cause={}", at("c.png").string()), "--export-case", at("case")});
+            fmt::format("cause={}", at("c.png").string()), "--view-depths", at("v.csv"),
+            "--export-case", at("case")});
     for (const std::string& name : light_names) {
-        for (const std::string& file : {"p." + name + ".png", "d." + name + ".exr",
-                                        "c." + name + ".png", "case/" + name + "/case.toml"}) {
+        for (const std::string& file :
+             {"p." + name + ".png", "d." + name + ".exr", "c." + name + ".png",
+              "v." + name + ".csv", "case/" + name + "/case.toml"}) {
             EXPECT_TRUE(std::filesystem::exists(at(file))) << file;
         }
         const Json case_result = json_of({"evaluate", at("case/" + name)});

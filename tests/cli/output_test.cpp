@@ -58,7 +58,7 @@ TEST(Output, ThatCannotBeWrittenIsRefusedBeforeTheWork)
     const TemporaryFolder folder;
     const std::string file = folder.write("file", "text");
     const std::string place = folder.path();
-    for (const char* const option : {"--aov", "--picture", "--depth-map"}) {
+    for (const char* const option : {"--aov", "--picture", "--depth-map", "--view-depths"}) {
         for (const std::string& target :
              {place, place + "/none/a", file + "/a", std::string{"/proc/self/a"}}) {
             expect_refused(gnomon(small_comparison({option, target}), start), 4,
@@ -123,7 +123,7 @@ TEST(Output, OnAFullDiskLeavesTheOldFileAndNoHalfOne)
 
 TEST(Output, OnAFullDeviceFails)
 {
-    for (const char* const option : {"--aov", "--picture", "--depth-map"}) {
+    for (const char* const option : {"--aov", "--picture", "--depth-map", "--view-depths"}) {
         expect_refused(gnomon(small_comparison({option, "/dev/full"})), 4,
                        "cannot write /dev/full: write: No space left on device");
     }

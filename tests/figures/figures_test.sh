@@ -12,4 +12,4 @@ for module in matplotlib pandas; do
 done
 # No bytecode is left in the checkout.
 exec /usr/bin/python3 -B -m unittest depth_figures_test make_test axis_figures_test run_figures_test \
-    run_settings_test lesson_figures_test
+    run_settings_test lesson_figures_test cascades_figure_test

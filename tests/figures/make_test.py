@@ -42,6 +42,7 @@ class CommandLine(unittest.TestCase):
             ("reversed-float", ("d24", "d32f", "d32f_reversed")),
             ("measured-against-formula", ("d16", "d24")),
             ("shadow-errors-on-depth-error", ("error_vs_z", "results")),
+            ("cascades", ("cascades/tight", "cascades/one_map")),
         ):
             for kind, magic in (("png", b"\x89PNG"), ("svg", b"<?xml")):
                 with self.subTest(name=name, kind=kind):

@@ -4,6 +4,7 @@
 #include "analysis/metrics/metric_table.hpp"
 #include "csv_table.hpp"
 #include "scene/job/file.hpp"
+#include "store/csv/view_depth_csv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,12 @@ TEST(CsvSchemaDocument, DescribesEveryColumnInItsOrder)
          {"results.csv", "error_vs_z.csv", "bias_curves.csv", "by_map.csv"}) {
         EXPECT_EQ(documented_columns(file), store::read_csv(folder / file).columns) << file;
     }
+}
+
+TEST(CsvSchemaDocument, DescribesErrorsByViewDepth)
+{
+    const std::string text = store::view_depth_csv(store::example().comparison, 2);
+    EXPECT_EQ(documented_columns("Errors by view depth"), store::parse_csv(text).columns);
 }
 
 TEST(CsvSchemaDocument, SpeaksOfTheSchemaThatIsWritten)

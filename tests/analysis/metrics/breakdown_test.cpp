@@ -166,6 +166,60 @@ TEST(ErrorsByDistance, HoldEveryScoredPixelInTheBinOfItsValue)
     }
 }
 
+TEST(ErrorsByViewDepth, SplitTheObservedRangeByEqualFactors)
+{
+    const Images images{{{lit, 0, 0, 0.5F},
+                         {lit, 1, 0, 0.99F},
+                         {blocked, 1, 0, 1},
+                         {blocked, 0.25F, 0, 8},
+                         {PixelClass::attached, 1, 0, 100}}};
+    const Binning binning = bin_by_view_depth(images.classes, images.light_distance_m, 4);
+    // Powers of two: pow and the quotient are exact there.
+    for (int i = 0; i <= 4; ++i) {
+        EXPECT_EQ(binning.edge(i), std::ldexp(0.5, i)) << i;
+    }
+    EXPECT_THAT(count_by_bin(binning, images.classes, images.lookup, 0),
+                ::testing::ElementsAre(
+                    SubsetCounts{2, 0, 1, 0, 1, 0},
+                    SubsetCounts{0, 1, 0, 1, 0, 1}, // an edge belongs to the bin above it
+                    SubsetCounts{},
+                    SubsetCounts{0, 1, 0, 0, 0, 0.25})); // but the last edge to the last bin
+}
+
+TEST(ErrorsByViewDepth, NeedNoRange)
+{
+    const Images nothing{{{PixelClass::background}}};
+    EXPECT_EQ(bin_by_view_depth(nothing.classes, nothing.light_distance_m, 3).bins, 0);
+    const Images equal{{{lit, 0, 0, 7}, {lit, 1, 0, 7}}};
+    const Binning binning = bin_by_view_depth(equal.classes, equal.light_distance_m, 3);
+    ASSERT_EQ(binning.bins, 1);
+    EXPECT_EQ(binning.edge(0), 7);
+    EXPECT_EQ(binning.edge(1), 7);
+    EXPECT_EQ(binning.pixels_of(0).size(), 2U);
+}
+
+TEST(ErrorsByViewDepth, HoldEveryScoredPixelInTheBinOfItsValue)
+{
+    std::mt19937 random{2};
+    std::uniform_real_distribution<float> depth{0.01F, 30};
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        std::vector<Pixel> pixels(1000);
+        for (Pixel& pixel : pixels) {
+            pixel.light_distance_m = depth(random);
+        }
+        const Images images{pixels};
+        const Binning binning = bin_by_view_depth(images.classes, images.light_distance_m, 7);
+        ASSERT_EQ(binning.pixels.size(), pixels.size());
+        for (int bin = 0; bin < binning.bins; ++bin) {
+            for (const std::uint32_t i : binning.pixels_of(static_cast<std::size_t>(bin))) {
+                const double depth_m{pixels[i].light_distance_m};
+                ASSERT_GE(depth_m, binning.edge(bin));
+                ASSERT_TRUE(depth_m < binning.edge(bin + 1) || depth_m == binning.upper);
+            }
+        }
+    }
+}
+
 TEST(ErrorsByBin, CountAnyBiasByTheCriticalBiases)
 {
     const Images images{{{lit, 0, 0.5F}, {lit, 0, 0.25F}, {blocked, 0, 0.375F}}};
@@ -259,6 +313,15 @@ TEST(Breakdown, RejectsWhatItCannotBin)
     const BreakdownInputs uneven{images.classes, images.lookup, empty, empty};
     EXPECT_THROW((void)errors_by_bin(binning, uneven), std::invalid_argument);
     EXPECT_THROW((void)bin_by_distance(images.classes, empty), std::invalid_argument);
+    EXPECT_THROW((void)bin_by_view_depth(images.classes, empty, 4), std::invalid_argument);
+    EXPECT_THROW((void)bin_by_view_depth(images.classes, images.light_distance_m, 0),
+                 std::invalid_argument);
+    EXPECT_THROW((void)bin_by_view_depth(nowhere.classes, nowhere.light_distance_m, 4),
+                 std::invalid_argument);
+    const Images behind{{{lit, 0, 0, 0}}};
+    EXPECT_THROW((void)bin_by_view_depth(behind.classes, behind.light_distance_m, 4),
+                 std::invalid_argument);
+    EXPECT_THROW((void)count_by_bin(binning, images.classes, {}, 1), std::invalid_argument);
     const BreakdownInputs no_map_errors{images.classes, images.lookup, images.criticals, empty};
     EXPECT_FALSE(errors_by_bin(binning, no_map_errors)[0].map_error_m.has_value());
 }
