@@ -306,7 +306,8 @@ TEST_P(BiasIdentityOfMixedVerdicts, HoldsForGlsOwnRerunInEveryPixel)
                 fractions += verdict > 0 && verdict < 1 ? 1U : 0U;
                 for (const auto& [lit_from, criticals] : levels) {
                     const bool is_seen = triangles[i] != scene::no_triangle;
-                    different += is_seen && (verdict >= lit_from) != (criticals[i] <= bias) ? 1U : 0U;
+                    different +=
+                        is_seen && (verdict >= lit_from) != (criticals[i] <= bias) ? 1U : 0U;
                 }
             }
             EXPECT_EQ(different, 0U) << setting.builtin << " " << GetParam() << " bias " << bias;
