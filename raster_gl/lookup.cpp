@@ -123,6 +123,25 @@ std::string map_choice(const scene::View& view)
     return {};
 }
 
+/// What a program that looks up may ask of the light, its maps and the camera.
+void set_uniforms(const Program& lookup, const scene::View& view)
+{
+    const scene::LightFrustum& first = view.first_map();
+    const scene::Vec2d depth_row = clip_depth_row(first.depth_range());
+    set_uniform(lookup, "light_clip_from_world", matrices_of(view));
+    set_uniform(lookup, "light", light_uniform(view.light));
+    set_uniform(lookup, "far", static_cast<float>(first.far_m));
+    set_uniform(lookup, "half_side",
+                std::array{static_cast<float>(first.right_side), static_cast<float>(first.top)});
+    set_uniform(lookup, "clip_depth_row",
+                std::array{static_cast<float>(depth_row.x), static_cast<float>(depth_row.y)});
+    set_uniform(lookup, "bias_scale", view.bias_scales);
+    set_uniform(lookup, "view_eye", view.slices.eye);
+    set_uniform(lookup, "view_forward", view.slices.forward);
+    set_uniform(lookup, "slice_ends", view.slices.ends);
+    set_uniform(lookup, "mixed_from", view.slices.mixed_from);
+}
+
 void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& context)
 {
     const float largest = context.facts().max_anisotropy;
@@ -312,8 +331,7 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     const methods::Passes passes = methods::passes(job);
     const std::vector<methods::ActiveBias> biases = methods::active_biases(job, view);
     const Program& lookup = program(from, job, view, {passes, biases}, computes);
-    set_uniform(lookup, "light_clip_from_world", matrices_of(view));
-    set_uniform(lookup, "light", light_uniform(view.light));
+    set_uniforms(lookup, view);
     set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
     set_uniform(lookup, "lit_from", computes.lit_from);
     set_uniforms(lookup, passes.lookup);
@@ -330,24 +348,10 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
                                        from.receivers.world_position.name()};
     glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
     bind_map(from, passes, job.lookup.outside);
-    const scene::LightFrustum& first = view.first_map();
-    set_uniform(lookup, "far", static_cast<float>(first.far_m));
-    set_uniform(lookup, "half_side",
-                std::array{static_cast<float>(first.right_side), static_cast<float>(first.top)});
-    set_uniform(lookup, "bias_scale", view.bias_scales);
-    set_uniform(lookup, "view_eye", view.slices.eye);
-    set_uniform(lookup, "view_forward", view.slices.forward);
-    set_uniform(lookup, "slice_ends", view.slices.ends);
-    set_uniform(lookup, "mixed_from", view.slices.mixed_from);
     Texture faces;
-    if (is_cube(view)) {
-        const scene::Vec2d row = clip_depth_row(first.depth_range());
-        set_uniform(lookup, "clip_depth_row",
-                    std::array{static_cast<float>(row.x), static_cast<float>(row.y)});
-        if (passes.sampling != Sampling::fetched) {
-            faces = from.map.depth.cube_view();
-            bind_cube(faces, passes);
-        }
+    if (is_cube(view) && passes.sampling != Sampling::fetched) {
+        faces = from.map.depth.cube_view();
+        bind_cube(faces, passes);
     }
     Texture depths;
     Texture next_depths;

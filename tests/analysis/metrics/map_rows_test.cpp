@@ -19,7 +19,7 @@ namespace {
 using scene::PixelClass;
 
 /// One lookup of three maps, and what is known of its pixels.
-struct Subject {
+struct MapSubject {
     static constexpr scene::ImageSize size{97, 31};
 
     scene::Image<PixelClass> classes{size};
@@ -28,7 +28,7 @@ struct Subject {
     PixelCauses causes{scene::Image<PixelCause>{size}, {}};
     LookupRule rule;
 
-    explicit Subject(unsigned seed)
+    explicit MapSubject(unsigned seed)
     {
         std::mt19937 random{seed};
         std::uniform_real_distribution<float> depth{0, 1};
@@ -49,7 +49,7 @@ struct Subject {
 
 TEST(MapRows, AreTheErrorsByMapOfEachBias)
 {
-    Subject subject{11};
+    MapSubject subject{11};
     const auto critical = critical_biases(subject.lookup, subject.rule);
     const BiasRowInputs inputs{subject.classes, subject.lookup, critical, subject.causes,
                                subject.rule};
@@ -72,7 +72,7 @@ TEST(MapRows, AreTheErrorsByMapOfEachBias)
 
 TEST(MapRows, OfALightWithOneMapAreNone)
 {
-    const Subject subject{12};
+    const MapSubject subject{12};
     const auto critical = critical_biases(subject.lookup, subject.rule);
     const BiasRowInputs inputs{subject.classes, subject.lookup, critical, subject.causes,
                                subject.rule};
@@ -83,7 +83,7 @@ TEST(MapRows, OfALightWithOneMapAreNone)
 
 TEST(MapRows, RejectImagesOfOtherSizes)
 {
-    const Subject subject{13};
+    const MapSubject subject{13};
     const auto critical = critical_biases(subject.lookup, subject.rule);
     const BiasRowInputs inputs{subject.classes, subject.lookup, critical, subject.causes,
                                subject.rule};
