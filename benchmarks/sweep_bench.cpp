@@ -50,7 +50,7 @@ struct SweepShape {
     std::string_view light = spot;
     std::string_view resolutions = "512, 1024, 2048, 4096, 8192";
     std::string_view near_m = "0.1, 0.3, 0.6, 1, 2";
-    std::string_view map = ""; ///< more of `[shadow_map]`
+    std::string_view map = {}; ///< more of `[shadow_map]`
 };
 
 /// columns at 1280×720: 1000 biases × resolutions × 4 formats × near planes × 2 cameras.
