@@ -19,7 +19,7 @@ namespace gnomon::scene {
 namespace {
 
 /// Cascades follow the camera: receivers stay, every map is drawn anew.
-constexpr Stages light_matrix = Stage::receivers | Stage::shadow_map;
+constexpr Stages cascade_stages = Stage::receivers | Stage::shadow_map;
 /// A slice without a share of its own would have no place for its own verdict.
 constexpr double largest_blend = 0.999;
 constexpr double least_view_depth_m = 1e-6;
@@ -38,7 +38,7 @@ KeySpec lambda_key()
     KeySpec spec = member_key<double>(
         make_key("shadow_map.split_lambda",
                  "split = \"practical\": 0 splits uniformly, 1 logarithmically", "0.5",
-                 light_matrix),
+                 cascade_stages),
         RealDomain{.lower = 0, .upper = 1},
         [](auto& job) -> auto& { return job.shadow_map.cascades.split_lambda; });
     spec.get = [get = std::move(spec.get)](const Job& job) {
@@ -52,7 +52,8 @@ KeySpec lambda_key()
 KeySpec view_depth_key(std::string name, std::string description,
                        std::optional<double> CascadeSettings::*depth)
 {
-    return {.key = make_key(std::move(name), std::move(description), "\"auto\"", light_matrix, "m"),
+    return {.key =
+                make_key(std::move(name), std::move(description), "\"auto\"", cascade_stages, "m"),
             .domain = RealDomain{.lower = least_view_depth_m, .upper = farthest_m, .or_auto = true},
             .set =
                 [depth](Job& job, const JobValue& value) {
@@ -72,14 +73,14 @@ std::vector<KeySpec> split_keys()
     return {member_key<std::int64_t>(
                 make_key("shadow_map.cascades",
                          "how many slices the camera's view is split into, with a map each", "4",
-                         light_matrix),
+                         cascade_stages),
                 IntegerDomain{least_cascades, most_cascades},
                 [](auto& job) -> auto& { return job.shadow_map.cascades.count; }),
             word_key<CascadeSplit>(
                 make_key("shadow_map.split",
                          "where slices end: all equally deep, each deeper by the same factor, or "
                          "between the two, by split_lambda",
-                         "\"practical\"", light_matrix),
+                         "\"practical\"", cascade_stages),
                 3, cascade_split_name,
                 [](auto& job) -> auto& { return job.shadow_map.cascades.split; }),
             lambda_key(),
@@ -100,7 +101,7 @@ std::vector<KeySpec> choice_keys()
             make_key("shadow_map.cascade_fit",
                      "what a map covers: the light-view box around its slice, or a sphere "
                      "around it, on a grid of texels that stands still in the world",
-                     "\"tight\"", light_matrix),
+                     "\"tight\"", cascade_stages),
             2, cascade_fit_name, [](auto& job) -> auto& { return job.shadow_map.cascades.fit; }),
         word_key<CascadeSelect>(
             make_key("shadow_map.select",
@@ -113,7 +114,7 @@ std::vector<KeySpec> choice_keys()
             make_key("shadow_map.blend",
                      "share of each slice, at its end, in which the next cascade's verdict is "
                      "mixed in",
-                     "0", light_matrix),
+                     "0", cascade_stages),
             RealDomain{.lower = 0, .upper = largest_blend},
             [](auto& job) -> auto& { return job.shadow_map.cascades.blend; })};
 }

@@ -17,9 +17,10 @@
 namespace gnomon::scene {
 namespace {
 
-constexpr std::array<std::string_view, 3> split_names{"uniform", "logarithmic", "practical"};
-constexpr std::array<std::string_view, 2> fit_names{"tight", "stabilised"};
-constexpr std::array<std::string_view, 2> select_names{"view_depth", "containing"};
+constexpr std::array<std::string_view, 3> cascade_split_names{"uniform", "logarithmic",
+                                                              "practical"};
+constexpr std::array<std::string_view, 2> cascade_fit_names{"tight", "stabilised"};
+constexpr std::array<std::string_view, 2> cascade_select_names{"view_depth", "containing"};
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -211,17 +212,17 @@ LightDistanceRange whole_range(const LightFrustum& camera, const TriangleScene& 
 
 std::string_view cascade_split_name(CascadeSplit split)
 {
-    return split_names.at(static_cast<std::size_t>(split));
+    return cascade_split_names.at(static_cast<std::size_t>(split));
 }
 
 std::string_view cascade_fit_name(CascadeFit fit)
 {
-    return fit_names.at(static_cast<std::size_t>(fit));
+    return cascade_fit_names.at(static_cast<std::size_t>(fit));
 }
 
 std::string_view cascade_select_name(CascadeSelect select)
 {
-    return select_names.at(static_cast<std::size_t>(select));
+    return cascade_select_names.at(static_cast<std::size_t>(select));
 }
 
 std::vector<double> split_view(const CascadeSettings& settings, const TriangleScene& scene,
