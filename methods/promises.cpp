@@ -6,6 +6,7 @@ Promises mixed(Promises promised)
 {
     promised.verdict = Verdict::fraction;
     promised.compares = Compares::none;
+    promised.mixes_maps = true;
     if (promised.curve == Curve::by_formula) {
         promised.curve = Curve::by_bisection;
     }

@@ -91,6 +91,7 @@ struct Promises {
     int samples = 1; ///< depths of each of them: at its centre, or several at the driver's samples
     std::uint64_t map_bytes = 0; ///< memory that the map takes; 0 without a map
     bool has_map = true;         ///< else nothing is drawn from the light
+    bool mixes_maps = false;     ///< the verdict is mixed of two maps' (`mixed`)
 
     friend bool operator==(const Promises&, const Promises&) = default;
 
@@ -99,11 +100,8 @@ struct Promises {
         const auto width = static_cast<std::size_t>(width_texels);
         return width * width;
     }
-    /// Whether the verdict is one texel's comparison.
-    [[nodiscard]] constexpr bool has_one_tap() const
-    {
-        return width_texels == 1 && has_exact_causes();
-    }
+    /// Whether the verdict depends on one texel.
+    [[nodiscard]] constexpr bool has_one_tap() const { return width_texels == 1 && !mixes_maps; }
     /// Whether a verdict can lie between 0 and 1.
     [[nodiscard]] constexpr bool has_fractions() const { return verdict == Verdict::fraction; }
     /// Whether taps lie around the point looked up, and not about the texel that holds it.
