@@ -83,7 +83,7 @@ const ExampleRun of_several_maps{2, 3, 2, 3};
 
 Paths parts_with_maps(const TemporaryFolder& folder)
 {
-    const Paths runs{folder / "first", folder / "second"};
+    Paths runs{folder / "first", folder / "second"};
     of_several_maps.compute(runs[0], 1);
     of_several_maps.compute(runs[1], 2);
     return runs;
