@@ -140,7 +140,10 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
     if (pixels.empty()) {
         return {};
     }
-    if (!methods::promises(comparison.job).has_exact_causes()) {
+    if (!methods::promises(comparison.job).has_map) {
+        return {.format = 0, .transform = pixels.size()};
+    }
+    if (!methods::promises(comparison.job).compares_depths()) {
         const FloatLookups floats = look_up_floats(comparison.job, comparison.view, renderers);
         return find_precision_kinds(comparison.truth, floats.biased, floats.unbiased, pixels);
     }

@@ -1,3 +1,4 @@
+#include "methods/list.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"
 
@@ -66,6 +67,18 @@ void lookup_pass(benchmark::State& state, const std::vector<scene::Override>& ke
     }
 }
 
+/// All that a method does for a frame: the map, if it has one, what it makes of it, and verdicts.
+void verdicts(benchmark::State& state, const std::vector<scene::Override>& keys)
+{
+    Drawn drawn{make_job(keys)};
+    for (auto _ : state) {
+        cli::GlRenderer& gl = *drawn.subject.gl;
+        gl.draw_shadow_map(drawn.subject.job, drawn.view);
+        gl.prefilter_map(drawn.subject.job, drawn.view, analysis::FilteredContent::of_method);
+        benchmark::DoNotOptimize(gl.look_up(drawn.subject.job, drawn.view).samples.data());
+    }
+}
+
 void map_readback(benchmark::State& state, const std::string& resolution)
 {
     Drawn drawn{make_job({{"shadow_map.resolution", resolution}})};
@@ -103,6 +116,14 @@ void add_all()
             lookup_pass(state, {{"lookup.filter", filter}});
         });
     }
+    for (const char* method : {"depth", "primitive_id", "vsm", "shadow_volumes"}) {
+        add(fmt::format("verdicts/{}", method), [method](benchmark::State& state) {
+            verdicts(state, {{"method.name", method}});
+        });
+    }
+    add("verdicts/shadow_volumes/triangle", [](benchmark::State& state) {
+        verdicts(state, {{"method.name", "shadow_volumes"}, {"method.extrusion", "triangle"}});
+    });
     add("shadow_pass/4x1024/d24",
         [](benchmark::State& state) { shadow_pass(state, four_cascades()); });
     add("lookup_pass/4x1024/nearest",
@@ -114,6 +135,7 @@ void add_all()
 
 int main(int argc, char** argv)
 {
+    gnomon::methods::hand_keys_to_scene();
     gnomon::benchmarks::add_all();
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

@@ -19,6 +19,18 @@ std::string_view table_of(std::string_view key)
     return key.substr(0, key.rfind('.'));
 }
 
+/// Of the tables that methods share, those whose keys it has none of.
+std::vector<std::string> unread_tables(const Method& method)
+{
+    std::vector<std::string> unread;
+    for (const std::string_view table : {"shadow_map", "lookup", "bias"}) {
+        if (std::ranges::find(method.key_tables, table) == method.key_tables.end()) {
+            unread.emplace_back(table);
+        }
+    }
+    return unread;
+}
+
 /// The method's own keys, and those of its bias terms.
 std::vector<scene::HandedKey> own_keys(const Method& method)
 {
@@ -146,7 +158,7 @@ void hand_keys_to_scene()
 {
     std::vector<scene::HandedMethod> all;
     for (const Method& method : methods()) {
-        all.push_back({std::string{method.name}, !method.filters.empty()});
+        all.push_back({std::string{method.name}, !method.filters.empty(), unread_tables(method)});
     }
     scene::hand_over_methods(std::move(all), all_keys());
     for (const Method& method : methods()) {

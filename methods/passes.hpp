@@ -1,6 +1,9 @@
 #pragma once
 
+#include "methods/promises.hpp"
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +51,20 @@ struct PrefilterPass {
     TexelFormat format = TexelFormat::rg32f;
 };
 
+/// How the sides of shadow volumes are drawn.
+enum class Extrusion : std::uint8_t {
+    silhouette, ///< of the casters' silhouettes
+    triangle,   ///< of each caster
+};
+
+/// Shadow volumes, which the camera's view is counted with: a receiver is in shadow that is in any.
+struct ShadowVolumes {
+    Extrusion extrusion = Extrusion::silhouette;
+    Casters casters = Casters::all;
+
+    friend bool operator==(const ShadowVolumes&, const ShadowVolumes&) = default;
+};
+
 /// What GL is to do for a job, after the casters' depths are drawn. The lookup's piece defines
 ///
 ///     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
@@ -57,10 +74,12 @@ struct PrefilterPass {
 struct Passes {
     std::vector<PrefilterPass> prefilter;
     int samples = 1; ///< of each texel, that the casters are drawn with for the first pass
+    bool draws_primitives = false; ///< beside depths, which triangle each texel shows
     Piece lookup;
     Sampling sampling = Sampling::fetched; ///< of the last pass's texture, else of the depths
     bool makes_mipmaps = false;            ///< of the last pass's texture
     int anisotropy = 1;                    ///< most samples along a pixel's longer side there
+    std::optional<ShadowVolumes> volumes;  ///< in place of all else: there is no map
 
     /// Whether the lookup's piece has `uv_dx` and `uv_dy`, the change of uv to the next pixel.
     [[nodiscard]] bool has_gradients() const { return makes_mipmaps || anisotropy > 1; }

@@ -31,6 +31,8 @@ std::string_view name(Compares compares)
         return "each_tap";
     case Compares::mean_depth:
         return "mean_depth";
+    case Compares::primitives:
+        return "primitives";
     case Compares::none:
         return "none";
     }

@@ -19,7 +19,8 @@ enum class Compares : std::uint8_t {
     each_tap,   ///< each tap's depth with the receiver's: the verdict is the share, by weight, of
                 ///< lit taps
     mean_depth, ///< the mean, by weight, of the taps' depths with the receiver's: one comparison
-    none,       ///< no comparison of depths
+    primitives, ///< the triangle that a texel shows with the receiver's: one comparison
+    none,       ///< no comparison
 };
 
 /// Whether a verdict can only rise when the constant bias does.
@@ -50,6 +51,12 @@ enum class Weights : std::uint8_t {
     bilinear,      ///< by the place between texel centres
     bilinear_of_gl ///< the same, as a driver rounds it: the map's answers to other biases are GL's
                    ///< own
+};
+
+/// The triangles whose shadows a verdict without a map is made of.
+enum class Casters : std::uint8_t {
+    all,
+    facing_light, ///< those whose corners the light sees counter-clockwise
 };
 
 /// Which texels a verdict can depend on.
@@ -89,9 +96,10 @@ struct Promises {
     Kernel kernel;
     Reads reads = Reads::footprint;
     int samples = 1; ///< depths of each of them: at its centre, or several at the driver's samples
-    std::uint64_t map_bytes = 0; ///< memory that the map takes; 0 without a map
-    bool has_map = true;         ///< else nothing is drawn from the light
-    bool mixes_maps = false;     ///< the verdict is mixed of two maps' (`mixed`)
+    std::uint64_t map_bytes = 0;    ///< memory that the map takes; 0 without a map
+    bool has_map = true;            ///< else nothing is drawn from the light
+    Casters casters = Casters::all; ///< without a map
+    bool mixes_maps = false;        ///< the verdict is mixed of two maps' (`mixed`)
 
     friend bool operator==(const Promises&, const Promises&) = default;
 
@@ -108,8 +116,16 @@ struct Promises {
     [[nodiscard]] constexpr bool interpolates() const { return weights != Weights::equal; }
     /// Whether the verdict is the share of taps that are lit.
     [[nodiscard]] constexpr bool is_made_of_taps() const { return compares == Compares::each_tap; }
-    /// Whether causes follow from exact depths, without running the method again.
-    [[nodiscard]] constexpr bool has_exact_causes() const { return compares != Compares::none; }
+    /// Whether the verdict is made of depths that are compared.
+    [[nodiscard]] constexpr bool compares_depths() const
+    {
+        return compares == Compares::each_tap || compares == Compares::mean_depth;
+    }
+    /// Whether causes follow from what exact rays hit, without running the method again.
+    [[nodiscard]] constexpr bool has_exact_causes() const
+    {
+        return compares != Compares::none || !has_map;
+    }
     /// Whether each verdict follows from one depth that the lookup returns.
     [[nodiscard]] constexpr bool returns_deciding_depth() const
     {
@@ -119,11 +135,11 @@ struct Promises {
     [[nodiscard]] constexpr bool has_curve() const { return curve != Curve::none; }
     /// Whether every constant bias follows from one lookup.
     [[nodiscard]] constexpr bool has_formula() const { return curve == Curve::by_formula; }
-    /// Comparisons of equal weight that make a verdict; 0 where weights are not equal, or nothing
-    /// is compared.
+    /// Comparisons of equal weight that make a verdict: of a binary one 1; 0 where weights are not
+    /// equal, or a fraction is made of no comparisons.
     [[nodiscard]] constexpr int equal_taps() const
     {
-        if (compares == Compares::mean_depth) {
+        if (verdict == Verdict::binary) {
             return 1;
         }
         return is_made_of_taps() && weights == Weights::equal ? static_cast<int>(tap_count()) : 0;

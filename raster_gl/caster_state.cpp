@@ -21,10 +21,10 @@ void set_culling(scene::Cull cull)
 
 } // namespace
 
-CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format)
+CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format, bool primitives)
 {
     const bool is_converted = traits_of(format).conversion == scene::Conversion::shader;
-    return {content, is_converted ? std::optional{format.kind} : std::nullopt};
+    return {content, is_converted ? std::optional{format.kind} : std::nullopt, primitives};
 }
 
 Program make_caster_program(const CasterOutput& output)
@@ -32,8 +32,11 @@ Program make_caster_program(const CasterOutput& output)
     using Kind = scene::DepthFormat::Kind;
     const bool has_distances = output.content == scene::MapContent::distance;
     const auto flag = [](bool on) { return on ? "1" : "0"; };
-    ProgramParts parts{"shadow_map.vert", {}, {{"DISTANCE", flag(has_distances)}}, nullptr};
-    if (has_distances || output.converted) {
+    ProgramParts parts{"shadow_map.vert",
+                       {},
+                       {{"DISTANCE", flag(has_distances)}, {"PRIMITIVES", flag(output.primitives)}},
+                       nullptr};
+    if (has_distances || output.converted || output.primitives) {
         parts.fragment = "shadow_map_written.frag";
         parts.before_fragment = shader_source("depth_codes.glsl");
     }
@@ -65,12 +68,12 @@ bool is_large_map(int resolution_texels, int samples)
     return std::int64_t{resolution_texels} * resolution_texels * samples > largest;
 }
 
-void draw_casters(const GpuScene& scene, int resolution_texels, int samples)
+void draw_casters(const GpuScene& scene, const Program& program, int resolution_texels, int samples)
 {
     if (is_large_map(resolution_texels, samples)) {
-        scene.draw_casters_in_parts();
+        scene.draw_casters_in_parts(program);
     } else {
-        scene.draw_casters();
+        scene.draw_casters(program);
     }
 }
 

@@ -15,10 +15,12 @@ struct CasterOutput {
     scene::MapContent content = scene::MapContent::depth;
     /// Of formats that the shader converts; empty: GL's own, or distances as they are.
     std::optional<scene::DepthFormat::Kind> converted;
+    bool primitives = false; ///< which triangle, too
 
     friend auto operator<=>(const CasterOutput&, const CasterOutput&) = default;
 };
-[[nodiscard]] CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format);
+[[nodiscard]] CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format,
+                                         bool primitives = false);
 
 /// Compiles the program that draws casters.
 [[nodiscard]] Program make_caster_program(const CasterOutput& output);
@@ -30,7 +32,8 @@ void prepare_to_draw_casters(const scene::LightFrustum& map,
 /// Maps that fill a quarter of a gigabyte and more.
 [[nodiscard]] bool is_large_map(int resolution_texels, int samples = 1);
 
-/// Draws the casters with the program in use; into a large map in parts.
-void draw_casters(const GpuScene& scene, int resolution_texels, int samples = 1);
+/// Draws the casters with `program`, which is in use; into a large map in parts.
+void draw_casters(const GpuScene& scene, const Program& program, int resolution_texels,
+                  int samples = 1);
 
 } // namespace gnomon::raster_gl

@@ -53,8 +53,9 @@ Texture view_of(const Buffer& buffer)
     return Texture{name};
 }
 
-void draw_range(const scene::TriangleRange& range)
+void draw_range(const Program& program, const scene::TriangleRange& range)
 {
+    set_uniform(program, "first_triangle", range.first);
     const std::uintptr_t first_byte = std::uintptr_t{range.first} * 3 * sizeof(std::uint32_t);
     // GL takes the byte offset as a pointer.
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count * 3), GL_UNSIGNED_INT,
@@ -88,21 +89,21 @@ GpuScene::GpuScene(const Context& context, const scene::TriangleScene& triangles
     context.check("uploading the scene");
 }
 
-void GpuScene::draw_casters() const
+void GpuScene::draw_casters(const Program& program) const
 {
     glBindVertexArray(layout_.name());
     for (const scene::TriangleRange& range : casters_) {
-        draw_range(range);
+        draw_range(program, range);
     }
 }
 
-void GpuScene::draw_casters_in_parts() const
+void GpuScene::draw_casters_in_parts(const Program& program) const
 {
     constexpr std::uint32_t part = 32768;
     glBindVertexArray(layout_.name());
     for (const scene::TriangleRange& range : casters_) {
         for (std::uint32_t first = 0; first < range.count; first += part) {
-            draw_range({range.first + first, std::min(part, range.count - first)});
+            draw_range(program, {range.first + first, std::min(part, range.count - first)});
             glFinish();
         }
     }
@@ -112,8 +113,7 @@ void GpuScene::draw_receivers(const Program& program) const
 {
     glBindVertexArray(layout_.name());
     for (const scene::TriangleRange& range : receivers_) {
-        set_uniform(program, "first_triangle", range.first);
-        draw_range(range);
+        draw_range(program, range);
     }
 }
 

@@ -15,13 +15,14 @@ public:
     /// @throws scene::EnvironmentError  if GL has no room for it.
     GpuScene(const Context& context, const scene::TriangleScene& triangles);
 
-    /// Draws the casting triangles with the current program.
-    void draw_casters() const;
+    /// Draws the casting triangles with the current program, `program`; sets its uniform
+    /// first_triangle for every draw, so that first_triangle + gl_PrimitiveID is the triangle's
+    /// index in the scene.
+    void draw_casters(const Program& program) const;
     /// The same, some thousands at a time, each waited for: what a software renderer binned and the
     /// targets that it keeps for it stay few.
-    void draw_casters_in_parts() const;
-    /// Draws the receiving triangles; sets `program`'s uniform first_triangle for every range, so
-    /// that first_triangle + gl_PrimitiveID is the triangle's index in the scene.
+    void draw_casters_in_parts(const Program& program) const;
+    /// Draws the receiving triangles; sets first_triangle in the same way.
     void draw_receivers(const Program& program) const;
     /// Draws every vertex once as a point, in order.
     void draw_vertices() const;

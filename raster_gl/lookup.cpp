@@ -195,6 +195,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"OUTSIDE_VERDICT", settings.outside == Outside::shadowed ? "0.0" : "1.0"},
         {"REVERSED", flag(from.map.reversed)},
         {"POSITIONAL", flag(view.light.has_position())},
+        {"PRIMITIVES", flag(pieces.passes.draws_primitives)},
         {"CUBE", flag(is_cube(view))},
         {"DISTANCE", flag(view.first_map().content == scene::MapContent::distance)},
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
@@ -216,7 +217,8 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     }
     Program made =
         make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr,
-                      pieces_before_shader("lookup_map.glsl", pieces.passes.lookup, biases)});
+                      std::string{shader_source("receiver_angle.glsl")} +
+                          pieces_before_shader("lookup_map.glsl", pieces.passes.lookup, biases)});
     return programs_.emplace(std::move(key), std::move(made)).first->second;
 }
 
@@ -276,6 +278,12 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
                         GL_COMPARE_REF_TO_TEXTURE);
     glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_FUNC,
                         map.reversed ? GL_GEQUAL : GL_LEQUAL);
+    if (passes.draws_primitives) {
+        if (map.primitive.empty()) {
+            throw std::invalid_argument("LookupPass: the map was drawn without its primitives");
+        }
+        glBindTextureUnit(10, map.primitive.name());
+    }
     glBindTextureUnit(3, map.depth.name());
     glBindSampler(3, map_sampler_.name());
     if (passes.sampling == Sampling::compared) {

@@ -99,6 +99,11 @@ void set_uniform(const Program& program, const char* name, const scene::Vec3f& v
     glProgramUniform3fv(program.name(), location(program, name), 1, glm::value_ptr(value));
 }
 
+void set_uniform(const Program& program, const char* name, const scene::Vec4f& value)
+{
+    glProgramUniform4fv(program.name(), location(program, name), 1, glm::value_ptr(value));
+}
+
 void set_uniform(const Program& program, const char* name, const scene::Mat4f& value)
 {
     set_uniform(program, name, {&value, 1});

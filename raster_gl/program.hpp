@@ -38,6 +38,7 @@ void set_uniform(const Program& program, const char* name, std::uint32_t value);
 /// A float, or an array of floats.
 void set_uniform(const Program& program, const char* name, std::span<const float> values);
 void set_uniform(const Program& program, const char* name, const scene::Vec3f& value);
+void set_uniform(const Program& program, const char* name, const scene::Vec4f& value);
 void set_uniform(const Program& program, const char* name, const scene::Mat4f& value);
 void set_uniform(const Program& program, const char* name, std::span<const scene::Mat4f> values);
 

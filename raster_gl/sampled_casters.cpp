@@ -96,7 +96,7 @@ std::span<const Texture> SampledCasters::render(const GpuScene& scene,
         const float far_depth = map.reversed ? 0.0F : 1.0F;
         glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &far_depth);
         set_uniform(program, "clip_from_world", map.light_clip_from_world);
-        draw_casters(scene, settings.resolution_texels, samples);
+        draw_casters(scene, program, settings.resolution_texels, samples);
     }
     glFinish();
     context_.check("rendering a multisampled shadow map");

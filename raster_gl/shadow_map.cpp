@@ -30,6 +30,7 @@ bool is_converted(scene::DepthFormat format)
 constexpr GLint colour_output = 0;
 constexpr GLint code_output = 1;
 constexpr GLint z_output = 2;
+constexpr GLint primitive_output = 3;
 
 /// The attachment of an output.
 GLenum attachment_of(GLint output)
@@ -50,6 +51,10 @@ void clear(const Framebuffer& target, const ShadowMap& map)
         const std::array<GLuint, 4> code{map.reversed ? 0U : scene::code_of_one(map.format)};
         glClearNamedFramebufferuiv(target.name(), GL_COLOR, code_output, code.data());
         glClearNamedFramebufferfv(target.name(), GL_COLOR, z_output, z.data());
+    }
+    if (!map.primitive.empty()) {
+        constexpr std::array<GLuint, 4> nothing{scene::no_triangle};
+        glClearNamedFramebufferuiv(target.name(), GL_COLOR, primitive_output, nothing.data());
     }
 }
 
@@ -189,7 +194,8 @@ void ShadowMapPass::forget()
     release(map_.resolution_texels);
 }
 
-void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size_t maps)
+void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size_t maps,
+                             Primitives primitives)
 {
     const int size = settings.resolution_texels;
     const int largest =
@@ -199,14 +205,15 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size
             "shadow_map.resolution = {}: this driver's largest map is {} texels", size, largest));
     }
     if (map_.resolution_texels == size && map_.format == settings.depth_format &&
-        map_.depth.layer_count() == maps) {
+        map_.depth.layer_count() == maps &&
+        map_.primitive.empty() == (primitives == Primitives::dropped)) {
         return;
     }
     // The old textures go before the new ones come.
     release(std::max(size, map_.resolution_texels));
     map_.depth = LayeredTexture{internal_format(settings.depth_format), size, maps};
     require_format(map_.depth.layer(0), settings.depth_format);
-    allocate_outputs(settings.depth_format, size, maps);
+    allocate_outputs(settings.depth_format, size, maps, primitives);
     context_.check(fmt::format("allocating {2} {0}×{0} {1} shadow map{3}", size,
                                scene::depth_format_name(settings.depth_format),
                                maps == 1 ? "a" : std::to_string(maps), maps == 1 ? "" : "s"));
@@ -214,9 +221,10 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size
     map_.resolution_texels = size;
 }
 
-void ShadowMapPass::allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps)
+void ShadowMapPass::allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps,
+                                     Primitives primitives)
 {
-    std::array<GLenum, 3> buffers{GL_NONE, GL_NONE, GL_NONE};
+    std::array<GLenum, 4> buffers{GL_NONE, GL_NONE, GL_NONE, GL_NONE};
     if (traits_of(format).is_colour) {
         colours_depth_ = make_texture(GL_DEPTH_COMPONENT32F, side_texels, side_texels);
         buffers.at(colour_output) = attachment_of(colour_output);
@@ -226,6 +234,10 @@ void ShadowMapPass::allocate_outputs(scene::DepthFormat format, int side_texels,
         map_.unquantised_z = LayeredTexture{GL_R32F, side_texels, maps};
         buffers.at(code_output) = attachment_of(code_output);
         buffers.at(z_output) = attachment_of(z_output);
+    }
+    if (primitives == Primitives::kept) {
+        map_.primitive = LayeredTexture{GL_R32UI, side_texels, maps};
+        buffers.at(primitive_output) = attachment_of(primitive_output);
     }
     glNamedFramebufferDrawBuffers(target_.name(), static_cast<GLsizei>(buffers.size()),
                                   buffers.data());
@@ -254,6 +266,9 @@ void ShadowMapPass::attach(std::size_t map)
         attach_texture(attachment_of(code_output), map_.code.layer(map));
         attach_texture(attachment_of(z_output), map_.unquantised_z.layer(map));
     }
+    if (!map_.primitive.empty()) {
+        attach_texture(attachment_of(primitive_output), map_.primitive.layer(map));
+    }
 }
 
 const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
@@ -267,12 +282,14 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
 
 const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
                                        std::span<const scene::LightFrustum> maps,
-                                       const scene::ShadowMapSettings& settings)
+                                       const scene::ShadowMapSettings& settings,
+                                       Primitives primitives)
 {
-    allocate(settings, maps.size());
+    allocate(settings, maps.size(), primitives);
     const scene::LightFrustum& first = maps.front();
     map_.reversed = first.reversed;
-    const Program& program = program_of(caster_output(first.content, map_.format));
+    const Program& program =
+        program_of(caster_output(first.content, map_.format, primitives == Primitives::kept));
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     prepare_to_draw_casters(first, settings);
     set_uniform(program, "largest_code", scene::code_of_one(map_.format));
@@ -283,7 +300,7 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
         set_uniform(program, "clip_from_world", maps[i].light_clip_from_world);
         set_uniform(program, "light", scene::Vec3f{maps[i].origin});
         set_uniform(program, "far", static_cast<float>(maps[i].far_m));
-        draw_casters(scene, map_.resolution_texels);
+        draw_casters(scene, program, map_.resolution_texels);
     }
     glFinish();
     context_.check("rendering the shadow map");

@@ -24,6 +24,8 @@ struct ShadowMap {
     /// Of formats that the shader converts, where codes are kept: R32UI, the code.
     LayeredTexture code;
     LayeredTexture unquantised_z; ///< the same: R32F, the z before it was converted
+    /// R32UI, the triangle that each texel shows, or `scene::no_triangle`; empty unless asked for.
+    LayeredTexture primitive;
     scene::DepthFormat format;
     int resolution_texels = 0;
     bool reversed = false;
@@ -33,7 +35,10 @@ struct ShadowMap {
 /// beside the depths that lookups need: twice as many bytes again.
 enum class ConvertedCodes : std::uint8_t { dropped, kept };
 
-/// Draws the casters from the light, depth only.
+/// Whether a map keeps, beside depths, which triangle each texel shows.
+enum class Primitives : std::uint8_t { dropped, kept };
+
+/// Draws the casters from the light: depths, and where it is asked for triangles.
 ///
 /// One light's maps are kept and their textures are reused while format, resolution and number stay
 /// the same: a sweep that loops over them outermost allocates each once.
@@ -46,7 +51,8 @@ public:
     /// @throws scene::InputError        if the driver substitutes the format or lacks the size.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
     const ShadowMap& render(const GpuScene& scene, std::span<const scene::LightFrustum> maps,
-                            const scene::ShadowMapSettings& settings);
+                            const scene::ShadowMapSettings& settings,
+                            Primitives primitives = Primitives::dropped);
     /// The same maps in these rows alone; what the others hold is not specified.
     const ShadowMap& render(const GpuScene& scene, std::span<const scene::LightFrustum> maps,
                             const scene::ShadowMapSettings& settings, scene::TexelRows rows);
@@ -59,9 +65,11 @@ public:
 private:
     /// Gives the textures back; at once beside a map of so many texels a side that is large.
     void release(int largest_texels);
-    void allocate(const scene::ShadowMapSettings& settings, std::size_t maps);
+    void allocate(const scene::ShadowMapSettings& settings, std::size_t maps,
+                  Primitives primitives = Primitives::dropped);
     /// What the shader writes beside depth, and where.
-    void allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps);
+    void allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps,
+                          Primitives primitives);
     [[nodiscard]] const Program& program_of(const CasterOutput& output);
     /// Draws to that map from now on.
     void attach(std::size_t map);

@@ -2,6 +2,7 @@
 
 #include "analysis/advice/fit_setting.hpp"
 #include "methods/list.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
@@ -36,9 +37,16 @@ public:
         return causes_.counts.of(label) > 0 || causes_.amounts.of(label) > 0;
     }
 
+    /// @param keys  "KEY = VALUE"; nothing is tried where the job's method lacks one.
     template <typename Change>
     void add(std::vector<std::string> keys, const Change& change)
     {
+        const auto has = [&](std::string_view key) {
+            return scene::has_key(job_.method.name, key.substr(0, key.find(' ')));
+        };
+        if (!std::ranges::all_of(keys, has)) {
+            return;
+        }
         tried_.push_back({job_, std::move(keys)});
         change(tried_.back().job);
     }

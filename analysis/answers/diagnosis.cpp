@@ -3,7 +3,8 @@
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/answers/judged_receivers.hpp"
 #include "analysis/answers/lookup_answers.hpp"
-#include "methods/promises.hpp"
+#include "analysis/answers/mapless_diagnosis.hpp"
+#include "methods/list.hpp"
 
 #include <memory>
 #include <utility>
@@ -13,6 +14,9 @@ namespace gnomon::analysis {
 Diagnosis diagnose(const scene::Job& job, const scene::View& view, const ComparedLayers& layers,
                    const DiagnosisRequest& request, const Renderers& renderers)
 {
+    if (!methods::promises(job).has_map) {
+        return diagnose_without_map(job, view, layers, renderers);
+    }
     auto receivers = std::make_shared<JudgedReceivers>(
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
     ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);

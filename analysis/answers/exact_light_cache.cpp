@@ -57,7 +57,7 @@ CauseCache* ExactLightCache::causes_of(const CauseInputs& inputs)
 {
     const methods::Promises& promises = inputs.rule.promises;
     const bool remembers =
-        receivers_->use().by_many_maps && promises.has_one_tap() && promises.has_exact_causes();
+        receivers_->use().by_many_maps && promises.has_one_tap() && promises.compares_depths();
     if (remembers && !causes_) {
         causes_.emplace(view_.image);
     }

@@ -123,7 +123,8 @@ private:
     [[nodiscard]] CauseInputs cause_inputs() const;
     [[nodiscard]] scene::LookupLayers make_deciding() const;
     [[nodiscard]] PixelCauses no_causes() const;
-    /// Runs the method over exact depths, where it compares none itself.
+    /// Finds V2 where the method compares no depths: from what exact rays hit, or by running it
+    /// over exact depths.
     void rerun_exactly();
     /// Over exact depths: of lit pixels with the constant and slope bias, of others without any.
     [[nodiscard]] scene::Image<float> exact_verdicts(const ExactDepths& depths) const;

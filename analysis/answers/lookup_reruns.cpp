@@ -1,6 +1,7 @@
 // What GL's own lookups with other biases, or over exact depths, say, where no formula tells.
 
 #include "analysis/answers/lookup_answers.hpp"
+#include "analysis/causes/exact_primitives.hpp"
 #include "analysis/metrics/amounts.hpp"
 #include "analysis/recommendation/tried_biases.hpp"
 #include "scene/infinity.hpp"
@@ -29,7 +30,13 @@ scene::Image<float> criticals_of(const scene::Image<float>& verdicts, float lit_
 
 void LookupAnswers::rerun_exactly()
 {
-    if (rule_.promises.has_exact_causes()) {
+    if (rule_.promises.compares_depths()) {
+        return;
+    }
+    if (rule_.promises.compares == methods::Compares::primitives) {
+        CauseInputs inputs = cause_inputs();
+        inputs.known_hits = &exact_->centre_hits(inputs).hits();
+        exact_reruns_ = find_exact_primitives(inputs, exact_->receivers().receivers().triangle);
         return;
     }
     constexpr float partial{partial_above};

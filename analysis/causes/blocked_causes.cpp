@@ -234,7 +234,7 @@ private:
     /// itself as in V2, shadows: the method's formula alone lets the light through.
     void find_bleeding(const TracedLookups& lookups, std::span<const TapSet> own)
     {
-        if (rule_.promises.has_exact_causes()) {
+        if (rule_.promises.compares_depths()) {
             return; // where every texel shadows, so do a mean of depths and any weights
         }
         std::vector<bool> bleeds(lookups.size());

@@ -18,9 +18,9 @@ void require_cause_inputs(const CauseInputs& inputs)
     if (!inputs.rule.promises.has_one_tap() && !has_maps) {
         throw std::invalid_argument("causes: map_depths is not of the map's size");
     }
-    if (!inputs.rule.promises.has_exact_causes() &&
+    if (!inputs.rule.promises.compares_depths() &&
         (inputs.exact_reruns == nullptr || inputs.exact_reruns->half.size() != size)) {
-        throw std::invalid_argument("causes: the method was not run over exact depths");
+        throw std::invalid_argument("causes: the method's exact answers are missing");
     }
 }
 

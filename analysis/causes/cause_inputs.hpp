@@ -34,7 +34,7 @@ struct CauseInputs {
     const TexelHits* known_hits = nullptr; ///< of the light's texels, not to be traced again
     /// Whether biases below 0 are asked about, with which taps shadow that do not without bias.
     bool asks_below_zero = false;
-    /// Where the promises have no exact causes; else nullptr.
+    /// Where no depths are compared; else nullptr.
     const ExactReruns* exact_reruns = nullptr;
 
     [[nodiscard]] Footprint footprint() const

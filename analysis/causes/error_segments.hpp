@@ -303,7 +303,7 @@ private:
         }
         const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
             // GL's own lookups over exact depths scale the bias that they find.
-            const bool is_scaled = !promises_.has_exact_causes();
+            const bool is_scaled = !promises_.compares_depths();
             const float whole = is_scaled ? bias + slope_term / scale : bias * scale + slope_term;
             return !(whole >= exact_critical);
         });

@@ -34,6 +34,7 @@ struct Place {
     std::size_t frustum = 0;
     std::size_t texels = 0; ///< the map but for its depth format: what exact rays see is kept
     std::size_t map = 0;
+    bool has_map = true;
     std::size_t filtered = 0;
     bool is_filtered = false; ///< whether anything is made of the map
     std::size_t truth = 0;
@@ -66,8 +67,9 @@ std::vector<Place> places(std::span<const CurveRequest> requests, std::size_t sl
         const std::size_t camera = cameras_by_scene[keys.scene].of(keys.camera);
         all.push_back({scenes.of(keys.scene), lights.of(keys.light), camera / slots,
                        frusta.of(keys.frustum), texels.of(keys.texels), maps.of(keys.map),
-                       filtered.of(keys.filtered), !keys.filtered.empty(), truths.of(keys.truth),
-                       receivers.of(keys.receivers), lookups.of(keys.lookup), i, camera % slots});
+                       !keys.map.empty(), filtered.of(keys.filtered), !keys.filtered.empty(),
+                       truths.of(keys.truth), receivers.of(keys.receivers), lookups.of(keys.lookup),
+                       i, camera % slots});
     }
     std::sort(all.begin(), all.end(),
               [](const Place& a, const Place& b) { return a.order() < b.order(); });
@@ -95,7 +97,7 @@ public:
             add(Kind::find_truth, place);
             truth_[place.slot] = place.truth;
         }
-        const bool needs_map = map_ != place.map;
+        const bool needs_map = place.has_map && map_ != place.map;
         if (needs_map) {
             add(Kind::draw_shadow_map, place);
             map_ = place.map;

@@ -214,10 +214,13 @@ private:
         });
     }
 
-    /// What lookups of the task's job read: the map, or what its method made of it.
-    [[nodiscard]] const StageResult<bool>& looked_up() const
+    /// Checks what lookups of the task's job read: the map, or what its method made of it.
+    void require_looked_up() const
     {
-        return methods::passes(task_.job).prefilter.empty() ? map_ : filtered_;
+        if (methods::promises(task_.job).has_map) {
+            static_cast<void>(
+                require_result(methods::passes(task_.job).prefilter.empty() ? map_ : filtered_));
+        }
     }
 
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
@@ -240,7 +243,7 @@ private:
         }
         make_room_for_depths();
         lookup_ = run_stage<LookupStage>([&] {
-            static_cast<void>(require_result(looked_up()));
+            require_looked_up();
             static_cast<void>(require_result(receivers_[slot]));
             auto subject = require_result(subjects_[slot]);
             select(slot);
@@ -361,7 +364,7 @@ private:
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
     {
-        static_cast<void>(require_result(looked_up()));
+        require_looked_up();
         static_cast<void>(require_result(receivers_[slot]));
         const auto subject = require_result(subjects_[slot]);
         const auto scene = require_result(scene_);

@@ -101,11 +101,14 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.frustum = (follows_camera ? keys.truth : keys.light) + parts.frustum;
     const std::string placed = keys.truth + parts.frustum;
     const bool is_of_pixel = scene::lookup_position(job) == scene::LookupPosition::pixel;
+    const bool has_map = methods::promises(job).has_map;
     // World positions serve every light.
-    keys.receivers = is_of_pixel ? keys.camera : placed;
+    keys.receivers = is_of_pixel || !has_map ? keys.camera : placed;
     keys.texels = keys.frustum + parts.map;
-    keys.map = keys.texels + parts.format;
-    const bool is_filtered = !methods::passes(job).prefilter.empty();
+    const methods::Passes passes = methods::passes(job);
+    const std::string_view more = passes.draws_primitives ? "primitives\n" : "";
+    keys.map = has_map ? keys.texels + parts.format + std::string{more} : std::string{};
+    const bool is_filtered = !passes.prefilter.empty();
     keys.filtered = is_filtered ? keys.map + parts.filtered : std::string{};
     keys.exact = placed + parts.map + parts.place;
     keys.lookup = keys.exact + parts.format + parts.filtered + parts.verdict;

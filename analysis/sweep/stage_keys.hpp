@@ -18,7 +18,7 @@ struct StageKeys {
     /// Scene, camera, image and, with lookup.position = "vertex", the light and its matrix.
     std::string receivers;
     std::string texels; ///< the map but for its depth format
-    std::string map;
+    std::string map;      ///< empty: there is none
     std::string filtered; ///< what the method makes of the map; empty: nothing
     /// What exact rays say of a lookup: everything but the depth format, and what the method and
     /// its filter make of the depths.

@@ -170,6 +170,9 @@ void compare(const CompareOptions& options)
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
     require_new_outputs(options, jobs);
+    if (options.advise) {
+        require_bias_curves("--advise", jobs);
+    }
     const auto requests = view_requests(options, jobs);
     if (!options.advice.all_cases) {
         note_ignored_cases("compare", options.job, source);

@@ -41,7 +41,8 @@ GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleS
       shadow_map_pass_{context, raster_gl::ConvertedCodes::dropped},
       sampled_casters_{context},
       prefilter_pass_{context},
-      lookup_pass_{context}
+      lookup_pass_{context},
+      volume_pass_{context, triangles}
 {
     select_receivers(0);
 }
@@ -70,13 +71,22 @@ std::vector<scene::Vec4f> GlRenderer::receiver_clip_positions(const scene::View&
 
 void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
 {
-    shadow_map_ = &shadow_map_pass_.render(scene_, view.maps, job.shadow_map);
+    using raster_gl::Primitives;
+    if (!methods::promises(job).has_map) {
+        return;
+    }
+    shadow_map_ = &shadow_map_pass_.render(
+        scene_, view.maps, job.shadow_map,
+        methods::passes(job).draws_primitives ? Primitives::kept : Primitives::dropped);
     filtered_ = nullptr;
 }
 
 void GlRenderer::prefilter_map(const scene::Job& job, const scene::View& view,
                                analysis::FilteredContent content)
 {
+    if (!methods::promises(job).has_map) {
+        return;
+    }
     const int samples = methods::passes(job).samples;
     if (samples == 1) {
         prefilter(job, content, {});
@@ -104,6 +114,9 @@ void GlRenderer::prefilter(const scene::Job& job, analysis::FilteredContent cont
 
 scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View& view)
 {
+    if (const auto volumes = methods::passes(job).volumes) {
+        return volume_pass_.look_up({scene_, drawn_receivers()}, view, *volumes);
+    }
     lookup_pass_.render(looked_up(), job, view);
     return lookup_pass_.read();
 }
@@ -161,14 +174,17 @@ std::vector<scene::Image<float>> GlRenderer::look_up_exactly(const scene::Job& j
 
 raster_gl::LookedUp GlRenderer::looked_up() const
 {
+    if (shadow_map_ == nullptr) {
+        throw std::invalid_argument("GlRenderer: draw the shadow map first");
+    }
     return {scene_, drawn_receivers(), *shadow_map_, filtered_};
 }
 
 const raster_gl::ReceiverBuffer& GlRenderer::drawn_receivers() const
 {
     const raster_gl::ReceiverBuffer* receivers = receivers_[slot_].buffer;
-    if (receivers == nullptr || shadow_map_ == nullptr) {
-        throw std::invalid_argument("GlRenderer: draw receivers and shadow map first");
+    if (receivers == nullptr) {
+        throw std::invalid_argument("GlRenderer: draw the receivers first");
     }
     return *receivers;
 }

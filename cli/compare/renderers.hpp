@@ -8,6 +8,7 @@
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/sampled_casters.hpp"
 #include "raster_gl/shadow_map.hpp"
+#include "raster_gl/shadow_volumes.hpp"
 #include "reference_rt/truth.hpp"
 
 #include <cstddef>
@@ -28,13 +29,14 @@ public:
     [[nodiscard]] scene::ReceiverLayers draw_receivers(const scene::View& view);
     /// The clip positions that GL gave the vertices when it drew the receivers.
     [[nodiscard]] std::vector<scene::Vec4f> receiver_clip_positions(const scene::View& view) const;
+    /// Draws the job's map; nothing where its method has none.
     void draw_shadow_map(const scene::Job& job, const scene::View& view);
     /// Makes of the last shadow map what the job's method looks up.
     void prefilter_map(const scene::Job& job, const scene::View& view,
                        analysis::FilteredContent content);
     /// Where in a texel the driver's samples are.
     [[nodiscard]] std::vector<scene::Vec2d> sample_places(int samples);
-    /// Looks the selected receivers up in the last shadow map.
+    /// Looks the selected receivers up in the last shadow map, or decides them without one.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
     /// The smallest constant bias with which each of them is lit, found by trying.
     [[nodiscard]] scene::Image<float> find_critical_biases(const scene::Job& job,
@@ -59,7 +61,7 @@ public:
 
 private:
     /// The selected ones.
-    /// @throws std::invalid_argument  if they, or the map, were not drawn.
+    /// @throws std::invalid_argument  if they were not drawn.
     [[nodiscard]] const raster_gl::ReceiverBuffer& drawn_receivers() const;
     /// Takes exact depths for the last shadow map, and makes of them what the method looks up.
     void take_exact(const scene::Job& job, const scene::View& view,
@@ -84,6 +86,7 @@ private:
     raster_gl::SampledCasters sampled_casters_;
     raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
+    raster_gl::ShadowVolumePass volume_pass_;
     const raster_gl::ShadowMap* shadow_map_ = nullptr;
     const raster_gl::LayeredTexture* filtered_ = nullptr; ///< made of it; nullptr until then
 };

@@ -1,5 +1,6 @@
 #include "cli/tune/advice_options.hpp"
 
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -85,6 +86,18 @@ analysis::ViewRequest view_request(const AdviceOptions& options, const JobOption
         require_same_keys(file.job, request.cases.back().job, one.name);
     }
     return request;
+}
+
+void require_bias_curves(std::string_view command, std::span<const scene::LightJob> jobs)
+{
+    for (const scene::LightJob& light : jobs) {
+        if (!methods::promises(light.job).has_curve()) {
+            throw scene::InputError(fmt::format(
+                "{}: method.name = \"{}\" has no bias curve, which advice is made of; `gnomon sweep` "
+                "tries its keys",
+                command, light.job.method.name));
+        }
+    }
 }
 
 void note_ignored_cases(std::string_view command, const JobOptions& job,

@@ -5,6 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <span>
+#include <string_view>
+
 namespace gnomon::cli {
 
 /// From which views advice is made: --views, --lights, --all-cases.
@@ -23,6 +26,10 @@ void add_advice_options(CLI::App& command, AdviceOptions& options);
 ///                            more than camera, light and image.
 [[nodiscard]] analysis::ViewRequest view_request(const AdviceOptions& options,
                                                  const JobOptions& job);
+
+/// Advice is made of bias curves.
+/// @throws scene::InputError  if the method of a light's job has none.
+void require_bias_curves(std::string_view command, std::span<const scene::LightJob> jobs);
 
 /// Says on stderr that a job's cases are left out, where it has some and none is named.
 void note_ignored_cases(std::string_view command, const JobOptions& job,

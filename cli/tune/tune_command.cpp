@@ -107,6 +107,7 @@ void tune(const TuneOptions& options)
         read_rate("--max-false-lit-count", options.max_false_lit_count), options.max_resolution};
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
+    require_bias_curves("tune", jobs);
     std::vector<analysis::ViewRequest> requests;
     for (const scene::LightJob& job : jobs) {
         requests.push_back(view_request(options.advice, of_light(options.job, job.light)));

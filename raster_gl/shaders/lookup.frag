@@ -10,7 +10,7 @@
 //
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
-// MAPS, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
+// MAPS, PRIMITIVES, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
 // DISTANCE, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the
 // program that compiles this. Where no formula tells of other biases, BISECTS finds the smallest
 // bias with which the very same verdict is at least `lit_from`: it rises with the bias.
@@ -267,6 +267,9 @@ void main()
     if (triangle == 0xFFFFFFFFu) {
         return;
     }
+#if PRIMITIVES
+    receiver_primitive = triangle;
+#endif
     Receiver receiver;
     receiver.position = texelFetch(receiver_world_position, pixel, 0).xyz;
 #if MAPS > 1
@@ -285,8 +288,7 @@ void main()
 #endif
     receiver.clip = clip;
     receiver.cosine = dot(receiver.normal, receiver.to_light);
-    float tan_theta = min(
-        length(cross(receiver.normal, receiver.to_light)) / abs(receiver.cosine), 3.0e38);
+    float tan_theta = tan_of_angle(receiver.normal, receiver.to_light);
     receiver.tan_theta = tan_theta;
 
     Lookup lookup;

@@ -1,6 +1,6 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL and
-// GRADIENTS are defined by the program that compiles this.
+// comparison. MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, PRIMITIVES
+// and GRADIENTS are defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
@@ -19,11 +19,13 @@ layout(binding = 8) uniform samplerCube map_interpolated;
 layout(binding = 4) uniform sampler2DArrayShadow map_compare;
 #endif
 layout(binding = 6) uniform sampler2DArray filtered_map;
+layout(binding = 10) uniform usampler2DArray primitive_map; // with PRIMITIVES
 int map_index; // of the map that the pixel reads
 #else
 layout(binding = 3) uniform sampler2D map;
 layout(binding = 4) uniform sampler2DShadow map_compare;
 layout(binding = 6) uniform sampler2D filtered_map;
+layout(binding = 10) uniform usampler2D primitive_map; // with PRIMITIVES
 const int map_index = 0;
 #endif
 
@@ -140,20 +142,43 @@ bool is_inside(vec2 texel)
     return all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(resolution)));
 }
 
-// Depth of the texel whose integer coordinates are `texel`, of a cube across its seams, too; false
-// where the border mode decides.
-bool fetch_depth(vec2 texel, out float d)
+// Whether there is a texel of these integer coordinates, of a cube across its seams, too; the border
+// mode `clamp` takes the nearest.
+bool is_on_map(inout vec2 texel)
 {
 #if CUBE
+    return true;
 #elif OUTSIDE_CLAMP
     texel = clamp(texel, vec2(0.0), vec2(resolution - 1.0));
+    return true;
 #else
-    if (!is_inside(texel)) {
+    return is_inside(texel);
+#endif
+}
+
+// Depth of the texel whose integer coordinates are `texel`; false where the border mode decides.
+bool fetch_depth(vec2 texel, out float d)
+{
+    if (!is_on_map(texel)) {
         d = not_a_depth;
         return false;
     }
-#endif
     d = depth_of_texel(ivec2(texel));
     return true;
 }
+
+#if PRIMITIVES
+uint receiver_primitive; // the triangle that the pixel shows
+
+// Does the texel show the receiver's own triangle? Precondition: `fetch_depth` fetched it.
+bool shows_receiver(vec2 texel)
+{
+    is_on_map(texel);
+#if MAPS > 1
+    return texelFetch(primitive_map, ivec3(texel, map_index), 0).r == receiver_primitive;
+#else
+    return texelFetch(primitive_map, ivec2(texel), 0).r == receiver_primitive;
+#endif
+}
+#endif
 

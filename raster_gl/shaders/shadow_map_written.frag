@@ -1,5 +1,5 @@
 // What GL does not store by itself: with DISTANCE the distance to the light over far, in place of
-// depth; and codes of either, after depth_codes.glsl.
+// depth; codes of either, after depth_codes.glsl; and with PRIMITIVES which triangle it is.
 //
 // UNORM: an n-bit unsigned normalised code, code = floor(z·(2^n − 1) + ½), exactly: z has 24
 // significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53 bits wherever the
@@ -12,6 +12,10 @@ layout(location = 0) out float colour;
 #if UNORM || IS_COLOUR
 layout(location = 1) out uint code;
 layout(location = 2) out float unquantised_z;
+#endif
+#if PRIMITIVES
+layout(location = 3) out uint primitive; // the triangle's index in the scene
+uniform uint first_triangle;             // of this draw
 #endif
 #if UNORM
 uniform uint largest_code; // 2^n − 1
@@ -38,6 +42,9 @@ float stored_value()
 void main()
 {
     float z = stored_value();
+#if PRIMITIVES
+    primitive = first_triangle + uint(gl_PrimitiveID);
+#endif
 #if UNORM
     double steps = double(z) * double(largest_code);
     code = uint(floor(steps + 0.5LF));

@@ -151,23 +151,13 @@ public:
     std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels,
                                           const scene::MapIndices& /*maps*/) const override
     {
-        seen_.check(pixels, "are_crossed");
-        std::vector<std::uint8_t> crossed(pixels.size(), 0);
-        for_each_packet(pixels.size(), threads_, [&](std::size_t first, std::size_t count) {
-            SignCounts counts;
-            const PixelPacket packet{seen_, pixels.subspan(first, count), counts};
-            if (!packet.valid.any()) {
-                return;
-            }
-            const auto contacts =
-                trace_segments(reference_, segments_, packet.valid, packet.receivers,
-                               SegmentGoal::any_blocker, counts, {&depth_, cull_});
-            for (std::size_t i = 0; i < count; ++i) {
-                crossed[first + i] = contacts[i].witness != no_triangle ? 1 : 0;
-            }
-        });
-        reference_.errors.check("are_crossed");
-        return crossed;
+        return find_crossed(pixels, {&depth_, cull_});
+    }
+
+    std::vector<std::uint8_t> are_crossed_anywhere(std::span<const std::size_t> pixels,
+                                                   scene::Cull cull) const override
+    {
+        return find_crossed(pixels, {nullptr, cull});
     }
 
     std::vector<std::uint8_t>
@@ -216,6 +206,29 @@ public:
     }
 
 private:
+    /// For each pixel 1 where a triangle of the scope crosses the open segment P→light; else 0.
+    [[nodiscard]] std::vector<std::uint8_t> find_crossed(std::span<const std::size_t> pixels,
+                                                         const SegmentScope& scope) const
+    {
+        seen_.check(pixels, "are_crossed");
+        std::vector<std::uint8_t> crossed(pixels.size(), 0);
+        for_each_packet(pixels.size(), threads_, [&](std::size_t first, std::size_t count) {
+            SignCounts counts;
+            const PixelPacket packet{seen_, pixels.subspan(first, count), counts};
+            if (!packet.valid.any()) {
+                return;
+            }
+            const auto contacts =
+                trace_segments(reference_, segments_, packet.valid, packet.receivers,
+                               SegmentGoal::any_blocker, counts, scope);
+            for (std::size_t i = 0; i < count; ++i) {
+                crossed[first + i] = contacts[i].witness != no_triangle ? 1 : 0;
+            }
+        });
+        reference_.errors.check("are_crossed");
+        return crossed;
+    }
+
     /// Calls `run(first, texels)` for runs of the texels, several at the same time; `first` is the
     /// index of a run's first one.
     template <typename Run>

@@ -101,6 +101,12 @@ public:
             });
     }
 
+    std::vector<std::uint8_t> are_crossed_anywhere(std::span<const std::size_t> pixels,
+                                                   scene::Cull cull) const override
+    {
+        return maps_.front()->are_crossed_anywhere(pixels, cull);
+    }
+
     std::vector<std::uint8_t>
     are_self_shadowing(std::span<const SelfShadowingQuery> queries) const override
     {

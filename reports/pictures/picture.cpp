@@ -1,5 +1,6 @@
 #include "reports/pictures/picture.hpp"
 
+#include "methods/list.hpp"
 #include "reports/pictures/panels.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
@@ -49,6 +50,10 @@ struct Caption {
 Caption gl_caption(const analysis::Comparison& comparison)
 {
     const Description words = describe(comparison);
+    if (!methods::promises(comparison.job).has_map) {
+        return {"GL shadows",
+                {{words.lookup, {}, {}, {}}, {comparison.environment.gl_renderer, {}, {}, {}}}};
+    }
     return {"GL shadow map",
             {{words.map + ", " + words.lookup, {}, {}, {}},
              {"bias " + words.bias, {}, {}, {}},

@@ -42,7 +42,7 @@ std::string settings(const analysis::Comparison& comparison)
     text += setting_line("image", words.image);
     text += setting_line("light", words.light);
     text += setting_line("shadow map", words.map);
-    text += setting_line("", words.range);
+    text += words.range.empty() ? "" : setting_line("", words.range);
     text += setting_line("lookup", words.lookup);
     text += setting_line("bias", words.bias);
     text += setting_line("GL", environment.gl_renderer);

@@ -72,7 +72,8 @@ std::string promises_columns(const methods::Method& method)
     if (method.filters.empty()) {
         const methods::Promises promises = method.promises(scene::Job{});
         std::vector<Row> rows{{"texels", "verdict", "compares", "rises", "curve"},
-                              {fmt::format("{0} × {0}", promises.width_texels)}};
+                              {promises.has_map ? fmt::format("{0} × {0}", promises.width_texels)
+                                                : std::string{"no map"}}};
         add_promises(rows.back(), promises);
         return aligned(rows);
     }

@@ -59,6 +59,13 @@ std::string describe_range(std::span<const scene::LightFrustum> maps, scene::Cul
                        maps.front().reversed ? ", reversed" : "");
 }
 
+/// Whether the job's method reads the table.
+bool reads(const scene::Job& job, std::string_view table)
+{
+    const auto tables = methods::method_of(job).key_tables;
+    return std::ranges::find(tables, table) != tables.end();
+}
+
 std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias& bias)
 {
     const std::string metres =
@@ -98,14 +105,18 @@ Description describe(const analysis::Comparison& comparison)
 {
     const scene::Job& job = comparison.job;
     const scene::View& view = comparison.view;
+    const bool has_map = methods::promises(job).has_map;
+    const std::string outside =
+        reads(job, "lookup") ? fmt::format(", outside {}", scene::outside_name(job.lookup.outside))
+                             : std::string{};
     return {
         .size = describe_size(comparison.scene),
         .light = describe_light(view.light),
-        .map = describe_map(job),
-        .range = view.maps.empty() ? std::string{} : describe_range(view.maps, job.shadow_map.cull),
-        .lookup = fmt::format("{}, outside {}", lookup_name(job),
-                              scene::outside_name(job.lookup.outside)),
-        .bias = describe_bias(job.bias, view.bias),
+        .map = has_map ? describe_map(job) : "none",
+        .range = has_map && !view.maps.empty() ? describe_range(view.maps, job.shadow_map.cull)
+                                               : std::string{},
+        .lookup = lookup_name(job) + outside,
+        .bias = reads(job, "bias") ? describe_bias(job.bias, view.bias) : "none",
         .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),
     };
 }

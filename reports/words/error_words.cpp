@@ -3,6 +3,7 @@
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/metrics/quantiles.hpp"
 #include "analysis/metrics/ratio.hpp"
+#include "methods/list.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -25,17 +26,23 @@ using scene::PixelClass;
 
 constexpr double worth_naming = 0.25; // of the error
 
-std::string_view words(Cause cause)
+bool has_map(const analysis::Comparison& comparison)
+{
+    return methods::promises(comparison.job).has_map;
+}
+
+std::string_view words(Cause cause, bool has_map)
 {
     switch (cause) {
     case Cause::bias:
         return "the bias";
     case Cause::precision:
-        return "the precision of depths";
+        return has_map ? "the precision of depths" : "the precision of positions and depths";
     case Cause::resolution:
         return "the map's resolution";
     case Cause::coverage:
-        return "what the map does not cover";
+        return has_map ? "what the map does not cover"
+                       : "triangles that face away from the light, and cast nothing";
     case Cause::filter:
         return "the filter's footprint";
     case Cause::none:
@@ -56,6 +63,14 @@ std::string_view for_resolution(scene::MapLayout layout)
     }
     return "For resolution, try more texels on what the camera sees: a larger map or a tighter "
            "fit";
+}
+
+/// Without a map nothing is rounded that could be rounded less.
+std::string_view to_try_without_map(Cause cause)
+{
+    return cause == Cause::coverage
+               ? "For coverage, look at open meshes: some face away from the light"
+               : "";
 }
 
 /// What of the map to look at for a cause; empty for the bias, which is not the map's.
@@ -82,7 +97,8 @@ std::string_view to_try(Cause cause, scene::MapLayout layout)
 }
 
 /// "4.51 % of the lit surface shadows itself (acne)"
-std::string words(analysis::Label label, double amount, const analysis::ClassCounts& pixels)
+std::string words(analysis::Label label, double amount, const analysis::ClassCounts& pixels,
+                  bool has_map)
 {
     const auto of = [&](std::uint64_t whole) { return percent(analysis::ratio(amount, whole)); };
     const std::string lit = of(pixels.of(PixelClass::lit));
@@ -99,9 +115,9 @@ std::string words(analysis::Label label, double amount, const analysis::ClassCou
                            "(peter-panning)",
                            blocked);
     case analysis::Label::leak:
-        return fmt::format("{} of the shadowed surface is lit because the map lost what shadows it "
+        return fmt::format("{} of the shadowed surface is lit because the {} lost what shadows it "
                            "(leaks)",
-                           blocked);
+                           blocked, has_map ? "map" : "method");
     case analysis::Label::bleed:
         return fmt::format("{} of the shadowed surface is lit by the method alone (bleed)",
                            blocked);
@@ -232,6 +248,9 @@ std::string blind_depths(const analysis::Comparison& comparison)
 {
     constexpr double too_long = 0.05; // of the receivers' range: no more than twenty depths
     constexpr scene::DepthFormat of_transforms{scene::DepthFormat::Kind::d24, 24};
+    if (!has_map(comparison)) {
+        return "";
+    }
     const auto light_distance_m = distances_m(comparison);
     const scene::LightFrustum& frustum = comparison.view.first_map();
     if (!light_distance_m || double{light_distance_m->median} <= frustum.near_m ||
@@ -256,7 +275,7 @@ std::string blind_depths(const analysis::Comparison& comparison)
 std::string precision_kinds(const analysis::Comparison& comparison)
 {
     const auto& kinds = comparison.precision_kinds;
-    if (!kinds || kinds->format + kinds->transform == 0) {
+    if (!kinds || kinds->format + kinds->transform == 0 || !has_map(comparison)) {
         return "";
     }
     const auto all = static_cast<double>(kinds->format + kinds->transform);
@@ -361,7 +380,8 @@ std::string what_is_wrong(const analysis::Comparison& comparison)
     const auto errors = errors_by_label(comparison);
     std::vector<std::string> parts;
     for (const std::size_t label : largest(errors)) {
-        parts.push_back(words(static_cast<analysis::Label>(label), errors.at(label), pixels));
+        parts.push_back(words(static_cast<analysis::Label>(label), errors.at(label), pixels,
+                              has_map(comparison)));
     }
     if (parts.empty()) {
         return softened_alone(comparison);
@@ -385,7 +405,7 @@ std::string what_it_comes_from(const analysis::Comparison& comparison)
         const auto cause = static_cast<Cause>(i);
         parts.push_back(fmt::format("{}{}{}{}", share(errors.at(i), all),
                                     parts.empty() ? " of the error is due to " : " is due to ",
-                                    words(cause),
+                                    words(cause, has_map(comparison)),
                                     cause == Cause::precision ? precision_kinds(comparison) : ""));
     }
     return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
@@ -398,6 +418,9 @@ std::string what_to_try(const analysis::Comparison& comparison)
         return "";
     }
     const auto cause = static_cast<Cause>(causes.front());
+    if (!has_map(comparison)) {
+        return std::string{to_try_without_map(cause)};
+    }
     return cause == Cause::bias ? other_biases(comparison.view.bias)
                                 : std::string{to_try(cause, scene::map_layout(comparison.job))};
 }

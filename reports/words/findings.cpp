@@ -28,7 +28,7 @@ std::string hint(const analysis::Comparison& comparison)
         return fmt::format("None of {} leaves less.",
                            counted(comparison.advice.size(), "measured change"));
     }
-    if (to_try.empty() || comparison.evaluation) {
+    if (to_try.empty() || comparison.evaluation || !comparison.diagnosis->biases) {
         return to_try.empty() ? "" : to_try + ".";
     }
     return to_try + "; --advise measures it.";

@@ -259,11 +259,12 @@ void check_method(const Settings& settings)
     const Setting* chosen = find_setting(settings, "method.name");
     const std::string name =
         chosen != nullptr ? std::get<std::string>(chosen->value) : default_method();
-    const Setting* filter = find_setting(settings, "lookup.filter");
-    if (filter != nullptr && !has_filters(name)) {
-        refuse(*filter, fmt::format("the method {} has no filter; remove it", name));
-    }
     for (const auto& [key, setting] : settings) {
+        if (!has_key(name, key)) {
+            const std::string_view what =
+                key == "lookup.filter" ? "no filter" : "no key of that table";
+            refuse(setting, fmt::format("the method {} has {}; remove it", name, what));
+        }
         const HandedKey* handed = find_handed_key(key);
         if (handed != nullptr && !handed->is_of(name)) {
             refuse(setting,

@@ -43,6 +43,14 @@ KeySpec name_key(const std::vector<HandedMethod>& methods)
         std::move(names), [](auto& job) -> auto& { return job.method.name; });
 }
 
+/// nullptr: there is none of that name.
+const HandedMethod* find_method(std::string_view name)
+{
+    const auto& methods = handed().methods;
+    const auto found = std::ranges::find(methods, name, &HandedMethod::name);
+    return found == methods.end() ? nullptr : &*found;
+}
+
 bool is_of_table(const HandedKey& key, std::string_view table)
 {
     const std::string_view name = key.key.name;
@@ -139,9 +147,19 @@ const std::string& default_method()
 
 bool has_filters(std::string_view method)
 {
-    const auto& methods = handed().methods;
-    const auto found = std::ranges::find(methods, method, &HandedMethod::name);
-    return found != methods.end() && found->has_filters;
+    const HandedMethod* found = find_method(method);
+    return found != nullptr && found->has_filters;
+}
+
+bool has_key(std::string_view method, std::string_view key)
+{
+    if (key == "lookup.filter") {
+        return has_filters(method);
+    }
+    const HandedMethod* found = find_method(method);
+    return found == nullptr ||
+           std::ranges::find(found->unread_tables, key.substr(0, key.find('.'))) ==
+               found->unread_tables.end();
 }
 
 const HandedKey* find_handed_key(std::string_view name)

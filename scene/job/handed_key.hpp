@@ -29,6 +29,7 @@ struct HandedKey {
 struct HandedMethod {
     std::string name;
     bool has_filters = false; ///< else a job with this method has no lookup.filter
+    std::vector<std::string> unread_tables = {}; ///< it has no key of these: "bias"
 };
 
 /// Says which methods there are, and what keys beside the scene's own: once, and before the table
@@ -45,6 +46,9 @@ void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey>
 
 /// Whether jobs of the method of that name have a lookup.filter.
 [[nodiscard]] bool has_filters(std::string_view method);
+
+/// Whether jobs of the method of that name have a key: one of the scene's own, which methods share.
+[[nodiscard]] bool has_key(std::string_view method, std::string_view key);
 
 /// The key that was handed over by that name, or nullptr.
 [[nodiscard]] const HandedKey* find_handed_key(std::string_view name);

@@ -1,10 +1,12 @@
 #include "scene/job/keys.hpp"
 
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/handed_key.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace gnomon::scene {
 namespace {
@@ -309,6 +311,9 @@ std::vector<KeySpec> all_key_specs()
     }
     for (KeySpec& spec : specs) {
         spec.key.range_text = range_text(spec.domain);
+        spec.get = [name = spec.key.name, get = std::move(spec.get)](const Job& job) {
+            return has_key(job.method.name, name) ? get(job) : std::nullopt;
+        };
     }
     return specs;
 }

@@ -1,4 +1,3 @@
-#include "scene/job/handed_key.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
@@ -198,15 +197,10 @@ KeySpec constant_m_key()
 
 KeySpec filter_key()
 {
-    KeySpec spec = word_key<Filter>(
+    return word_key<Filter>(
         make_key("lookup.filter", "how the map is filtered", "\"nearest\"", only(Stage::lookup)),
         static_cast<int>(filter_count), filter_name,
         [](auto& job) -> auto& { return job.lookup.filter; });
-    spec.get = [](const Job& job) -> std::optional<JobValue> {
-        return has_filters(job.method.name) ? held(std::string{filter_name(job.lookup.filter)})
-                                            : std::nullopt;
-    };
-    return spec;
 }
 
 std::vector<KeySpec> lookup_and_bias_keys()

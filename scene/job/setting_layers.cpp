@@ -96,11 +96,8 @@ void drop_replaced(Settings& settings, const Setting& setting)
     if (key == "method.name") {
         std::erase_if(settings, [&](const auto& entry) {
             const HandedKey* handed = find_handed_key(entry.first);
-            return handed != nullptr && !handed->is_of(*word);
+            return handed != nullptr ? !handed->is_of(*word) : !has_key(*word, entry.first);
         });
-        if (!has_filters(*word)) {
-            settings.erase("lookup.filter");
-        }
     }
     if (key == "scene.builtin" || key == "scene.file") {
         drop_parameters(settings, setting);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/map_texels.hpp"
 #include "scene/triangles.hpp"
@@ -131,6 +132,10 @@ public:
     /// properly or through a seam, at a matrix depth in [0, 1]; else 0.
     [[nodiscard]] virtual std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels,
                                                                 const MapIndices& maps) const = 0;
+
+    /// The same at any depth, with the triangles that this culling leaves.
+    [[nodiscard]] virtual std::vector<std::uint8_t>
+    are_crossed_anywhere(std::span<const std::size_t> pixels, Cull cull) const = 0;
 
     /// For each query 1 where the surface leads from P, along the straight line to the texel's
     /// centre in light view, into the triangle seen there (docs/truth.md); else 0.

@@ -82,6 +82,12 @@ public:
     }
 
     [[nodiscard]] std::vector<std::uint8_t>
+    are_crossed_anywhere(std::span<const std::size_t> pixels, scene::Cull /*cull*/) const override
+    {
+        return are_crossed(pixels, {});
+    }
+
+    [[nodiscard]] std::vector<std::uint8_t>
     are_self_shadowing(std::span<const scene::SelfShadowingQuery> queries) const override
     {
         return answer<std::uint8_t>(queries, [&](const scene::SelfShadowingQuery& q) {

@@ -96,6 +96,10 @@ void expect_verdict_of_constant(MethodCase& c, float depth, bool is_lit)
 TEST_P(ListedMethod, GivesTheObviousVerdictsOfAMapOfConstantDepth)
 {
     GNOMON_REQUIRE_GL();
+    const Promises of_wall = methods::promises(job_of_builtin("wall", keys()));
+    if (!of_wall.has_map || of_wall.compares == methods::Compares::primitives) {
+        GTEST_SKIP() << "no depth of a map decides";
+    }
     for (const char* const builtin : {"sphere-plane", "terrain"}) {
         for (const bool reversed : {false, true}) {
             SCOPED_TRACE(fmt::format("{} reversed {}", builtin, reversed));
@@ -156,7 +160,11 @@ TEST_P(ListedMethod, RisesWithTheBiasAsPromised)
                 before.push_back(sample.verdict);
             }
         }
-        EXPECT_GT(rises, 5000U);
+        if (promised.has_curve()) {
+            EXPECT_GT(rises, 5000U);
+        } else {
+            EXPECT_EQ(rises, 0U) << "no bias was said to matter";
+        }
     }
 }
 
@@ -274,6 +282,9 @@ TEST_P(ListedMethod, MirrorsAndTurnsItsVerdictsWithTheScene)
         GTEST_SKIP() << "no promise of exact interpolation on this driver";
     }
     const scene::Job job = job_of_builtin("wall", keys());
+    if (methods::promises(job).compares == methods::Compares::primitives) {
+        GTEST_SKIP() << "a plate's diagonal does not turn with the plate";
+    }
     const double allowed = allowed_difference(job);
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
         const auto plates = some_plates(seed);
@@ -335,7 +346,9 @@ TEST_P(ListedMethod, ExplainsEveryErrorOnce)
                 SCOPED_TRACE(fmt::format("{} {} bias {}", builtin, outside, bias));
                 const auto result = scene(job_of_builtin(
                     builtin, keys({{"lookup.outside", outside}, {"bias.constant", bias}})));
-                EXPECT_GT(result.metrics.amounts.total(), 1);
+                if (methods::promises(result.job).has_map) {
+                    EXPECT_GT(result.metrics.amounts.total(), 1);
+                }
                 expect_causes_add_up(result);
             }
         }

@@ -2,6 +2,7 @@
 
 #include "methods/list.hpp"
 #include "raster_gl/readback.hpp"
+#include "scene/job/handed_key.hpp"
 
 #include <utility>
 #include <variant>
@@ -17,7 +18,8 @@ MethodCase::MethodCase(scene::Job the_job, scene::SceneFile the_file)
       map_pass_{*shared_context()},
       sampled_casters_{*shared_context()},
       prefilter_pass_{*shared_context()},
-      lookup_pass_{*shared_context()}
+      lookup_pass_{*shared_context()},
+      volume_pass_{*shared_context(), file.scene}
 {
     receivers_ = &receiver_pass_.render(gpu_, view, file.scene.bounds());
 }
@@ -38,7 +40,13 @@ void MethodCase::set(scene::Job other)
 
 void MethodCase::draw_map()
 {
-    map_ = &map_pass_.render(gpu_, view.maps, job.shadow_map);
+    if (!methods::promises(job).has_map) {
+        return;
+    }
+    using raster_gl::Primitives;
+    map_ = &map_pass_.render(gpu_, view.maps, job.shadow_map,
+                             methods::passes(job).draws_primitives ? Primitives::kept
+                                                                   : Primitives::dropped);
     const int samples = methods::passes(job).samples;
     prefilter(samples == 1 ? raster_gl::SampledDepths{}
                            : raster_gl::SampledDepths{sampled_casters_.render(
@@ -67,6 +75,9 @@ raster_gl::LookedUp MethodCase::looked_up() const
 
 scene::LookupLayers MethodCase::look_up(float constant_bias)
 {
+    if (const auto volumes = methods::passes(job).volumes) {
+        return volume_pass_.look_up({gpu_, *receivers_}, view, *volumes);
+    }
     scene::View biased = view;
     biased.bias.constant = constant_bias;
     lookup_pass_.render(looked_up(), job, biased);
@@ -141,7 +152,14 @@ std::vector<scene::Override> with(std::vector<scene::Override> keys,
 
 scene::Job job_of_builtin(const std::string& builtin, const std::vector<scene::Override>& keys)
 {
-    return scene::builtin_job(builtin, keys).job;
+    std::string method = scene::default_method();
+    for (const scene::Override& key : keys) {
+        method = key.key == "method.name" ? key.value : method;
+    }
+    std::vector<scene::Override> of_method = keys;
+    std::erase_if(of_method,
+                  [&](const scene::Override& key) { return !scene::has_key(method, key.key); });
+    return scene::builtin_job(builtin, of_method).job;
 }
 
 } // namespace gnomon::tests

@@ -3,6 +3,7 @@
 #include "gl_case.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/sampled_casters.hpp"
+#include "raster_gl/shadow_volumes.hpp"
 #include "scene/image.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
@@ -46,6 +47,7 @@ private:
     raster_gl::SampledCasters sampled_casters_;
     raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
+    raster_gl::ShadowVolumePass volume_pass_;
     const raster_gl::ReceiverBuffer* receivers_ = nullptr;
     const raster_gl::ShadowMap* map_ = nullptr;
     const raster_gl::LayeredTexture* filtered_ = nullptr;
@@ -68,6 +70,7 @@ struct Configuration {
 [[nodiscard]] std::vector<scene::Override> with(std::vector<scene::Override> keys,
                                                 const std::vector<scene::Override>& more);
 
+/// Keys that the method of the keys lacks are left away.
 [[nodiscard]] scene::Job job_of_builtin(const std::string& builtin,
                                         const std::vector<scene::Override>& keys);
 

@@ -49,13 +49,16 @@ std::string promises_table(const Method& method)
     scene::Job job;
     job.method.name = method.name;
     const Promises promised = method.promises(job);
+    const std::string of_map =
+        promised.has_map ? fmt::format("{0} × {0} texels | {1} | {2:g} MiB", promised.width_texels,
+                                       spaced(name(promised.reads)),
+                                       static_cast<double>(promised.map_bytes) / mebibyte)
+                         : "no map | nothing | none";
     return fmt::format("| verdict | compares | rises | curve | footprint | reads | memory |\n"
                        "|---|---|---|---|---|---|---|\n"
-                       "| {} | {} | {} | {} | {} × {} texels | {} | {:g} MiB |\n",
+                       "| {} | {} | {} | {} | {} |\n",
                        spaced(name(promised.verdict)), spaced(name(promised.compares)),
-                       spaced(name(promised.rises.how)), spaced(name(promised.curve)),
-                       promised.width_texels, promised.width_texels, spaced(name(promised.reads)),
-                       static_cast<double>(promised.map_bytes) / mebibyte);
+                       spaced(name(promised.rises.how)), spaced(name(promised.curve)), of_map);
 }
 
 std::string keys_table(const Method& method)

@@ -48,7 +48,11 @@ HandedKey blur_key()
 
 void hand_over(std::vector<HandedKey> keys)
 {
-    hand_over_methods({{"depth", true}, {"vsm", false}, {"moments", true}}, std::move(keys));
+    hand_over_methods({{"depth", true},
+                       {"vsm", false},
+                       {"moments", true},
+                       {"volumes", false, {"shadow_map", "lookup", "bias"}}},
+                      std::move(keys));
 }
 
 /// The message of the std::logic_error that handing the keys over throws, or "no error".
@@ -122,7 +126,7 @@ TEST(HandedKey, StandsInTheTableBehindTheMethodsName)
         }
     }
     EXPECT_THAT(names, ElementsAre("method.name", "method.width", "method.content", "method.blur"));
-    EXPECT_EQ(find_key("method.name")->key.range_text, "one of depth, vsm, moments");
+    EXPECT_EQ(find_key("method.name")->key.range_text, "one of depth, vsm, moments, volumes");
     const JobKey& width = find_key("method.width")->key;
     EXPECT_EQ(width.default_text, "5");
     EXPECT_EQ(width.range_text, "an odd integer from 1 to 9");
@@ -229,7 +233,7 @@ TEST(MethodName, NamesTheNearestOfThoseThatWereHandedOver)
     EXPECT_EQ(job_of(wall).job.method.name, "depth");
     EXPECT_EQ(job_of(wall_with("moments")).job.method.name, "moments");
     EXPECT_EQ(refusal(wall_with("vms")), "job.toml:3: method.name = \"vms\": must be one of depth, "
-                                         "vsm, moments; the nearest is \"vsm\"");
+                                         "vsm, moments, volumes; the nearest is \"vsm\"");
     EXPECT_THAT(refusal(wall, {{"method.name", "esm"}}), HasSubstr("the nearest is \"vsm\""));
     EXPECT_THAT(refusal(wall + "method.wdth = 3\n"),
                 HasSubstr("unknown key \"method.wdth\"; the nearest is method.width"));
@@ -260,6 +264,31 @@ TEST(MethodName, DecidesWhetherAJobHasAFilter)
     EXPECT_EQ(keys_of(job_of(wall_with("vsm")).job).count("lookup.filter"), 0U);
     EXPECT_EQ(refusal(wall_with("vsm", "[lookup]\nfilter = \"pcf3\"\n")),
               "job.toml:5: lookup.filter = \"pcf3\": the method vsm has no filter; remove it");
+}
+
+TEST(MethodName, DecidesWhichSharedTablesAJobHas)
+{
+    const auto keys = keys_of(job_of(wall_with("volumes")).job);
+    for (const char* const table : {"shadow_map.", "lookup.", "bias."}) {
+        const auto first = keys.lower_bound(table);
+        EXPECT_FALSE(first != keys.end() && first->first.starts_with(table)) << table;
+    }
+    EXPECT_EQ(keys.count("light.type"), 1U);
+    EXPECT_EQ(refusal(wall_with("volumes", "[bias]\nconstant = 0.001\n")),
+              "job.toml:5: bias.constant = 0.001: the method volumes has no key of that table; "
+              "remove it");
+    EXPECT_THAT(refusal(wall, {{"method.name", "volumes"}, {"shadow_map.resolution", "64"}}),
+                HasSubstr("--set shadow_map.resolution=64: the method volumes has no key of that "
+                          "table"));
+}
+
+TEST(MethodName, LeavesTheTablesThatItLacksBehindInTheLayersBelow)
+{
+    const std::string text = wall + "[bias]\nconstant = 0.5\n[shadow_map]\nresolution = 64\n";
+    const Job job = job_of(text, {{"method.name", "volumes"}}).job;
+    EXPECT_EQ(job.bias.constant, 0);
+    EXPECT_EQ(job.shadow_map.resolution_texels, Job{}.shadow_map.resolution_texels);
+    EXPECT_EQ(job_of(text, {{"method.name", "vsm"}}).job.bias.constant, 0.5);
 }
 
 TEST(MethodName, WithoutFiltersLeavesThatOfTheLayersBelowBehind)

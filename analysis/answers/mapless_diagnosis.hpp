@@ -1,0 +1,13 @@
+#pragma once
+
+#include "analysis/answers/diagnosis.hpp"
+
+namespace gnomon::analysis {
+
+/// The diagnosis of a lookup without a map: its rule, that casters shadow what lies behind them, is
+/// evaluated exactly (docs/causes.md#methods-without-a-map). There is no bias, hence no curve.
+[[nodiscard]] Diagnosis diagnose_without_map(const scene::Job& job, const scene::View& view,
+                                             const ComparedLayers& layers,
+                                             const Renderers& renderers);
+
+} // namespace gnomon::analysis

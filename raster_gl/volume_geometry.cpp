@@ -1,0 +1,165 @@
+#include "raster_gl/volume_geometry.hpp"
+
+#include "scene/light/facing.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <tuple>
+
+namespace gnomon::raster_gl {
+namespace {
+
+using methods::Casters;
+using methods::Extrusion;
+
+/// Of each vertex the first one at its place: coordinates have no negative zeros, so equal ones are
+/// bit-equal.
+std::vector<std::uint32_t> first_of_equals(std::span<const scene::Vec3f> vertices)
+{
+    std::vector<std::uint32_t> order(vertices.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto place = [&](std::uint32_t i) {
+        return std::tuple{vertices[i].x, vertices[i].y, vertices[i].z};
+    };
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        return std::tuple{place(a), a} < std::tuple{place(b), b};
+    });
+    std::vector<std::uint32_t> first(vertices.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool repeats = i > 0 && place(order[i]) == place(order[i - 1]);
+        first[order[i]] = repeats ? first[order[i - 1]] : order[i];
+    }
+    return first;
+}
+
+/// An edge of a caster, from the lower index to the higher; `sign` is that of the caster's facing,
+/// reversed where the caster's winding leads from the higher to the lower.
+struct CasterEdge {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    int sign = 0;
+
+    [[nodiscard]] bool joins_as(const CasterEdge& other) const
+    {
+        return from == other.from && to == other.to;
+    }
+};
+
+class VolumeBuilder {
+public:
+    VolumeBuilder(const scene::TriangleScene& triangles, const scene::Light& light,
+                  const methods::ShadowVolumes& volumes)
+        : triangles_{triangles},
+          volumes_{volumes},
+          facings_{scene::facings(triangles, light)}
+    {
+    }
+
+    /// Calls `visit(triangle, facing)` for each that has a volume.
+    template <typename Visit>
+    void visit_casters(const Visit& visit) const
+    {
+        for (const scene::TriangleRange& range : casting_ranges(triangles_)) {
+            for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
+                const int facing = facings_[t];
+                if (facing > 0 || (facing < 0 && volumes_.casters == Casters::all)) {
+                    visit(t, facing);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] VolumeGeometry build() const
+    {
+        VolumeGeometry made;
+        visit_casters([&](std::uint32_t t, int facing) {
+            (facing > 0 ? made.along : made.against).caps.push_back(triangles_.triangles[t]);
+        });
+        std::vector<CasterEdge> edges = caster_edges();
+        if (volumes_.extrusion == Extrusion::silhouette) {
+            edges = silhouettes(std::move(edges));
+        }
+        for (const CasterEdge& edge : edges) {
+            VolumeFaces& faces = edge.sign > 0 ? made.along : made.against;
+            for (int i = 0; i < std::abs(edge.sign); ++i) {
+                faces.sides.push_back({edge.from, edge.to});
+            }
+        }
+        return made;
+    }
+
+private:
+    [[nodiscard]] std::vector<CasterEdge> caster_edges() const
+    {
+        const std::vector<std::uint32_t> first = first_of_equals(triangles_.vertices);
+        std::vector<CasterEdge> edges;
+        visit_casters([&](std::uint32_t t, int facing) {
+            const auto& corners = triangles_.triangles[t];
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t from = first[corners[i]];
+                const std::uint32_t to = first[corners[(i + 1) % 3]];
+                edges.push_back(from < to ? CasterEdge{from, to, facing}
+                                          : CasterEdge{to, from, -facing});
+            }
+        });
+        return edges;
+    }
+
+    /// Each edge once, with the sum of its signs; none where they cancel.
+    static std::vector<CasterEdge> silhouettes(std::vector<CasterEdge> edges)
+    {
+        std::ranges::sort(edges, {}, [](const CasterEdge& edge) {
+            return std::pair{edge.from, edge.to};
+        });
+        std::vector<CasterEdge> joined;
+        for (const CasterEdge& edge : edges) {
+            if (!joined.empty() && joined.back().joins_as(edge)) {
+                joined.back().sign += edge.sign;
+            } else {
+                joined.push_back(edge);
+            }
+        }
+        std::erase_if(joined, [](const CasterEdge& edge) { return edge.sign == 0; });
+        return joined;
+    }
+
+    const scene::TriangleScene& triangles_;
+    methods::ShadowVolumes volumes_;
+    std::vector<std::int8_t> facings_;
+};
+
+} // namespace
+
+VolumeGeometry volume_geometry(const scene::TriangleScene& triangles, const scene::Light& light,
+                               const methods::ShadowVolumes& volumes)
+{
+    return VolumeBuilder{triangles, light, volumes}.build();
+}
+
+int volumes_around(const scene::TriangleScene& triangles, const scene::Light& light,
+                   const methods::ShadowVolumes& volumes, const scene::Vec3d& direction)
+{
+    int around = 0;
+    VolumeBuilder{triangles, light, volumes}.visit_casters([&](std::uint32_t t, int facing) {
+        std::array<scene::Vec3d, 3> rays;
+        std::ranges::transform(triangles.corners(t), rays.begin(), [&](const scene::Vec3f& corner) {
+            return scene::Vec3d{corner} - light.position;
+        });
+        bool is_inside = true;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            // Seen from the light the corners turn as the facing says, so each edge has the
+            // direction on the same side.
+            const double side = glm::dot(glm::cross(rays[i], rays[(i + 1) % 3]), direction);
+            is_inside = is_inside && side * facing < 0;
+        }
+        around += is_inside ? 1 : 0;
+    });
+    return around;
+}
+
+} // namespace gnomon::raster_gl
