@@ -1,6 +1,7 @@
 #include "methods/list.hpp"
 
 #include "methods/depth/depth_map.hpp"
+#include "methods/primitive_id/primitive_map.hpp"
 #include "methods/vsm/variance_map.hpp"
 
 #include <array>
@@ -9,7 +10,7 @@ namespace gnomon::methods {
 
 std::span<const Method> methods()
 {
-    static const std::array list{depth_map(), variance_map()};
+    static const std::array list{depth_map(), variance_map(), primitive_map()};
     return list;
 }
 
