@@ -2,6 +2,7 @@
 
 #include "methods/depth/depth_map.hpp"
 #include "methods/primitive_id/primitive_map.hpp"
+#include "methods/shadow_volumes/shadow_volumes.hpp"
 #include "methods/vsm/variance_map.hpp"
 
 #include <array>
@@ -10,7 +11,7 @@ namespace gnomon::methods {
 
 std::span<const Method> methods()
 {
-    static const std::array list{depth_map(), variance_map(), primitive_map()};
+    static const std::array list{depth_map(), variance_map(), primitive_map(), shadow_volumes()};
     return list;
 }
 

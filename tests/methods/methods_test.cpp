@@ -27,7 +27,7 @@ scene::Job job_with(Filter filter)
 
 TEST(Methods, AreListedByName)
 {
-    ASSERT_EQ(methods().size(), 3U);
+    ASSERT_EQ(methods().size(), 4U);
     EXPECT_EQ(methods()[0].name, "depth");
     EXPECT_EQ(methods()[1].name, "vsm");
     EXPECT_EQ(find_method("depth"), &methods()[0]);
@@ -53,7 +53,8 @@ const std::set<std::string>& tables_of(std::string_view method)
     static const std::map<std::string, std::set<std::string>, std::less<>> tables{
         {"depth", {"shadow_map", "lookup", "bias"}},
         {"vsm", {"shadow_map", "lookup", "bias"}},
-        {"primitive_id", {"shadow_map", "lookup"}}};
+        {"primitive_id", {"shadow_map", "lookup"}},
+        {"shadow_volumes", {}}};
     return tables.find(method)->second;
 }
 

@@ -1,0 +1,84 @@
+#include "methods/shadow_volumes/shadow_volumes.hpp"
+
+#include "scene/job/keys.hpp"
+
+#include <array>
+#include <string>
+
+namespace gnomon::methods {
+namespace {
+
+using scene::HandedKey;
+using scene::Stage;
+
+constexpr auto volume_sources = std::to_array<Source>({
+    {"F. C. Crow", 1977, "Shadow algorithms for computer graphics", {}},
+    {"C. Everitt, M. J. Kilgard", 2002,
+     "Practical and robust stenciled shadow volumes for hardware-accelerated rendering",
+     "counted behind receivers (z-fail), volumes without end"},
+    {"B. Kim, K. Kim, G. Turk", 2008,
+     "A shadow-volume algorithm for opaque and transparent nonmanifold casters",
+     "silhouettes that count, of any mesh"},
+});
+
+const HandedKey& extrusion_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.extrusion", "the edges that volumes have sides at", "",
+                        scene::only(Stage::lookup)),
+        scene::WordDomain{.words = {"silhouette", "triangle"}}, std::string{"silhouette"}};
+    return key;
+}
+const HandedKey& casters_key()
+{
+    static const HandedKey key{scene::make_key("method.casters", "the triangles that have volumes",
+                                               "", scene::only(Stage::lookup)),
+                               scene::WordDomain{.words = {"all", "facing_light"}},
+                               std::string{"all"}};
+    return key;
+}
+
+Casters casters_of(const scene::Job& job)
+{
+    return std::get<std::string>(casters_key().value_of(job)) == "all" ? Casters::all
+                                                                       : Casters::facing_light;
+}
+
+Promises volume_promises(const scene::Job& job)
+{
+    return {.verdict = Verdict::binary,
+            .compares = Compares::none,
+            .rises = {Rise::exactly, 0}, // it does not depend on the bias
+            .curve = Curve::none,
+            .kernel = {},
+            .has_map = false,
+            .casters = casters_of(job)};
+}
+
+Passes volume_passes(const scene::Job& job)
+{
+    const bool is_silhouette = std::get<std::string>(extrusion_key().value_of(job)) == "silhouette";
+    Passes made;
+    made.volumes = {is_silhouette ? Extrusion::silhouette : Extrusion::triangle, casters_of(job)};
+    return made;
+}
+
+} // namespace
+
+Method shadow_volumes()
+{
+    return {.name = "shadow_volumes",
+            .sentence =
+                "counts, at each receiver, the volumes that casters shadow, in the stencil of "
+                "the camera's view",
+            .sources = volume_sources,
+            .page = "docs/methods/shadow_volumes.md",
+            .key_tables = {},
+            .keys = {extrusion_key(), casters_key()},
+            .filters = {},
+            .bias_terms = {},
+            .promises = volume_promises,
+            .passes = volume_passes};
+}
+
+} // namespace gnomon::methods
