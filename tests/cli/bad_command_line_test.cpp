@@ -140,6 +140,41 @@ TEST(JobSettings, RefusesMethodsAndKeysThatTheyDoNotHave)
                             "the method vsm has no filter; remove it");
 }
 
+TEST(JobSettings, RefusesTablesThatAMethodDoesNotRead)
+{
+    expect_settings_refused("wall", {"method.name=primitive_id", "bias.constant=0.001"},
+                            "the method primitive_id has no key of that table; remove it");
+    expect_settings_refused("wall", {"method.name=primitive_id", "lookup.filter=pcf3"},
+                            "the method primitive_id has no filter; remove it");
+    expect_settings_refused(
+        "wall", {"method.name=primitive_id", "shadow_map.layout=cascades", "shadow_map.blend=0.2"},
+        "remove shadow_map.blend");
+    expect_settings_refused("sphere-plane",
+                            {"method.name=primitive_id", "shadow_map.content=distance"},
+                            "remove shadow_map.content");
+    for (const char* const key :
+         {"shadow_map.resolution=64", "lookup.outside=clamp", "bias.slope=0.1"}) {
+        expect_settings_refused("wall", {"method.name=shadow_volumes", key},
+                                "the method shadow_volumes has no key of that table; remove it");
+    }
+    expect_settings_refused("wall", {"method.name=shadow_volumes", "method.casters=back"},
+                            "one of all, facing_light");
+    expect_settings_refused("wall", {"method.casters=all"},
+                            "is for method.name = \"shadow_volumes\"");
+}
+
+TEST(Advice, IsRefusedWhereThereIsNoBiasCurve)
+{
+    for (const char* const method : {"method.name=primitive_id", "method.name=shadow_volumes"}) {
+        for (const std::vector<std::string>& command :
+             {std::vector<std::string>{"tune"}, {"compare", "--advise"}}) {
+            std::vector<std::string> arguments = command;
+            arguments.insert(arguments.end(), {"--builtin", "wall", "--set", method});
+            expect_refused(gnomon(arguments), 2, "has no bias curve, which advice is made of");
+        }
+    }
+}
+
 TEST(JobSettings, RefusesKernelsThatAMethodCannotHave)
 {
     for (const char* const width : {"4", "0", "11", "-3", "2.5", "\"wide\""}) {

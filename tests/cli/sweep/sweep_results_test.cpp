@@ -159,6 +159,21 @@ TEST(Sweep, GivesWhatCompareGivesForMethodsThatShareAMap)
     }
 }
 
+TEST(Sweep, GivesWhatCompareGivesForMethodsWithOtherMapsOrNone)
+{
+    for (const char* const methods : {"\"depth\", \"primitive_id\", \"shadow_volumes\"",
+                                      "\"shadow_volumes\", \"primitive_id\", \"depth\""}) {
+        const TemporaryFolder folder;
+        const path job = folder.write(
+            "job.toml", two_lights + fmt::format("[sweep]\n\"method.name\" = [{}]\n", methods));
+        const path run = folder.path() / "run";
+        const Ending ending = swept(sweep(job, run, {"--no-keep-pixels"}));
+        // Of each light a map of depths, one of triangles, too, and none.
+        EXPECT_THAT(ending.out, HasSubstr("4 shadow maps, 6 lookup passes"));
+        expect_rows_compare(job, run, {"method.name"}, 6);
+    }
+}
+
 TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
 {
     const TemporaryFolder folder;
