@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::raster_gl {

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace gnomon::raster_gl {
 namespace {

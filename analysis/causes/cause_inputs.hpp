@@ -13,7 +13,7 @@ namespace gnomon::analysis {
 
 /// V2 of a method that compares no depths: for each pixel the smallest constant bias, the slope's
 /// part included, with which the method itself, run over a map of exact depths, is lit to this
-/// share.
+/// share; of triangles −∞ or +∞ (`find_exact_primitives`).
 struct ExactReruns {
     scene::Image<float> any;  ///< more than 1/256
     scene::Image<float> half; ///< at least one half
