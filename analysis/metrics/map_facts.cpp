@@ -4,21 +4,22 @@
 
 namespace gnomon::analysis {
 
-namespace {
-
-MapBias bias_in(const scene::LightFrustum& map, const scene::Bias& bias, double scale,
-                double texel_m)
+MapBias bias_in_map(const scene::Job& job, const scene::View& view, std::size_t map,
+                    double light_distance_m)
 {
+    const scene::LightFrustum& frustum = view.maps.at(map);
+    const scene::Bias& bias = view.bias;
+    const double scale = view.bias_scales.empty() ? 1.0 : double{view.bias_scales[map]};
+    const double texel_m =
+        frustum.texel_width_m(light_distance_m, job.shadow_map.resolution_texels);
     MapBias in_map;
     in_map.constant = double{bias.constant} * scale;
-    in_map.constant_m = bias_length_m(map, in_map.constant, 1.0);
+    in_map.constant_m = bias_length_m(frustum, in_map.constant, light_distance_m);
     in_map.constant_texels = in_map.constant_m / texel_m;
-    in_map.slope_m = bias_length_m(map, double{bias.slope}, 1.0);
+    in_map.slope_m = bias_length_m(frustum, double{bias.slope}, light_distance_m);
     in_map.normal_offset_m = double{bias.normal_texels} * texel_m;
     return in_map;
 }
-
-} // namespace
 
 MapFacts facts_of_map(const scene::Job& job, const scene::View& view, std::size_t map)
 {
@@ -34,8 +35,7 @@ MapFacts facts_of_map(const scene::Job& job, const scene::View& view, std::size_
     }
     facts.end_m = double{slices.ends[map]};
     facts.begin_m = double{map == 0 ? slices.begin : slices.ends[map - 1]};
-    const double scale = view.bias_scales.empty() ? 1.0 : double{view.bias_scales[map]};
-    facts.bias = bias_in(frustum, view.bias, scale, facts.texel_m);
+    facts.bias = bias_in_map(job, view, map, 1.0);
     return facts;
 }
 

@@ -11,7 +11,7 @@
 
 namespace gnomon::analysis {
 
-/// What a job's biases are in one cascade.
+/// What a job's biases are in one of its maps, at some light distance.
 struct MapBias {
     double constant = 0;        ///< depth units of this map
     double constant_m = 0;      ///< along the light's axis
@@ -30,6 +30,11 @@ struct MapFacts {
     std::optional<double> end_m;
     std::optional<MapBias> bias; ///< of cascades
 };
+
+/// @param map  index among the view's maps.
+/// @param light_distance_m  of the receiver [m]; > 0. It matters to a spot alone.
+[[nodiscard]] MapBias bias_in_map(const scene::Job& job, const scene::View& view, std::size_t map,
+                                  double light_distance_m);
 
 /// @param map  index among the view's maps.
 [[nodiscard]] MapFacts facts_of_map(const scene::Job& job, const scene::View& view,

@@ -1,6 +1,6 @@
 #include "reports/tables/methods_table.hpp"
 
-#include "reports/words/text.hpp"
+#include "reports/tables/aligned_rows.hpp"
 #include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>
@@ -15,31 +15,6 @@ namespace gnomon::reports {
 namespace {
 
 using Row = std::vector<std::string>;
-
-/// Rows of equally many cells in columns, indented and after an empty line; nothing if there is
-/// but a heading.
-std::string aligned(const std::vector<Row>& rows)
-{
-    if (rows.size() < 2) {
-        return {};
-    }
-    std::vector<std::size_t> widths(rows.front().size(), 0);
-    for (const Row& row : rows) {
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            widths[i] = std::max(widths[i], text_columns(row[i]) + 2);
-        }
-    }
-    std::string text = "\n";
-    for (const Row& row : rows) {
-        std::string line = "  ";
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            line += pad_right(row[i], widths[i]);
-        }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
-    }
-    return text;
-}
 
 /// "each tap" of "each_tap".
 std::string spaced(std::string_view name)
@@ -75,7 +50,7 @@ std::string promises_columns(const methods::Method& method)
                               {promises.has_map ? fmt::format("{0} × {0}", promises.width_texels)
                                                 : std::string{"no map"}}};
         add_promises(rows.back(), promises);
-        return aligned(rows);
+        return aligned_rows(rows);
     }
     std::vector<Row> rows{{"filter", "texels", "verdict", "compares", "rises", "curve", ""}};
     for (const methods::FilterChoice& filter : method.filters) {
@@ -86,7 +61,7 @@ std::string promises_columns(const methods::Method& method)
         row.emplace_back(filter.sentence);
         rows.push_back(std::move(row));
     }
-    return aligned(rows);
+    return aligned_rows(rows);
 }
 
 std::string bias_columns(const methods::Method& method)
@@ -102,7 +77,7 @@ std::string bias_columns(const methods::Method& method)
                             "{}", fmt::join(scene::stage_names(methods::stages_of(term)), ", "))),
                         fmt::format("{}", fmt::join(keys, ", ")), std::string{term.sentence}});
     }
-    return aligned(rows);
+    return aligned_rows(rows);
 }
 
 std::string key_columns(const methods::Method& method)
@@ -112,7 +87,7 @@ std::string key_columns(const methods::Method& method)
         rows.push_back(
             {key.name, key.default_text.empty() ? "–" : key.default_text, key.description});
     }
-    return aligned(rows);
+    return aligned_rows(rows);
 }
 
 std::string source_text(const methods::Source& source)
