@@ -31,15 +31,28 @@ std::vector<scene::Override> overrides(const std::vector<std::string>& settings)
 
 void require_one_job(const JobOptions& options)
 {
-    if (options.job_path.empty() == options.builtin.empty()) {
+    const bool has_scene = !options.job_path.empty() || !options.builtin.empty();
+    if (!has_scene && options.preset.empty()) {
         throw scene::InputError(
-            options.job_path.empty()
-                ? "no job: give a job file, a scene file, or --builtin NAME (`gnomon scenes`)"
-                : "JOB and --builtin exclude each other: give one of them");
+            "no job: give a job file, a scene file, or --builtin NAME (`gnomon scenes`)");
     }
-    if (!options.builtin.empty() && !options.case_name.empty()) {
-        throw scene::InputError("--case needs a job file: a built-in scene has no cases");
+    if (!options.job_path.empty() && !options.builtin.empty()) {
+        throw scene::InputError("JOB and --builtin exclude each other: give one of them");
     }
+    if (options.job_path.empty() && !options.case_name.empty()) {
+        throw scene::InputError(fmt::format("--case needs a job file: a {} has no cases",
+                                            options.builtin.empty() ? "preset" : "built-in scene"));
+    }
+}
+
+scene::JobSource source_of(const JobOptions& options, const std::vector<scene::Override>& settings)
+{
+    if (!options.job_path.empty()) {
+        return scene::read_job_source(options.job_path, settings, options.preset);
+    }
+    return options.builtin.empty()
+               ? scene::preset_job_source(options.preset, settings)
+               : scene::builtin_job_source(options.builtin, settings, options.preset);
 }
 
 } // namespace
@@ -55,6 +68,9 @@ void add_job_options(CLI::App& command, JobOptions& options)
         .add_option("--set", options.settings,
                     "KEY=VALUE overrides a key of the job, e.g. bias.constant=0.001")
         ->allow_extra_args(false);
+    command.add_option("--preset", options.preset,
+                       "Take the shadow map of a lesson or an engine, with its own scene where no "
+                       "other is given; `gnomon presets` lists them");
     command.add_option("--case", options.case_name, "Lay this [[case]] of the job file over it");
     command.add_option("--light", options.light,
                        "Of a job with several [[lights]], take this one alone");
@@ -77,10 +93,7 @@ JobOptions of_light(const JobOptions& options, const std::string& light)
 scene::JobSource read_job_source(const JobOptions& options)
 {
     require_one_job(options);
-    const auto settings = overrides(options.settings);
-    scene::JobSource source = options.builtin.empty()
-                                  ? scene::read_job_source(options.job_path, settings)
-                                  : scene::builtin_job_source(options.builtin, settings);
+    const scene::JobSource source = source_of(options, overrides(options.settings));
     return options.light ? scene::only_light(source, *options.light) : source;
 }
 

@@ -11,10 +11,12 @@
 
 namespace gnomon::cli {
 
-/// The options that name a job: JOB or --builtin NAME, --set KEY=VALUE, --case NAME, --light NAME.
+/// The options that name a job: JOB or --builtin NAME, --preset NAME, --set KEY=VALUE, --case NAME,
+/// --light NAME.
 struct JobOptions {
     std::string job_path;
     std::string builtin;
+    std::string preset;
     std::vector<std::string> settings;
     std::string case_name;
     std::optional<std::string> light; ///< the one of several that the job is reduced to
@@ -22,8 +24,9 @@ struct JobOptions {
 
 void add_job_options(CLI::App& command, JobOptions& options);
 
-/// @throws scene::InputError  if neither or both of JOB and --builtin are given, if a --set is not
-///                            KEY=VALUE, or as `scene::read_job` does.
+/// @throws scene::InputError  if both of JOB and --builtin are given, or neither and no preset; if
+/// a
+///                            --set is not KEY=VALUE, or as `scene::read_job` does.
 [[nodiscard]] scene::JobFile read_job(const JobOptions& options);
 /// What the options name, its parts not yet laid over each other; --case is not looked at.
 /// @throws scene::InputError  as `read_job`.

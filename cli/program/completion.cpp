@@ -4,6 +4,7 @@
 #include "cli/system/standard_output.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/presets/presets.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -70,6 +71,15 @@ std::string builtin_names()
     return fmt::format("{}", fmt::join(names, " "));
 }
 
+std::string preset_names()
+{
+    std::vector<std::string> names;
+    for (const scene::Preset& preset : scene::presets()) {
+        names.push_back(preset.name);
+    }
+    return fmt::format("{}", fmt::join(names, " "));
+}
+
 std::string key_names()
 {
     std::vector<std::string> names;
@@ -115,6 +125,7 @@ std::string bash_script(const std::vector<Command>& commands)
     local current="${{COMP_WORDS[COMP_CWORD]}}" previous="${{COMP_WORDS[COMP_CWORD-1]}}" words=""
     case "$previous" in
         --builtin) COMPREPLY=($(compgen -W "{}" -- "$current")); return ;;
+        --preset) COMPREPLY=($(compgen -W "{}" -- "$current")); return ;;
         --set) COMPREPLY=($(compgen -W "{}" -- "$current")); compopt -o nospace; return ;;
         --truth) COMPREPLY=($(compgen -W "exact float" -- "$current")); return ;;
         figure) COMPREPLY=($(compgen -W "{} --list --help" -- "$current")); return ;;
@@ -134,8 +145,8 @@ std::string bash_script(const std::vector<Command>& commands)
 }}
 complete -F _gnomon gnomon
 )",
-                       builtin_names(), key_names(), figure_names(), below, fmt::join(names, " "),
-                       cases);
+                       builtin_names(), preset_names(), key_names(), figure_names(), below,
+                       fmt::join(names, " "), cases);
 }
 
 /// A string in single quotes as fish reads it.
@@ -158,10 +169,11 @@ std::string fish_script(const std::vector<Command>& commands)
         script += fmt::format("complete -c gnomon -f -n __fish_use_subcommand -a {} -d {}\n",
                               command.name, fish_quoted(command.description));
         for (const Flag& flag : command.flags) {
-            const std::string values = flag.name == "--builtin" ? builtin_names()
-                                       : flag.name == "--set"   ? key_names()
-                                       : flag.name == "--truth" ? "exact float"
-                                                                : "";
+            const std::string values = flag.name == "--builtin"  ? builtin_names()
+                                       : flag.name == "--preset" ? preset_names()
+                                       : flag.name == "--set"    ? key_names()
+                                       : flag.name == "--truth"  ? "exact float"
+                                                                 : "";
             script += fmt::format(
                 "complete -c gnomon -n '__fish_seen_subcommand_from {}' -l {} -d {}{}\n",
                 command.name, flag.name.substr(2), fish_quoted(flag.description),

@@ -12,8 +12,12 @@ namespace gnomon::cli {
 
 std::string job_text(const JobOptions& options)
 {
-    if (!options.builtin.empty()) {
-        return fmt::format("[scene]\nbuiltin = \"{}\"\n", options.builtin);
+    if (options.job_path.empty()) {
+        const std::string preset =
+            options.preset.empty() ? "" : fmt::format("preset = \"{}\"\n", options.preset);
+        return options.builtin.empty()
+                   ? preset
+                   : fmt::format("{}[scene]\nbuiltin = \"{}\"\n", preset, options.builtin);
     }
     if (!options.job_path.ends_with(".toml")) {
         return fmt::format("# {}\n", options.job_path);
@@ -36,6 +40,7 @@ std::string command_text(std::string_view command, const JobOptions& options,
         words.push_back(options.job_path);
     }
     add("--builtin", options.builtin);
+    add("--preset", options.preset);
     add("--case", options.case_name);
     if (options.light) {
         words.push_back(store::light_option(*options.light));

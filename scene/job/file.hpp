@@ -97,7 +97,10 @@ struct JobFile {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job);
 
 /// A commented job file with every key at its default: what `gnomon init` writes.
-[[nodiscard]] std::string commented_job_file();
+/// @param preset  whose values it has in place of the defaults, with its own scene or a built-in of
+///                its light; empty: none.
+/// @throws InputError  if there is no preset of that name.
+[[nodiscard]] std::string commented_job_file(std::string_view preset = {});
 
 /// The candidate that needs the fewest edits to become `word`, of several the first; empty without
 /// candidates.

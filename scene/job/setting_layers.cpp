@@ -125,6 +125,9 @@ std::vector<std::string> table_names()
 [[noreturn]] void throw_unknown(const std::string& name, const TomlNode& node,
                                 const KeyPlace& place, const std::vector<std::string>& siblings)
 {
+    if (is_preset_key(name)) {
+        throw InputError(fmt::format("{}{}: {}", place.text(), name, preset_place));
+    }
     if (!std::holds_alternative<TomlTable>(node.value)) {
         throw InputError(fmt::format("{}unknown key {}; the nearest is {}", place.text(),
                                      toml_excerpt({name}), nearest_written_key(name, siblings)));
@@ -221,6 +224,9 @@ Layer layer_from_overrides(const std::vector<Override>& overrides)
     for (const Override& given : overrides) {
         const std::string label = one_line(fmt::format("--set {}={}", given.key, given.value));
         const WrittenKey key = find_written_key(given.key);
+        if (!key && is_preset_key(given.key)) {
+            throw InputError(fmt::format("{}: {}", label, preset_place));
+        }
         if (!key) {
             throw InputError(fmt::format("{}: unknown key; the nearest is {}", label,
                                          nearest_written_key(given.key)));

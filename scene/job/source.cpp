@@ -5,6 +5,7 @@
 #include "scene/job/handed_key.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/lights/light_tables.hpp"
+#include "scene/job/presets/presets.hpp"
 #include "scene/job/sweep_axes.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
@@ -122,10 +123,16 @@ Layer single_setting(std::string_view key, const std::string& value, const std::
     return {make_setting(find_written_key(key), {value}, label)};
 }
 
-/// A built-in's own settings; its bias in metres belongs to its directional light alone.
-Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Settings& given)
+/// A built-in's own settings; its bias in metres belongs to its directional light alone, and a
+/// preset has a system of its own.
+Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Settings& given,
+                    bool has_preset)
 {
     Layer layer = layer_from_job(defaults, builtin.name);
+    if (has_preset) {
+        std::erase_if(layer,
+                      [](const Setting& setting) { return is_system_key(setting.spec->key.name); });
+    }
     const Setting* type = find_setting(given, "light.type");
     if (type != nullptr && std::get<std::string>(type->value) != "directional") {
         std::erase_if(layer, [](const Setting& setting) {
@@ -154,6 +161,71 @@ void check_position(const JobSource& source, const Settings& settings)
     }
 }
 
+ChosenPreset choose_preset(std::string_view name, std::string label)
+{
+    if (name.empty()) {
+        return {};
+    }
+    return {&find_preset(name, label), std::move(label)};
+}
+
+std::string preset_option(std::string_view name)
+{
+    return one_line(fmt::format("--preset {}", name));
+}
+
+ChosenPreset read_preset_choice(const TomlMember& member, const std::string& file)
+{
+    const std::string label =
+        fmt::format("{}preset = {}", KeyPlace{file, member.line}.text(), toml_excerpt(member.node));
+    const auto* name = std::get_if<std::string>(&member.node.value);
+    if (name == nullptr || name->empty()) {
+        throw InputError(label + ": must be the name of a preset (`gnomon presets`)");
+    }
+    return choose_preset(*name, label);
+}
+
+/// What the preset says under the other layers.
+std::vector<Layer> preset_layers(const JobSource& source, const std::vector<Layer>& others)
+{
+    const Preset* preset = source.preset.preset;
+    if (preset == nullptr) {
+        return {};
+    }
+    const Settings given = lay_all(others);
+    if (find_setting(given, "scene.builtin") != nullptr ||
+        find_setting(given, "scene.file") != nullptr) {
+        return {preset->job};
+    }
+    Layer own_scene = preset->own_scene;
+    // Several lights are the job's own, also where one of them was chosen.
+    if (!source.lights.empty() || !source.scene_lights.empty()) {
+        std::erase_if(own_scene, [](const Setting& setting) {
+            return setting.spec->key.name.starts_with("light.");
+        });
+    }
+    return {preset->job, std::move(own_scene)};
+}
+
+/// Refuses a preset for another kind of light than the settings have.
+void check_preset_light(const ChosenPreset& chosen, const Settings& settings)
+{
+    const Setting* type = find_setting(settings, "light.type");
+    if (chosen.preset == nullptr || type == nullptr) {
+        return;
+    }
+    const auto& name = std::get<std::string>(type->value);
+    std::vector<std::string_view> names;
+    for (const LightType light : chosen.preset->lights) {
+        names.push_back(light_type_name(light));
+    }
+    if (std::ranges::find(names, name) == names.end()) {
+        throw InputError(fmt::format("{}: it is for a {} light, and the job's is {}; take another "
+                                     "(`gnomon presets`)",
+                                     chosen.label, fmt::join(names, " or "), name));
+    }
+}
+
 /// What is given of a light, the weakest first.
 std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes,
                                 std::string_view light)
@@ -168,6 +240,8 @@ std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen
         check_lights(source.lights, layer);
         layer = layer_of_light(layer, light);
     }
+    const std::vector<Layer> under = preset_layers(source, layers);
+    layers.insert(layers.begin(), under.begin(), under.end());
     return layers;
 }
 
@@ -247,7 +321,8 @@ void check_axis_lights(const JobSource& source)
 
 } // namespace
 
-JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides)
+JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides,
+                          std::string_view preset)
 {
     JobSource source;
     source.name = one_line(path.string());
@@ -265,13 +340,19 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
                 source.sweep = read_sweep(member, source.name);
             } else if (member.key == "lights") {
                 lights = read_light_tables(member, source.name);
+            } else if (member.key == "preset") {
+                source.preset = read_preset_choice(member, source.name);
             } else {
                 keys.push_back(std::move(member));
             }
         }
-        source.file = layer_from_table(keys, source.name, "", {"sweep", "case", "lights"});
+        source.file =
+            layer_from_table(keys, source.name, "", {"preset", "sweep", "case", "lights"});
         std::ranges::move(lights.layer, std::back_inserter(source.file));
         source.lights = std::move(lights.names);
+    }
+    if (!preset.empty()) {
+        source.preset = choose_preset(preset, preset_option(preset));
     }
     source.overrides = layer_from_overrides(overrides);
     add_scene_lights(source);
@@ -279,15 +360,53 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
     return source;
 }
 
-JobSource builtin_job_source(std::string_view name, const std::vector<Override>& overrides)
+JobSource builtin_job_source(std::string_view name, const std::vector<Override>& overrides,
+                             std::string_view preset)
 {
     JobSource source;
     source.name = one_line(fmt::format("--builtin {}", name));
+    source.preset = choose_preset(preset, preset_option(preset));
     source.file = single_setting("scene.builtin", std::string{name}, source.name);
     source.overrides = layer_from_overrides(overrides);
     add_scene_lights(source);
     check_all_lights(source);
     return source;
+}
+
+JobSource preset_job_source(std::string_view preset, const std::vector<Override>& overrides)
+{
+    JobSource source;
+    source.name = preset_option(preset);
+    source.preset = choose_preset(preset, source.name);
+    if (source.preset.preset->own_scene.empty()) {
+        throw InputError(source.name + ": it has no scene of its own; give a job file, a scene "
+                                       "file or --builtin NAME beside it");
+    }
+    source.overrides = layer_from_overrides(overrides);
+    add_scene_lights(source);
+    check_all_lights(source);
+    return source;
+}
+
+JobSource with_preset(const JobSource& source, const CaseLayer* chosen, const Preset& preset)
+{
+    const auto without_system = [](Layer layer) {
+        std::erase_if(layer,
+                      [](const Setting& setting) { return is_system_key(setting.spec->key.name); });
+        return layer;
+    };
+    const Settings settings =
+        lay_all({without_system(source.file),
+                 chosen == nullptr ? Layer{} : without_system(chosen->layer), preset.job});
+    JobSource other = source;
+    other.preset = {&preset, fmt::format("preset {}", preset.name)};
+    other.file.clear();
+    for (const auto& [key, setting] : settings) {
+        other.file.push_back(setting);
+    }
+    other.cases.clear();
+    other.sweep = {};
+    return other;
 }
 
 const CaseLayer& find_case(const JobSource& source, std::string_view name)
@@ -345,9 +464,11 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
         const auto& builtin = find_builtin_scene(std::get<std::string>(choice->value));
         Job defaults = builtin.default_job(builtin_parameters(builtin, settings));
         defaults.method.name = default_method();
-        layers.insert(layers.begin(), builtin_layer(defaults, builtin, settings));
+        layers.insert(layers.begin(),
+                      builtin_layer(defaults, builtin, settings, source.preset.preset != nullptr));
         settings = lay_all(layers);
     }
+    check_preset_light(source.preset, settings);
     check_settings(settings, source.name);
     check_position(source, settings);
     Job job;

@@ -18,12 +18,21 @@ struct CaseLayer {
     Layer layer;
 };
 
+struct Preset;
+
+/// A preset that was chosen.
+struct ChosenPreset {
+    const Preset* preset = nullptr; ///< nullptr: none is
+    std::string label;              ///< how messages speak of the choice
+};
+
 /// Where jobs come from: what one file or built-in, its cases, its sweep and the command line say,
 /// not yet laid over each other.
 struct JobSource {
     std::string name;                ///< how messages speak of it
     std::filesystem::path folder;    ///< what a relative scene.file is relative to
     std::vector<std::string> lights; ///< names of the `[[lights]]`; empty: one light, `[light]`
+    ChosenPreset preset;
     Layer scene_lights; ///< what lights are by themselves: those of the scene file, or of a choice
     Layer file;
     std::vector<CaseLayer> cases;
@@ -32,10 +41,23 @@ struct JobSource {
 };
 
 /// @throws InputError  as `read_job` does, for everything but keys that do not go together.
+/// @param preset  the name of a preset, which takes the place of the file's own; empty: none.
 [[nodiscard]] JobSource read_job_source(const std::filesystem::path& path,
-                                        const std::vector<Override>& overrides);
+                                        const std::vector<Override>& overrides,
+                                        std::string_view preset = {});
 [[nodiscard]] JobSource builtin_job_source(std::string_view name,
-                                           const std::vector<Override>& overrides);
+                                           const std::vector<Override>& overrides,
+                                           std::string_view preset = {});
+/// Of a preset with the scene that it has of its own.
+[[nodiscard]] JobSource preset_job_source(std::string_view preset,
+                                          const std::vector<Override>& overrides);
+
+/// The source of the job with a preset in place of what the file and the case say of method, map,
+/// lookup and bias: their scene, camera, light and image stay, and where the map looks, and what
+/// the overrides say.
+/// @param chosen  The case; nullptr for none.
+[[nodiscard]] JobSource with_preset(const JobSource& source, const CaseLayer* chosen,
+                                    const Preset& preset);
 
 /// @throws InputError  naming the nearest case.
 [[nodiscard]] const CaseLayer& find_case(const JobSource& source, std::string_view name);
@@ -44,16 +66,18 @@ struct JobSource {
 /// @throws InputError  if there is no such light.
 [[nodiscard]] JobSource only_light(const JobSource& source, std::string_view light);
 
-/// Lays the built-in's defaults, the file, the case, the overrides and a sweep's axes over each
-/// other, in this order; each says first what holds for all lights, then what for one of them.
+/// Lays the built-in's defaults, the preset, the file, the case, the overrides and a sweep's axes
+/// over each other, in this order; each says first what holds for all lights, then what for one of
+/// them. Of a built-in's system keys nothing is left under a preset (`is_system_key`), and a
+/// preset's own scene holds where nothing over it names one.
 /// @param chosen  The case; nullptr for none.
 /// @param light   Which of several lights the job is of; empty: it has but one.
 /// @throws InputError  if keys do not go together, or no light is named where there are several.
 [[nodiscard]] Job make_job(const JobSource& source, const CaseLayer* chosen = nullptr,
                            const Layer& axes = {}, std::string_view light = {});
 
-/// What the file, the case, the overrides and the axes say, whether it goes together or not: keys
-/// and values as text, in the order of `job_keys`. A scene's file is as it was written.
+/// What the preset, the file, the case, the overrides and the axes say, whether it goes together or
+/// not: keys and values as text, in the order of `job_keys`. A scene's file is as it was written.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>>
 given_keys(const JobSource& source, const CaseLayer* chosen = nullptr, const Layer& axes = {},
            std::string_view light = {});

@@ -306,6 +306,9 @@ SweepAxis read_axis_argument(const std::string& argument)
     }
     const std::string name = argument.substr(0, equals);
     const WrittenKey key = find_written_key(name);
+    if (!key && is_preset_key(name)) {
+        throw InputError(fmt::format("{}: {}", label, preset_place));
+    }
     if (!key) {
         throw InputError(fmt::format("{}: unknown key {}; the nearest is {}", label,
                                      toml_excerpt({name}), nearest_written_key(name)));

@@ -1,4 +1,6 @@
 #include "scene/job/keys.hpp"
+#include "scene/job/presets/presets.hpp"
+#include "scene/job/source.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +9,16 @@
 namespace gnomon::scene {
 namespace {
 
-constexpr std::string_view shown_builtin = "sphere-cube";
+constexpr std::string_view shown_builtin = "sphere-cube"; // under a spot
+constexpr std::string_view shown_sun = "wall";
 
 constexpr std::string_view heading =
     R"(# A job: what to look at and how. Every key may be left out: it then takes the value that the
 # built-in scene brings along, or for a scene file the default named here. Without [camera] and
 # [light], a scene file's own are used, or else a camera that frames it and the default light.
+
+# The shadow map of a lesson or an engine, for what this file leaves out: `gnomon presets`.
+# preset = "lesson-webgl"
 )";
 
 constexpr std::string_view lights_sweep_and_cases = R"(
@@ -57,19 +63,34 @@ std::string entry(const KeySpec& spec, const std::map<std::string, std::string>&
                        value == values.end() ? shown : value->second);
 }
 
+/// The job that is written out.
+Job shown_job(std::string_view preset)
+{
+    if (preset.empty()) {
+        return builtin_job(shown_builtin).job;
+    }
+    const Preset& chosen = find_preset(preset, fmt::format("--preset {}", preset));
+    if (!chosen.own_scene.empty()) {
+        return job_of(preset_job_source(preset, {})).job;
+    }
+    const std::string_view builtin = chosen.is_for(LightType::spot) ? shown_builtin : shown_sun;
+    return job_of(builtin_job_source(builtin, {}, preset)).job;
+}
+
 } // namespace
 
-std::string commented_job_file()
+std::string commented_job_file(std::string_view preset)
 {
+    const Job job = shown_job(preset);
     std::map<std::string, std::string> values;
-    for (auto& [key, value] : resolved_keys(builtin_job(shown_builtin).job)) {
+    for (auto& [key, value] : resolved_keys(job)) {
         values.emplace(key, std::move(value));
     }
     std::string text{heading};
     std::string_view table;
     for (const KeySpec& spec : key_specs()) {
         const bool is_shown = table_of(spec.key.name).find('.') == std::string_view::npos ||
-                              spec.key.name.starts_with(parameter_prefix(shown_builtin));
+                              spec.key.name.starts_with(parameter_prefix(job.scene.builtin));
         if (!is_shown) {
             continue;
         }

@@ -1,8 +1,11 @@
 #include "example_comparison.hpp"
 
+#include "analysis/presets/preset_result.hpp"
 #include "methods/list.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/json/methods_json.hpp"
+#include "reports/json/presets_json.hpp"
+#include "scene/job/presets/presets.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -84,6 +87,40 @@ TEST(JsonSchemaDocument, NamesTheMembersOfMethods)
         ++members;
     });
     EXPECT_GT(members, 100);
+}
+
+/// The page from its section on presets on.
+std::string text_on_presets()
+{
+    std::string text = document_text(schema_document);
+    return text.erase(0, text.find("\n## Presets\n"));
+}
+
+TEST(JsonSchemaDocument, NamesTheMembersOfPresets)
+{
+    const std::string text = text_on_presets();
+    const Json json = Json::parse(presets_json(scene::presets()));
+    ASSERT_FALSE(json.empty());
+    for (const auto& [name, value] : json.front().items()) {
+        EXPECT_TRUE(is_named(text, name)) << name << " is not in " << schema_document;
+    }
+}
+
+TEST(JsonSchemaDocument, NamesTheMembersOfAComparisonOfPresets)
+{
+    const std::string text = text_on_presets();
+    const store::Example example;
+    analysis::PresetComparison comparison;
+    comparison.job = analysis::preset_result(example.comparison, nullptr);
+    comparison.results = {
+        analysis::preset_result(example.comparison, &scene::find_preset("filament", ""))};
+    comparison.skipped = {{&scene::presets().back(), "not for this light"}};
+    int members = 0;
+    for_each_member(Json::parse(preset_comparison_json(comparison)), [&](const std::string& name) {
+        EXPECT_TRUE(is_named(text, name)) << name << " is not in " << schema_document;
+        ++members;
+    });
+    EXPECT_GT(members, 50);
 }
 
 TEST(JsonSchemaDocument, IsNotTakenToNameWhatItDoesNot)

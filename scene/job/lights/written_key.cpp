@@ -102,6 +102,11 @@ std::string nearest_written_key(std::string_view name, std::vector<std::string> 
     return nearest_word(name, candidates);
 }
 
+bool is_preset_key(std::string_view name)
+{
+    return key_leaf(name) == "preset";
+}
+
 bool is_light_name(std::string_view text)
 {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_-";

@@ -35,6 +35,13 @@ struct WrittenKey {
 [[nodiscard]] std::string nearest_written_key(std::string_view name,
                                               std::vector<std::string> candidates = {});
 
+/// Whether the name is `preset`, or ends with it: no key, but a member at a job file's top.
+[[nodiscard]] bool is_preset_key(std::string_view name);
+/// What to say where it stands elsewhere.
+inline constexpr std::string_view preset_place =
+    "a job has one preset, for all its lights and cases; write preset = \"NAME\" at the top of "
+    "the job file, or give --preset NAME";
+
 /// Names of files and channels begin with it.
 inline constexpr std::size_t longest_light_name = 64;
 

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "analysis/metrics/map_facts.hpp"
+#include "analysis/metrics/metrics.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
+#include "scene/job/job.hpp"
+#include "scene/job/presets/presets.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+struct Comparison;
+
+/// A job's biases at its median receiver, of several maps those of the first.
+struct ReceiverBias {
+    double light_distance_m = 0; ///< median light distance of the scored receivers [m]
+    double texel_m = 0;          ///< width of a texel there
+    MapBias bias;
+    double slope = 0;         ///< depth units per unit of tan θ
+    double normal_texels = 0; ///< widths of a texel
+    double constant_r = 0;    ///< the constant bias, in smallest steps of the format at that depth
+};
+
+/// A bias that no key takes, at the same place.
+struct UnexpressedLength {
+    double constant = 0; ///< depth units
+    double constant_m = 0;
+    double constant_texels = 0;
+    double constant_r = 0;
+    /// Of the polygon offset's factor, per unit of tan θ where the surface slopes along a row or a
+    /// column of texels; where it slopes across both, down to 1/√2 of it [m].
+    double slope_m = 0;
+};
+
+/// @param light_distance_m  of the receivers; > 0 for a spot.
+[[nodiscard]] ReceiverBias bias_at(const scene::Job& job, const scene::View& view,
+                                   double light_distance_m);
+
+/// What constant texels, polygon units and factor are at a receiver: the texels and the units'
+/// steps added, and factor × texel. Source: OpenGL 4.6 §14.6.5.
+[[nodiscard]] UnexpressedLength length_of(const scene::UnexpressedBias& bias, const scene::Job& job,
+                                          const scene::View& view, double light_distance_m);
+
+/// What a preset, or the job itself, gives on a job.
+struct PresetResult {
+    const scene::Preset* preset = nullptr; ///< nullptr: the job as it is
+    scene::Job job;
+    std::optional<ReceiverBias> receiver; ///< empty: no pixel is scored, or the light has no map
+    std::optional<UnexpressedLength> unexpressed; ///< of a preset that has such a bias
+    Metrics metrics;
+    Gaps peter_panning;
+    std::uint64_t map_bytes = 0;
+};
+
+[[nodiscard]] PresetResult preset_result(const Comparison& comparison, const scene::Preset* preset);
+
+/// A preset that the job cannot have.
+struct SkippedPreset {
+    const scene::Preset* preset = nullptr;
+    std::string why;
+};
+
+/// The presets side by side.
+struct PresetComparison {
+    std::string scene;
+    scene::LightType light = scene::LightType::directional;
+    PresetResult job; ///< as it is
+    std::vector<PresetResult> results;
+    std::vector<SkippedPreset> skipped;
+};
+
+} // namespace gnomon::analysis

@@ -1,0 +1,143 @@
+#include "cli/program/presets_command.hpp"
+
+#include "analysis/comparison.hpp"
+#include "analysis/presets/preset_result.hpp"
+#include "cli/compare/comparison_session.hpp"
+#include "cli/job_options.hpp"
+#include "cli/system/slow_work.hpp"
+#include "cli/system/standard_output.hpp"
+#include "reports/json/presets_json.hpp"
+#include "reports/tables/presets_table.hpp"
+#include "scene/error.hpp"
+#include "scene/job/presets/presets.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <optional>
+
+namespace gnomon::cli {
+namespace {
+
+struct PresetsOptions {
+    JobOptions job;
+    SessionOptions session;
+    bool json = false;
+    bool compares = false;
+};
+
+void list_presets(const PresetsOptions& options)
+{
+    const JobOptions& job = options.job;
+    const bool has_job = !job.job_path.empty() || !job.builtin.empty() || !job.preset.empty() ||
+                         !job.settings.empty() || !job.case_name.empty() || job.light;
+    if (has_job) {
+        throw scene::InputError("a job is for --compare: give that too, or leave the job out");
+    }
+    print(options.json ? reports::presets_json(scene::presets())
+                       : reports::presets_table(scene::presets()));
+}
+
+/// The presets laid over one job, one after the other.
+class PresetTrial {
+public:
+    explicit PresetTrial(const PresetsOptions& options)
+        : source_{read_job_source(options.job)},
+          case_name_{options.job.case_name}
+    {
+        if (!source_.lights.empty()) {
+            throw scene::InputError(
+                fmt::format("--compare: presets are for one light: choose one with --light, {}",
+                            fmt::join(source_.lights, " or ")));
+        }
+    }
+
+    [[nodiscard]] analysis::PresetComparison run(const PresetsOptions& options)
+    {
+        SlowWork work{"reading the scene"};
+        const scene::Job job = scene::job_of(source_, case_name_).job;
+        const ComparisonSession session{job, options.session};
+        analysis::PresetComparison comparison;
+        comparison.light = scene::resolve_light(job, session.file().defaults).type;
+        comparison.job = compare(job, nullptr, session, work);
+        comparison.scene = analysis::scene_name(job.scene);
+        for (const scene::Preset& preset : scene::presets()) {
+            if (preset.is_for(comparison.light)) {
+                try_preset(preset, session, work, comparison);
+            } else {
+                comparison.skipped.push_back(
+                    {&preset,
+                     fmt::format("not for a {} light", scene::light_type_name(comparison.light))});
+            }
+        }
+        return comparison;
+    }
+
+private:
+    void try_preset(const scene::Preset& preset, const ComparisonSession& session, SlowWork& work,
+                    analysis::PresetComparison& comparison) const
+    {
+        const scene::CaseLayer* chosen =
+            case_name_.empty() ? nullptr : &scene::find_case(source_, case_name_);
+        try {
+            const scene::Job job = scene::make_job(scene::with_preset(source_, chosen, preset));
+            comparison.results.push_back(compare(job, &preset, session, work));
+        } catch (const scene::InputError& error) { // a --set that the preset cannot have
+            comparison.skipped.push_back({&preset, error.what()});
+        }
+    }
+
+    static analysis::PresetResult compare(const scene::Job& job, const scene::Preset* preset,
+                                          const ComparisonSession& session, SlowWork& work)
+    {
+        const std::string name = preset == nullptr ? "the job" : preset->name;
+        work.now(fmt::format("comparing {}", name));
+        const analysis::Comparison comparison =
+            analysis::compare(job, session.file(), session.renderers());
+        const auto mismatches = comparison.metrics.pixels.of(scene::ClassReason::mismatch);
+        if (mismatches > 0) {
+            throw scene::EnvironmentError(
+                fmt::format("{}: {} pixels mismatch; report it with the job and the output of "
+                            "`gnomon doctor`",
+                            name, mismatches));
+        }
+        return analysis::preset_result(comparison, preset);
+    }
+
+    scene::JobSource source_;
+    std::string case_name_;
+};
+
+void presets(const PresetsOptions& options)
+{
+    if (!options.compares) {
+        return list_presets(options);
+    }
+    const analysis::PresetComparison comparison = PresetTrial{options}.run(options);
+    print(options.json ? reports::preset_comparison_json(comparison)
+                       : reports::preset_comparison_table(comparison));
+}
+
+} // namespace
+
+void add_presets_command(CLI::App& program)
+{
+    auto options = std::make_shared<PresetsOptions>();
+    CLI::App* command = program.add_subcommand(
+        "presets", "List the shadow maps of lessons and engines, or compare them on a job");
+    command->add_flag("--compare", options->compares,
+                      "Compare a job with each preset that is for its light, and show their biases "
+                      "and errors side by side (docs/presets.md)");
+    add_job_options(*command, options->job);
+    command->add_flag("--json", options->json, "Print them as JSON (docs/json_schema.md)");
+    add_session_options(*command, options->session);
+    command->footer("Examples:\n"
+                    "  gnomon presets\n"
+                    "  gnomon compare --preset lesson-webgl\n"
+                    "  gnomon compare job.toml --preset bevy\n"
+                    "  gnomon presets --compare --builtin yard");
+    command->callback([options] { presets(*options); });
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,105 @@
+// The tables of docs/presets.md are those of the presets: GNOMON_UPDATE_DOCUMENTS=1 writes them.
+
+#include "scene/job/presets/presets.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+namespace {
+
+constexpr const char* presets_document = GNOMON_PRESETS_DOCUMENT;
+
+std::string keys_of_layer(const Layer& layer)
+{
+    std::vector<std::string> keys;
+    for (const Setting& setting : layer) {
+        keys.push_back(fmt::format("`{} = {}`", setting.spec->key.name, to_toml(setting.value)));
+    }
+    return fmt::format("{}", fmt::join(keys, ", "));
+}
+
+std::string lights_of(const Preset& preset)
+{
+    std::vector<std::string_view> names;
+    for (const LightType light : preset.lights) {
+        names.push_back(light_type_name(light));
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string overview(PresetKind kind)
+{
+    std::string text = "| preset | what it is | lights | its bias, in its own units |\n"
+                       "|---|---|---|---|\n";
+    for (const Preset& preset : presets()) {
+        if (preset.kind == kind) {
+            text += fmt::format("| [`{0}`](#{0}) | {1} | {2} | {3} |\n", preset.name,
+                                preset.sentence, lights_of(preset), preset.own_bias);
+        }
+    }
+    return text;
+}
+
+std::string section(const Preset& preset)
+{
+    std::string text = fmt::format("### {}\n\n{}.\n\n", preset.name, preset.source);
+    text += fmt::format("- keys: {}\n", keys_of_layer(preset.job));
+    if (!preset.own_scene.empty()) {
+        text += fmt::format("- with its own scene: {}\n", keys_of_layer(preset.own_scene));
+    }
+    text += "- what a job cannot express:\n";
+    for (const std::string& line : preset.cannot) {
+        text += fmt::format("  - {}\n", line);
+    }
+    return text;
+}
+
+std::string sections()
+{
+    std::string text;
+    for (const Preset& preset : presets()) {
+        text += (text.empty() ? std::string{} : std::string{"\n"}) + section(preset);
+    }
+    return text;
+}
+
+/// The page with the text between the markers of that name.
+std::string with_text(std::string page, std::string_view name, const std::string& text)
+{
+    const std::string begin = fmt::format("<!-- {}: generated -->\n", name);
+    const auto start = page.find(begin);
+    const auto end = page.find("<!-- end -->", start);
+    if (start == std::string::npos || end == std::string::npos) {
+        ADD_FAILURE() << presets_document << " has no place for " << name;
+        return page;
+    }
+    const auto from = start + begin.size();
+    return page.replace(from, end - from, fmt::format("\n{}\n", text));
+}
+
+TEST(PresetsDocument, HasTheTablesOfThePresets)
+{
+    std::ostringstream written;
+    written << std::ifstream{presets_document}.rdbuf();
+    std::string expected = with_text(written.str(), "lessons", overview(PresetKind::lesson));
+    expected = with_text(std::move(expected), "engines", overview(PresetKind::engine));
+    expected = with_text(std::move(expected), "presets", sections());
+    if (std::getenv("GNOMON_UPDATE_DOCUMENTS") != nullptr) {
+        std::ofstream{presets_document} << expected;
+        return;
+    }
+    EXPECT_EQ(written.str(), expected)
+        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R presets_document_test writes them anew";
+}
+
+} // namespace
+} // namespace gnomon::scene

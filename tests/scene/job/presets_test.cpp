@@ -1,0 +1,278 @@
+// Presets: their files, where they lie among the layers, and what is refused.
+
+#include "job_fixture.hpp"
+
+#include "scene/job/keys.hpp"
+#include "scene/job/presets/presets.hpp"
+#include "scene/job/source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+namespace gnomon::scene::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string spot_scene = "scene.builtin = \"sphere-plane\"\n";
+const std::string sun_scene = "scene.builtin = \"yard\"\n";
+
+Job preset_job(std::string_view preset, const std::vector<Override>& overrides = {})
+{
+    return job_of(preset_job_source(preset, overrides)).job;
+}
+
+/// A built-in scene with a light of the type.
+std::string scene_of(LightType type)
+{
+    return type == LightType::spot ? spot_scene : sun_scene;
+}
+
+/// The message with which a preset's text is refused.
+std::string preset_refusal(const std::string& text)
+{
+    return error_of([&] { return read_preset("mine", text); });
+}
+
+const std::string whole_preset = "kind = \"engine\"\nsentence = \"s\"\nsource = \"d\"\n"
+                                 "lights = [\"spot\"]\nown_bias = \"b\"\ncannot = [\"c\"]\n"
+                                 "[job]\nbias.constant = 0.5\n";
+
+TEST(Presets, AreFiveLessonsAndTenEngines)
+{
+    const auto count = [](PresetKind kind) {
+        return std::ranges::count(presets(), kind, &Preset::kind);
+    };
+    EXPECT_EQ(count(PresetKind::lesson), 6); // one of them in two formats
+    EXPECT_EQ(count(PresetKind::engine), 10);
+}
+
+TEST(Presets, SayWhatTheyAreWhereFromAndWhatIsMissing)
+{
+    std::set<std::string> names;
+    for (const Preset& preset : presets()) {
+        EXPECT_TRUE(names.insert(preset.name).second) << preset.name;
+        EXPECT_EQ(preset.sentence.find('\n'), std::string::npos) << preset.name;
+        EXPECT_FALSE(preset.cannot.empty()) << preset.name;
+        EXPECT_EQ(preset.own_scene.empty(), preset.kind == PresetKind::engine) << preset.name;
+    }
+}
+
+TEST(Presets, DecideTheSystemAndLeaveSceneCameraAndLightToTheirOwnScene)
+{
+    for (const Preset& preset : presets()) {
+        for (const Setting& setting : preset.job) {
+            const std::string& key = setting.spec->key.name;
+            EXPECT_TRUE(is_system_key(key) || key.starts_with("shadow_map."))
+                << preset.name << ": " << key;
+        }
+        for (const Setting& setting : preset.own_scene) {
+            EXPECT_FALSE(is_system_key(setting.spec->key.name))
+                << preset.name << ": " << setting.spec->key.name;
+        }
+    }
+}
+
+TEST(Presets, ResolveUnderEveryLightThatTheyAreFor)
+{
+    for (const Preset& preset : presets()) {
+        for (const LightType type : preset.lights) {
+            const Job job =
+                job_of(fmt::format("preset = \"{}\"\n{}", preset.name, scene_of(type))).job;
+            const auto keys = keys_of(job);
+            for (const Setting& setting : preset.job) {
+                const auto value = setting.spec->get(job);
+                ASSERT_TRUE(value) << preset.name << ": " << setting.spec->key.name;
+                EXPECT_EQ(to_toml(*value), to_toml(setting.value)) << preset.name;
+            }
+        }
+    }
+}
+
+TEST(Presets, OfLessonsResolveWithTheirOwnScene)
+{
+    EXPECT_EQ(preset_job("lesson-textbook").scene.builtin, "two-distances");
+    EXPECT_EQ(preset_job("lesson-lecture").scene.builtin, "sphere-cube");
+    EXPECT_EQ(preset_job("lesson-opengl-notes").scene.builtin, "yard");
+    EXPECT_EQ(preset_job("lesson-game").scene.builtin, "playground");
+    EXPECT_EQ(preset_job("lesson-webgl").scene.builtin, "sphere-plane");
+}
+
+TEST(Presets, LieAboveTheBuiltInAndBeneathTheFile)
+{
+    const Job job = job_of("preset = \"lesson-webgl\"\n" + spot_scene +
+                               "lookup.outside = \"clamp\"\nshadow_map.far = 12\n",
+                           {{"shadow_map.resolution", "64"}})
+                        .job;
+    EXPECT_EQ(job.shadow_map.depth_format.kind, DepthFormat::Kind::d32);
+    EXPECT_EQ(job.lookup.outside, Outside::clamp);
+    EXPECT_EQ(job.shadow_map.frustum.far_m, 12);
+    EXPECT_EQ(job.shadow_map.resolution_texels, 64);
+}
+
+TEST(Presets, LeaveNothingOfTheBuiltInsSystem)
+{
+    // By itself the scene has a bias of 0.006, and planes at 0.5 and 10, which are no part of it.
+    const Job job = job_of("preset = \"three\"\n" + spot_scene).job;
+    EXPECT_EQ(job.bias.constant, 0);
+    EXPECT_EQ(job.shadow_map.frustum.near_m, 0.5);
+    EXPECT_EQ(job_of("preset = \"playcanvas\"\n" + spot_scene).job.shadow_map.depth_format,
+              DepthFormat{});
+}
+
+TEST(Presets, LeaveTheirOwnSceneWhereTheJobNamesOne)
+{
+    const Job job = job_of("preset = \"lesson-opengl-notes\"\nscene.builtin = \"wall\"\n").job;
+    EXPECT_EQ(job.scene.builtin, "wall");
+    EXPECT_NE(job.shadow_map.frustum.fit, Fit::fixed);
+    EXPECT_EQ(job.lookup.filter, Filter::pcf3);
+}
+
+TEST(Presets, AreReplacedByTheCommandLines)
+{
+    const JobSource source = read_job_source(write_job("preset = \"lesson-webgl\"\n" + spot_scene),
+                                             {}, "lesson-lecture");
+    EXPECT_EQ(job_of(source).job.bias.constant, 0.1);
+}
+
+TEST(Presets, AreLaidUnderCases)
+{
+    const std::string text = "preset = \"lesson-lecture\"\n" + spot_scene +
+                             "[[case]]\nname = \"less\"\nbias.constant = 0.01\n";
+    EXPECT_EQ(job_of(text).job.bias.constant, 0.1);
+    EXPECT_EQ(job_of(text, {}, "less").job.bias.constant, 0.01);
+}
+
+TEST(Presets, AreLaidUnderEachOfSeveralLights)
+{
+    const JobSource source = read_job_source(
+        write_job("preset = \"lesson-lecture\"\n" + spot_scene +
+                  "[[lights]]\nname = \"a\"\ntype = \"spot\"\nposition = [1, 5, 1]\n"
+                  "target = [0, 0, 0]\n[[lights]]\nname = \"b\"\ntype = \"spot\"\n"
+                  "position = [2, 5, 1]\ntarget = [0, 0, 0]\nbias.constant = 0.2\n"),
+        {});
+    const auto jobs = light_jobs(source);
+    EXPECT_EQ(jobs.at(0).job.bias.constant, 0.1);
+    EXPECT_EQ(jobs.at(1).job.bias.constant, 0.2);
+    EXPECT_EQ(make_job(only_light(source, "a")).bias.constant, 0.1);
+}
+
+TEST(Presets, StandAmongTheGivenKeys)
+{
+    const JobSource source = preset_job_source("lesson-lecture", {});
+    const auto keys = given_keys(source);
+    EXPECT_THAT(keys,
+                testing::Contains(std::pair<std::string, std::string>{"bias.constant", "0.1"}));
+}
+
+TEST(Presets, TakeThePlaceOfAJobsOwnSystem)
+{
+    const JobSource source =
+        read_job_source(write_job(spot_scene + "bias.constant = 0.3\nlookup.filter = \"pcf5\"\n"
+                                               "image.width = 50\nshadow_map.near = 1\n"),
+                        {{"shadow_map.resolution", "77"}});
+    const Job job = make_job(with_preset(source, nullptr, find_preset("lesson-lecture", "here")));
+    EXPECT_EQ(job.bias.constant, 0.1);
+    EXPECT_EQ(job.lookup.filter, Filter::nearest);
+    EXPECT_EQ(job.image.width_px, 50);
+    EXPECT_EQ(job.shadow_map.frustum.near_m, 1);
+    EXPECT_EQ(job.shadow_map.resolution_texels, 77);
+}
+
+TEST(Presets, OfCascadesTakeThePlaceOfAFixedFit)
+{
+    const JobSource source =
+        read_job_source(write_job(sun_scene + "shadow_map.fit = \"fixed\"\n"), {});
+    const Job job = make_job(with_preset(source, nullptr, find_preset("bevy", "here")));
+    EXPECT_EQ(map_layout(job), MapLayout::cascades);
+}
+
+TEST(Presets, AreWrittenOutAsJobFiles)
+{
+    for (const Preset& preset : presets()) {
+        const Job job = job_of(commented_job_file(preset.name)).job;
+        for (const Setting& setting : preset.job) {
+            const auto value = setting.spec->get(job);
+            ASSERT_TRUE(value) << preset.name << ": " << setting.spec->key.name;
+            EXPECT_EQ(to_toml(*value), to_toml(setting.value)) << preset.name;
+        }
+    }
+    EXPECT_THAT(error_of([] { return commented_job_file("bevvy"); }),
+                HasSubstr("the nearest is bevy"));
+}
+
+TEST(Presets, NameTheNearestWhereThereIsNoneOfTheName)
+{
+    EXPECT_EQ(refusal("preset = \"bevvy\"\n" + sun_scene),
+              "job.toml:1: preset = \"bevvy\": no preset of that name; the nearest is bevy "
+              "(`gnomon presets`)");
+    EXPECT_EQ(error_of([] { return preset_job_source("lesson-webg", {}); }),
+              "--preset lesson-webg: no preset of that name; the nearest is lesson-webgl (`gnomon "
+              "presets`)");
+    EXPECT_EQ(refusal("preset = 3\n" + sun_scene),
+              "job.toml:1: preset = 3: must be the name of a preset (`gnomon presets`)");
+}
+
+TEST(Presets, AreRefusedForAnotherLight)
+{
+    EXPECT_EQ(
+        refusal("preset = \"bevy\"\n" + spot_scene),
+        "job.toml:1: preset = \"bevy\": it is for a directional light, and the job's is spot; "
+        "take another (`gnomon presets`)");
+}
+
+TEST(Presets, OfEnginesNeedAScene)
+{
+    EXPECT_THAT(error_of([] { return preset_job_source("bevy", {}); }),
+                HasSubstr("--preset bevy: it has no scene of its own"));
+}
+
+TEST(Presets, StandAtTheTopOfAJobAlone)
+{
+    for (const std::string& text : {std::string{"[image]\npreset = \"bevy\"\n"},
+                                    std::string{"[[case]]\nname = \"a\"\npreset = \"bevy\"\n"},
+                                    std::string{"[sweep]\npreset = [\"bevy\"]\n"},
+                                    std::string{"[[lights]]\nname = \"a\"\npreset = \"bevy\"\n"}}) {
+        EXPECT_THAT(refusal(sun_scene + text),
+                    AllOf(HasSubstr("preset"), HasSubstr("at the top of the job file")));
+    }
+    EXPECT_THAT(refusal(sun_scene, {{"preset", "bevy"}}), HasSubstr("or give --preset NAME"));
+}
+
+TEST(Presets, AreReadFromTheirText)
+{
+    const Preset preset = read_preset("mine", whole_preset);
+    EXPECT_EQ(preset.name, "mine");
+    EXPECT_TRUE(preset.is_for(LightType::spot));
+    EXPECT_FALSE(preset.is_for(LightType::directional));
+    ASSERT_EQ(preset.job.size(), 1U);
+    EXPECT_EQ(preset.job.front().label, "preset mine: bias.constant = 0.5");
+}
+
+TEST(Presets, LayTheirKeysOverThoseOfWhatTheyAreBasedOn)
+{
+    const Preset base = read_preset("base", whole_preset + "lookup.filter = \"pcf3\"\n");
+    const Preset preset = read_preset("mine", whole_preset, &base);
+    ASSERT_EQ(preset.job.size(), 2U);
+    EXPECT_EQ(preset.job.front().spec->key.name, "lookup.filter");
+    EXPECT_EQ(base_of_preset("mine", "based_on = \"base\"\n" + whole_preset), "base");
+    EXPECT_EQ(base_of_preset("mine", whole_preset), "");
+}
+
+TEST(Presets, AreRefusedWhereTheirTextIsNotWhole)
+{
+    EXPECT_EQ(preset_refusal("kind = \"engine\"\n"), "preset mine: sentence is missing");
+    EXPECT_EQ(preset_refusal("more = 1\n"), "preset mine: unknown member more");
+    EXPECT_EQ(preset_refusal("kind = \"book\"\n"), "preset mine: there is no kind book");
+    EXPECT_EQ(preset_refusal("lights = [\"sun\"]\n"), "preset mine: there is no light sun");
+    EXPECT_EQ(preset_refusal("cannot = \"c\"\n"), "preset mine: cannot must be a list of texts");
+    EXPECT_THAT(preset_refusal("[job]\nbias.constant = 7\n"),
+                HasSubstr("preset mine: bias.constant = 7: must be"));
+}
+
+} // namespace
+} // namespace gnomon::scene::test
