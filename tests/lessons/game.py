@@ -1,0 +1,100 @@
+"""Claims of the game developer's note: a sun over a game."""
+
+import numpy
+
+from claim import Claim, Control, Lesson, Verdict
+from quantities import is_scored, ratio, renderings, wrong
+
+
+def mean_of_squares(values, side):
+    """The mean over squares of side × side."""
+    rows, columns = (extent // side for extent in values.shape)
+    return values.reshape(rows, side, columns, side).mean((1, 3))
+
+
+def averaged_over_plain(job):
+    """Errors against averaged truth of averaged verdicts, over those of one sample a pixel."""
+    plain, sampled = job.layers("plain"), job.layers("sampled")
+    side = len(sampled["class"]) // len(plain["class"])
+    counted = is_scored(plain) & (mean_of_squares(is_scored(sampled).astype(float), side) == 1)
+    before = plain["verdict"] - plain.is_lit
+    after = mean_of_squares(sampled["verdict"] - sampled.is_lit, side)
+    return numpy.abs(after)[counted].sum() / numpy.abs(before)[counted].sum()
+
+
+def depth_before_the_middle(job):
+    samples = job.depth("sun")["samples"]
+    frustum = job.depth("sun")["frustum"]
+    return float(numpy.interp((frustum["near_m"] + frustum["far_m"]) / 2,
+                              [sample["zeta_m"] for sample in samples], [sample["depth"] for sample in samples]))
+
+
+LESSON = Lesson("game", "The game developer's note", (
+    Claim(
+        job="depth_is_distance",
+        claim="A depth is the distance from the near plane",
+        number="depth half-way between near and far",
+        verdict=Verdict.BOUNDED,
+        why="Of an orthographic sun; a lamp of near 4 and far 50 has spent 0.93 by then.",
+        measure=depth_before_the_middle,
+        low=0.4999, high=0.5001,  # linear between samples that are float32
+        control=Control(instead={"sun": "lamp"})),
+    Claim(
+        job="two_renderings",
+        claim="A shadow map takes two renderings",
+        number="renderings",
+        verdict=Verdict.CONFIRMED,
+        why="The map, and what the camera sees.",
+        measure=lambda job: renderings(job.plan()),
+        low=2, high=2,  # a count
+        control=Control(job="textbook/three_lights")),
+    Claim(
+        job="parallel_light",
+        claim="Under parallel light shadows are as large as what casts them",
+        number="shadow of a ball 3 m up over that of one 1.1 m up, by exact rays",
+        verdict=Verdict.CONFIRMED,
+        why="1600 and 1599 pixels; under a lamp 8 m up it is 1.9 times as large.",
+        measure=lambda job: ratio(job.compare("sun_high")["pixels"]["blocked"],
+                                  job.compare("sun_low")["pixels"]["blocked"]),
+        # An outline of 140 pixels places some √140 of them by chance: 1 % of 1600.
+        low=0.97, high=1.03,
+        control=Control(instead={"sun_low": "lamp_low", "sun_high": "lamp_high"})),
+    Claim(
+        job="box_of_all_vertices",
+        claim="The box of all vertices is a good one for the sun's projection",
+        number="pixels wrong because the map leaves them or their blockers out", unit="px",
+        verdict=Verdict.CONFIRMED,
+        why="It leaves nothing out; but a map fitted to what the camera sees has a quarter fewer errors.",
+        measure=lambda job: job.compare("all")["causes"]["coverage"],
+        high=0,  # exact
+        control=Control(instead={"all": "third"})),
+    Claim(
+        job="near_and_far",
+        claim="near and far are those of the vertices, sorted by their distance from the light's camera",
+        number="pixels wrong because a plane cuts them or their blockers off", unit="px",
+        verdict=Verdict.CONFIRMED,
+        why="Nothing is beyond them; a far plane 3.8 m nearer costs 4866 pixels.",
+        measure=lambda job: job.compare("sorted")["causes"]["coverage"],
+        high=0,  # exact
+        control=Control(instead={"sorted": "short"})),
+    Claim(
+        job="clip_range",
+        claim="Depths have to be in [-1, 1] to be drawn",
+        number="errors with depths from 1 down to 0 over those with depths from -1 to 1",
+        verdict=Verdict.REFUTED,
+        why="Since glClipControl (GL 4.5) [0, 1] serves as well, from far to near, too.",
+        measure=lambda job: ratio(wrong(job.compare("zero_to_one")), wrong(job.compare("minus_one_to_one"))),
+        # 76 wrong pixels of resolution; rounding may turn a few.
+        low=0.9, high=1.1,
+        control=Control(instead={"zero_to_one": "unbiased"})),
+    Claim(
+        job="anti_aliasing",
+        claim="Anti-aliasing will improve aliased shadows",
+        number="errors of the mean of 4 × 4 samples a pixel over those of one sample",
+        verdict=Verdict.REFUTED,
+        why="Jags are as wide as the map's texels, and averaged as they are.",
+        measure=averaged_over_plain,
+        # Texels of 7 cm are wider than pixels of 3 cm: few samples of a pixel differ.
+        low=0.7, high=1.1,
+        control=Control(instead={"sampled": "sampled_fine"})),
+))

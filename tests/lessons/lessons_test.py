@@ -1,0 +1,142 @@
+"""Each claim of the lessons: its number is measured, its verdict holds, and docs/lessons.md gives both.
+
+GNOMON_UPDATE_DOCUMENTS=1 writes the document's tables anew. With --negated every condition is turned round, and
+this succeeds only if every row then fails; so does the control run of each, in which something else is measured.
+"""
+
+import contextlib
+import os
+import sys
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+import document
+from all_lessons import LESSONS, rows
+from measured_job import JOBS, NotMeasured, printed
+
+FEWEST_ROWS = 35
+
+
+class Row(unittest.TestCase):
+    """The verdict of one claim holds for the number that is measured."""
+
+    def __init__(self, lesson, claim, negated=False):
+        super().__init__("run_row")
+        self.lesson, self.claim, self.negated = lesson, claim, negated
+
+    def __str__(self):
+        return f"{self.lesson.folder}/{self.claim.job}"
+
+    def measured(self, job):
+        try:
+            return self.claim.measure(job)
+        except NotMeasured as reason:
+            self.skipTest(str(reason))
+
+    def run_row(self):
+        number = self.measured(self.lesson.job(self.claim))
+        limits = f"[{self.claim.low:g}, {self.claim.high:g}]"
+        self.assertNotEqual(self.claim.holds(number), self.negated,
+                            f"{self}: {self.claim.number}: {number:g}, limits {limits}: {self.claim.claim}")
+
+
+class ControlRow(Row):
+    """The verdict of one claim does not hold where something else is measured."""
+
+    def run_row(self):
+        number = self.measured(self.lesson.control(self.claim))
+        self.assertFalse(self.claim.holds(number),
+                         f"{self}: the control's number {number:g} is within the limits, too: they say nothing")
+
+
+class DocumentedRow(Row):
+    """The document has the claim, and a number that is near the measured one."""
+
+    def run_row(self):
+        written = document.number_of(self.lesson, self.claim)
+        again = "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R lessons writes it anew"
+        self.assertIsNotNone(written, f"docs/lessons.md has no such row of {self}; {again}")
+        number = self.measured(self.lesson.job(self.claim)) * (100 if self.claim.unit == "%" else 1)
+        # Less than a step of the last digit by printing, the rest by another driver.
+        step = 10.0 ** (1 - self.claim.digits) * abs(number)
+        larger = max(abs(number), abs(float(written)))
+        self.assertAlmostEqual(float(written), number, delta=self.claim.spread * larger + step,
+                               msg=f"docs/lessons.md, {self}; {again}")
+
+
+class House(unittest.TestCase):
+    """The rows, the job files and the document fit together."""
+
+    def test_there_are_enough_rows(self):
+        self.assertGreaterEqual(len(rows()), FEWEST_ROWS)
+
+    def test_each_job_file_is_of_one_row(self):
+        named = [f"{lesson.folder}/{claim.job}" for lesson, claim in rows()]
+        files = [str(path.relative_to(JOBS).with_suffix("")) for path in JOBS.rglob("*.toml")]
+        self.assertEqual(sorted(named), sorted(files))
+
+    def test_each_job_file_is_a_job(self):
+        for lesson, claim in rows():
+            plan = printed("sweep", str(lesson.job(claim).path), "--dry-run", "--json")
+            self.assertEqual(plan["refused"], 0, f"{lesson.folder}/{claim.job}: {plan['first_refusal']}")
+
+    def test_each_job_file_says_how_it_is_run(self):
+        for lesson, claim in rows():
+            path = lesson.job(claim).path
+            self.assertRegex(path.read_text(), r"(?m)^#   gnomon (compare|sweep|depth|methods)", str(path))
+
+    def test_the_document_counts_the_verdicts(self):
+        self.assertEqual(document.block_of("verdicts"), document.verdicts_text())
+
+    def test_the_documents_tables_have_no_other_rows(self):
+        for lesson in LESSONS:
+            self.assertEqual(len(document.block_of(lesson.folder).splitlines()), 2 + len(lesson.claims), lesson.title)
+
+
+def measure_beforehand(jobs):
+    """Runs the program for all of them, as many at a time as there are processors."""
+    def measure(claim, job):
+        # The row's own test measures again, and tells what fails.
+        with contextlib.suppress(Exception):
+            claim.measure(job)
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(lambda pair: measure(*pair), jobs))
+
+
+def update_document():
+    numbers = {lesson.folder: {claim.job: claim.printed(claim.measure(lesson.job(claim))) for claim in lesson.claims}
+               for lesson in LESSONS}
+    document.write(numbers)
+
+
+def run(tests):
+    return unittest.TextTestRunner(stream=sys.stdout, verbosity=2).run(unittest.TestSuite(tests))
+
+
+def check():
+    """Whether every row holds, and the document has it."""
+    measure_beforehand([(claim, lesson.job(claim)) for lesson, claim in rows()])
+    if os.environ.get("GNOMON_UPDATE_DOCUMENTS"):
+        update_document()
+    house = unittest.defaultTestLoader.loadTestsFromTestCase(House)
+    return run([house, *(Row(*row) for row in rows()), *(DocumentedRow(*row) for row in rows())]).wasSuccessful()
+
+
+def check_negated():
+    """Whether every row fails with its claim negated, and no control run passes for it."""
+    measure_beforehand([(claim, job(claim)) for lesson, claim in rows() for job in (lesson.job, lesson.control)])
+    negated = unittest.TestResult()
+    unittest.TestSuite(Row(*row, negated=True) for row in rows()).run(negated)
+    failed = {str(test) for test, _ in negated.failures}
+    excused = {str(test) for test, _ in negated.skipped}
+    unmoved = [f"{lesson.folder}/{claim.job}" for lesson, claim in rows()
+               if f"{lesson.folder}/{claim.job}" not in failed | excused]
+    for name in unmoved:
+        print(f"{name}: did not fail with its claim negated")
+    print(f"{len(failed)} of {len(rows())} rows failed with their claim negated, as all must")
+    return run([ControlRow(*row) for row in rows()]).wasSuccessful() and not unmoved
+
+
+if __name__ == "__main__":
+    sys.exit(0 if (check_negated() if "--negated" in sys.argv[1:] else check()) else 1)

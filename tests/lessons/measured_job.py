@@ -1,0 +1,117 @@
+"""Runs a lesson's job with the program, and keeps what each run printed."""
+
+import json
+import sys
+import tempfile
+import threading
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+JOBS = ROOT / "examples" / "lessons"
+sys.path.insert(0, str(ROOT / "notebooks"))
+
+import gnomon  # noqa: E402
+
+
+class NotMeasured(Exception):
+    """This driver has no such format: why there is no number."""
+
+
+_kept = {}
+_lock = threading.Lock()
+
+
+def _once(command, make):
+    """What `make` returned for this command when it was first asked."""
+    with _lock:
+        entry = _kept.setdefault(tuple(command), {"lock": threading.Lock()})
+    with entry["lock"]:
+        if "result" not in entry:
+            entry["result"] = make()
+        return entry["result"]
+
+
+def printed(*arguments):
+    """The JSON that `gnomon ARGUMENT…` prints."""
+    return _once(arguments, lambda: json.loads(gnomon.call(*arguments)))
+
+
+def _merge(into, table):
+    for key, value in table.items():
+        if isinstance(value, dict):
+            _merge(into.setdefault(key, {}), value)
+        else:
+            into[key] = value
+
+
+@dataclass(frozen=True)
+class MeasuredJob:
+    """A job file, and what a control run of it changes.
+
+    instead: cases that stand in for others; keys: KEY=VALUE over every case.
+    """
+
+    name: str
+    instead: dict = field(default_factory=dict)
+    keys: tuple = ()
+
+    @property
+    def path(self):
+        return JOBS / f"{self.name}.toml"
+
+    def _case(self, case):
+        return self.instead.get(case, case)
+
+    def _options(self, case):
+        options = ["--case", self._case(case)] if case else []
+        for key in self.keys:
+            options += ["--set", key]
+        return options
+
+    def compare(self, case=""):
+        """The JSON of `gnomon compare` with this case."""
+        return printed("compare", str(self.path), "--json", *self._options(case))
+
+    def layers(self, case=""):
+        """The layers of its pixels, by name."""
+        command = ("compare", str(self.path), *self._options(case), "--aov")
+
+        def run():
+            with tempfile.TemporaryDirectory() as folder:
+                image = Path(folder) / "layers.exr"
+                gnomon.call(*command, str(image))
+                return gnomon.load_layers(image)
+
+        return _once(command, run)
+
+    def plan(self):
+        """What a sweep over the job would draw, by stage."""
+        command = ["sweep", str(self.path), "--dry-run", "--json", *self._options("")]
+        return printed(*command)["plan"]
+
+    def settings(self, case=""):
+        """The job file's tables with this case laid over them."""
+        tables = tomllib.loads(self.path.read_text())
+        cases = {table.pop("name"): table for table in tables.pop("case", [])}
+        if case:
+            _merge(tables, cases[self._case(case)])
+        for key in self.keys:
+            _merge(tables, tomllib.loads(key))
+        return tables
+
+    def depth(self, case=""):
+        """The JSON of `gnomon depth` for the map's planes, format and content."""
+        settings = self.settings(case)
+        shadow_map = settings["shadow_map"]
+        command = ["depth", "--json", "--near", shadow_map["near"], "--far", shadow_map["far"],
+                   "--format", shadow_map["depth_format"]]
+        if shadow_map.get("reversed"):
+            command.append("--reversed")
+        if settings["light"]["type"] == "directional":
+            command += ["--projection", "orthographic"]
+        result = printed(*map(str, command))
+        if result["measured"] is None:
+            raise NotMeasured(result["not_measured_because"])
+        return result

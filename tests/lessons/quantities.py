@@ -1,0 +1,104 @@
+"""Numbers that several claims are about, of what a job's runs print."""
+
+import numpy
+
+
+def ratio(of, to):
+    """A number over another; infinite over nothing, and 1 of nothing over nothing."""
+    if to == 0:
+        return 1.0 if of == 0 else float("inf")
+    return of / to
+
+
+def spread(numbers):
+    """The largest over the smallest."""
+    return ratio(max(numbers), min(numbers))
+
+
+def scored(result):
+    return result["pixels"]["lit"] + result["pixels"]["blocked"]
+
+
+def surface(result):
+    """Pixels that show a surface."""
+    return result["pixels"]["total"] - result["pixels"]["background"]
+
+
+def wrong(result):
+    return result["false_shadow"] + result["false_lit"]
+
+
+def best_errors(result):
+    """Wrong pixels with the constant bias that suits the job best."""
+    return result["bias_curve"]["best_errors"]
+
+
+def recommended_amount(result):
+    """Both amounts of error with the recommended bias [px]."""
+    best = result["bias_curve"]["recommended"]
+    return best["shadow_amount"] + best["light_amount"]
+
+
+def good_biases(result):
+    """From where acne ends to where a bias begins to cost shadows, 0.1 % of the pixels allowed."""
+    limits = result["bias_curve"]["allowances"][1]
+    return limits["acne_free"], limits["panning_free_beyond_zero"]
+
+
+def renderings(plan):
+    """How often the scene is drawn."""
+    return plan["receiver_passes"] + plan["shadow_maps"]
+
+
+def is_scored(layers):
+    return layers.is_lit | layers.is_blocked
+
+
+def is_wrong(layers):
+    shown = layers.shows_lit()
+    return (layers.is_lit & ~shown) | (layers.is_blocked & shown)
+
+
+def is_beside_the_map(layers):
+    """(height, width) bool: scored pixels whose place in the map is beyond its edges."""
+    size = layers.job["shadow_map.resolution"]
+    u, v = layers["texel.X"], layers["texel.Y"]
+    return is_scored(layers) & ((u < 0) | (u > size) | (v < 0) | (v > size))
+
+
+def share_with_equal_depths(layers):
+    """Of the lit pixels, those whose own depth is the map's, bit by bit."""
+    return float(numpy.mean((layers["receiver_depth"] == layers["map_depth"])[layers.is_lit]))
+
+
+def differing_verdicts(layers, others):
+    """Scored pixels of which two maps say different things."""
+    return int(numpy.count_nonzero((layers.shows_lit() != others.shows_lit())[is_scored(layers)]))
+
+
+class DepthErrors:
+    """What `gnomon depth` measured on planes from near to far."""
+
+    def __init__(self, result):
+        self.near_m = result["frustum"]["near_m"]
+        self.far_m = result["frustum"]["far_m"]
+        self.is_perspective = result["frustum"]["projection"] == "perspective"
+        samples = result["samples"]
+        self.distance_m, self.depth, self.stored_m, error_m, self.envelope_m = (
+            numpy.array([sample[name] for sample in samples])
+            for name in ("zeta_m", "depth", "stored_zeta_m", "error_m", "envelope_m"))
+        self.error_m = numpy.abs(error_m)
+        self.is_formulas_code = numpy.array([s["code"] == s["formula_code"] for s in samples])
+        eighth_m = (self.far_m - self.near_m) / 8
+        self.is_first = self.distance_m < self.near_m + eighth_m
+        self.is_last = self.distance_m > self.far_m - eighth_m
+
+    def depth_of(self, distance_m):
+        """Window depth of a distance."""
+        depth = (distance_m - self.near_m) / (self.far_m - self.near_m)
+        return depth * self.far_m / distance_m if self.is_perspective else depth
+
+    @property
+    def depth_error(self):
+        """In depth units."""
+        return numpy.abs(self.depth_of(self.stored_m) - self.depth_of(self.distance_m))
