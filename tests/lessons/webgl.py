@@ -5,6 +5,16 @@ from quantities import best_errors, differing_verdicts, ratio, wrong
 
 LESSON = Lesson("webgl", "The WebGL lesson", (
     Claim(
+        job="range_test",
+        claim="A pixel that is within the map by x and y can be compared",
+        number="lit pixels that such a test shadows if far is 4.5", unit="%",
+        verdict=Verdict.BOUNDED,
+        why="In the lesson's scene, all of which is before far; what is beyond far is deeper than 1 and "
+            "shadowed, whatever is before it.",
+        measure=lambda job: job.compare("short")["false_shadow_rate"],
+        low=0.1,  # with the lesson's far it is 0.1 %
+        control=Control(instead={"short": "lessons"})),
+    Claim(
         job="quantised_depths",
         claim="Acne comes from depths that were quantised",
         number="wrong pixels without a bias that exact depths in the texels' centres make right", unit="%",
@@ -23,15 +33,15 @@ LESSON = Lesson("webgl", "The WebGL lesson", (
         high=0,  # the bias is twice the one that ends acne
         control=Control(instead={"moved": "at_lessons"})),
     Claim(
-        job="range_test",
-        claim="A pixel that is within the map by x and y can be compared",
-        number="lit pixels that such a test shadows if far is 4.5", unit="%",
-        verdict=Verdict.BOUNDED,
-        why="In the lesson's scene, all of which is before far; what is beyond far is deeper than 1 and "
-            "shadowed, whatever is before it.",
-        measure=lambda job: job.compare("short")["false_shadow_rate"],
-        low=0.1,  # with the lesson's far it is 0.1 %
-        control=Control(instead={"short": "lessons"})),
+        job="resolution_of_the_map",
+        claim="A map's resolution limits its shadows",
+        number="errors of 512² texels over those of 2048², each with its best bias",
+        verdict=Verdict.CONFIRMED,
+        why="Borders of shadows are off by a share of a texel: a quarter as wide, a quarter as wrong or less.",
+        measure=lambda job: ratio(best_errors(job.compare("lessons")), best_errors(job.compare("fine"))),
+        low=2,  # 52 and 9 wrong pixels: a third of the ratio is one standard deviation
+        spread=0.5,
+        control=Control(instead={"lessons": "fine"})),
     Claim(
         job="position_of_the_sun",
         claim="Since a map is only so large, a sun has to have a position after all",
@@ -42,16 +52,6 @@ LESSON = Lesson("webgl", "The WebGL lesson", (
         high=40,  # matrices of other numbers round otherwise: a pixel in a thousand
         spread=40,
         control=Control(instead={"far": "lower"})),
-    Claim(
-        job="resolution_of_the_map",
-        claim="A map's resolution limits its shadows",
-        number="errors of 512² texels over those of 2048², each with its best bias",
-        verdict=Verdict.CONFIRMED,
-        why="Borders of shadows are off by a share of a texel: a quarter as wide, a quarter as wrong or less.",
-        measure=lambda job: ratio(best_errors(job.compare("lessons")), best_errors(job.compare("fine"))),
-        low=2,  # 52 and 9 wrong pixels: a third of the ratio is one standard deviation
-        spread=0.5,
-        control=Control(instead={"lessons": "fine"})),
     Claim(
         job="colour_attachment",
         claim="A framebuffer for depths needs a colour texture beside them, if unused",
