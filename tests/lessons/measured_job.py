@@ -14,6 +14,8 @@ sys.path.insert(0, str(ROOT / "notebooks"))
 
 import gnomon  # noqa: E402
 
+CLASSES = gnomon.CLASSES  # of pixels, by the values in the layer `class`
+
 
 class NotMeasured(Exception):
     """This driver has no such format: why there is no number."""

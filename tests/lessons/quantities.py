@@ -2,6 +2,11 @@
 
 import numpy
 
+from measured_job import CLASSES
+
+NO_TRIANGLE = 0xFFFFFFFF
+UNMATCHED = CLASSES.index("unmatched")
+
 
 def ratio(of, to):
     """A number over another; infinite over nothing, and 1 of nothing over nothing."""
@@ -64,6 +69,17 @@ def is_beside_the_map(layers):
     size = layers.job["shadow_map.resolution"]
     u, v = layers["texel.X"], layers["texel.Y"]
     return is_scored(layers) & ((u < 0) | (u > size) | (v < 0) | (v > size))
+
+
+def is_beside_an_edge(layers):
+    """(height, width) bool: pixels with a surface, and another triangle or none in a pixel next to them."""
+    triangle = layers["prim"]
+    beside = numpy.zeros(triangle.shape, bool)
+    for here, there in ((numpy.s_[1:, :], numpy.s_[:-1, :]), (numpy.s_[:, 1:], numpy.s_[:, :-1])):
+        differs = triangle[here] != triangle[there]
+        beside[here] |= differs
+        beside[there] |= differs
+    return beside & (triangle != NO_TRIANGLE)
 
 
 def share_with_equal_depths(layers):

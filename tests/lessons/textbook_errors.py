@@ -3,7 +3,8 @@
 import numpy
 
 from claim import Claim, Control, Lesson, Verdict
-from quantities import DepthErrors, best_errors, good_biases, is_beside_the_map, is_wrong, scored
+from quantities import (UNMATCHED, DepthErrors, best_errors, good_biases, is_beside_an_edge, is_beside_the_map, is_wrong,
+                        scored)
 from textbook import THE_LIGHTS_CAMERA, THE_LOOKUP, THE_MAP, error_rate
 
 SCENES = ("two_distances", "sphere_cube", "sphere_plane", "yard", "playground")
@@ -34,6 +35,11 @@ def smallest_far_away(job):
 def growth_in_depth_units(job):
     errors = DepthErrors(job.depth("integers"))
     return errors.depth_error[errors.is_last].max() / errors.depth_error[errors.is_first].max()
+
+
+def another_triangle_share(job):
+    layers = job.layers()
+    return float((layers["class"] == UNMATCHED)[is_beside_an_edge(layers)].mean())
 
 
 def codes_near_over_far(job):
@@ -125,6 +131,17 @@ ERRORS = (
 )
 
 NOTES = (
+    Claim(
+        job="shared_edges",
+        claim="Pixels on a shared edge are drawn twice, and show either triangle",
+        number="pixels beside edges that show another triangle than an exact ray meets", unit="%",
+        verdict=Verdict.REFUTED,
+        why="GL draws a pixel's centre for one of two triangles that share an edge; the few are those whose corners "
+            "it snaps to 1/256 of a pixel.",
+        measure=another_triangle_share,
+        # Snapping moves an edge by up to 1/512 pixel: at most 1/256 of the pixels that it passes.
+        high=0.004, spread=0.5,
+        control=Control(keys=("scene.builtin=sphere-field",))),  # several edges to a pixel
     Claim(
         job="width_of_the_volume",
         claim="An arbitrarily wide volume costs accuracy",
