@@ -223,7 +223,7 @@ THE_LOOKUP = (
         claim="Shadows must be computed in clip space, for that is what a map holds",
         number="errors with distances in the map over those with clip-space depths, each with its best bias",
         verdict=Verdict.REFUTED,
-        why="A map of distances does as well; and with the lesson's own bias, which is as long everywhere then, better.",
+        why="A map of distances does as well; with the lesson's own bias, as long everywhere then, better.",
         measure=lambda job: best_errors(job.compare("distance")) / best_errors(job.compare("depth")),
         high=1.5,  # 50 against 52 wrong pixels: a standard deviation of 0.2
         control=Control(instead={"distance": "coarse"})),

@@ -3,8 +3,8 @@
 import numpy
 
 from claim import Claim, Control, Lesson, Verdict
-from quantities import (UNMATCHED, DepthErrors, best_errors, good_biases, is_beside_an_edge, is_beside_the_map, is_wrong,
-                        scored)
+from quantities import (UNMATCHED, DepthErrors, best_errors, good_biases, is_beside_an_edge, is_beside_the_map,
+                        is_wrong, scored)
 from textbook import SCENES, THE_LIGHTS_CAMERA, THE_LOOKUP, THE_MAP, error_rate
 
 
