@@ -3,6 +3,7 @@
 import numpy
 
 from claim import Claim, Control, Lesson, Verdict
+from driver_trace import passes
 from quantities import is_scored, ratio, renderings, wrong
 
 
@@ -48,6 +49,26 @@ LESSON = Lesson("game", "The game developer's note", (
         measure=lambda job: renderings(job.plan()),
         low=2, high=2,  # a count
         control=Control(job="textbook/three_lights")),
+    Claim(
+        job="renderings_of_volumes",
+        claim="Shadow volumes take four renderings",
+        number="passes that GL draws with them",
+        verdict=Verdict.CONFIRMED,
+        why="What the camera sees, its depths, the volumes with both their sides, the verdict; with a map they are "
+            "three by the same count.",
+        measure=lambda job: len(passes(job, "volumes")),
+        low=4, high=4,  # a count
+        control=Control(instead={"volumes": "map"})),
+    Claim(
+        job="work_of_volumes",
+        claim="Shadow maps are faster than shadow volumes",
+        number="corners of triangles that GL draws with volumes over those with a map",
+        verdict=Verdict.CONFIRMED,
+        why="And each face counts at all pixels that it covers: in software volumes take 4.3 times as long here, 1.2 "
+            "times in the playground.",
+        measure=lambda job: sum(passes(job, "volumes")) / sum(passes(job, "map")),
+        low=1.2,  # a count, of a scene whose silhouettes are long
+        control=Control(instead={"volumes": "map"})),
     Claim(
         job="parallel_light",
         claim="Under parallel light shadows are as large as what casts them",

@@ -14,18 +14,19 @@ sys.path.insert(0, str(ROOT / "notebooks"))
 
 import gnomon  # noqa: E402
 
+program = gnomon.program.find  # the path of the program
 CLASSES = gnomon.CLASSES  # of pixels, by the values in the layer `class`
 
 
 class NotMeasured(Exception):
-    """This driver has no such format: why there is no number."""
+    """Why there is no number: this driver has no such format, or keeps no such notes."""
 
 
 _kept = {}
 _lock = threading.Lock()
 
 
-def _once(command, make):
+def once(command, make):
     """What `make` returned for this command when it was first asked."""
     with _lock:
         entry = _kept.setdefault(tuple(command), {"lock": threading.Lock()})
@@ -37,7 +38,7 @@ def _once(command, make):
 
 def printed(*arguments):
     """The JSON that `gnomon ARGUMENT…` prints."""
-    return _once(arguments, lambda: json.loads(gnomon.call(*arguments)))
+    return once(arguments, lambda: json.loads(gnomon.call(*arguments)))
 
 
 def _merge(into, table):
@@ -66,7 +67,8 @@ class MeasuredJob:
     def _case(self, case):
         return self.instead.get(case, case)
 
-    def _options(self, case):
+    def options(self, case):
+        """The command line's options for this case."""
         options = ["--case", self._case(case)] if case else []
         for key in self.keys:
             options += ["--set", key]
@@ -74,11 +76,11 @@ class MeasuredJob:
 
     def compare(self, case=""):
         """The JSON of `gnomon compare` with this case."""
-        return printed("compare", str(self.path), "--json", *self._options(case))
+        return printed("compare", str(self.path), "--json", *self.options(case))
 
     def layers(self, case=""):
         """The layers of its pixels, by name."""
-        command = ("compare", str(self.path), *self._options(case), "--aov")
+        command = ("compare", str(self.path), *self.options(case), "--aov")
 
         def run():
             with tempfile.TemporaryDirectory() as folder:
@@ -86,11 +88,11 @@ class MeasuredJob:
                 gnomon.call(*command, str(image))
                 return gnomon.load_layers(image)
 
-        return _once(command, run)
+        return once(command, run)
 
     def plan(self):
         """What a sweep over the job would draw, by stage."""
-        command = ["sweep", str(self.path), "--dry-run", "--json", *self._options("")]
+        command = ["sweep", str(self.path), "--dry-run", "--json", *self.options("")]
         return printed(*command)["plan"]
 
     def settings(self, case=""):
