@@ -11,8 +11,8 @@ from .errors import InputError
 
 # By the values in the layers `class`, `cause` and `label`.
 CLASSES = ("background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked")
-CAUSES = ("none", "bias", "precision", "resolution", "coverage")
-LABELS = ("right", "acne", "peter_panning", "leak", "edge", "overshadow")
+CAUSES = ("none", "bias", "precision", "resolution", "coverage", "filter")
+LABELS = ("right", "acne", "peter_panning", "leak", "edge", "overshadow", "bleed")
 
 
 class Layers(Mapping):
