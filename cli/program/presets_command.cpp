@@ -4,6 +4,7 @@
 #include "analysis/presets/preset_result.hpp"
 #include "cli/compare/comparison_session.hpp"
 #include "cli/job_options.hpp"
+#include "cli/system/memory.hpp"
 #include "cli/system/slow_work.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/json/presets_json.hpp"
@@ -14,8 +15,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
-#include <optional>
+#include <string>
 
 namespace gnomon::cli {
 namespace {
@@ -26,6 +28,23 @@ struct PresetsOptions {
     bool json = false;
     bool compares = false;
 };
+
+std::string preset_label(const scene::Preset* preset)
+{
+    return preset == nullptr ? "the job" : preset->name;
+}
+
+/// @throws scene::EnvironmentError  if GL saw what neither snapping nor depth resolution explains.
+void require_no_preset_mismatch(const analysis::PresetResult& result)
+{
+    const auto mismatches = result.metrics.pixels.of(scene::ClassReason::mismatch);
+    if (mismatches > 0) {
+        throw scene::EnvironmentError(
+            fmt::format("{}: {} pixels mismatch; report it with the job and the output of `gnomon "
+                        "doctor`",
+                        preset_label(result.preset), mismatches));
+    }
+}
 
 void list_presets(const PresetsOptions& options)
 {
@@ -91,17 +110,10 @@ private:
     static analysis::PresetResult compare(const scene::Job& job, const scene::Preset* preset,
                                           const ComparisonSession& session, SlowWork& work)
     {
-        const std::string name = preset == nullptr ? "the job" : preset->name;
-        work.now(fmt::format("comparing {}", name));
+        work.now(fmt::format("comparing {}", preset_label(preset)));
+        require_memory(job);
         const analysis::Comparison comparison =
             analysis::compare(job, session.file(), session.renderers());
-        const auto mismatches = comparison.metrics.pixels.of(scene::ClassReason::mismatch);
-        if (mismatches > 0) {
-            throw scene::EnvironmentError(
-                fmt::format("{}: {} pixels mismatch; report it with the job and the output of "
-                            "`gnomon doctor`",
-                            name, mismatches));
-        }
         return analysis::preset_result(comparison, preset);
     }
 
@@ -117,6 +129,8 @@ void presets(const PresetsOptions& options)
     const analysis::PresetComparison comparison = PresetTrial{options}.run(options);
     print(options.json ? reports::preset_comparison_json(comparison)
                        : reports::preset_comparison_table(comparison));
+    require_no_preset_mismatch(comparison.job);
+    std::ranges::for_each(comparison.results, require_no_preset_mismatch);
 }
 
 } // namespace

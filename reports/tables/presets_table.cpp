@@ -17,7 +17,7 @@ namespace {
 
 using PresetRow = std::vector<std::string>;
 
-constexpr std::string_view no_value = "-";
+constexpr std::string_view no_number = "-";
 
 std::string lights_text(const scene::Preset& preset)
 {
@@ -76,22 +76,22 @@ std::string map_text(const scene::Job& job)
                      : fmt::format("{2} of {0}x{0} {1}", texels, format, maps);
 }
 
-std::string filter_text(const scene::Job& job)
+std::string preset_filter_text(const scene::Job& job)
 {
     return scene::has_filters(job.method.name) ? std::string{scene::filter_name(job.lookup.filter)}
                                                : job.method.name;
 }
 
-std::string name_of(const analysis::PresetResult& result)
+std::string preset_label(const analysis::PresetResult& result)
 {
     return result.preset == nullptr ? "the job" : result.preset->name;
 }
 
 PresetRow bias_row(const analysis::PresetResult& result)
 {
-    PresetRow row{name_of(result), map_text(result.job), filter_text(result.job)};
+    PresetRow row{preset_label(result), map_text(result.job), preset_filter_text(result.job)};
     if (!result.receiver) {
-        row.insert(row.end(), 6, std::string{no_value});
+        row.insert(row.end(), 6, std::string{no_number});
     } else {
         const analysis::ReceiverBias& at = *result.receiver;
         for (const double value : {at.bias.constant, at.bias.constant_m, at.bias.constant_texels,
@@ -109,7 +109,7 @@ PresetRow unexpressed_row(const analysis::PresetResult& result)
     const bool has_offset = bias.polygon_factor != 0 || bias.polygon_units != 0;
     return {result.preset->name,
             has_offset ? fmt::format("{} {}", bias.polygon_factor, bias.polygon_units)
-                       : std::string{no_value},
+                       : std::string{no_number},
             digits(length.constant),
             digits(length.constant_m),
             digits(length.constant_texels),
@@ -119,13 +119,13 @@ PresetRow unexpressed_row(const analysis::PresetResult& result)
 
 std::string gap_text(const std::optional<analysis::Quantiles>& gaps)
 {
-    return gaps ? fmt::format("{:.3g} to {:.3g}", gaps->median, gaps->p95) : std::string{no_value};
+    return gaps ? fmt::format("{:.3g} to {:.3g}", gaps->median, gaps->p95) : std::string{no_number};
 }
 
 PresetRow error_row(const analysis::PresetResult& result)
 {
     const analysis::Metrics& metrics = result.metrics;
-    return {name_of(result),
+    return {preset_label(result),
             grouped(metrics.false_shadow),
             percent(metrics.false_shadow_rate),
             grouped(metrics.false_lit),

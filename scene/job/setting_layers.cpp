@@ -285,4 +285,13 @@ void lay_over(Settings& settings, const Layer& layer)
     }
 }
 
+Settings lay_all(const std::vector<Layer>& layers)
+{
+    Settings settings;
+    for (const Layer& layer : layers) {
+        lay_over(settings, layer);
+    }
+    return settings;
+}
+
 } // namespace gnomon::scene

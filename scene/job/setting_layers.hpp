@@ -73,6 +73,9 @@ void for_each_key(const TomlTable& table, const std::string& file,
 /// light.type = "directional" replaces a cone from below.
 void lay_over(Settings& settings, const Layer& layer);
 
+/// What holds after all of them, the weakest first.
+[[nodiscard]] Settings lay_all(const std::vector<Layer>& layers);
+
 /// Checks settings against each other: keys that exclude or need one another, near and far, …
 /// @param source  What to name when a key is missing.
 /// @throws InputError  naming the keys and what to do.

@@ -2,9 +2,11 @@
 
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
+#include "scene/job/case_tables.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/lights/light_tables.hpp"
+#include "scene/job/presets/chosen_preset.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/sweep_axes.hpp"
 #include "scene/one_line.hpp"
@@ -33,15 +35,6 @@ bool is_scene_file(const fs::path& path)
            scene_extensions.end();
 }
 
-Settings lay_all(const std::vector<Layer>& layers)
-{
-    Settings settings;
-    for (const Layer& layer : layers) {
-        lay_over(settings, layer);
-    }
-    return settings;
-}
-
 /// The parameters of the built-in that the settings name, defaults included.
 ParameterValues builtin_parameters(const BuiltinScene& builtin, const Settings& settings)
 {
@@ -63,60 +56,6 @@ void complete_light(Job& job)
     }
 }
 
-CaseLayer read_case(const TomlNode& node, const std::string& file, std::uint32_t line)
-{
-    const auto* table = std::get_if<TomlTable>(&node.value);
-    const std::string label = KeyPlace{file, line}.text() + "[[case]]";
-    if (table == nullptr) {
-        throw InputError(label + ": must be a table with a name and any keys");
-    }
-    CaseLayer read;
-    TomlTable keys;
-    for (const TomlMember& member : *table) {
-        if (member.key != "name") {
-            keys.push_back(member);
-            continue;
-        }
-        const auto name = read_value(TextDomain{}, member.node);
-        if (!name) {
-            throw InputError(fmt::format("{}:{}: [[case]] name = {}: must be {}", file, member.line,
-                                         toml_excerpt(member.node), range_text(TextDomain{})));
-        }
-        read.name = std::get<std::string>(*name);
-    }
-    if (read.name.empty()) {
-        throw InputError(label + ": has no name; give it a name of its own");
-    }
-    const std::string quoted = toml_excerpt({read.name});
-    read.layer = layer_from_table(keys, file, fmt::format("[[case]] {}: ", quoted), {"name"});
-    return read;
-}
-
-std::vector<CaseLayer> read_cases(const TomlMember& member, const std::string& file)
-{
-    const auto* array = std::get_if<TomlArray>(&member.node.value);
-    if (array == nullptr) {
-        throw InputError(
-            fmt::format("{}:{}: case: must be tables, each headed [[case]]", file, member.line));
-    }
-    std::vector<CaseLayer> result;
-    for (const TomlNode& node : *array) {
-        result.push_back(read_case(node, file, member.line));
-    }
-    std::vector<std::string> names;
-    for (const CaseLayer& read : result) {
-        names.push_back(read.name);
-    }
-    std::sort(names.begin(), names.end());
-    const auto repeated = std::adjacent_find(names.begin(), names.end());
-    if (repeated != names.end()) {
-        throw InputError(
-            fmt::format("{}:{}: [[case]] name = {}: two cases of that name; rename one", file,
-                        member.line, toml_excerpt({*repeated})));
-    }
-    return result;
-}
-
 /// A layer of one key, from outside any file.
 Layer single_setting(std::string_view key, const std::string& value, const std::string& label)
 {
@@ -130,8 +69,7 @@ Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Sett
 {
     Layer layer = layer_from_job(defaults, builtin.name);
     if (has_preset) {
-        std::erase_if(layer,
-                      [](const Setting& setting) { return is_system_key(setting.spec->key.name); });
+        layer = without_system_keys(std::move(layer));
     }
     const Setting* type = find_setting(given, "light.type");
     if (type != nullptr && std::get<std::string>(type->value) != "directional") {
@@ -161,71 +99,6 @@ void check_position(const JobSource& source, const Settings& settings)
     }
 }
 
-ChosenPreset choose_preset(std::string_view name, std::string label)
-{
-    if (name.empty()) {
-        return {};
-    }
-    return {&find_preset(name, label), std::move(label)};
-}
-
-std::string preset_option(std::string_view name)
-{
-    return one_line(fmt::format("--preset {}", name));
-}
-
-ChosenPreset read_preset_choice(const TomlMember& member, const std::string& file)
-{
-    const std::string label =
-        fmt::format("{}preset = {}", KeyPlace{file, member.line}.text(), toml_excerpt(member.node));
-    const auto* name = std::get_if<std::string>(&member.node.value);
-    if (name == nullptr || name->empty()) {
-        throw InputError(label + ": must be the name of a preset (`gnomon presets`)");
-    }
-    return choose_preset(*name, label);
-}
-
-/// What the preset says under the other layers.
-std::vector<Layer> preset_layers(const JobSource& source, const std::vector<Layer>& others)
-{
-    const Preset* preset = source.preset.preset;
-    if (preset == nullptr) {
-        return {};
-    }
-    const Settings given = lay_all(others);
-    if (find_setting(given, "scene.builtin") != nullptr ||
-        find_setting(given, "scene.file") != nullptr) {
-        return {preset->job};
-    }
-    Layer own_scene = preset->own_scene;
-    // Several lights are the job's own, also where one of them was chosen.
-    if (!source.lights.empty() || !source.scene_lights.empty()) {
-        std::erase_if(own_scene, [](const Setting& setting) {
-            return setting.spec->key.name.starts_with("light.");
-        });
-    }
-    return {preset->job, std::move(own_scene)};
-}
-
-/// Refuses a preset for another kind of light than the settings have.
-void check_preset_light(const ChosenPreset& chosen, const Settings& settings)
-{
-    const Setting* type = find_setting(settings, "light.type");
-    if (chosen.preset == nullptr || type == nullptr) {
-        return;
-    }
-    const auto& name = std::get<std::string>(type->value);
-    std::vector<std::string_view> names;
-    for (const LightType light : chosen.preset->lights) {
-        names.push_back(light_type_name(light));
-    }
-    if (std::ranges::find(names, name) == names.end()) {
-        throw InputError(fmt::format("{}: it is for a {} light, and the job's is {}; take another "
-                                     "(`gnomon presets`)",
-                                     chosen.label, fmt::join(names, " or "), name));
-    }
-}
-
 /// What is given of a light, the weakest first.
 std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes,
                                 std::string_view light)
@@ -240,8 +113,10 @@ std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen
         check_lights(source.lights, layer);
         layer = layer_of_light(layer, light);
     }
-    const std::vector<Layer> under = preset_layers(source, layers);
-    layers.insert(layers.begin(), under.begin(), under.end());
+    if (source.preset.preset != nullptr) {
+        const std::vector<Layer> under = preset_layers(source, lay_all(layers));
+        layers.insert(layers.begin(), under.begin(), under.end());
+    }
     return layers;
 }
 
@@ -306,6 +181,13 @@ void check_all_lights(const JobSource& source)
     }
 }
 
+void add_overrides(JobSource& source, const std::vector<Override>& overrides)
+{
+    source.overrides = layer_from_overrides(overrides);
+    add_scene_lights(source);
+    check_all_lights(source);
+}
+
 void check_axis_lights(const JobSource& source)
 {
     for (const SweepAxis& axis : source.sweep.axes) {
@@ -352,11 +234,9 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
         source.lights = std::move(lights.names);
     }
     if (!preset.empty()) {
-        source.preset = choose_preset(preset, preset_option(preset));
+        source.preset = choose_preset(preset);
     }
-    source.overrides = layer_from_overrides(overrides);
-    add_scene_lights(source);
-    check_all_lights(source);
+    add_overrides(source, overrides);
     return source;
 }
 
@@ -365,48 +245,23 @@ JobSource builtin_job_source(std::string_view name, const std::vector<Override>&
 {
     JobSource source;
     source.name = one_line(fmt::format("--builtin {}", name));
-    source.preset = choose_preset(preset, preset_option(preset));
+    source.preset = choose_preset(preset);
     source.file = single_setting("scene.builtin", std::string{name}, source.name);
-    source.overrides = layer_from_overrides(overrides);
-    add_scene_lights(source);
-    check_all_lights(source);
+    add_overrides(source, overrides);
     return source;
 }
 
 JobSource preset_job_source(std::string_view preset, const std::vector<Override>& overrides)
 {
     JobSource source;
-    source.name = preset_option(preset);
-    source.preset = choose_preset(preset, source.name);
+    source.preset = choose_preset(preset);
+    source.name = source.preset.label;
     if (source.preset.preset->own_scene.empty()) {
         throw InputError(source.name + ": it has no scene of its own; give a job file, a scene "
                                        "file or --builtin NAME beside it");
     }
-    source.overrides = layer_from_overrides(overrides);
-    add_scene_lights(source);
-    check_all_lights(source);
+    add_overrides(source, overrides);
     return source;
-}
-
-JobSource with_preset(const JobSource& source, const CaseLayer* chosen, const Preset& preset)
-{
-    const auto without_system = [](Layer layer) {
-        std::erase_if(layer,
-                      [](const Setting& setting) { return is_system_key(setting.spec->key.name); });
-        return layer;
-    };
-    const Settings settings =
-        lay_all({without_system(source.file),
-                 chosen == nullptr ? Layer{} : without_system(chosen->layer), preset.job});
-    JobSource other = source;
-    other.preset = {&preset, fmt::format("preset {}", preset.name)};
-    other.file.clear();
-    for (const auto& [key, setting] : settings) {
-        other.file.push_back(setting);
-    }
-    other.cases.clear();
-    other.sweep = {};
-    return other;
 }
 
 const CaseLayer& find_case(const JobSource& source, std::string_view name)

@@ -26,7 +26,7 @@ LessonJson lesson(const std::string& preset, const std::vector<std::string>& set
     }
     const Ending ending = gnomon(arguments);
     EXPECT_EQ(ending.exit_code, 0) << ending.command << "\n" << ending.err;
-    const LessonJson json = LessonJson::parse(ending.out);
+    LessonJson json = LessonJson::parse(ending.out);
     EXPECT_EQ(json.at("unmatched_kinds").at("mismatch"), 0) << ending.command;
     return json;
 }

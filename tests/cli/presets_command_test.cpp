@@ -16,7 +16,6 @@ namespace gnomon::testing {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::Each;
 using ::testing::HasSubstr;
 using PresetsJson = nlohmann::json;
 

@@ -109,7 +109,7 @@ void lay_keys(Layer& layer, std::string_view preset, const TomlMember& member)
         });
 }
 
-void read_member(Preset& preset, const TomlMember& member)
+void read_preset_member(Preset& preset, const TomlMember& member)
 {
     const std::string& name = preset.name;
     if (member.key == "kind") {
@@ -229,7 +229,7 @@ Preset read_preset(std::string_view name, std::string_view text, const Preset* b
     }
     preset.name = name;
     for (const TomlMember& member : parse_preset(name, text)) {
-        read_member(preset, member);
+        read_preset_member(preset, member);
     }
     check_preset(preset);
     return preset;

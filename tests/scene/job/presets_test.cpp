@@ -225,6 +225,14 @@ TEST(Presets, AreRefusedForAnotherLight)
         "take another (`gnomon presets`)");
 }
 
+TEST(Presets, AreRefusedForALightWhoseTypeIsLeftOut)
+{
+    const std::string model = "scene.file = \"a.obj\"\n";
+    EXPECT_THAT(refusal("preset = \"playcanvas\"\n" + model + "light.direction = [0, -1, 0]\n"),
+                HasSubstr("it is for a spot light, and the job's is directional"));
+    EXPECT_EQ(refusal("preset = \"playcanvas\"\n" + model), "no error"); // the file may have a spot
+}
+
 TEST(Presets, OfEnginesNeedAScene)
 {
     EXPECT_THAT(error_of([] { return preset_job_source("bevy", {}); }),

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "scene/job/setting_layers.hpp"
+#include "scene/job/source.hpp"
+#include "scene/job/toml.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What becomes of a preset in a job's source.
+namespace gnomon::scene {
+
+/// The preset of `--preset NAME`; none of an empty name.
+/// @throws InputError  naming the nearest, if there is none of that name.
+[[nodiscard]] ChosenPreset choose_preset(std::string_view name);
+
+/// The preset of `preset = "NAME"` in a file.
+/// @throws InputError  the same, and if it is no text.
+[[nodiscard]] ChosenPreset read_preset_choice(const TomlMember& member, const std::string& file);
+
+/// What a source's preset says, the weakest first: of any job, then, where nothing that is given
+/// names a scene, with its own.
+/// @param given  what is laid over it.
+[[nodiscard]] std::vector<Layer> preset_layers(const JobSource& source, const Settings& given);
+
+/// Refuses a preset for another kind of light than the settings have.
+/// @throws InputError  naming the choice.
+void check_preset_light(const ChosenPreset& chosen, const Settings& settings);
+
+/// The layer without the keys that a preset decides as a whole (`is_system_key`).
+[[nodiscard]] Layer without_system_keys(Layer layer);
+
+} // namespace gnomon::scene
