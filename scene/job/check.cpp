@@ -261,9 +261,12 @@ void check_method(const Settings& settings)
         chosen != nullptr ? std::get<std::string>(chosen->value) : default_method();
     for (const auto& [key, setting] : settings) {
         if (!has_key(name, key)) {
-            const std::string_view what =
-                key == "lookup.filter" ? "no filter" : "no key of that table";
-            refuse(setting, fmt::format("the method {} has {}; remove it", name, what));
+            const std::string why =
+                key == "lookup.filter"
+                    ? fmt::format("the method {} has no filter; remove it", name)
+                    : fmt::format("the method {} reads no [{}]; remove all of that table's keys",
+                                  name, key.substr(0, key.find('.')));
+            refuse(setting, why);
         }
         const HandedKey* handed = find_handed_key(key);
         if (handed != nullptr && !handed->is_of(name)) {

@@ -162,6 +162,12 @@ bool has_key(std::string_view method, std::string_view key)
                found->unread_tables.end();
 }
 
+bool has_any_key(std::string_view method, std::string_view key)
+{
+    const HandedKey* handed_key = find_handed_key(key);
+    return handed_key != nullptr ? handed_key->is_of(method) : has_key(method, key);
+}
+
 const HandedKey* find_handed_key(std::string_view name)
 {
     const auto& keys = handed().keys;

@@ -50,6 +50,9 @@ void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey>
 /// Whether jobs of the method of that name have a key: one of the scene's own, which methods share.
 [[nodiscard]] bool has_key(std::string_view method, std::string_view key);
 
+/// The same of any key, those that were handed over included.
+[[nodiscard]] bool has_any_key(std::string_view method, std::string_view key);
+
 /// The key that was handed over by that name, or nullptr.
 [[nodiscard]] const HandedKey* find_handed_key(std::string_view name);
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -92,12 +93,6 @@ void drop_replaced(Settings& settings, const Setting& setting)
     }
     if (key == "light.type" || key == "shadow_map.layout") {
         drop_layout(settings, setting);
-    }
-    if (key == "method.name") {
-        std::erase_if(settings, [&](const auto& entry) {
-            const HandedKey* handed = find_handed_key(entry.first);
-            return handed != nullptr ? !handed->is_of(*word) : !has_key(*word, entry.first);
-        });
     }
     if (key == "scene.builtin" || key == "scene.file") {
         drop_parameters(settings, setting);
@@ -253,10 +248,31 @@ Layer layer_from_job(const Job& job, std::string_view builtin)
     return layer;
 }
 
+const std::string* method_of(const Layer& layer, std::string_view light)
+{
+    const auto names_method = [&](const Setting& setting) {
+        return setting.light == light && setting.spec->key.name == "method.name";
+    };
+    const auto found = std::ranges::find_if(layer, names_method);
+    return found == layer.end() ? nullptr : &std::get<std::string>(found->value);
+}
+
+void drop_keys_of_other_methods(Layer& layer, std::string_view method)
+{
+    std::erase_if(layer, [&](const Setting& setting) {
+        return !has_any_key(method, setting.spec->key.name);
+    });
+}
+
 Layer layer_of_light(const Layer& layer, std::string_view light)
 {
     Layer of_light;
+    const std::string* const own_method = light.empty() ? nullptr : method_of(layer, light);
     for (const std::string_view whose : {std::string_view{}, light}) {
+        if (whose == light && own_method != nullptr) {
+            // What is said of all lights is of those that have the key.
+            drop_keys_of_other_methods(of_light, *own_method);
+        }
         for (const Setting& setting : layer) {
             if (setting.light != whose) {
                 continue;
@@ -285,8 +301,17 @@ void lay_over(Settings& settings, const Layer& layer)
     }
 }
 
-Settings lay_all(const std::vector<Layer>& layers)
+Settings lay_all(std::vector<Layer> layers)
 {
+    const auto strongest =
+        std::ranges::find_if(layers.rbegin(), layers.rend(),
+                             [](const Layer& layer) { return method_of(layer) != nullptr; });
+    if (strongest != layers.rend()) {
+        const std::string method = *method_of(*strongest);
+        for (auto weaker = std::next(strongest); weaker != layers.rend(); ++weaker) {
+            drop_keys_of_other_methods(*weaker, method);
+        }
+    }
     Settings settings;
     for (const Layer& layer : layers) {
         lay_over(settings, layer);

@@ -26,8 +26,15 @@ struct Setting {
 /// What one source says: a built-in's defaults, a file, a case, or the overrides.
 using Layer = std::vector<Setting>;
 
+/// The method that a layer names, of all lights or of one of several; nullptr where it names none.
+[[nodiscard]] const std::string* method_of(const Layer& layer, std::string_view light = {});
+
+/// Leaves away what jobs of the method have no key for.
+void drop_keys_of_other_methods(Layer& layer, std::string_view method);
+
 /// Of a layer what holds for one of several lights, as a job with that light alone would say it:
-/// what is said of all lights, then what is said of this one.
+/// what is said of all lights, as far as this one's own method has the keys, then what is said of
+/// this one.
 [[nodiscard]] Layer layer_of_light(const Layer& layer, std::string_view light);
 
 /// What holds after all layers, by key.
@@ -73,8 +80,9 @@ void for_each_key(const TomlTable& table, const std::string& file,
 /// light.type = "directional" replaces a cone from below.
 void lay_over(Settings& settings, const Layer& layer);
 
-/// What holds after all of them, the weakest first.
-[[nodiscard]] Settings lay_all(const std::vector<Layer>& layers);
+/// What holds after all of them, the weakest first. Where a layer names the method, weaker ones
+/// lose what it has no key for: the strongest decides, whatever those between it and them name.
+[[nodiscard]] Settings lay_all(std::vector<Layer> layers);
 
 /// Checks settings against each other: keys that exclude or need one another, near and far, …
 /// @param source  What to name when a key is missing.

@@ -143,7 +143,7 @@ TEST(JobSettings, RefusesMethodsAndKeysThatTheyDoNotHave)
 TEST(JobSettings, RefusesTablesThatAMethodDoesNotRead)
 {
     expect_settings_refused("wall", {"method.name=primitive_id", "bias.constant=0.001"},
-                            "the method primitive_id has no key of that table; remove it");
+                            "the method primitive_id reads no [bias]; remove all");
     expect_settings_refused("wall", {"method.name=primitive_id", "lookup.filter=pcf3"},
                             "the method primitive_id has no filter; remove it");
     expect_settings_refused(
@@ -155,12 +155,25 @@ TEST(JobSettings, RefusesTablesThatAMethodDoesNotRead)
     for (const char* const key :
          {"shadow_map.resolution=64", "lookup.outside=clamp", "bias.slope=0.1"}) {
         expect_settings_refused("wall", {"method.name=shadow_volumes", key},
-                                "the method shadow_volumes has no key of that table; remove it");
+                                "the method shadow_volumes reads no [");
     }
     expect_settings_refused("wall", {"method.name=shadow_volumes", "method.casters=back"},
                             "one of all, facing_light");
     expect_settings_refused("wall", {"method.casters=all"},
                             "is for method.name = \"shadow_volumes\"");
+}
+
+TEST(Outputs, OfAMapAreRefusedWhereThereIsNone)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder.path() / "map").string();
+    const auto compare_with = [](const std::string& option, const std::string& value) {
+        return gnomon({"compare", "--builtin", "wall", "--set", "method.name=shadow_volumes",
+                       "--set", "image.width=64", "--set", "image.height=48", option, value});
+    };
+    expect_refused(compare_with("--depth-map", file + ".exr"), 2, "has no map; leave the option");
+    expect_refused(compare_with("--heat-map", "depth-error=" + file + ".png"), 2,
+                   "this lookup has no map");
 }
 
 TEST(Advice, IsRefusedWhereThereIsNoBiasCurve)

@@ -5,6 +5,7 @@
 #include "job_fixture.hpp"
 
 #include "scene/job/keys.hpp"
+#include "scene/job/source.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/view/view.hpp"
 
@@ -274,12 +275,13 @@ TEST(MethodName, DecidesWhichSharedTablesAJobHas)
         EXPECT_FALSE(first != keys.end() && first->first.starts_with(table)) << table;
     }
     EXPECT_EQ(keys.count("light.type"), 1U);
-    EXPECT_EQ(refusal(wall_with("volumes", "[bias]\nconstant = 0.001\n")),
-              "job.toml:5: bias.constant = 0.001: the method volumes has no key of that table; "
-              "remove it");
+    EXPECT_EQ(
+        refusal(wall_with("volumes", "[bias]\nconstant = 0.001\n")),
+        "job.toml:5: bias.constant = 0.001: the method volumes reads no [bias]; remove all of "
+        "that table's keys");
     EXPECT_THAT(refusal(wall, {{"method.name", "volumes"}, {"shadow_map.resolution", "64"}}),
-                HasSubstr("--set shadow_map.resolution=64: the method volumes has no key of that "
-                          "table"));
+                HasSubstr("--set shadow_map.resolution=64: the method volumes reads no "
+                          "[shadow_map]; remove all of that table's keys"));
 }
 
 TEST(MethodName, LeavesTheTablesThatItLacksBehindInTheLayersBelow)
@@ -289,6 +291,29 @@ TEST(MethodName, LeavesTheTablesThatItLacksBehindInTheLayersBelow)
     EXPECT_EQ(job.bias.constant, 0);
     EXPECT_EQ(job.shadow_map.resolution_texels, Job{}.shadow_map.resolution_texels);
     EXPECT_EQ(job_of(text, {{"method.name", "vsm"}}).job.bias.constant, 0.5);
+    // A method between them takes nothing away that the last one reads.
+    const std::string between = wall + "[bias]\nconstant = 0.5\n[[case]]\nname = \"a\"\n"
+                                       "method.name = \"volumes\"\n";
+    EXPECT_EQ(job_of(between, {{"method.name", "vsm"}}, "a").job.bias.constant, 0.5);
+    EXPECT_EQ(job_of(between, {}, "a").job.bias.constant, 0);
+}
+
+TEST(MethodName, OfOneLightLeavesBehindWhatIsSaidOfAll)
+{
+    const std::string text = wall + "[bias]\nconstant = 0.5\n[shadow_map]\nresolution = 64\n"
+                                    "[[lights]]\nname = \"key\"\ntype = \"directional\"\n"
+                                    "[[lights]]\nname = \"fill\"\ntype = \"directional\"\n"
+                                    "method.name = \"volumes\"\n";
+    const auto lights = light_jobs(read_job_source(write_job(text), {}));
+    ASSERT_EQ(lights.size(), 2U);
+    EXPECT_EQ(lights[0].job.bias.constant, 0.5);
+    EXPECT_EQ(lights[0].job.shadow_map.resolution_texels, 64);
+    EXPECT_EQ(lights[1].job.method.name, "volumes");
+    EXPECT_EQ(lights[1].job.bias.constant, 0);
+    // What is said of that light itself is no remnant.
+    const std::string refused = text + "bias.slope = 0.1\n";
+    EXPECT_THAT(error_of([&] { return light_jobs(read_job_source(write_job(refused), {})); }),
+                HasSubstr("reads no [bias]"));
 }
 
 TEST(MethodName, WithoutFiltersLeavesThatOfTheLayersBelowBehind)
