@@ -6,9 +6,11 @@
 #include "scene/view/camera.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -24,23 +26,61 @@ bool is_same(const scene::Light& a, const scene::Light& b)
     return a.type == b.type && a.direction == b.direction && a.position == b.position;
 }
 
-/// Such a camera's parallel rays meet the infinitely far points of a directional light's volumes in
-/// one point, which no face covers.
+/// Such a camera's parallel rays all meet what is infinitely far in one point, which no face
+/// covers.
 bool has_finite_volumes(const scene::View& view)
 {
-    return view.camera.projection == scene::Projection::orthographic && !view.light.has_position();
+    return view.camera.projection == scene::Projection::orthographic;
+}
+
+/// The same direction with components of at most 1 in size: exactly, so that none is lost to what
+/// drivers flush.
+scene::Vec3d scaled_to_one(const scene::Vec3d& direction)
+{
+    const double largest =
+        std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    return direction * std::ldexp(1.0, -std::ilogb(largest) - 1);
 }
 
 scene::Vec4f light_uniform(const scene::Light& light)
 {
     return light.has_position() ? scene::Vec4f{scene::Vec4d{light.position, 1.0}}
-                                : scene::Vec4f{scene::Vec4d{-light.direction, 0.0}};
+                                : scene::Vec4f{scene::Vec4d{-scaled_to_one(light.direction), 0.0}};
 }
 
 /// So far along a directional light that its volumes end behind everything in the box.
-scene::Vec3f finite_end(const scene::Light& light, const scene::Box& box)
+scene::Vec3f directional_end(const scene::Light& light, const scene::Box& box)
 {
     return scene::Vec3f{glm::normalize(light.direction) * (2 * box.diagonal_m())};
+}
+
+/// How many times a vertex's own distance from a light its volumes' ends are behind it. An end at a
+/// caster whose plane is h beside the light is this times h behind that plane: beyond the box,
+/// unless h is less than a 64th of the light's distance from the box, or a 1024th of the box
+/// itself. More would take the digits of the ends' places in the image.
+float extension(const scene::Light& light, const scene::Box& box)
+{
+    constexpr double most = 1024;
+    const scene::Vec3d outside = glm::max(
+        glm::max(box.lower - light.position, light.position - box.upper), scene::Vec3d{0, 0, 0});
+    const double needed = 64 * box.diagonal_m() / glm::length(outside); // infinite within the box
+    return static_cast<float>(std::min(needed, most));
+}
+
+/// @throws scene::InputError  if GL cannot draw so much at once.
+void require_drawable(const VolumeGeometry& geometry)
+{
+    std::size_t corners = 0;
+    for (const VolumeFaces* faces : {&geometry.along, &geometry.against}) {
+        corners += 2 * 3 * (faces->caps.size() + faces->sides.size());
+    }
+    constexpr std::size_t most = std::numeric_limits<GLsizei>::max();
+    if (corners > most) {
+        throw scene::InputError(fmt::format(
+            "method.name = \"shadow_volumes\": the volumes have {} corners and GL draws "
+            "at most {}; set method.extrusion = \"silhouette\", or use a smaller scene",
+            corners, most));
+    }
 }
 
 /// Collects corners of volumes' faces: those of casters, and their far ends.
@@ -164,6 +204,7 @@ void ShadowVolumePass::prepare(const scene::Light& light, const methods::ShadowV
         return;
     }
     const VolumeGeometry made = volume_geometry(triangles_, light, volumes);
+    require_drawable(made);
     IndexList list{static_cast<std::uint32_t>(triangles_.vertices.size())};
     const auto added = [&](const auto& add) {
         const std::size_t first = list.indices().size();
@@ -179,12 +220,6 @@ void ShadowVolumePass::prepare(const scene::Light& light, const methods::ShadowV
     Geometry geometry{light, volumes, make_buffer(), add_faces(made.along, made.against),
                       add_faces(made.against, made.along)};
     const std::vector<std::uint32_t>& indices = list.indices();
-    if (indices.size() > std::size_t{std::numeric_limits<GLsizei>::max()}) {
-        throw scene::InputError(fmt::format(
-            "method.name = \"shadow_volumes\": the volumes have {} corners and GL draws at "
-            "most {}; set method.extrusion = \"silhouette\", or use a smaller scene",
-            indices.size(), std::numeric_limits<GLsizei>::max()));
-    }
     // GL has no empty buffers.
     glNamedBufferStorage(
         geometry.indices.name(),
@@ -222,18 +257,12 @@ const Program& ShadowVolumePass::volume_program(const scene::View& view)
     set_uniform(program, "first_far_vertex",
                 static_cast<std::uint32_t>(triangles_.vertices.size()));
     set_uniform(program, "light", light_uniform(view.light));
-    if (has_finite_volumes(view)) {
-        set_uniform(program, "finite_end", finite_end(view.light, box_));
+    if (view.light.has_position()) {
+        set_uniform(program, "extension", extension(view.light, box_));
+    } else {
+        set_uniform(program, "directional_end", directional_end(view.light, box_));
     }
     return program;
-}
-
-int ShadowVolumePass::volumes_at_infinity(const scene::View& view) const
-{
-    // Parallel rays all leave the scene in the same direction.
-    return view.camera.projection == scene::Projection::orthographic && view.light.has_position()
-               ? volumes_around(triangles_, view.light, geometry_->volumes, view.camera.forward)
-               : 0;
 }
 
 void ShadowVolumePass::draw_view(const VolumeReceivers& from, const Program& program) const
@@ -285,8 +314,7 @@ scene::LookupLayers ShadowVolumePass::look_up(const VolumeReceivers& from, const
     glDepthMask(GL_TRUE);
     glStencilMask(0xFF);
     constexpr float infinitely_far = 0;
-    glClearNamedFramebufferfi(counted_.name(), GL_DEPTH_STENCIL, 0, infinitely_far,
-                              volumes_at_infinity(view) & 0xFF);
+    glClearNamedFramebufferfi(counted_.name(), GL_DEPTH_STENCIL, 0, infinitely_far, 0);
     glUseProgram(program.name());
     draw_view(from, program);
     count_volumes(program);

@@ -70,8 +70,6 @@ private:
     void prepare(const scene::Light& light, const methods::ShadowVolumes& volumes);
     void allocate(scene::ImageSize size);
     [[nodiscard]] const Program& volume_program(const scene::View& view);
-    /// The number of volumes that hold what is infinitely far, where no face says it.
-    [[nodiscard]] int volumes_at_infinity(const scene::View& view) const;
     void draw_view(const VolumeReceivers& from, const Program& program) const;
     void count_volumes(const Program& program) const;
     void draw_faces(const Faces& faces, GLenum front) const;

@@ -2,10 +2,7 @@
 
 #include "scene/light/facing.hpp"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <numeric>
@@ -141,27 +138,6 @@ VolumeGeometry volume_geometry(const scene::TriangleScene& triangles, const scen
                                const methods::ShadowVolumes& volumes)
 {
     return VolumeBuilder{triangles, light, volumes}.build();
-}
-
-int volumes_around(const scene::TriangleScene& triangles, const scene::Light& light,
-                   const methods::ShadowVolumes& volumes, const scene::Vec3d& direction)
-{
-    int around = 0;
-    VolumeBuilder{triangles, light, volumes}.visit_casters([&](std::uint32_t t, int facing) {
-        std::array<scene::Vec3d, 3> rays;
-        std::ranges::transform(triangles.corners(t), rays.begin(), [&](const scene::Vec3f& corner) {
-            return scene::Vec3d{corner} - light.position;
-        });
-        bool is_inside = true;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            // Seen from the light the corners turn as the facing says, so each edge has the
-            // direction on the same side.
-            const double side = glm::dot(glm::cross(rays[i], rays[(i + 1) % 3]), direction);
-            is_inside = is_inside && side * facing < 0;
-        }
-        around += is_inside ? 1 : 0;
-    });
-    return around;
 }
 
 } // namespace gnomon::raster_gl

@@ -3,7 +3,6 @@
 #include "methods/passes.hpp"
 #include "scene/light/light.hpp"
 #include "scene/triangles.hpp"
-#include "scene/vec.hpp"
 
 #include <array>
 #include <cstdint>
@@ -34,11 +33,5 @@ struct VolumeGeometry {
 [[nodiscard]] VolumeGeometry volume_geometry(const scene::TriangleScene& triangles,
                                              const scene::Light& light,
                                              const methods::ShadowVolumes& volumes);
-
-/// How many volumes of a light with a position hold the points that are infinitely far along a
-/// direction, which no ray along that direction leaves.
-[[nodiscard]] int volumes_around(const scene::TriangleScene& triangles, const scene::Light& light,
-                                 const methods::ShadowVolumes& volumes,
-                                 const scene::Vec3d& direction);
 
 } // namespace gnomon::raster_gl

@@ -280,6 +280,49 @@ TEST(ShadowVolumes, HoldFromAnywhereBeforeAnyLight)
     EXPECT_GT(blocked, 5'000U);
 }
 
+/// All of an orthographic camera's rays leave the scene along `forward`, beside or along edges of
+/// volumes.
+TEST(ShadowVolumes, HoldWhereParallelRaysLeaveAlongTheLights)
+{
+    GNOMON_REQUIRE_GL();
+    const auto from_above = [](const char* builtin, const char* light, const char* eye) {
+        const scene::Job job =
+            job_of_builtin(builtin, with(volumes, {{"image.width", "160"},
+                                                   {"image.height", "90"},
+                                                   {"light.type", "point"},
+                                                   {"light.position", light},
+                                                   {"camera.eye", eye},
+                                                   {"camera.target", "[0, 0, 0]"},
+                                                   {"camera.up", "[0, 0, -1]"},
+                                                   {"camera.orthographic_height", "8"}}));
+        const Compared scene{job};
+        const auto result = scene(job);
+        EXPECT_GT(result.metrics.pixels.scored(), 300U);
+        expect_errors_at_sides(result);
+    };
+    from_above("sphere-plane", "[0, 6, 0]", "[0, 12, 0]");
+    from_above("sphere-plane", "[1, 6, 0]", "[0, 12, 0]");
+    from_above("sphere-plane", "[1, 9, 0.5]", "[1, 9, 0.5]");
+    from_above("sphere-cube", "[0, 6, 0]", "[0, 12, 0]");
+}
+
+TEST(ShadowVolumes, OfAClosedMeshAroundTheLightNeedAllCasters)
+{
+    GNOMON_REQUIRE_GL();
+    const auto of = [](const char* casters) {
+        const scene::Job job = job_of_builtin(
+            "sphere-cube", with(volumes, {{"method.casters", casters},
+                                          {"light.type", "point"},
+                                          {"light.position", "[0, 0, 0]"}})); // in the cube
+        const Compared scene{job};
+        return scene(job);
+    };
+    const auto lost = of("facing_light");
+    EXPECT_GT(lost.metrics.false_lit, 0U);
+    EXPECT_EQ(lost.diagnosis->causes.counts.of(Cause::coverage), lost.metrics.false_lit);
+    EXPECT_EQ(of("all").metrics.false_lit, 0U);
+}
+
 TEST(ShadowVolumes, OfOpenMeshesNeedAllCasters)
 {
     GNOMON_REQUIRE_GL();
