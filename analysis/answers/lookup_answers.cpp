@@ -200,6 +200,7 @@ CauseInputs LookupAnswers::cause_inputs() const
                        lookup_.map_depths,
                        exact_->light()};
     inputs.exact_reruns = exact_reruns_ ? &*exact_reruns_ : nullptr;
+    inputs.missing_receivers = missing_receivers_ ? &*missing_receivers_ : nullptr;
     return inputs;
 }
 

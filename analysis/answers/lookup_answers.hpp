@@ -244,7 +244,8 @@ private:
     LookupRule rule_;
     scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return
     PixelCauses causes_;
-    std::optional<ExactReruns> exact_reruns_; ///< empty where causes are exact
+    std::optional<ExactReruns> exact_reruns_; ///< empty where depths are compared
+    std::optional<scene::Image<std::uint8_t>> missing_receivers_; ///< empty but where triangles are
     bool knows_lit_below_zero_ = false;
     scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel was found
     scene::Image<float> map_error_m_;

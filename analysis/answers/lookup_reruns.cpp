@@ -36,7 +36,11 @@ void LookupAnswers::rerun_exactly()
     if (rule_.promises.compares == methods::Compares::primitives) {
         CauseInputs inputs = cause_inputs();
         inputs.known_hits = &exact_->centre_hits(inputs).hits();
-        exact_reruns_ = find_exact_primitives(inputs, exact_->receivers().receivers().triangle);
+        const auto& receivers = exact_->receivers().receivers().triangle;
+        exact_reruns_ = find_exact_primitives(inputs, receivers);
+        missing_receivers_ =
+            find_missing_receivers(inputs, receivers, exact_->triangles(), lookup_.view.light,
+                                   lookup_.job.shadow_map.cull);
         return;
     }
     constexpr float partial{partial_above};

@@ -36,6 +36,9 @@ struct CauseInputs {
     bool asks_below_zero = false;
     /// Where no depths are compared; else nullptr.
     const ExactReruns* exact_reruns = nullptr;
+    /// Of methods that compare triangles 1 where no map can show the receiver's own, however fine
+    /// (`find_missing_receivers`); else nullptr.
+    const scene::Image<std::uint8_t>* missing_receivers = nullptr;
 
     [[nodiscard]] Footprint footprint() const
     {
@@ -56,6 +59,11 @@ struct CauseInputs {
         const float depth =
             tap.is_inside ? stored_depth(layers, pixel, tap.texel) : rule.outside_depth();
         return !rule.is_lit(layers.samples[pixel].receiver_depth, depth);
+    }
+    /// Whether the receiver's triangle would have to be in the map, and cannot.
+    [[nodiscard]] bool misses_receiver(std::size_t pixel) const
+    {
+        return missing_receivers != nullptr && (*missing_receivers)[pixel] != 0;
     }
     /// True where the receiver lies outside the map or beyond far, so that no finer map would see
     /// it.

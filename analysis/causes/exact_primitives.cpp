@@ -2,6 +2,7 @@
 
 #include "analysis/causes/self_shadowing.hpp"
 #include "scene/infinity.hpp"
+#include "scene/light/facing.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <cstddef>
@@ -26,6 +27,23 @@ std::vector<std::size_t> wrong_without_bias(const CauseInputs& inputs)
     return wrong;
 }
 
+/// Of each triangle whether it casts, and the culling leaves it.
+std::vector<std::uint8_t> drawn_to_maps(const scene::TriangleScene& triangles,
+                                        const scene::Light& light, scene::Cull cull)
+{
+    const std::vector<std::int8_t> facings = scene::facings(triangles, light);
+    std::vector<std::uint8_t> drawn(facings.size(), 0);
+    for (const scene::TriangleRange& range : casting_ranges(triangles)) {
+        for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {
+            const bool is_culled = cull == scene::Cull::front  ? facings[t] > 0
+                                   : cull == scene::Cull::back ? facings[t] < 0
+                                                               : false;
+            drawn[t] = is_culled ? 0 : 1;
+        }
+    }
+    return drawn;
+}
+
 } // namespace
 
 ExactReruns find_exact_primitives(const CauseInputs& inputs,
@@ -45,6 +63,23 @@ ExactReruns find_exact_primitives(const CauseInputs& inputs,
         }
     }
     return {criticals, criticals, criticals};
+}
+
+scene::Image<std::uint8_t> find_missing_receivers(const CauseInputs& inputs,
+                                                  const scene::Image<std::uint32_t>& receivers,
+                                                  const scene::TriangleScene& triangles,
+                                                  const scene::Light& light, scene::Cull cull)
+{
+    const std::vector<std::uint8_t> in_maps = drawn_to_maps(triangles, light, cull);
+    scene::Image<std::uint8_t> missing{receivers.size()};
+    for (std::size_t i = 0; i < receivers.pixel_count(); ++i) {
+        if (scene::is_scored(inputs.truth.pixel_class[i])) {
+            const float depth = inputs.unbiased.samples[i].receiver_depth;
+            const bool is_between_planes = depth >= 0 && depth <= 1;
+            missing[i] = in_maps[receivers[i]] != 0 && is_between_planes ? 0 : 1;
+        }
+    }
+    return missing;
 }
 
 } // namespace gnomon::analysis

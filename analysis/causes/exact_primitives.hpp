@@ -2,6 +2,9 @@
 
 #include "analysis/causes/cause_inputs.hpp"
 #include "scene/image.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/light.hpp"
+#include "scene/triangles.hpp"
 
 #include <cstdint>
 
@@ -13,5 +16,14 @@ namespace gnomon::analysis {
 /// @return  −∞ or +∞ for the scored pixels that are wrong without bias; 0 elsewhere.
 [[nodiscard]] ExactReruns find_exact_primitives(const CauseInputs& inputs,
                                                 const scene::Image<std::uint32_t>& receivers);
+
+/// Whether no map of these settings can show the triangle of a scored receiver, however fine: where
+/// it casts nothing, is culled, or is not between near and far there.
+/// @param receivers  the triangle that each pixel shows.
+/// @return  1 or 0, by pixel.
+[[nodiscard]] scene::Image<std::uint8_t>
+find_missing_receivers(const CauseInputs& inputs, const scene::Image<std::uint32_t>& receivers,
+                       const scene::TriangleScene& triangles, const scene::Light& light,
+                       scene::Cull cull);
 
 } // namespace gnomon::analysis

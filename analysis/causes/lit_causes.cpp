@@ -79,9 +79,11 @@ private:
                     causes_.filters[pixel] = {scene::infinity, scene::infinity, false, {}};
                 }
             } else {
-                // V3: nothing crosses the segment, so only the border mode can shadow.
-                const bool is_lit =
-                    !inputs_.is_uncovered(footprint_, pixel) || rule_.outside == Outside::lit;
+                // V3: nothing crosses the segment, so only the border mode can shadow, or that the
+                // receiver itself is not there to be seen.
+                const bool is_lit = inputs_.is_uncovered(footprint_, pixel)
+                                        ? rule_.outside == Outside::lit
+                                        : !inputs_.misses_receiver(pixel);
                 set(pixel, is_lit ? Cause::resolution : Cause::coverage);
                 open.push_back(pixel);
             }

@@ -17,7 +17,7 @@ struct StageKeys {
     std::string frustum; ///< the light's matrix: with fit = "camera" also camera and image
     /// Scene, camera, image and, with lookup.position = "vertex", the light and its matrix.
     std::string receivers;
-    std::string texels; ///< the map but for its depth format
+    std::string texels;   ///< the map but for its depth format
     std::string map;      ///< empty: there is none
     std::string filtered; ///< what the method makes of the map; empty: nothing
     /// What exact rays say of a lookup: everything but the depth format, and what the method and

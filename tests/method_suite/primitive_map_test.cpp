@@ -178,6 +178,24 @@ TEST(PrimitiveMap, FailsLessTheFinerItIs)
     EXPECT_GT(before, 0U) << "edges stay edges";
 }
 
+TEST(PrimitiveMap, CoversNoReceiverThatNoMapShows)
+{
+    GNOMON_REQUIRE_GL();
+    const auto counts = [](const std::vector<scene::Override>& keys) {
+        const scene::Job job = job_of_builtin("sphere-cube", with(ids, keys));
+        const auto result = Compared{job}(job);
+        EXPECT_GT(result.metrics.false_shadow, 1000U);
+        return result.diagnosis->causes.counts;
+    };
+    // Both meshes are closed: the light sees their front faces alone.
+    const auto culled = counts({{"shadow_map.cull", "front"}});
+    EXPECT_EQ(culled.of(Cause::resolution), 0U);
+    EXPECT_EQ(culled.of(Label::edge) + culled.of(Label::acne), 0U);
+    const auto without_cube = counts({{"scene.no_cast", "[\"cube\"]"}});
+    EXPECT_GT(without_cube.of(Cause::coverage), 1000U);
+    EXPECT_EQ(without_cube.of(Cause::coverage), without_cube.of(Label::overshadow));
+}
+
 TEST(PrimitiveMap, SeesTheReceiverInEveryLayout)
 {
     GNOMON_REQUIRE_GL();
