@@ -10,10 +10,12 @@
 #include "cli/compare/origin_remedy.hpp"
 #include "cli/sweep/command_text.hpp"
 #include "cli/system/slow_work.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -153,6 +155,19 @@ std::vector<analysis::Comparison> measure(const CompareOptions& options,
     return comparisons;
 }
 
+/// Lights whose method has no map have no file.
+void require_a_map(std::span<const scene::LightJob> jobs)
+{
+    const auto has_map = [](const scene::LightJob& light) {
+        return methods::promises(light.job).has_map;
+    };
+    if (std::ranges::none_of(jobs, has_map)) {
+        throw scene::InputError(
+            fmt::format("--depth-map: method.name = \"{}\" has no map; leave the option away",
+                        jobs.front().job.method.name));
+    }
+}
+
 /// What each light's advice is made from.
 std::vector<analysis::ViewRequest> view_requests(const CompareOptions& options,
                                                  std::span<const scene::LightJob> jobs)
@@ -170,6 +185,9 @@ void compare(const CompareOptions& options)
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
     require_new_outputs(options, jobs);
+    if (!options.depth_map_path.empty()) {
+        require_a_map(jobs);
+    }
     if (options.advise) {
         require_bias_curves("--advise", jobs);
     }

@@ -4,6 +4,7 @@
 #include "cli/compare/kept_pixels.hpp"
 #include "cli/output_files.hpp"
 #include "cli/system/standard_output.hpp"
+#include "methods/list.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/heat_map.hpp"
 #include "reports/pictures/picture.hpp"
@@ -147,7 +148,7 @@ void write_from_gl(const CompareOptions& options, const analysis::Comparison& co
                    const scene::SceneDefaults& defaults, const analysis::Renderers& renderers)
 {
     const std::string& light = comparison.light;
-    if (!options.depth_map_path.empty()) {
+    if (!options.depth_map_path.empty() && methods::promises(comparison.job).has_map) {
         renderers.draw_shadow_map(comparison.job, comparison.view);
         store::write_depth_map(file_of_light(options.depth_map_path, light), comparison,
                                renderers.read_map_depths());

@@ -73,6 +73,8 @@ void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
 {
     using raster_gl::Primitives;
     if (!methods::promises(job).has_map) {
+        shadow_map_ = nullptr; // an earlier one is not this job's
+        filtered_ = nullptr;
         return;
     }
     shadow_map_ = &shadow_map_pass_.render(

@@ -92,10 +92,10 @@ void require_bias_curves(std::string_view command, std::span<const scene::LightJ
 {
     for (const scene::LightJob& light : jobs) {
         if (!methods::promises(light.job).has_curve()) {
-            throw scene::InputError(fmt::format(
-                "{}: method.name = \"{}\" has no bias curve, which advice is made of; `gnomon sweep` "
-                "tries its keys",
-                command, light.job.method.name));
+            throw scene::InputError(fmt::format("{}: method.name = \"{}\" has no bias curve, which "
+                                                "advice is made of; `gnomon sweep` "
+                                                "tries its keys",
+                                                command, light.job.method.name));
         }
     }
 }

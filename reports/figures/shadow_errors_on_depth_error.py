@@ -32,8 +32,8 @@ def read(paths):
     results = csv_tables.read_table(paths[1], SETTINGS, SETTING_TEXTS)
     if not set(bins["curve"]) <= set(results["curve"]):
         raise csv_tables.InputError(f"{paths[1]}: not of the same run as {paths[0]}")
-    if bins.empty:
-        raise csv_tables.InputError(f"{paths[0]}: no errors by distance")
+    if bins["envelope_m"].isna().all():
+        raise csv_tables.InputError(f"{paths[0]}: no depth errors by distance")
     return [bins, results]
 
 
@@ -56,7 +56,8 @@ def _run(tables):
 def _chosen(tables):
     """The rows that have bins, of these one for each curve to draw, and why these."""
     bins, results = tables
-    rows = results[results["curve"].isin(bins["curve"])].reset_index(drop=True)
+    has_map_errors = bins.dropna(subset=["envelope_m"])["curve"]
+    rows = results[results["curve"].isin(has_map_errors)].reset_index(drop=True)
     return rows, *run_settings.curves_of(None, rows)
 
 

@@ -2,6 +2,7 @@
 
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/metrics/totals.hpp"
+#include "methods/list.hpp"
 #include "reports/json/diagnosis_json.hpp"
 #include "reports/json/evaluation_json.hpp"
 #include "reports/json/metric_json.hpp"
@@ -61,11 +62,12 @@ store::Json scene_object(const analysis::SceneSummary& scene)
 }
 
 /// Null of a light without a map.
-store::Json frustum_value(const scene::View& view, int resolution_texels)
+store::Json frustum_value(const scene::Job& job, const scene::View& view)
 {
-    if (view.maps.empty()) {
+    if (view.maps.empty() || !methods::promises(job).has_map) {
         return nullptr;
     }
+    const int resolution_texels = job.shadow_map.resolution_texels;
     const scene::LightFrustum& frustum = view.first_map();
     const bool is_perspective = frustum.projection == scene::Projection::perspective;
     store::Json json{{"projection", is_perspective ? "perspective" : "orthographic"},
@@ -98,7 +100,7 @@ void add_comparison(store::Json& json, const analysis::Comparison& comparison)
     json["seconds"] = seconds(comparison.seconds);
     json["scene"] = scene_object(comparison.scene);
     json["job"] = store::job_object(comparison);
-    json["frustum"] = frustum_value(comparison.view, comparison.job.shadow_map.resolution_texels);
+    json["frustum"] = frustum_value(comparison.job, comparison.view);
     json["truth_method"] = comparison.truth_method;
     json["truth_signs"] = truth_signs(comparison.truth.signs);
     json["float_audit"] = float_audit(comparison.float_audit);

@@ -20,19 +20,19 @@ bool are_same(float a, float b)
            (std::isnan(a) && std::isnan(b));
 }
 
-/// Of a job's key; of another renderer's case, whose map is not known, something that holds.
+/// Of a job's key; where the method has none, or of another renderer's case, whose map is not
+/// known, something that holds.
 template <typename Value>
 Value setting_of(const store::Json& detail, const char* key, Value otherwise)
 {
-    return detail.contains("evaluate") ? detail.at("job").value(key, otherwise)
-                                       : detail.at("job").at(key).get<Value>();
+    return detail.at("job").value(key, otherwise);
 }
 
 /// Without a map nothing is measured in its texels or depths, and any frustum serves.
 store::Json frustum_of(const store::Json& detail)
 {
     const store::Json& own = detail.at("frustum");
-    if (!own.is_null() || !detail.contains("evaluate")) {
+    if (!own.is_null()) {
         return own;
     }
     return {{"projection", "orthographic"},
@@ -45,7 +45,7 @@ store::Json frustum_of(const store::Json& detail)
 double constant_bias_of(const store::Json& detail)
 {
     const store::Json& inputs = detail.at("exact_inputs");
-    if (detail.contains("evaluate") && !inputs.contains("bias_constant")) {
+    if (!inputs.contains("bias_constant")) {
         return 0;
     }
     return std::strtod(inputs.at("bias_constant").get_ref<const std::string&>().c_str(), nullptr);

@@ -1,6 +1,7 @@
 #include "reports/pictures/heat_map.hpp"
 
 #include "analysis/causes/cause.hpp"
+#include "methods/list.hpp"
 #include "reports/pictures/picture.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
@@ -106,11 +107,15 @@ scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap ki
     if (kind == HeatMap::needed_bias) {
         if (!diagnosis.biases) {
             throw scene::InputError("--heat-map needed-bias: this lookup has no bias curve: "
-                                    "take depth-error, amount, cause or label");
+                                    "take amount, cause or label");
         }
         return diagnosis.biases->map.texels;
     }
     if (kind == HeatMap::depth_error) {
+        if (!methods::promises(comparison.job).has_map) {
+            throw scene::InputError("--heat-map depth-error: this lookup has no map: take amount, "
+                                    "cause or label");
+        }
         return diagnosis.map_error_m;
     }
     const auto& classes = comparison.truth.pixel_class;

@@ -68,9 +68,10 @@ std::string_view for_resolution(scene::MapLayout layout)
 /// Without a map nothing is rounded that could be rounded less.
 std::string_view to_try_without_map(Cause cause)
 {
-    return cause == Cause::coverage
-               ? "For coverage, look at open meshes: some face away from the light"
-               : "";
+    return cause == Cause::coverage ? "For coverage, look at meshes that are open, or hold the "
+                                      "light: what faces away from "
+                                      "it casts nothing"
+                                    : "";
 }
 
 /// What of the map to look at for a cause; empty for the bias, which is not the map's.

@@ -174,6 +174,20 @@ TEST(Sweep, GivesWhatCompareGivesForMethodsWithOtherMapsOrNone)
     }
 }
 
+TEST(Sweep, HasTheKeptPixelsOfEveryMethodReported)
+{
+    const TemporaryFolder folder;
+    const path job =
+        folder.write("job.toml", two_lights + "[sweep]\n\"method.name\" = [\"depth\", \"vsm\", "
+                                              "\"primitive_id\", \"shadow_volumes\"]\n");
+    const path run = folder.path() / "run";
+    swept(sweep(job, run, {"--keep-pixels"}));
+    const Ending ending = gnomon({"report", run});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    EXPECT_THAT(ending.out, HasSubstr("pixels of 8 configurations"));
+    EXPECT_THAT(ending.err, Not(HasSubstr("left out")));
+}
+
 TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
 {
     const TemporaryFolder folder;
