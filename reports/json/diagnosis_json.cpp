@@ -231,7 +231,11 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
         methods::promises(comparison.job).has_exact_causes() ? "exact" : "float32";
     json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
     add_bias_curve(json, *diagnosis);
-    json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
+    if (methods::promises(comparison.job).has_map) {
+        json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
+    } else {
+        json["bias_source"] = nullptr; // there is no bias
+    }
     json["bias_reruns"] = reruns(diagnosis->curve);
     json["verification"] = verification(comparison.verification);
     json["slope_curves"] =

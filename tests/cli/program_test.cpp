@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace gnomon::testing {
 namespace {
@@ -144,9 +145,12 @@ TEST(Methods, ListsFiltersBiasTermsAndKeysThatAJobTakes)
     const Ending ending = gnomon({"methods", "--json"});
     expect_done(ending);
     const Json json = Json::parse(ending.out);
-    ASSERT_EQ(json.size(), 2U);
-    EXPECT_EQ(json[0].at("name"), "depth");
-    EXPECT_EQ(json[1].at("name"), "vsm");
+    ASSERT_EQ(json.size(), 4U);
+    const std::vector<std::string> names{"depth", "vsm", "primitive_id", "shadow_volumes"};
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        EXPECT_EQ(json[i].at("name"), names[i]);
+        EXPECT_EQ(json[i].at("promises").at("has_map"), i != 3);
+    }
     std::set<std::string> filters;
     for (const Json& filter : json[0].at("filters")) {
         filters.insert(filter.at("name"));
