@@ -42,7 +42,7 @@ scene::Vec3d scaled_to_one(const scene::Vec3d& direction)
     return direction * std::ldexp(1.0, -std::ilogb(largest) - 1);
 }
 
-scene::Vec4f light_uniform(const scene::Light& light)
+scene::Vec4f homogeneous_light(const scene::Light& light)
 {
     return light.has_position() ? scene::Vec4f{scene::Vec4d{light.position, 1.0}}
                                 : scene::Vec4f{scene::Vec4d{-scaled_to_one(light.direction), 0.0}};
@@ -256,7 +256,7 @@ const Program& ShadowVolumePass::volume_program(const scene::View& view)
                 scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box_)});
     set_uniform(program, "first_far_vertex",
                 static_cast<std::uint32_t>(triangles_.vertices.size()));
-    set_uniform(program, "light", light_uniform(view.light));
+    set_uniform(program, "light", homogeneous_light(view.light));
     if (view.light.has_position()) {
         set_uniform(program, "extension", extension(view.light, box_));
     } else {

@@ -129,7 +129,7 @@ private:
 
     const scene::TriangleScene& triangles_;
     methods::ShadowVolumes volumes_;
-    std::vector<std::int8_t> facings_;
+    std::vector<int> facings_;
 };
 
 } // namespace

@@ -31,7 +31,7 @@ std::vector<std::size_t> wrong_without_bias(const CauseInputs& inputs)
 std::vector<std::uint8_t> drawn_to_maps(const scene::TriangleScene& triangles,
                                         const scene::Light& light, scene::Cull cull)
 {
-    const std::vector<std::int8_t> facings = scene::facings(triangles, light);
+    const std::vector<int> facings = scene::facings(triangles, light);
     std::vector<std::uint8_t> drawn(facings.size(), 0);
     for (const scene::TriangleRange& range : casting_ranges(triangles)) {
         for (std::uint32_t t = range.first; t < range.first + range.count; ++t) {

@@ -32,7 +32,7 @@ void primitive_check(const scene::Job& job)
 }
 
 /// The depth that decides what is seen, and an index of 4 bytes.
-std::uint64_t bytes_of(const scene::Job& job)
+std::uint64_t primitive_map_bytes(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
     return map_bytes(job) + scene::map_count(job) * side * side * sizeof(std::uint32_t);
@@ -47,7 +47,7 @@ Promises primitive_promises(const scene::Job& job)
             .width_texels = 1,
             .weights = Weights::equal,
             .kernel = {},
-            .map_bytes = bytes_of(job)};
+            .map_bytes = primitive_map_bytes(job)};
 }
 
 Passes primitive_passes(const scene::Job& /*job*/)

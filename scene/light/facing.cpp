@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace gnomon::scene {
 namespace {
@@ -49,16 +50,16 @@ std::array<Number, 6> products(const Corners& t, const Light& light)
             u[0] * v[1] * g[2], Number{-(u[1] * v[0] * g[2])}};
 }
 
-std::int8_t exact_sign(const Corners& corners, const Light& light)
+int exact_sign(const Corners& corners, const Light& light)
 {
     Exact sum = 0;
     for (const Exact& product : products<Exact>(corners, light)) {
         sum += product;
     }
-    return static_cast<std::int8_t>(sum.sign());
+    return sum.sign();
 }
 
-std::int8_t sign_of(const Corners& corners, const Light& light)
+int sign_of(const Corners& corners, const Light& light)
 {
     // Each product has five roundings, of three differences and two products, and takes part in at
     // most five sums: together at most 11 units of 2^-53 of the products' sizes. Nothing
@@ -71,16 +72,16 @@ std::int8_t sign_of(const Corners& corners, const Light& light)
         size += std::abs(product);
     }
     if (std::abs(sum) > bound * size) {
-        return sum > 0 ? std::int8_t{1} : std::int8_t{-1};
+        return sum > 0 ? 1 : -1;
     }
     return exact_sign(corners, light);
 }
 
 } // namespace
 
-std::vector<std::int8_t> facings(const TriangleScene& triangles, const Light& light)
+std::vector<int> facings(const TriangleScene& triangles, const Light& light)
 {
-    std::vector<std::int8_t> signs(triangles.triangles.size());
+    std::vector<int> signs(triangles.triangles.size());
     for (std::uint32_t t = 0; t < signs.size(); ++t) {
         signs[t] = sign_of(corners_of(triangles, t), light);
     }

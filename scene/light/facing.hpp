@@ -3,7 +3,6 @@
 #include "scene/light/light.hpp"
 #include "scene/triangles.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace gnomon::scene {
@@ -15,6 +14,6 @@ namespace gnomon::scene {
 ///     along ℓ
 ///
 /// @return  By triangle.
-[[nodiscard]] std::vector<std::int8_t> facings(const TriangleScene& triangles, const Light& light);
+[[nodiscard]] std::vector<int> facings(const TriangleScene& triangles, const Light& light);
 
 } // namespace gnomon::scene

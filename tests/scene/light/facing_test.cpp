@@ -39,12 +39,12 @@ constexpr std::array<Corner, 3> on_ground{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}}; //
 TEST(Facings, AreSeenFromTheLight)
 {
     const TriangleScene ground = one_triangle(on_ground);
-    EXPECT_EQ(facings(ground, lamp_at({5, 2, -7})), std::vector<std::int8_t>{1});
-    EXPECT_EQ(facings(ground, lamp_at({5, -2, -7})), std::vector<std::int8_t>{-1});
-    EXPECT_EQ(facings(ground, lamp_at({5, 0, -7})), std::vector<std::int8_t>{0});
-    EXPECT_EQ(facings(ground, sun_along({0.25, -1, 0})), std::vector<std::int8_t>{1});
-    EXPECT_EQ(facings(ground, sun_along({0.25, 1, 0})), std::vector<std::int8_t>{-1});
-    EXPECT_EQ(facings(ground, sun_along({3, 0, -1})), std::vector<std::int8_t>{0});
+    EXPECT_EQ(facings(ground, lamp_at({5, 2, -7})), std::vector<int>{1});
+    EXPECT_EQ(facings(ground, lamp_at({5, -2, -7})), std::vector<int>{-1});
+    EXPECT_EQ(facings(ground, lamp_at({5, 0, -7})), std::vector<int>{0});
+    EXPECT_EQ(facings(ground, sun_along({0.25, -1, 0})), std::vector<int>{1});
+    EXPECT_EQ(facings(ground, sun_along({0.25, 1, 0})), std::vector<int>{-1});
+    EXPECT_EQ(facings(ground, sun_along({3, 0, -1})), std::vector<int>{0});
 }
 
 TEST(Facings, TellTheNeighboursOfAPlaneApart)
@@ -53,7 +53,7 @@ TEST(Facings, TellTheNeighboursOfAPlaneApart)
     const TriangleScene slope =
         one_triangle({{{0, 0, 0}, {0x1p20, 0x1p20, 0}, {0, 0x1p-20, 0x1p-20}}});
     const Vec3d in_plane{1, 1 + 0.5, 0.5};
-    EXPECT_EQ(facings(slope, lamp_at(in_plane)), std::vector<std::int8_t>{0});
+    EXPECT_EQ(facings(slope, lamp_at(in_plane)), std::vector<int>{0});
     const int above = facings(slope, lamp_at(in_plane + Vec3d{0, step, 0})).front();
     const int below = facings(slope, lamp_at(in_plane - Vec3d{0, step, 0})).front();
     EXPECT_NE(above, 0);
