@@ -7,6 +7,7 @@
 #include "cli/system/memory.hpp"
 #include "cli/system/slow_work.hpp"
 #include "cli/system/standard_output.hpp"
+#include "methods/list.hpp"
 #include "reports/json/presets_json.hpp"
 #include "reports/tables/presets_table.hpp"
 #include "scene/error.hpp"
@@ -76,6 +77,12 @@ public:
     {
         SlowWork work{"reading the scene"};
         const scene::Job job = scene::job_of(source_, case_name_).job;
+        if (!methods::promises(job).has_map) {
+            throw scene::InputError(
+                fmt::format("--compare: method.name = \"{}\" has no map to lay presets over; leave "
+                            "the method away",
+                            job.method.name));
+        }
         const ComparisonSession session{job, options.session};
         analysis::PresetComparison comparison;
         comparison.light = scene::resolve_light(job, session.file().defaults).type;

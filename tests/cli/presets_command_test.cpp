@@ -168,6 +168,13 @@ TEST(PresetsCommand, LeavesOutThoseThatASettingExcludes)
     }));
 }
 
+TEST(PresetsCommand, RefusesToCompareWithoutAMap)
+{
+    expect_refused(gnomon({"presets", "--compare", "--builtin", "wall", "--set",
+                           "method.name=shadow_volumes"}),
+                   2, "has no map to lay presets over");
+}
+
 TEST(PresetsCommand, RefusesAJobWithoutCompareAndSeveralLights)
 {
     expect_refused(gnomon({"presets", "--builtin", "wall"}), 2, "a job is for --compare");

@@ -120,7 +120,7 @@ TEST(Presets, LeaveNothingOfTheBuiltInsSystem)
     const Job job = job_of("preset = \"three\"\n" + spot_scene).job;
     EXPECT_EQ(job.bias.constant, 0);
     EXPECT_EQ(job.shadow_map.frustum.near_m, 0.5);
-    EXPECT_EQ(job_of("preset = \"playcanvas\"\n" + spot_scene).job.shadow_map.depth_format,
+    EXPECT_EQ(job_of("preset = \"three\"\n" + spot_scene).job.shadow_map.depth_format,
               DepthFormat{});
 }
 
