@@ -17,7 +17,7 @@ namespace {
 
 using PresetRow = std::vector<std::string>;
 
-constexpr std::string_view no_number = "-";
+constexpr std::string_view nothing_there = "-";
 
 std::string lights_text(const scene::Preset& preset)
 {
@@ -91,7 +91,7 @@ PresetRow bias_row(const analysis::PresetResult& result)
 {
     PresetRow row{preset_label(result), map_text(result.job), preset_filter_text(result.job)};
     if (!result.receiver) {
-        row.insert(row.end(), 6, std::string{no_number});
+        row.insert(row.end(), 6, std::string{nothing_there});
     } else {
         const analysis::ReceiverBias& at = *result.receiver;
         for (const double value : {at.bias.constant, at.bias.constant_m, at.bias.constant_texels,
@@ -109,7 +109,7 @@ PresetRow unexpressed_row(const analysis::PresetResult& result)
     const bool has_offset = bias.polygon_factor != 0 || bias.polygon_units != 0;
     return {result.preset->name,
             has_offset ? fmt::format("{} {}", bias.polygon_factor, bias.polygon_units)
-                       : std::string{no_number},
+                       : std::string{nothing_there},
             digits(length.constant),
             digits(length.constant_m),
             digits(length.constant_texels),
@@ -119,7 +119,8 @@ PresetRow unexpressed_row(const analysis::PresetResult& result)
 
 std::string gap_text(const std::optional<analysis::Quantiles>& gaps)
 {
-    return gaps ? fmt::format("{:.3g} to {:.3g}", gaps->median, gaps->p95) : std::string{no_number};
+    return gaps ? fmt::format("{:.3g} to {:.3g}", gaps->median, gaps->p95)
+                : std::string{nothing_there};
 }
 
 PresetRow error_row(const analysis::PresetResult& result)

@@ -12,12 +12,12 @@
 namespace gnomon::scene {
 namespace {
 
-using Corner = std::array<double, 3>;
+using Place = std::array<double, 3>;
 
-TriangleScene one_triangle(const std::array<Corner, 3>& corners)
+TriangleScene one_triangle(const std::array<Place, 3>& corners)
 {
     TriangleScene made;
-    for (const Corner& corner : corners) {
+    for (const Place& corner : corners) {
         made.vertices.push_back(Vec3f{Vec3d{corner[0], corner[1], corner[2]}});
     }
     made.triangles = {{0, 1, 2}};
@@ -34,7 +34,7 @@ Light sun_along(const Vec3d& direction)
     return {.type = LightType::directional, .direction = direction};
 }
 
-constexpr std::array<Corner, 3> on_ground{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}}; // seen from above
+constexpr std::array<Place, 3> on_ground{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}}; // seen from above
 
 TEST(Facings, AreSeenFromTheLight)
 {
@@ -62,10 +62,10 @@ TEST(Facings, TellTheNeighboursOfAPlaneApart)
 }
 
 /// The same sign from fractions of integers.
-int sign_of_rationals(const std::array<Corner, 3>& t, const Corner& light)
+int sign_of_rationals(const std::array<Place, 3>& t, const Place& light)
 {
     using Number = boost::multiprecision::cpp_rational;
-    const auto difference = [](const Corner& a, const Corner& b) {
+    const auto difference = [](const Place& a, const Place& b) {
         return std::array<Number, 3>{Number{a[0]} - Number{b[0]}, Number{a[1]} - Number{b[1]},
                                      Number{a[2]} - Number{b[2]}};
     };
@@ -89,10 +89,10 @@ TEST(Facings, AreThoseOfRationalsWhereverPointsNearlyLieInAPlane)
             // z = x + 2y, but for a float32's last place or two.
             const auto z = static_cast<float>(x + 2 * y);
             const float nudged = z + static_cast<float>(step(random)) * 0x1p-22F;
-            return Corner{scale * x, scale * y, scale * double{nudged}};
+            return Place{scale * x, scale * y, scale * double{nudged}};
         };
-        const std::array<Corner, 3> corners{near(0.5, 0.25), near(1.75, 0.5), near(0.75, 1.25)};
-        const Corner light = near(1.125, 1.5);
+        const std::array<Place, 3> corners{near(0.5, 0.25), near(1.75, 0.5), near(0.75, 1.25)};
+        const Place light = near(1.125, 1.5);
         const int expected = sign_of_rationals(corners, light);
         in_plane += expected == 0 ? 1 : 0;
         ASSERT_EQ(facings(one_triangle(corners), lamp_at({light[0], light[1], light[2]})).front(),
