@@ -14,13 +14,14 @@ def mean_of_squares(values, side):
 
 
 def averaged_over_plain(job):
-    """Errors against averaged truth of averaged verdicts, over those of one sample a pixel."""
+    """Errors of averaged verdicts over those of one sample a pixel, both against the truth's mean over the pixel."""
     plain, sampled = job.layers("plain"), job.layers("sampled")
     side = len(sampled["class"]) // len(plain["class"])
     counted = is_scored(plain) & (mean_of_squares(is_scored(sampled).astype(float), side) == 1)
-    before = plain["verdict"] - plain.is_lit
-    after = mean_of_squares(sampled["verdict"] - sampled.is_lit, side)
-    return numpy.abs(after)[counted].sum() / numpy.abs(before)[counted].sum()
+    truth = mean_of_squares(sampled.is_lit.astype(float), side)
+    before = numpy.abs(plain["verdict"] - truth)[counted].sum()
+    after = numpy.abs(mean_of_squares(sampled["verdict"], side) - truth)[counted].sum()
+    return after / before
 
 
 def depth_before_the_middle(job):
@@ -111,11 +112,13 @@ LESSON = Lesson("game", "The game developer's note", (
     Claim(
         job="anti_aliasing",
         claim="Anti-aliasing will improve aliased shadows",
-        number="errors of the mean of 4 × 4 samples a pixel over those of one sample",
-        verdict=Verdict.REFUTED,
-        why="Jags are as wide as the map's texels, and averaged as they are.",
+        number="errors of the mean of 4 × 4 samples a pixel over those of one sample, both against the truth's mean over "
+               "the pixel",
+        verdict=Verdict.BOUNDED,
+        why="It cures the jags of pixels; those of texels that are wider than a pixel, 7 cm to 3 cm here, stay. With "
+            "2048² texels it is 0.05.",
         measure=averaged_over_plain,
-        # Texels of 7 cm are wider than pixels of 3 cm: few samples of a pixel differ.
-        low=0.7, high=1.1,
-        control=Control(instead={"sampled": "sampled_fine"})),
+        # Jags of texels and of pixels add up, the former about the wider: what is left is most, and not all.
+        low=0.4, high=0.85,
+        control=Control(instead={"sampled": "plain"})),
 ))
