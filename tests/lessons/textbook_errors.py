@@ -103,9 +103,9 @@ ERRORS = (
     Claim(
         job="error_grows",
         claim="The error grows with the distance",
-        number="largest error in the last eighth of the range over that in the first",
+        number="largest error of 16 bits in the last eighth of the range over that in the first",
         verdict=Verdict.CONFIRMED,
-        why="As ζ²: (50/9.75)² = 26 between the ends of these eighths.",
+        why="As ζ²: (50/9.75)² = 26 between the ends of these eighths; of the lesson's 32 bits 37.",
         measure=growth,
         # 512 planes an eighth find the envelope to a few per cent; GL's transform adds as much.
         low=20, high=35,
@@ -113,9 +113,10 @@ ERRORS = (
     Claim(
         job="error_near_zero",
         claim="Far away the error can be nearly zero, too",
-        number="smallest error in the last eighth of the range over the largest that a code can have there",
-        verdict=Verdict.CONFIRMED,
-        why="The error is a sawtooth: next to a code's own distance nothing is lost.",
+        number="smallest error of 16 bits in the last eighth of the range over the largest that a code can have there",
+        verdict=Verdict.BOUNDED,
+        why="Where rounding to a code is the error, a sawtooth: next to a code's own distance nothing is lost. Of the "
+            "lesson's 32 bits GL's least is 4.6 times that largest: its float32 keeps it from zero.",
         measure=smallest_far_away,
         # The least of 512 even shares of a tooth exceeds 0.02 once in 30,000 times.
         high=0.02, spread=20,
@@ -123,10 +124,10 @@ ERRORS = (
     Claim(
         job="one_tolerance",
         claim="No single tolerance can make up for errors that grow and are uneven",
-        number="largest error in depth units in the last eighth of the range over that in the first",
+        number="largest error of 16 bits in depth units in the last eighth of the range over that in the first",
         verdict=Verdict.BOUNDED,
-        why="No tolerance in metres can; in depth units, which the lesson's shader adds it in, "
-            "half a code is enough at every distance.",
+        why="No tolerance in metres can; in depth units, which the lesson's shader adds it in, half a code of 16 bits "
+            "is enough at every distance. Of the lesson's 32 bits GL errs by 295 codes near and 393 far: 1.33.",
         measure=growth_in_depth_units,
         # Both are half a code; 512 samples find it to 1 %, and GL may choose the other code now and then.
         low=0.8, high=1.25,
