@@ -38,7 +38,8 @@ class Claim:
     why: one sentence beside the verdict.
     measure: the number of a job, a share as a fraction.
     low, high: the verdict holds for numbers from low to high.
-    spread: share of the number by which the document's may differ, as on another driver.
+    spread: share of the number by which the document's may differ, as on another driver; below 1.
+    off_by: by how many pixels it may, in place of a share, where the number counts few or none.
     """
 
     job: str
@@ -52,14 +53,27 @@ class Claim:
     low: float = -math.inf
     high: float = math.inf
     spread: float = 0.1
+    off_by: int = 0
     digits: int = 3
 
     def holds(self, number):
         return self.low <= number <= self.high
 
+    def in_unit(self, number):
+        return number * (100 if self.unit == "%" else 1)
+
+    def is_near(self, written, number):
+        """Whether the document may give this number, in its unit, of the measured one."""
+        if self.off_by:
+            return abs(written - number) <= self.off_by
+        number = self.in_unit(number)
+        # Less than a step of the last digit by printing, the rest by another driver.
+        step = 10.0 ** (1 - self.digits) * abs(number)
+        return abs(written - number) <= self.spread * max(abs(number), abs(written)) + step
+
     def printed(self, number):
         """The number in its unit, as the document has it."""
-        text = f"{number * (100 if self.unit == '%' else 1):.{self.digits}g}"
+        text = f"{self.in_unit(number):.{self.digits}g}"
         # 0.000027, 1.2e-8 and 12000 in place of Python's 2.7e-05, 1.2e-08 and 1.2e+04
         mantissa, _, exponent = text.partition("e")
         if not exponent:

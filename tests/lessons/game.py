@@ -112,8 +112,8 @@ LESSON = Lesson("game", "The game developer's note", (
     Claim(
         job="anti_aliasing",
         claim="Anti-aliasing will improve aliased shadows",
-        number="errors of the mean of 4 × 4 samples a pixel over those of one sample, both against the truth's mean over "
-               "the pixel",
+        number="errors of the mean of 4 × 4 samples a pixel over those of one sample, both against the truth's mean "
+               "over the pixel",
         verdict=Verdict.BOUNDED,
         why="It cures the jags of pixels; those of texels that are wider than a pixel, 7 cm to 3 cm here, stay. With "
             "2048² texels it is 0.05.",
