@@ -119,15 +119,16 @@ THE_MAP = (
         verdict=Verdict.REFUTED,
         why="With the bias that each needs it leaves more, if few: borders of shadows, which no mean of depths mends.",
         measure=lambda job: best_errors_in_all_scenes(job, "linear") / best_errors_in_all_scenes(job, "nearest"),
-        # 258 against 219: a standard deviation of a tenth.
-        low=0.9, high=1.5,
+        # 258 against 219: a standard deviation of a tenth. Below 1 LINEAR would be the more accurate.
+        low=1, high=1.5,
         control=Control(instead={f"linear_{scene}": "linear_yard" for scene in SCENES})),
     Claim(
         job="clamp_to_edge",
         claim="Beyond the map's edges, repeating its last values is the least bad choice",
         number="errors with clamped lookups over those with light beyond the edges",
-        verdict=Verdict.REFUTED,
-        why="Light leaves 6 % wrong, clamping 17 %, shadow 62 %: most of a scene is lit.",
+        verdict=Verdict.BOUNDED,
+        why="Less bad than shadow: that leaves 62 % wrong, clamping 17 %. But light leaves 6 %, as most of a scene "
+            "is lit. WebGL, which has no border, could only repeat the whole map, which was not measured.",
         measure=clamp_over_the_better_choice,
         low=1.5,  # as bad would be 1; 7114 and 2454 wrong pixels leave chance no part
         control=Control(instead={"clamp": "lit"})),
@@ -217,8 +218,9 @@ THE_LOOKUP = (
         job="clip_space",
         claim="Shadows must be computed in clip space, for that is what a map holds",
         number="errors with distances in the map over those with clip-space depths, each with its best bias",
-        verdict=Verdict.REFUTED,
-        why="A map of distances does as well; with the lesson's own bias, as long everywhere then, better.",
+        verdict=Verdict.BOUNDED,
+        why="Of a map that holds clip-space depths. One of distances to the light does as well; with the lesson's own "
+            "bias, as long everywhere then, better.",
         measure=lambda job: best_errors(job.compare("distance")) / best_errors(job.compare("depth")),
         high=1.5,  # 50 against 52 wrong pixels: a standard deviation of 0.2
         control=Control(instead={"distance": "coarse"})),
