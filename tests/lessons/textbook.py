@@ -128,7 +128,7 @@ THE_MAP = (
         number="errors with clamped lookups over those with light beyond the edges",
         verdict=Verdict.BOUNDED,
         why="Less bad than shadow: that leaves 62 % wrong, clamping 17 %. But light leaves 6 %, as most of a scene "
-            "is lit. WebGL, which has no border, could only repeat the whole map, which was not measured.",
+            "is lit. Repeating the whole map, mirrored or not, was not measured.",
         measure=clamp_over_the_better_choice,
         low=1.5,  # as bad would be 1; 7114 and 2454 wrong pixels leave chance no part
         control=Control(instead={"clamp": "lit"})),

@@ -94,7 +94,7 @@ ERRORS = (
     Claim(
         job="nearer_is_finer",
         claim="Nearer values have more resolution",
-        number="codes a metre at near over those at far",
+        number="codes a metre at near over those at far, by formula",
         verdict=Verdict.CONFIRMED,
         why="(far/near)² times as many, of integers under a perspective; not under an orthographic sun, "
             "nor of reversed floats.",

@@ -54,9 +54,10 @@ LESSON = Lesson("webgl", "The WebGL lesson", (
     Claim(
         job="colour_attachment",
         claim="A framebuffer for depths needs a colour texture beside them, if unused",
-        number="pixels whose verdict changes without one", unit="px",
+        number="pixels whose verdict differs between a depth texture alone and depths written as colours", unit="px",
         verdict=Verdict.REFUTED,
-        why="Drivers of desktop GL take a depth texture alone; that the lesson's browser did not is its own rule.",
+        why="Desktop GL takes a depth texture alone, and its map says what one in a colour texture says; that the "
+            "lesson's browser did not take one is its own rule.",
         measure=lambda job: differing_verdicts(job.layers("depth_alone"), job.layers("with_colour")),
         high=0,  # both hold the same float32
         control=Control(instead={"with_colour": "packed"})),
