@@ -72,9 +72,9 @@ LESSON = Lesson("lecture", "The lecture", (
         claim="An epsilon of 0.1 tells light from shadow",
         number="errors with it in the yard over those in the lecture's scene",
         verdict=Verdict.BOUNDED,
-        why="In the lecture's scene 0.06 % of the pixels are wrong, as anything from 0.018 to 0.28 does. In the "
-            "yard it is 8.6 %, all of the shadow; 4.4 % between the textbook's planes, 3.4 % in the playground; "
-            "with the ball over its plane 0.16 %.",
+        why="In the lecture's scene 0.06 % of the pixels are wrong, and anything from 0.018 to 0.28 does as well. "
+            "In the yard it is 8.6 %, all of the shadow; in the textbook's scene 4.4 %, in the playground 3.4 %, with "
+            "the ball over its plane 0.16 %.",
         measure=lambda job: job.compare("yard")["error_rate"] / job.compare("lectures")["error_rate"],
         # 3536 and 9 wrong pixels: a standard deviation of a third. Elsewhere as well would be about 1.
         low=20, spread=0.6,
