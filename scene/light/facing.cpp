@@ -16,9 +16,9 @@ namespace mp = boost::multiprecision;
 /// have 278 bits at most, and products of three differences and sums of six such 837.
 using Exact = mp::number<mp::cpp_bin_float<1024, mp::digit_base_2>, mp::et_off>;
 
-using Corners = std::array<Vec3d, 3>;
+using FacedCorners = std::array<Vec3d, 3>;
 
-Corners corners_of(const TriangleScene& triangles, std::uint32_t triangle)
+FacedCorners faced_corners(const TriangleScene& triangles, std::uint32_t triangle)
 {
     const auto corners = triangles.corners(triangle);
     return {Vec3d{corners[0]}, Vec3d{corners[1]}, Vec3d{corners[2]}};
@@ -40,7 +40,7 @@ std::array<Number, 3> to_light(const Light& light, const Vec3d& corner)
 
 /// The six products of ((b − a) × (c − a))·g.
 template <typename Number>
-std::array<Number, 6> products(const Corners& t, const Light& light)
+std::array<Number, 6> products(const FacedCorners& t, const Light& light)
 {
     const auto u = difference<Number>(t[1], t[0]);
     const auto v = difference<Number>(t[2], t[0]);
@@ -50,7 +50,7 @@ std::array<Number, 6> products(const Corners& t, const Light& light)
             u[0] * v[1] * g[2], Number{-(u[1] * v[0] * g[2])}};
 }
 
-int exact_sign(const Corners& corners, const Light& light)
+int exact_sign(const FacedCorners& corners, const Light& light)
 {
     Exact sum = 0;
     for (const Exact& product : products<Exact>(corners, light)) {
@@ -59,7 +59,7 @@ int exact_sign(const Corners& corners, const Light& light)
     return sum.sign();
 }
 
-int sign_of(const Corners& corners, const Light& light)
+int sign_of(const FacedCorners& corners, const Light& light)
 {
     // Each product has five roundings, of three differences and two products, and takes part in at
     // most five sums: together at most 11 units of 2^-53 of the products' sizes. Nothing
@@ -83,7 +83,7 @@ std::vector<int> facings(const TriangleScene& triangles, const Light& light)
 {
     std::vector<int> signs(triangles.triangles.size());
     for (std::uint32_t t = 0; t < signs.size(); ++t) {
-        signs[t] = sign_of(corners_of(triangles, t), light);
+        signs[t] = sign_of(faced_corners(triangles, t), light);
     }
     return signs;
 }
