@@ -1,7 +1,7 @@
 // The pixel inspector: two layers with a wipe between them, the bias slider and a pixel's numbers.
 
 const noCurveLine =
-  "Nothing tells of this lookup’s other biases: its weights are its renderer’s own. The layers show the job’s bias.";
+  "Nothing tells of this lookup’s other biases: it has none, or its weights are its renderer’s own. The layers show the job’s bias.";
 
 /** What is said of an image of which not all pixels are on the page. */
 function thinnedText({ step }) {
