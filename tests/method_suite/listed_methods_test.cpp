@@ -51,6 +51,15 @@ protected:
     }
 };
 
+/// Those with a map of depths that decides.
+class MethodOfDepths : public ListedMethod {};
+
+/// Those whose verdicts turn with plates: a plate's diagonal, and so its triangles, do not.
+class MethodThatTurns : public ListedMethod {};
+
+/// Those that promise an exact curve.
+class MethodOfExactCurve : public ListedMethod {};
+
 /// Verdicts are 0 or 1 where the method promises it.
 void expect_promised_verdicts(const scene::LookupLayers& lookup, const Promises& promised)
 {
@@ -93,13 +102,9 @@ void expect_verdict_of_constant(MethodCase& c, float depth, bool is_lit)
     EXPECT_GT(count, 500U);
 }
 
-TEST_P(ListedMethod, GivesTheObviousVerdictsOfAMapOfConstantDepth)
+TEST_P(MethodOfDepths, GivesTheObviousVerdictsOfAMapOfConstantDepth)
 {
     GNOMON_REQUIRE_GL();
-    const Promises of_wall = methods::promises(job_of_builtin("wall", keys()));
-    if (!of_wall.has_map || of_wall.compares == methods::Compares::primitives) {
-        GTEST_SKIP() << "no depth of a map decides";
-    }
     for (const char* const builtin : {"sphere-plane", "terrain"}) {
         for (const bool reversed : {false, true}) {
             SCOPED_TRACE(fmt::format("{} reversed {}", builtin, reversed));
@@ -275,16 +280,13 @@ scene::LookupLayers looked_down(const std::vector<Plate>& plates, const scene::J
     return c.look_up(0x1p-10F);
 }
 
-TEST_P(ListedMethod, MirrorsAndTurnsItsVerdictsWithTheScene)
+TEST_P(MethodThatTurns, MirrorsAndTurnsItsVerdictsWithTheScene)
 {
     GNOMON_REQUIRE_GL();
     if (!shader_arithmetic_is_ieee()) {
         GTEST_SKIP() << "no promise of exact interpolation on this driver";
     }
     const scene::Job job = job_of_builtin("wall", keys());
-    if (methods::promises(job).compares == methods::Compares::primitives) {
-        GTEST_SKIP() << "a plate's diagonal does not turn with the plate";
-    }
     const double allowed = allowed_difference(job);
     for (const unsigned seed : {1U, 2U, 3U, 4U}) {
         const auto plates = some_plates(seed);
@@ -355,7 +357,7 @@ TEST_P(ListedMethod, ExplainsEveryErrorOnce)
     }
 }
 
-TEST_P(ListedMethod, HasTheCurveThatGlsRerunsHave)
+TEST_P(MethodOfExactCurve, HasTheCurveThatGlsRerunsHave)
 {
     GNOMON_REQUIRE_GL();
     for (const char* const builtin : {"sphere-plane", "sphere-cube"}) {
@@ -363,10 +365,6 @@ TEST_P(ListedMethod, HasTheCurveThatGlsRerunsHave)
             SCOPED_TRACE(fmt::format("{} slope {}", builtin, slope));
             const scene::Job job =
                 job_of_builtin(builtin, keys({{"bias.slope", slope}, {"bias.constant", "0.0005"}}));
-            const Promises promised = methods::promises(job);
-            if (!promised.has_curve() || promised.rises.how != Rise::exactly) {
-                GTEST_SKIP() << "promises no exact curve";
-            }
             const Compared scene{job};
             const auto result = scene(job);
             ASSERT_TRUE(result.held.has_value());
@@ -383,13 +381,43 @@ TEST_P(ListedMethod, HasTheCurveThatGlsRerunsHave)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    List, ListedMethod, testing::ValuesIn(configurations()), [](const auto& info) {
-        std::string name = info.param.label;
-        std::ranges::replace_if(
-            name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-        return name;
+/// Those configurations whose promises fit.
+std::vector<Configuration> that(bool (*fit)(const Promises&))
+{
+    auto all = configurations();
+    std::erase_if(all, [&](const Configuration& one) {
+        return !fit(methods::promises(job_of_builtin("wall", with(small, one.keys))));
     });
+    return all;
+}
+
+bool compare_depths(const Promises& promised)
+{
+    return promised.has_map && promised.compares != methods::Compares::primitives;
+}
+
+bool turn(const Promises& promised)
+{
+    return promised.compares != methods::Compares::primitives;
+}
+
+bool have_exact_curve(const Promises& promised)
+{
+    return promised.has_curve() && promised.rises.how == Rise::exactly;
+}
+
+std::string name(const testing::TestParamInfo<Configuration>& info)
+{
+    std::string label = info.param.label;
+    std::ranges::replace_if(
+        label, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    return label;
+}
+
+INSTANTIATE_TEST_SUITE_P(List, ListedMethod, testing::ValuesIn(configurations()), name);
+INSTANTIATE_TEST_SUITE_P(List, MethodOfDepths, testing::ValuesIn(that(compare_depths)), name);
+INSTANTIATE_TEST_SUITE_P(List, MethodThatTurns, testing::ValuesIn(that(turn)), name);
+INSTANTIATE_TEST_SUITE_P(List, MethodOfExactCurve, testing::ValuesIn(that(have_exact_curve)), name);
 
 } // namespace
 } // namespace gnomon::tests
