@@ -20,10 +20,20 @@ def dump(name, first):
     return image
 
 
-def pack(*arguments):
-    return subprocess.run([sys.executable, str(KIT / "pack_aov.py"), "--width", str(WIDTH), "--height",
-                           str(HEIGHT), "-o", str(KIT / "aov.exr"), *arguments],
+def run_packer(*arguments):
+    return subprocess.run([sys.executable, str(KIT / "pack_aov.py"), "-o", str(KIT / "aov.exr"), *arguments],
                           capture_output=True, text=True)
+
+
+def pack(*arguments):
+    return run_packer("--width", str(WIDTH), "--height", str(HEIGHT), *arguments)
+
+
+def save(name, *shape):
+    """A .npy file of random floats, of all magnitudes and signs."""
+    image = numpy.random.default_rng(len(name)).standard_normal(shape).astype("f4")
+    numpy.save(KIT / name, image)
+    return image
 
 
 def read():
@@ -54,6 +64,76 @@ class Packing(unittest.TestCase):
         numpy.testing.assert_array_equal(channels["id.geom"], layers["b"][::-1, :, 3])
         numpy.testing.assert_array_equal(channels["z.light"], layers["c"][::-1, :, 0])
         numpy.testing.assert_array_equal(channels["z.map"], layers["c"][::-1, :, 1])
+        numpy.testing.assert_array_equal(channels["texel.X"], layers["c"][::-1, :, 2])
+        numpy.testing.assert_array_equal(channels["texel.Y"], layers["c"][::-1, :, 3])
+
+    def test_depths_without_a_texel(self):
+        dump("a.raw", 1)
+        c = dump("c.raw", 1)
+        c[:, :, 2:] = 0
+        c.tofile(KIT / "c.raw")
+        self.assertEqual(pack("--a", str(KIT / "a.raw"), "--c", str(KIT / "c.raw")).returncode, 0)
+        channels = read()
+        self.assertIn("z.map", channels)
+        self.assertNotIn("texel.X", channels)
+
+    def test_channels_of_their_own(self):
+        # More rows than a block of EXR's has, in which noise does not compress and equal numbers do.
+        shape = (37, 11)
+        images = {"P": save("p.npy", *shape, 3), "texel": save("texel.npy", *shape, 2),
+                  "Ng": save("ng.npy", *shape, 3), "unmoved.texel": save("u.npy", *shape, 2)}
+        singles = ("shadow.V", "id.geom", "z.light", "z.map", "map_index", "tan_theta", "unmoved.V",
+                   "unmoved.z.light", "unmoved.z.map", "unmoved.map_index")
+        images.update({name: save(f"{name}.npy", *shape) for name in singles})
+        images["valid"] = numpy.ones(shape, dtype="f4")
+        images["map_index"][:] = 3
+        for name in ("valid", "map_index"):
+            numpy.save(KIT / f"{name}.npy", images[name])
+        files = {"P": "p.npy", "texel": "texel.npy", "Ng": "ng.npy", "unmoved.texel": "u.npy"}
+        words = [f"--channel={name}={KIT / files.get(name, name + '.npy')}" for name in images]
+        result = run_packer(*words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        channels = read()
+        for name, image in images.items():
+            letters = "XYZ"[:image.shape[2]] if image.ndim == 3 else ""
+            for i, letter in enumerate(letters):
+                numpy.testing.assert_array_equal(channels.pop(f"{name}.{letter}"), image[:, :, i], name)
+            if not letters:
+                numpy.testing.assert_array_equal(channels.pop(name), image, name)
+        self.assertEqual(channels, {})
+
+    def test_needs_nothing_but_numpy(self):
+        dump("a.raw", 1)
+        hidden = "import sys; sys.modules['OpenImageIO'] = None; import runpy; runpy.run_path(sys.argv.pop(1))"
+        result = subprocess.run([sys.executable, "-c", hidden, str(KIT / "pack_aov.py"), "--width", str(WIDTH),
+                                 "--height", str(HEIGHT), "--a", str(KIT / "a.raw"), "-o", str(KIT / "aov.exr")],
+                                capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_refusals_are_one_line(self):
+        dump("a.raw", 1)
+        save("p.npy", 3, 5, 3)
+        save("other.npy", 4, 5)
+        numpy.save(KIT / "double.npy", numpy.zeros((3, 5)))
+        (KIT / "bad.npy").write_bytes(b"no array")
+        p = f"--channel=P={KIT / 'p.npy'}"
+        a = ("--width", "5", "--height", "3", "--a", str(KIT / "a.raw"))
+        for arguments, message in [
+                ((p,), "no shadow.V"),
+                ((p, f"--channel=shadow.V={KIT / 'other.npy'}"), "files of several sizes, 5x3, 5x4"),
+                ((p, f"--channel=shadow.V={KIT / 'double.npy'}"), "float64 numbers"),
+                ((p, f"--channel=shadow.V={KIT / 'p.npy'}"), "must be (height, width, 1)"),
+                ((p, f"--channel=shadow.V={KIT / 'bad.npy'}"), "bad.npy"),
+                ((p, f"--channel=shadow.V={KIT / 'none.npy'}"), "none.npy"),
+                ((*a, p), "P.X is given twice"),
+                (("--a", str(KIT / "a.raw")), "give --width and --height"),
+                (("--channel=colour=x.npy",), "must be NAME=FILE"),
+                (("--channel=P",), "must be NAME=FILE"),
+                ((*a, "-o", str(KIT)), "Is a directory")]:
+            result = run_packer(*arguments)
+            self.assertEqual(result.returncode, 1, (arguments, result.stderr))
+            self.assertIn(message, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
 
     def test_pixels_that_show_nothing(self):
         a = dump("a.raw", 1)
@@ -69,7 +149,7 @@ class Packing(unittest.TestCase):
         (KIT / "a.raw").write_bytes(b"\0" * 64)
         result = pack("--a", str(KIT / "a.raw"))
         self.assertEqual(result.returncode, 1)
-        self.assertIn("64 bytes, but 5x3 pixels of four floats are 240", result.stderr)
+        self.assertIn("64 bytes, but 5x3 pixels of 4 floats are 240", result.stderr)
 
 
 unittest.main()

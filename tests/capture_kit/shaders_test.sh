@@ -26,6 +26,7 @@ void main()
     gnomon_a = gnomon_point(world_position, 1.0);
     gnomon_b = gnomon_surface(world_position, vec3(0.0, 2.0, 6.0), 3.0);
     gnomon_c = gnomon_depths(0.25, 0.5);
+    gnomon_c = gnomon_lookup(0.25, 0.5, vec2(3.5, 7.25));
 }
 END
     } >"$folder/$1.frag"
@@ -52,6 +53,7 @@ Targets main(linear float3 world_position : POSITION0)
     targets.gnomon_a = GnomonPoint(world_position, 1.0);
     targets.gnomon_b = GnomonSurface(world_position, float3(0.0, 2.0, 6.0), 3.0);
     targets.gnomon_c = GnomonDepths(0.25, 0.5);
+    targets.gnomon_c = GnomonLookup(0.25, 0.5, float2(3.5, 7.25));
     return targets;
 }
 END

@@ -7,11 +7,11 @@
 //
 //     layout(location = 0) out highp vec4 gnomon_a;   // P and the mask: level 0 needs no more
 //     layout(location = 1) out highp vec4 gnomon_b;   // normal and object
-//     layout(location = 2) out highp vec4 gnomon_c;   // the two depths that were compared
+//     layout(location = 2) out highp vec4 gnomon_c;   // the two depths that were compared, and where
 //
 //     gnomon_a = gnomon_point(world_position, lit);
 //     gnomon_b = gnomon_surface(world_position, camera_position, object_number);
-//     gnomon_c = gnomon_depths(receiver_depth, map_depth);
+//     gnomon_c = gnomon_lookup(receiver_depth, map_depth, uv * resolution);
 //
 // world_position: the vertex's world position, interpolated (`highp`, not `flat`). Neither relative to
 // the camera nor rebuilt from the depth buffer: both lose the digits that the truth is decided by.
@@ -38,4 +38,11 @@ highp vec4 gnomon_surface(highp vec3 world_position, highp vec3 camera_position,
 highp vec4 gnomon_depths(highp float receiver_depth, highp float map_depth)
 {
     return vec4(receiver_depth, map_depth, 0.0, 0.0);
+}
+
+// The same with the place that was looked up: uv × resolution [texels], from the map's lower left. With it,
+// the whole camera and the map's settings every cause can be told.
+highp vec4 gnomon_lookup(highp float receiver_depth, highp float map_depth, highp vec2 texel)
+{
+    return vec4(receiver_depth, map_depth, texel);
 }

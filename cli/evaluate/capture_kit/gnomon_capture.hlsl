@@ -6,11 +6,11 @@
 //
 //     float4 gnomon_a : SV_Target0;   // P and the mask: level 0 needs no more
 //     float4 gnomon_b : SV_Target1;   // normal and object
-//     float4 gnomon_c : SV_Target2;   // the two depths that were compared
+//     float4 gnomon_c : SV_Target2;   // the two depths that were compared, and where
 //
 //     gnomon_a = GnomonPoint(world_position, lit);
 //     gnomon_b = GnomonSurface(world_position, camera_position, object_number);
-//     gnomon_c = GnomonDepths(receiver_depth, map_depth);
+//     gnomon_c = GnomonLookup(receiver_depth, map_depth, uv * resolution);
 //
 // world_position: the vertex's world position, interpolated (`linear`). Neither relative to the camera
 // nor rebuilt from the depth buffer: both lose the digits that the truth is decided by.
@@ -40,4 +40,12 @@ float4 GnomonSurface(float3 world_position, float3 camera_position, float object
 float4 GnomonDepths(float receiver_depth, float map_depth)
 {
     return float4(receiver_depth, map_depth, 0.0, 0.0);
+}
+
+// The same with the place that was looked up: uv × resolution [texels], from the map's lower left. With it,
+// the whole camera and the map's settings every cause can be told. Where v runs downwards, as in Direct3D,
+// that is float2(u, 1 - v) × resolution.
+float4 GnomonLookup(float receiver_depth, float map_depth, float2 texel)
+{
+    return float4(receiver_depth, map_depth, texel);
 }
