@@ -98,6 +98,11 @@ audit_float_methods(const ReferenceScene& reference, const scene::View& view,
                     const scene::Image<std::uint32_t>& receivers, const scene::TruthLayers& truth,
                     int threads = 0);
 
+/// The triangle that each pixel-centre ray meets first beyond the near plane, decided exactly; of
+/// several at one point the lowest index; `no_triangle` where there is none.
+[[nodiscard]] scene::Image<std::uint32_t> first_triangles(const ReferenceScene& reference,
+                                                          const scene::View& view, int threads = 0);
+
 /// P of each pixel, the pixel-centre ray ∩ plane(T), computed in double and rounded to float32;
 /// NaN where there is no receiver.
 [[nodiscard]] scene::Image<scene::Vec3f>

@@ -57,7 +57,10 @@ struct Evaluation {
     int level = 0; ///< 1: the side that is seen is known
     std::vector<UnansweredQuestion> cannot_know;
     ImportCheck import_check;
-    scene::Image<scene::Vec3f> points; ///< P, as the renderer says it; NaN where nothing is judged
+    scene::Image<scene::Vec3f> points; ///< P; NaN where nothing is judged
+    /// P is what the centres of the camera's pixels show, and so many pixels are not judged because
+    /// a silhouette may cross them; empty: the renderer says P.
+    std::optional<std::uint64_t> silhouette_pixels;
     scene::Image<scene::Vec3f> normal; ///< of T, on the side that is seen; NaN: not known
     /// By how much P's rounding box was grown to meet the plane of T [m]: the largest, and how
     /// many.

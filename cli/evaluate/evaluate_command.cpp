@@ -1,5 +1,6 @@
 #include "cli/evaluate/evaluate_command.hpp"
 
+#include "analysis/evaluate/camera_positions.hpp"
 #include "analysis/evaluate/evaluate.hpp"
 #include "cli/compare/compare_run.hpp"
 #include "cli/compare/kept_pixels.hpp"
@@ -9,6 +10,7 @@
 #include "cli/system/standard_output.hpp"
 #include "reference_rt/light/exact_light.hpp"
 #include "reference_rt/rounded/rounded_truth.hpp"
+#include "reference_rt/truth.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/json/evaluation_json.hpp"
 #include "reports/pictures/picture.hpp"
@@ -31,6 +33,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
@@ -69,6 +72,9 @@ public:
           reference_{mesh_, {threads}}
     {
         set_image_size();
+        if (!layers_.has_positions) {
+            in_words_of(file_, [&] { take_positions(threads); });
+        }
     }
 
     [[nodiscard]] const scene::CaseFile& file() const { return file_; }
@@ -112,6 +118,17 @@ private:
         });
     }
 
+    /// What the centres of the camera's pixels show.
+    void take_positions(int threads)
+    {
+        scene::Job job = scene::make_job(file_.source);
+        job.image = layers_.size();
+        const scene::View view = scene::resolve_view(job, mesh_, {});
+        const auto points = reference_rt::receiver_points(
+            mesh_, view, reference_rt::first_triangles(reference_, view, threads));
+        analysis::take_camera_positions(layers_, mesh_, view, points, file_.space.is_mirrored());
+    }
+
     /// The image says it, and a run's configuration names it.
     void set_image_size()
     {
@@ -119,7 +136,7 @@ private:
         for (const auto& [key, pixels] :
              {std::pair{"image.width", size.width_px}, {"image.height", size.height_px}}) {
             file_.source.file.push_back({scene::find_key(key), std::int64_t{pixels},
-                                         scene::one_line(file_.image.string())});
+                                         scene::one_line(file_.images.front().path.string())});
         }
     }
 
@@ -135,9 +152,13 @@ void require_writable_results(const EvaluateOptions& options, const scene::CaseF
     const std::array outputs{
         OutputOption{"--aov", options.aov_path, store::OutputKind::layers},
         OutputOption{"--picture", options.picture_path, store::OutputKind::picture}};
-    const std::array inputs{InputFile{"the case", file.path.string()},
-                            InputFile{"the case's image", file.image.string()},
-                            InputFile{"the case's map", file.map.string()}};
+    std::vector<InputFile> inputs{{"the case", file.path.string()}};
+    for (const scene::CaseImageSource& image : file.images) {
+        inputs.push_back({"the case's image", image.path.string()});
+    }
+    if (file.map) {
+        inputs.push_back({"the case's map", file.map->path.string()});
+    }
     require_outputs(outputs, inputs);
 }
 

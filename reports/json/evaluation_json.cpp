@@ -49,6 +49,10 @@ store::Json evaluate_object(const analysis::Comparison& comparison,
     return {{"case", evaluation.case_name},
             {"renderer", comparison.environment.gl_renderer},
             {"level", evaluation.level},
+            {"positions", evaluation.silhouette_pixels ? "camera" : "image"},
+            {"silhouette_pixels", evaluation.silhouette_pixels
+                                      ? store::Json(*evaluation.silhouette_pixels)
+                                      : store::Json(nullptr)},
             {"cannot_know", cannot_know(evaluation.cannot_know)},
             {"import_check", import_check_json(evaluation.import_check)},
             {"false_lit_gap_m", quantiles_or_null(evaluation.false_lit_gap_m)},

@@ -46,7 +46,14 @@ std::string evaluation_settings(const analysis::Comparison& comparison,
     text += setting_line("image", words.image);
     text += setting_line("light", words.light);
     text += setting_line("level", fmt::format("{}", evaluation.level));
-    text += setting_line("P off the mesh", distance_words(evaluation.import_check.distances));
+    if (evaluation.silhouette_pixels) {
+        text +=
+            setting_line("P", fmt::format("of the camera's pixel centres; {} set aside, which a "
+                                          "silhouette may cross",
+                                          counted(*evaluation.silhouette_pixels, "pixel")));
+    } else {
+        text += setting_line("P off the mesh", distance_words(evaluation.import_check.distances));
+    }
     if (evaluation.grown_pixels > 0) {
         text += setting_line("", fmt::format("rounding boxes grown for {} by up to {:.2g} m",
                                              counted(evaluation.grown_pixels, "pixel"),

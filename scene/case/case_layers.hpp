@@ -12,15 +12,19 @@ namespace gnomon::scene {
 /// case does not have are empty; the others are of one size.
 struct CaseLayers {
     Image<float> mask; ///< 1 lit, 0 shadowed, between for filtered lookups; 0 without a position
-    Image<Vec3f> position; ///< P [the renderer's units]; NaN where nothing is to be judged
-    Image<Vec3f> normal;   ///< on the side that is seen, of any length; zero or NaN: not known
+    /// P [the renderer's units]; NaN where nothing is to be judged. Without positions any others.
+    Image<Vec3f> position;
+    bool has_positions = true; ///< else P is what the camera's pixel centres show
+    Image<Vec3f> normal;       ///< on the side that is seen, of any length; zero or NaN: not known
     Image<std::uint32_t> object_number; ///< the renderer's
     Image<float> z_light;               ///< r, before any bias
     Image<float> z_map;                 ///< d; NaN where the border mode decided
     Image<Vec2f> texels;                ///< as `LookupLayers::texels`
     MapIndices maps;                    ///< as `LookupLayers::maps`
     Image<float> tan_theta;             ///< as `LookupSample::tan_theta`
-    LookupLayers unmoved;    ///< the lookup at the receiver itself without any bias; may be empty
+    LookupLayers unmoved; ///< the lookup at the receiver itself without any bias; may be empty
+    /// Without positions: pixels that are not judged because a silhouette may cross them.
+    std::uint64_t silhouette_pixels = 0;
     Image<float> map_depths; ///< the shadow maps (`maps_image_size`), top left first
 
     [[nodiscard]] ImageSize size() const { return position.size(); }

@@ -277,6 +277,22 @@ std::string folder_name(const fs::path& file)
     return one_line(folder.filename().string());
 }
 
+/// Files are beside case.toml; `image`, which comes first, has a default unless there are others.
+void settle_images(CaseFile& file)
+{
+    if (file.images.empty()) {
+        file.images.push_back({"image", "aov.exr", {}, 0});
+    }
+    std::ranges::stable_partition(
+        file.images, [](const CaseImageSource& image) { return image.key == "image"; });
+    for (CaseImageSource& image : file.images) {
+        image.path = file.source.folder / image.path;
+    }
+    if (file.map) {
+        file.map->path = file.source.folder / file.map->path;
+    }
+}
+
 } // namespace
 
 bool CaseFile::says(std::string_view key) const
@@ -310,8 +326,7 @@ CaseFile read_case_file(const fs::path& path, std::string_view from)
     settle_space(draft);
     require_all(draft);
     file.name = file.name.empty() ? folder_name(file.path) : file.name;
-    file.image = file.source.folder / (file.image.empty() ? fs::path{"aov.exr"} : file.image);
-    file.map = file.map.empty() ? fs::path{} : file.source.folder / file.map;
+    settle_images(file);
     try {
         (void)make_job(file.source); // keys that do not go together are refused here
     } catch (const InputError& error) {

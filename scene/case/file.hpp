@@ -4,6 +4,7 @@
 #include "scene/job/source.hpp"
 #include "scene/vec.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -31,6 +32,18 @@ struct ImageConventions {
     std::optional<double> lit_above;   ///< the mask is light: above this it is lit
     std::optional<Vec3d> background{}; ///< the position of pixels that show nothing
     bool has_fractions = false;        ///< fractions of the mask are meant
+    /// The lowest row comes first, but in .pfm files, which have an order of their own.
+    bool is_bottom_up = false;
+};
+
+/// A file of a case's image, or of its map. An EXR file names its channels itself; what those of a
+/// raw file (.npy, .pfm) are called is said here.
+struct CaseImageSource {
+    std::string key; ///< of case.toml, that names it: "files.position"
+    std::filesystem::path path;
+    std::vector<std::string> channels; ///< the contract's names, in the raw file's order
+    std::size_t least = 0;             ///< A raw file must have so many of them.
+    bool is_raw_alone = false;         ///< EXR files are refused
 };
 
 /// Another renderer's case, as its case.toml says it (docs/evaluate.md).
@@ -39,8 +52,8 @@ struct CaseFile {
     std::string text;           ///< its content
     std::string name;
     std::string renderer;
-    std::filesystem::path image;
-    std::filesystem::path map; ///< empty: none
+    std::vector<CaseImageSource> images; ///< at least one; `image` is the first, where it is given
+    std::optional<CaseImageSource> map;  ///< of channel "map.d"
     ImageConventions conventions;
     CaseSpace space;
     std::map<std::string, std::uint32_t> object_numbers; ///< by name; empty: as in the mesh file

@@ -79,6 +79,36 @@ CaseKey renamed_key(std::string name, std::string_view job_key)
             }};
 }
 
+/// A key that names a file of the case's image.
+CaseKey image_key(const std::string& name, const Names& channels, std::size_t least)
+{
+    const bool is_raw_alone = name != "image";
+    return {name, TextDomain{}, [=](CaseDraft& draft, const JobValue& value) {
+                draft.file.images.push_back(
+                    {name, std::get<std::string>(value), channels, least, is_raw_alone});
+            }};
+}
+
+/// Keys of raw files, each of one channel or vector.
+std::vector<CaseKey> raw_file_keys()
+{
+    std::vector<CaseKey> keys;
+    for (const auto& [leaf, channels] :
+         std::vector<std::pair<std::string, Names>>{{"position", {"P.X", "P.Y", "P.Z"}},
+                                                    {"shadow", {"shadow.V"}},
+                                                    {"valid", {"valid"}},
+                                                    {"normal", {"Ng.X", "Ng.Y", "Ng.Z"}},
+                                                    {"object", {"id.geom"}},
+                                                    {"z_light", {"z.light"}},
+                                                    {"z_map", {"z.map"}},
+                                                    {"texel", {"texel.X", "texel.Y"}},
+                                                    {"map_index", {"map_index"}},
+                                                    {"tan_theta", {"tan_theta"}}}) {
+        keys.push_back(image_key("files." + leaf, channels, channels.size()));
+    }
+    return keys;
+}
+
 std::vector<CaseKey> file_keys()
 {
     constexpr RealDomain unit_m{.lower = 1e-9, .upper = 1e9};
@@ -91,10 +121,12 @@ std::vector<CaseKey> file_keys()
         plain_key<Text>(
             "renderer", TextDomain{},
             [](CaseDraft & draft) -> auto& { return draft.file.renderer; }),
-        plain_key<Text>(
-            "image", TextDomain{}, [](CaseDraft & draft) -> auto& { return draft.file.image; }),
-        plain_key<Text>(
-            "map.file", TextDomain{}, [](CaseDraft & draft) -> auto& { return draft.file.map; }),
+        // A raw file in place of it may lack the mask, which then is a file of its own.
+        image_key("image", {"P.X", "P.Y", "P.Z", "shadow.V"}, 3),
+        {"map.file", TextDomain{},
+         [](CaseDraft& draft, const JobValue& value) {
+             draft.file.map = {"map.file", std::get<Text>(value), {"map.d"}, 1};
+         }},
         renamed_key("mesh.file", "scene.file"),
         renamed_key("mesh.no_cast", "scene.no_cast"),
         renamed_key("mesh.no_receive", "scene.no_receive"),
@@ -116,6 +148,10 @@ std::vector<CaseKey> file_keys()
         plain_key<double>(
             "conventions.mesh_metres_per_unit", unit_m,
             [](CaseDraft & draft) -> auto& { return draft.mesh_metres_per_unit; }),
+        {"conventions.rows", WordDomain{{"top_down", "bottom_up"}},
+         [](CaseDraft& draft, const JobValue& value) {
+             draft.file.conventions.is_bottom_up = std::get<Text>(value) == "bottom_up";
+         }},
         plain_key<Vec3d>(
             "conventions.background", VectorDomain{},
             [](CaseDraft & draft) -> auto& { return draft.file.conventions.background; }),
@@ -147,8 +183,10 @@ const std::vector<CaseKey>& case_keys()
 {
     static const std::vector<CaseKey> keys = [] {
         std::vector<CaseKey> all = file_keys();
-        for (CaseKey& key : channel_keys()) {
-            all.push_back(std::move(key));
+        for (auto* const more : {&raw_file_keys, &channel_keys}) {
+            for (CaseKey& key : more()) {
+                all.push_back(std::move(key));
+            }
         }
         return all;
     }();

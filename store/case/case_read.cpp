@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,15 +24,36 @@ using scene::Vec3f;
 
 constexpr float no_position = std::numeric_limits<float>::quiet_NaN();
 
-scene::Image<Vec3f> read_position(CaseImageFile& file, const scene::CaseFile& description)
+/// Whether the image is a colour target: P in R, G and B, the mask in A.
+bool is_colour_target(CaseImageFile& file, const scene::ChannelNames& names)
 {
-    const auto& names = description.conventions.channels.position;
+    return !file.find_vector(names.position) && file.find(names.shadow).empty() && file.has("R") &&
+           file.has("G") && file.has("B") && file.has("A");
+}
+
+/// What the channels are called in this file.
+scene::ChannelNames names_in(CaseImageFile& file, scene::ChannelNames names)
+{
+    if (is_colour_target(file, names)) {
+        names.shadow = {"A"};
+        names.position = {""};
+    }
+    return names;
+}
+
+/// Empty where the file has no positions, and the camera tells what its pixels show.
+scene::Image<Vec3f> read_position(CaseImageFile& file, const std::vector<std::string>& names,
+                                  bool has_camera)
+{
     const auto channels = file.find_vector(names);
+    if (!channels && has_camera) {
+        return {};
+    }
     if (!channels) {
         file.refuse(
-            fmt::format("no channel {}.X: the world position of each pixel is required; {}; "
-                        "channels.position gives it another name; `gnomon capture-kit` writes "
-                        "what makes it",
+            fmt::format("no channel {}.X: the world position of each pixel is required, or the "
+                        "whole camera; {}; channels.position gives it another name; "
+                        "`gnomon capture-kit` writes what makes it",
                         scene::one_line(names.front()), file.listing()));
     }
     constexpr std::string_view why =
@@ -51,18 +73,42 @@ bool is_finite(const Vec3f& v)
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Where something is to be judged; empty: not said.
+scene::Image<float> read_valid(CaseImageFile& file, const std::vector<std::string>& names)
+{
+    const std::string name = file.find(names);
+    auto valid = name.empty() ? scene::Image<float>{} : file.numbers(name);
+    for (std::size_t i = 0; i < valid.pixel_count(); ++i) {
+        if (std::isnan(valid[i])) {
+            file.refuse_pixel("valid is NaN", i, "write 1 or 0");
+        }
+    }
+    return valid;
+}
+
+/// In place of positions, which the camera tells: 0, and NaN where nothing is to be judged.
+scene::Image<Vec3f> places_to_judge(CaseImageFile& file, const scene::ChannelNames& names)
+{
+    const auto valid = read_valid(file, names.valid);
+    const std::string mask_name = file.find(names.shadow);
+    const auto mask = mask_name.empty() ? scene::Image<float>{} : file.numbers(mask_name);
+    scene::Image<Vec3f> places{file.size()};
+    for (std::size_t i = 0; i < places.pixel_count(); ++i) {
+        if ((!valid.empty() && valid[i] == 0) || (!mask.empty() && std::isnan(mask[i]))) {
+            places[i] = Vec3f{no_position};
+        }
+    }
+    return places;
+}
+
 /// Leaves positions where something is to be judged alone.
 void drop_positions(CaseImageFile& file, const scene::CaseFile& description,
                     scene::Image<Vec3f>& position)
 {
-    const std::string valid_name = file.find(description.conventions.channels.valid);
-    const auto valid = valid_name.empty() ? scene::Image<float>{} : file.numbers(valid_name);
+    const auto valid = read_valid(file, description.conventions.channels.valid);
     const auto& background = description.conventions.background;
     std::size_t judged = 0;
     for (std::size_t i = 0; i < position.pixel_count(); ++i) {
-        if (!valid.empty() && std::isnan(valid[i])) {
-            file.refuse_pixel("valid is NaN", i, "write 1 or 0");
-        }
         const bool is_void = background && Vec3f{*background} == position[i];
         if ((!valid.empty() && valid[i] == 0) || is_void ||
             (valid.empty() && !is_finite(position[i]))) {
@@ -83,10 +129,10 @@ void drop_positions(CaseImageFile& file, const scene::CaseFile& description,
     }
 }
 
-scene::Image<float> read_case_mask(CaseImageFile& file, const scene::CaseFile& description,
+scene::Image<float> read_case_mask(CaseImageFile& file, const std::vector<std::string>& names,
+                                   const std::optional<double>& lit_above,
                                    const scene::Image<Vec3f>& position)
 {
-    const auto& names = description.conventions.channels.shadow;
     const std::string name = file.find(names);
     if (name.empty()) {
         file.refuse(fmt::format("no channel {}: the mask is required; {}; channels.shadow gives it "
@@ -94,7 +140,6 @@ scene::Image<float> read_case_mask(CaseImageFile& file, const scene::CaseFile& d
                                 scene::one_line(names.front()), file.listing()));
     }
     scene::Image<float> mask = file.numbers(name);
-    const auto& lit_above = description.conventions.lit_above;
     for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
         if (!is_finite(position[i])) {
             mask[i] = 0;
@@ -221,28 +266,36 @@ scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>&
     return unmoved;
 }
 
-scene::Image<float> read_map(const std::filesystem::path& path, std::uint64_t memory_bytes)
+/// The maps, the first on top, each with its highest row first.
+scene::Image<float> read_map(const scene::CaseImageSource& source, bool is_bottom_up,
+                             std::uint64_t memory_bytes)
 {
-    CaseImageFile file{path, memory_bytes};
+    CaseImageFile file{{&source, 1}, is_bottom_up, memory_bytes};
     if (file.size().height_px % file.size().width_px != 0) {
         file.refuse(
             fmt::format("the shadow map is {}x{} texels: it must be square, or squares below "
                         "each other, the first map on top",
                         file.size().width_px, file.size().height_px));
     }
-    return file.exact_numbers("map.d", why_depths);
+    return file.exact_squares("map.d", why_depths);
 }
 
 } // namespace
 
 CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t memory_bytes)
 {
-    CaseImageFile file{description.image, memory_bytes};
-    const scene::ChannelNames& names = description.conventions.channels;
+    const scene::ImageConventions& conventions = description.conventions;
+    CaseImageFile file{description.images, conventions.is_bottom_up, memory_bytes};
+    const scene::ChannelNames names = names_in(file, conventions.channels);
     CaseLayers layers;
-    layers.position = read_position(file, description);
-    drop_positions(file, description, layers.position);
-    layers.mask = read_case_mask(file, description, layers.position);
+    layers.position = read_position(file, names.position, description.says("camera.target"));
+    layers.has_positions = !layers.position.empty();
+    if (layers.has_positions) {
+        drop_positions(file, description, layers.position);
+    } else {
+        layers.position = places_to_judge(file, names);
+    }
+    layers.mask = read_case_mask(file, names.shadow, conventions.lit_above, layers.position);
     if (const auto normal = file.find_vector(names.normal)) {
         const auto x = file.numbers((*normal)[0]);
         const auto y = file.numbers((*normal)[1]);
@@ -262,8 +315,8 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
     layers.tan_theta = read_optional(file, file.find({"tan_theta"}));
     layers.maps = read_map_indices(file, "map_index", layers.position);
     layers.unmoved = read_unmoved(file, layers.tan_theta, layers.position);
-    if (!description.map.empty()) {
-        layers.map_depths = read_map(description.map, memory_bytes);
+    if (description.map) {
+        layers.map_depths = read_map(*description.map, conventions.is_bottom_up, memory_bytes);
     }
     return layers;
 }

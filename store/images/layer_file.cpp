@@ -203,11 +203,6 @@ const ExrHeader::Channel* LayerFile::find(const std::string& name)
     return found == channels.end() ? nullptr : &*found;
 }
 
-bool LayerFile::has(const std::string& name)
-{
-    return find(name) != nullptr;
-}
-
 LayerType LayerFile::type(const std::string& name)
 {
     const ExrHeader::Channel* const channel = find(name);

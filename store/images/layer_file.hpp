@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/pixel_class.hpp"
-#include "store/images/image_codec.hpp"
+#include "store/images/channel_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,26 +17,21 @@ namespace gnomon::store {
 /// renderer's case (docs/evaluate.md).
 ///
 /// The file may be hostile: its header is checked before anything is decoded or memory taken.
-/// Every function throws scene::InputError, one line, if the file is missing, no EXR file of
-/// scanlines, damaged or truncated, or if the channel is missing or of another type; and
-/// scene::EnvironmentError if there is no reader of EXR files.
-class LayerFile {
+/// Every function throws scene::InputError also if the file is missing or no EXR file of scanlines,
+/// and scene::EnvironmentError if there is no reader of EXR files.
+class LayerFile : public ChannelFile {
 public:
     /// Reads no more than the header.
     /// @param advice  ends every message: how to get a sound file.
     LayerFile(const std::filesystem::path& path, std::string advice);
 
-    [[nodiscard]] scene::ImageSize size() const { return size_; }
-    [[nodiscard]] bool has(const std::string& name);
-    /// `missing` if the file has no such channel.
-    [[nodiscard]] LayerType type(const std::string& name);
-    [[nodiscard]] std::vector<std::string> names();
-    /// What reading a channel takes, for all of them are decoded at once [bytes].
-    [[nodiscard]] std::uint64_t decoded_bytes();
-    [[nodiscard]] scene::Image<float> floats(const std::string& name);
-    [[nodiscard]] scene::Image<std::uint32_t> integers(const std::string& name);
-    /// A channel of any type that `type` names, as float32.
-    [[nodiscard]] scene::Image<float> numbers(const std::string& name);
+    [[nodiscard]] scene::ImageSize size() const override { return size_; }
+    [[nodiscard]] LayerType type(const std::string& name) override;
+    [[nodiscard]] std::vector<std::string> names() override;
+    [[nodiscard]] std::uint64_t decoded_bytes() override;
+    [[nodiscard]] scene::Image<float> floats(const std::string& name) override;
+    [[nodiscard]] scene::Image<std::uint32_t> integers(const std::string& name) override;
+    [[nodiscard]] scene::Image<float> numbers(const std::string& name) override;
     /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
     [[nodiscard]] scene::Image<scene::PixelClass> classes(const std::string& name = "class");
     /// "zip", "dwaa", …; empty: not said.

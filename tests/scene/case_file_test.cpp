@@ -45,7 +45,8 @@ TEST(CaseFile, NeedsNoMoreThanMeshLightAndRenderer)
 {
     const CaseFile file = read_case(smallest_case);
     EXPECT_EQ(file.renderer, "Engine");
-    EXPECT_EQ(file.image.filename(), "aov.exr");
+    ASSERT_EQ(file.images.size(), 1U);
+    EXPECT_EQ(file.images.front().path.filename(), "aov.exr");
     EXPECT_EQ(file.name, file.path.parent_path().filename());
     EXPECT_TRUE(file.space.is_of_mesh());
     EXPECT_FALSE(file.eye);

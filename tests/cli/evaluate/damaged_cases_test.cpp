@@ -1,6 +1,7 @@
 // Files of another renderer's case with some bytes changed.
 
 #include "case_folder.hpp"
+#include "raw_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <random>
 #include <string>
+#include <string_view>
 
 namespace gnomon::testing {
 namespace {
@@ -50,8 +52,15 @@ TEST(DamagedCases, AreEvaluatedOrRefusedInOneLine)
 {
     const CaseFolder folder{"sphere-plane",
                             {"--set", "image.width=64", "--set", "image.height=36"}};
+    const auto& p = folder.channels;
+    write_npy(folder.at("p.npy"), {&p.at("P.X"), &p.at("P.Y"), &p.at("P.Z")});
+    write_pfm(folder.at("mask.pfm"), {&p.at("shadow.V")});
     const std::uint32_t count = runs_full_tests() ? 200 : 25;
-    for (const char* const name : {"case.toml", "aov.exr", "mesh.glb"}) {
+    for (const char* const name : {"case.toml", "aov.exr", "mesh.glb", "p.npy", "mask.pfm"}) {
+        if (std::string_view{name} == "p.npy") {
+            std::ofstream{folder.at("case.toml")}
+                << folder.toml << "\n[files]\nposition = \"p.npy\"\nshadow = \"mask.pfm\"\n";
+        }
         const std::string whole = text_of(folder.at(name));
         int refused = 0;
         for (std::uint32_t seed = 0; seed < count && !HasFailure(); ++seed) {

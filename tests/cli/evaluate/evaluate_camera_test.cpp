@@ -1,0 +1,163 @@
+// Cases with a mask and the whole camera, but no positions.
+
+#include "case_folder.hpp"
+#include "raw_files.hpp"
+
+#include "scene/pixel_class.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+namespace {
+
+using scene::PixelClass;
+using CameraJson = nlohmann::json;
+
+/// What `evaluate` says of a case, pixel by pixel.
+struct Judged {
+    CameraJson json;
+    scene::Image<PixelClass> classes;
+};
+
+Judged judge(const CaseFolder& folder)
+{
+    const std::filesystem::path aov = folder.at("judged.exr");
+    const Ending ending = folder.evaluate({"--json", "--aov", aov.string()});
+    EXPECT_EQ(ending.exit_code, 0) << ending.command << ending.err << folder.toml;
+    return {CameraJson::parse(ending.out, nullptr, false),
+            store::LayerFile{aov, "a test needs it"}.classes()};
+}
+
+bool is_wrong(const Judged& judged, const CaseFolder& folder, std::size_t i)
+{
+    const bool is_lit = folder.channels.at("shadow.V")[i] >= 0.5F;
+    return (judged.classes[i] == PixelClass::lit && !is_lit) ||
+           (judged.classes[i] == PixelClass::blocked && is_lit);
+}
+
+void drop_positions(CaseFolder& folder)
+{
+    std::erase_if(folder.channels, [](const auto& one) { return one.first.starts_with("P."); });
+}
+
+/// Holds a case without positions to the one that has them.
+void expect_judged_alike(const CaseFolder& folder, const Judged& with, const Judged& without)
+{
+    EXPECT_EQ(with.json.at("evaluate").at("positions"), "image");
+    EXPECT_TRUE(with.json.at("evaluate").at("silhouette_pixels").is_null());
+    EXPECT_EQ(without.json.at("evaluate").at("positions"), "camera");
+    std::uint64_t set_aside = 0;
+    std::uint64_t kept = 0;
+    std::uint64_t wrong = 0;
+    for (std::size_t i = 0; i < with.classes.pixel_count(); ++i) {
+        if (with.classes[i] == PixelClass::background) {
+            EXPECT_EQ(without.classes[i], PixelClass::background) << "pixel " << i;
+        } else if (without.classes[i] == PixelClass::background) {
+            ++set_aside;
+        } else {
+            ++kept;
+            ASSERT_EQ(without.classes[i], with.classes[i]) << "pixel " << i;
+            wrong += is_wrong(with, folder, i) ? 1U : 0U;
+        }
+    }
+    EXPECT_EQ(without.json.at("evaluate").at("silhouette_pixels"), set_aside);
+    EXPECT_EQ(without.json.at("false_shadow").get<std::uint64_t>() +
+                  without.json.at("false_lit").get<std::uint64_t>(),
+              wrong);
+    EXPECT_GT(set_aside, 0U);
+    EXPECT_GT(kept, 4 * set_aside);
+}
+
+TEST(EvaluateCamera, JudgesAsPositionsDoButForSilhouettes)
+{
+    const std::vector<std::vector<std::string>> cases{{"sphere-plane"},
+                                                      {"yard"},
+                                                      {"terrain", "--set", "bias.constant=0"},
+                                                      {"room", "--set", "camera.eye=[0,2,6]",
+                                                       "--set", "camera.target=[0,0.5,0]", "--set",
+                                                       "camera.orthographic_height=4"}};
+    for (const auto& one : cases) {
+        SCOPED_TRACE(one.front());
+        CaseFolder folder{one.front(), {one.begin() + 1, one.end()}};
+        const Judged with = judge(folder);
+        drop_positions(folder);
+        folder.write();
+        const Judged without = judge(folder);
+        expect_judged_alike(folder, with, without);
+        // Its lookup is known: causes are told of every pixel that is left.
+        EXPECT_FALSE(without.json.at("causes").is_null());
+    }
+}
+
+TEST(EvaluateCamera, KnowsTheMirrorImageOfALeftHandedSpace)
+{
+    CaseFolder folder{"yard"};
+    const Judged with = judge(folder);
+    drop_positions(folder);
+    folder.drop_table("shadow_map");
+    folder.drop_table("lookup");
+    folder.drop_table("bias");
+    std::erase_if(folder.channels, [](const auto& one) {
+        return one.first != "shadow.V" && one.first != "valid" && one.first != "id.geom";
+    });
+    // z the other way round, in all that the renderer says.
+    for (const std::string key : {"eye = ", "target = ", "up = ", "position = "}) {
+        for (std::size_t at = folder.toml.find(key); at != std::string::npos;
+             at = folder.toml.find(key, at + 1)) {
+            const std::size_t last = folder.toml.rfind(' ', folder.toml.find(']', at)) + 1;
+            if (folder.toml[last] == '-') {
+                folder.toml.erase(last, 1);
+            } else {
+                folder.toml.insert(last, "-");
+            }
+        }
+    }
+    folder.toml += "[conventions]\nhandedness = \"left\"\n[channels]\nfractions = true\n";
+    folder.write();
+    expect_judged_alike(folder, with, judge(folder));
+}
+
+TEST(EvaluateCamera, TakesAMaskWithoutNumbersWhereNothingIsSeen)
+{
+    CaseFolder folder{"sphere-plane"};
+    drop_positions(folder);
+    folder.write();
+    const Judged valid = judge(folder);
+    auto& mask = folder.channels.at("shadow.V");
+    for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
+        if (folder.channels.at("valid")[i] == 0) {
+            mask[i] = std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+    write_npy(folder.at("mask.npy"), {&mask});
+    std::filesystem::remove(folder.at("aov.exr"));
+    for (const char* const table : {"shadow_map", "lookup", "bias"}) {
+        folder.drop_table(table);
+    }
+    std::ofstream{folder.at("case.toml")} << folder.toml << "\n[files]\nshadow = \"mask.npy\"\n";
+    const Judged nan = judge(folder);
+    EXPECT_EQ(nan.json.at("pixels"), valid.json.at("pixels"));
+    EXPECT_EQ(nan.json.at("false_shadow"), valid.json.at("false_shadow"));
+    EXPECT_EQ(nan.json.at("false_lit"), valid.json.at("false_lit"));
+}
+
+TEST(EvaluateCamera, NeedsTheWholeCamera)
+{
+    CaseFolder folder{"sphere-plane"};
+    drop_positions(folder);
+    folder.drop_table("camera");
+    folder.write();
+    expect_refused(folder.evaluate(), 2,
+                   "the world position of each pixel is required, or the whole camera");
+}
+
+} // namespace
+} // namespace gnomon::testing
