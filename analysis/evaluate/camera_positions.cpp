@@ -1,8 +1,10 @@
 #include "analysis/evaluate/camera_positions.hpp"
 
+#include "scene/error.hpp"
 #include "scene/infinity.hpp"
 #include "scene/view/silhouettes.hpp"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -49,6 +51,32 @@ Image<double> farthest_around(const Image<double>& distances)
     return farthest;
 }
 
+/// Pixels.
+struct Judged {
+    std::uint64_t asked = 0; ///< that the case wants judged
+    std::uint64_t shown = 0; ///< of those, where the camera sees something
+    std::uint64_t set_aside = 0;
+};
+
+void require_some(const Judged& count)
+{
+    if (count.asked == 0) {
+        throw scene::InputError("no pixel is to be judged: valid is 0, or the mask not a number, "
+                                "everywhere");
+    }
+    if (count.shown == 0) {
+        throw scene::InputError(
+            "no pixel is to be judged: the camera sees nothing of the mesh there; "
+            "look at camera.eye, camera.target, camera.up and the units");
+    }
+    if (count.shown == count.set_aside) {
+        throw scene::InputError(
+            fmt::format("no pixel is to be judged: a silhouette may cross each of "
+                        "the {} that show something; write P, or a larger image",
+                        count.shown));
+    }
+}
+
 } // namespace
 
 void take_camera_positions(scene::CaseLayers& layers, const scene::TriangleScene& mesh,
@@ -57,21 +85,25 @@ void take_camera_positions(scene::CaseLayers& layers, const scene::TriangleScene
     const Image<std::uint8_t> shows_silhouette = scene::pixels_of_edges(
         scene::silhouette_edges(mesh, view.camera), view.camera, silhouette_margin_px,
         scene::receiver_near_m(mesh.bounds()), farthest_around(distances_of(view.camera, points)));
-    constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
     const auto [width, height] = view.image;
-    std::uint64_t set_aside = 0;
+    Judged count;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const int column = is_mirrored ? width - 1 - x : x;
+            const Vec3f& shown = points(column, y);
             if (std::isnan(layers.position(x, y).x)) {
                 continue;
             }
-            const bool is_set_aside = shows_silhouette(column, y) != 0;
-            set_aside += is_set_aside ? 1U : 0U;
-            layers.position(x, y) = is_set_aside ? Vec3f{nothing} : points(column, y);
+            ++count.asked;
+            count.shown += std::isnan(shown.x) ? 0U : 1U;
+            const bool is_set_aside = !std::isnan(shown.x) && shows_silhouette(column, y) != 0;
+            count.set_aside += is_set_aside ? 1U : 0U;
+            layers.position(x, y) =
+                is_set_aside ? Vec3f{std::numeric_limits<float>::quiet_NaN()} : shown;
         }
     }
-    layers.silhouette_pixels = set_aside;
+    require_some(count);
+    layers.silhouette_pixels = count.set_aside;
 }
 
 } // namespace gnomon::analysis

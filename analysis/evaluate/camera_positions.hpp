@@ -21,6 +21,7 @@ inline constexpr double silhouette_margin_px = 0x1p-4;
 /// @param points       P of each pixel of `view`, by exact rays of the case's camera; NaN where it
 ///                     shows nothing.
 /// @param is_mirrored  The renderer's axes are a mirror image of the mesh's: so is its picture.
+/// @throws scene::InputError  if no pixel is left to be judged, saying why.
 void take_camera_positions(scene::CaseLayers& layers, const scene::TriangleScene& mesh,
                            const scene::View& view, const scene::Image<scene::Vec3f>& points,
                            bool is_mirrored);

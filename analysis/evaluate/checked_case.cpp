@@ -120,6 +120,29 @@ void check_agreement(const Case& subject, const CaseTruth& truth, CheckedCase& c
     }
 }
 
+/// Where P is the camera's, the mask alone can tell that the camera is another.
+void warn_of_camera(ImportCheck& check)
+{
+    if (!check.silhouette_pixels || !check.mistake.empty() || !check.warning.empty()) {
+        return;
+    }
+    constexpr double likely_agreement = 0.5;
+    constexpr std::uint64_t usual_share = 20;
+    const std::uint64_t shown = check.distances.points + *check.silhouette_pixels;
+    if (check.agreement.value_or(1) < likely_agreement) {
+        check.warning =
+            "mask and truth agree poorly, and P is the camera's: look at camera.eye, "
+            "camera.target, camera.up, the units, and camera.vertical_fov_deg, which is "
+            "the vertical opening; or write P";
+    } else if (*check.silhouette_pixels * usual_share > shown) {
+        check.warning = fmt::format(
+            "{:.0f} % of the pixels that show something are set aside, for a "
+            "silhouette may cross them: an open or finely detailed mesh, or "
+            "a small image; write P to have them judged",
+            100.0 * static_cast<double>(*check.silhouette_pixels) / static_cast<double>(shown));
+    }
+}
+
 } // namespace
 
 CheckedCase check_case(const Case& subject, const CaseTruth& truth,
@@ -135,6 +158,9 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
         check_positions(subject.file, subject.layers, subject.mesh, truth, tolerated_m);
     ImportCheck& check = checked.check;
     check.distances = positions.distances;
+    if (!subject.layers.has_positions) {
+        check.silhouette_pixels = subject.layers.silhouette_pixels;
+    }
     note(check, positions.mistake);
     // The work grows with the boxes, and what is tolerated may be all of the scene.
     constexpr double most_of_usual = 64;
@@ -154,6 +180,7 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     checked.truth = truth.find_truth(checked.view.light, checked.receivers);
     measure_distances(subject, checked);
     check_agreement(subject, truth, checked);
+    warn_of_camera(check);
     return checked;
 }
 

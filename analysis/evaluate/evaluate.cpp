@@ -240,9 +240,6 @@ Evaluation make_evaluation(const Case& subject, const CheckedCase& checked)
     evaluation.level = knows_side ? 1 : 0;
     evaluation.import_check = checked.check;
     evaluation.points = subject.layers.position;
-    if (!subject.layers.has_positions) {
-        evaluation.silhouette_pixels = subject.layers.silhouette_pixels;
-    }
     evaluation.normal = seen_sides(subject, checked);
     evaluation.has_camera = subject.file.says("camera.target") && !subject.file.space.is_mirrored();
     evaluation.given_keys = keys_given(subject.file);

@@ -25,6 +25,9 @@ struct ImportDistances {
 /// What of a case is as it should be, and what looks like a mistake.
 struct ImportCheck {
     ImportDistances distances;
+    /// P is what the centres of the camera's pixels show, and so many pixels that show something
+    /// are not judged because a silhouette may cross them; empty: the renderer says P.
+    std::optional<std::uint64_t> silhouette_pixels = {};
     /// How much better than chance mask and truth agree: share of lit pixels that are lit plus
     /// share of blocked ones that are shadowed, minus 1; empty where one kind is missing.
     std::optional<double> agreement;
@@ -58,9 +61,6 @@ struct Evaluation {
     std::vector<UnansweredQuestion> cannot_know;
     ImportCheck import_check;
     scene::Image<scene::Vec3f> points; ///< P; NaN where nothing is judged
-    /// P is what the centres of the camera's pixels show, and so many pixels are not judged because
-    /// a silhouette may cross them; empty: the renderer says P.
-    std::optional<std::uint64_t> silhouette_pixels;
     scene::Image<scene::Vec3f> normal; ///< of T, on the side that is seen; NaN: not known
     /// By how much P's rounding box was grown to meet the plane of T [m]: the largest, and how
     /// many.

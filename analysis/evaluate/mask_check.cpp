@@ -101,7 +101,8 @@ std::optional<ImportMistake> check_flips(const scene::CaseLayers& layers,
                 mistake = ImportMistake{
                     "flipped_image",
                     fmt::format("the mask is flipped against P: its {} in the opposite order{}; "
-                                "an image begins at its top left{}",
+                                "an image begins at its top left, and conventions.rows says "
+                                "otherwise{}",
                                 words, inverts ? ", and it is inverted" : "",
                                 inverts ? ", and a mask is 1 where lit" : "")};
             }

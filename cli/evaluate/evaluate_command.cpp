@@ -126,7 +126,12 @@ private:
         const scene::View view = scene::resolve_view(job, mesh_, {});
         const auto points = reference_rt::receiver_points(
             mesh_, view, reference_rt::first_triangles(reference_, view, threads));
-        analysis::take_camera_positions(layers_, mesh_, view, points, file_.space.is_mirrored());
+        try {
+            analysis::take_camera_positions(layers_, mesh_, view, points,
+                                            file_.space.is_mirrored());
+        } catch (const scene::InputError& error) {
+            throw scene::InputError(fmt::format("{}: {}", file_.source.name, error.what()));
+        }
     }
 
     /// The image says it, and a run's configuration names it.

@@ -46,13 +46,12 @@ store::Json evaluate_object(const analysis::Comparison& comparison,
                             const analysis::Evaluation& evaluation)
 {
     const auto& found = evaluation.bias_causes;
+    const auto& set_aside = evaluation.import_check.silhouette_pixels;
     return {{"case", evaluation.case_name},
             {"renderer", comparison.environment.gl_renderer},
             {"level", evaluation.level},
-            {"positions", evaluation.silhouette_pixels ? "camera" : "image"},
-            {"silhouette_pixels", evaluation.silhouette_pixels
-                                      ? store::Json(*evaluation.silhouette_pixels)
-                                      : store::Json(nullptr)},
+            {"positions", set_aside ? "camera" : "image"},
+            {"silhouette_pixels", set_aside ? store::Json(*set_aside) : store::Json(nullptr)},
             {"cannot_know", cannot_know(evaluation.cannot_know)},
             {"import_check", import_check_json(evaluation.import_check)},
             {"false_lit_gap_m", quantiles_or_null(evaluation.false_lit_gap_m)},

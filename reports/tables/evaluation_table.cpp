@@ -32,6 +32,18 @@ std::string bias_lines(const analysis::BiasCauses& found)
     return text + count_line("other causes", grouped(found.unknown), "", "not told apart");
 }
 
+/// Where P comes from, and how good it is.
+std::string position_line(const analysis::ImportCheck& check)
+{
+    if (!check.silhouette_pixels) {
+        return setting_line("P off the mesh", distance_words(check.distances));
+    }
+    return setting_line("P",
+                        fmt::format("of the camera's pixel centres, as the image has none; {} set "
+                                    "aside, which a silhouette may cross",
+                                    counted(*check.silhouette_pixels, "pixel")));
+}
+
 } // namespace
 
 std::string evaluation_settings(const analysis::Comparison& comparison,
@@ -46,14 +58,7 @@ std::string evaluation_settings(const analysis::Comparison& comparison,
     text += setting_line("image", words.image);
     text += setting_line("light", words.light);
     text += setting_line("level", fmt::format("{}", evaluation.level));
-    if (evaluation.silhouette_pixels) {
-        text +=
-            setting_line("P", fmt::format("of the camera's pixel centres; {} set aside, which a "
-                                          "silhouette may cross",
-                                          counted(*evaluation.silhouette_pixels, "pixel")));
-    } else {
-        text += setting_line("P off the mesh", distance_words(evaluation.import_check.distances));
-    }
+    text += position_line(evaluation.import_check);
     if (evaluation.grown_pixels > 0) {
         text += setting_line("", fmt::format("rounding boxes grown for {} by up to {:.2g} m",
                                              counted(evaluation.grown_pixels, "pixel"),
@@ -104,7 +109,7 @@ std::string evaluation_table(const analysis::Comparison& comparison,
 
 std::string check_text(const analysis::ImportCheck& check)
 {
-    std::string text = setting_line("P off the mesh", distance_words(check.distances));
+    std::string text = position_line(check);
     if (check.agreement) {
         text +=
             setting_line("mask and truth",

@@ -236,6 +236,20 @@ void settle_space(CaseDraft& draft)
         draft.mesh_metres_per_unit / draft.file.space.metres_per_unit;
 }
 
+/// A whole camera's up, unless it is given, is what the mesh calls up: y.
+void settle_up(CaseFile& file)
+{
+    if (!file.says("camera.target") || file.says("camera.up") || file.space.is_of_mesh()) {
+        return;
+    }
+    Vec3d up{0};
+    for (int i = 0; i < 3; ++i) {
+        const CaseSpace::Axis& axis = file.space.axes.at(static_cast<std::size_t>(i));
+        up[i] = axis.of_mesh == 1 ? axis.sign : 0.0;
+    }
+    file.source.file.push_back({find_key("camera.up"), up, file.source.name});
+}
+
 bool shines_parallel(const Layer& layer)
 {
     return std::ranges::none_of(layer, [](const Setting& setting) {
@@ -324,6 +338,7 @@ CaseFile read_case_file(const fs::path& path, std::string_view from)
     }
     CaseReader{draft, file.source.name}.read(table);
     settle_space(draft);
+    settle_up(file);
     require_all(draft);
     file.name = file.name.empty() ? folder_name(file.path) : file.name;
     settle_images(file);

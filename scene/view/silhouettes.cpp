@@ -40,6 +40,8 @@ struct EdgeOfTriangle {
     friend auto operator<=>(const EdgeOfTriangle&, const EdgeOfTriangle&) = default;
 };
 
+/// Those of triangles with the same corners, as of a mesh with both faces, once: they are one
+/// surface.
 std::vector<EdgeOfTriangle> sorted_edges(const TriangleScene& scene)
 {
     const std::vector<std::uint32_t> merged = merged_vertices(scene.vertices);
@@ -55,6 +57,8 @@ std::vector<EdgeOfTriangle> sorted_edges(const TriangleScene& scene)
         }
     }
     std::ranges::sort(edges);
+    const auto doubles = std::ranges::unique(edges);
+    edges.erase(doubles.begin(), doubles.end());
     return edges;
 }
 

@@ -184,8 +184,8 @@ CaseImageFile::Part& CaseImageFile::require_exact(const std::string& name,
 {
     Part& part = require(name);
     if (part.file->type(name) != LayerType::float32) {
-        refuse(
-            fmt::format("channel {} is not 32-bit float: {}", scene::one_line(name), why_not_half));
+        throw scene::InputError(fmt::format("{}: channel {} is not 32-bit float: {}", part.name,
+                                            scene::one_line(name), why_not_half));
     }
     return part;
 }
@@ -224,7 +224,7 @@ scene::Image<std::uint32_t> CaseImageFile::whole_numbers(const std::string& name
         }
         constexpr float beyond_whole = 16777216; // 2^24: float32 skips whole numbers above
         if (!(from[i] >= 0 && from[i] <= beyond_whole && from[i] == std::floor(from[i]))) {
-            refuse_pixel(fmt::format("{} = {}", scene::one_line(name), from[i]), i,
+            refuse_pixel(name, fmt::format("{} = {}", scene::one_line(name), from[i]), i,
                          "an object's number is a whole number from 0 to 16777216, or write "
                          "the channel as uint");
         }
@@ -238,11 +238,14 @@ void CaseImageFile::refuse(const std::string& what) const
     throw scene::InputError(fmt::format("{}: {}", parts_.front().name, what));
 }
 
-void CaseImageFile::refuse_pixel(std::string_view what, std::size_t pixel,
-                                 std::string_view remedy) const
+void CaseImageFile::refuse_pixel(const std::string& channel, std::string_view what,
+                                 std::size_t pixel, std::string_view remedy)
 {
     const auto width = static_cast<std::size_t>(size().width_px);
-    refuse(fmt::format("{} at pixel ({}, {}): {}", what, pixel % width, pixel / width, remedy));
+    const Part* const part = part_of(channel);
+    throw scene::InputError(fmt::format("{}: {} at pixel ({}, {}): {}",
+                                        (part == nullptr ? parts_.front() : *part).name, what,
+                                        pixel % width, pixel / width, remedy));
 }
 
 std::string CaseImageFile::listing()

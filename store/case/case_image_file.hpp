@@ -55,8 +55,9 @@ public:
     whole_numbers(const std::string& name, const scene::Image<scene::Vec3f>& position);
 
     [[noreturn]] void refuse(const std::string& what) const;
-    [[noreturn]] void refuse_pixel(std::string_view what, std::size_t pixel,
-                                   std::string_view remedy) const;
+    /// @param channel  whose file is to be named.
+    [[noreturn]] void refuse_pixel(const std::string& channel, std::string_view what,
+                                   std::size_t pixel, std::string_view remedy);
     /// "it has R, G, B", cut after some.
     [[nodiscard]] std::string listing();
 

@@ -24,29 +24,35 @@ using scene::Vec3f;
 
 constexpr float no_position = std::numeric_limits<float>::quiet_NaN();
 
-/// Whether the image is a colour target: P in R, G and B, the mask in A.
-bool is_colour_target(CaseImageFile& file, const scene::ChannelNames& names)
+/// What the channels are called in this file: of a colour target P is in R, G and B, and the mask
+/// in A. A colour beside a mask with a name of its own is P where no camera tells it.
+scene::ChannelNames names_in(CaseImageFile& file, scene::ChannelNames names, bool has_camera)
 {
-    return !file.find_vector(names.position) && file.find(names.shadow).empty() && file.has("R") &&
-           file.has("G") && file.has("B") && file.has("A");
-}
-
-/// What the channels are called in this file.
-scene::ChannelNames names_in(CaseImageFile& file, scene::ChannelNames names)
-{
-    if (is_colour_target(file, names)) {
+    const bool has_mask = !file.find(names.shadow).empty();
+    if (file.find_vector(names.position) || !file.has("R") || !file.has("G") || !file.has("B")) {
+        return names;
+    }
+    if (!has_mask && file.has("A")) {
         names.shadow = {"A"};
+        names.position = {""};
+    } else if (has_mask && !has_camera) {
         names.position = {""};
     }
     return names;
 }
 
+/// Whether case.toml itself says what the position's channels are called.
+bool names_position(const scene::ChannelNames& names)
+{
+    return names.position != scene::ChannelNames{}.position && names.position.size() == 1;
+}
+
 /// Empty where the file has no positions, and the camera tells what its pixels show.
 scene::Image<Vec3f> read_position(CaseImageFile& file, const std::vector<std::string>& names,
-                                  bool has_camera)
+                                  bool may_lack_it)
 {
     const auto channels = file.find_vector(names);
-    if (!channels && has_camera) {
+    if (!channels && may_lack_it) {
         return {};
     }
     if (!channels) {
@@ -80,7 +86,7 @@ scene::Image<float> read_valid(CaseImageFile& file, const std::vector<std::strin
     auto valid = name.empty() ? scene::Image<float>{} : file.numbers(name);
     for (std::size_t i = 0; i < valid.pixel_count(); ++i) {
         if (std::isnan(valid[i])) {
-            file.refuse_pixel("valid is NaN", i, "write 1 or 0");
+            file.refuse_pixel(name, "valid is NaN", i, "write 1 or 0");
         }
     }
     return valid;
@@ -102,8 +108,9 @@ scene::Image<Vec3f> places_to_judge(CaseImageFile& file, const scene::ChannelNam
 }
 
 /// Leaves positions where something is to be judged alone.
-void drop_positions(CaseImageFile& file, const scene::CaseFile& description,
-                    scene::Image<Vec3f>& position)
+/// @param name  of P's first channel.
+void drop_positions(CaseImageFile& file, const std::string& name,
+                    const scene::CaseFile& description, scene::Image<Vec3f>& position)
 {
     const auto valid = read_valid(file, description.conventions.channels.valid);
     const auto& background = description.conventions.background;
@@ -116,11 +123,11 @@ void drop_positions(CaseImageFile& file, const scene::CaseFile& description,
             continue;
         }
         if (!is_finite(position[i])) {
-            file.refuse_pixel("P is not finite", i, "write valid = 0 where nothing is seen");
+            file.refuse_pixel(name, "P is not finite", i, "write valid = 0 where nothing is seen");
         }
         const Vec3f size = glm::abs(position[i]);
         if (std::max({size.x, size.y, size.z}) > static_cast<float>(scene::max_coordinate_m)) {
-            file.refuse_pixel("P is beyond 1e15", i, "write valid = 0 where nothing is seen");
+            file.refuse_pixel(name, "P is beyond 1e15", i, "write valid = 0 where nothing is seen");
         }
         ++judged;
     }
@@ -144,13 +151,13 @@ scene::Image<float> read_case_mask(CaseImageFile& file, const std::vector<std::s
         if (!is_finite(position[i])) {
             mask[i] = 0;
         } else if (std::isnan(mask[i])) {
-            file.refuse_pixel(fmt::format("{} is NaN", scene::one_line(name)), i,
+            file.refuse_pixel(name, fmt::format("{} is NaN", scene::one_line(name)), i,
                               "a mask is 1 where lit, 0 where shadowed; write valid = 0 where "
                               "there is none");
         } else if (lit_above) {
             mask[i] = static_cast<double>(mask[i]) > *lit_above ? 1.0F : 0.0F;
         } else if (!(mask[i] >= 0 && mask[i] <= 1)) {
-            file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), mask[i]), i,
+            file.refuse_pixel(name, fmt::format("{} = {}", scene::one_line(name), mask[i]), i,
                               "a mask is from 0 to 1; if this is light, set channels.lit_above");
         }
     }
@@ -173,7 +180,7 @@ scene::Image<float> read_map_depths(CaseImageFile& file, const std::string& name
     for (std::size_t i = 0; i < depths.pixel_count(); ++i) {
         if (!std::isnan(position[i].x) && std::isfinite(depths[i]) &&
             !(depths[i] >= 0 && depths[i] <= 1)) {
-            file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), depths[i]), i,
+            file.refuse_pixel(name, fmt::format("{} = {}", scene::one_line(name), depths[i]), i,
                               "a shadow map's depths are from 0 to 1; write NaN where none was "
                               "compared");
         }
@@ -204,7 +211,7 @@ scene::Image<float> read_receiver_depths(CaseImageFile& file, const std::string&
         }
     }
     if (outside * 2 > compared) {
-        file.refuse_pixel(fmt::format("{} = {}", scene::one_line(name), depths[first]), first,
+        file.refuse_pixel(name, fmt::format("{} = {}", scene::one_line(name), depths[first]), first,
                           "most depths are not from 0 to 1; write what the lookup compares, not a "
                           "distance");
     }
@@ -240,7 +247,7 @@ scene::MapIndices read_map_indices(CaseImageFile& file, const std::string& name,
         }
         if (numbers[i] >= scene::most_maps) {
             file.refuse_pixel(
-                fmt::format("{} = {}", name, numbers[i]), i,
+                name, fmt::format("{} = {}", name, numbers[i]), i,
                 fmt::format("a light has at most {} maps, counted from 0", scene::most_maps));
         }
         maps[i] = static_cast<std::uint8_t>(numbers[i]);
@@ -286,12 +293,15 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
 {
     const scene::ImageConventions& conventions = description.conventions;
     CaseImageFile file{description.images, conventions.is_bottom_up, memory_bytes};
-    const scene::ChannelNames names = names_in(file, conventions.channels);
+    const bool has_camera = description.says("camera.target");
+    const scene::ChannelNames names = names_in(file, conventions.channels, has_camera);
     CaseLayers layers;
-    layers.position = read_position(file, names.position, description.says("camera.target"));
+    layers.position =
+        read_position(file, names.position, has_camera && !names_position(conventions.channels));
     layers.has_positions = !layers.position.empty();
     if (layers.has_positions) {
-        drop_positions(file, description, layers.position);
+        drop_positions(file, file.find_vector(names.position)->front(), description,
+                       layers.position);
     } else {
         layers.position = places_to_judge(file, names);
     }

@@ -136,11 +136,11 @@ RawLayout npy_layout(std::string_view head)
     const std::string_view header = head.substr(begin, length);
     RawText type = npy_value(header, "descr");
     if (!type.skip("'<f4'")) {
-        refuse_raw("the numbers are not 32-bit little-endian floats (numpy's '<f4')");
+        refuse_raw("the numbers are not 32-bit little-endian floats; save array.astype('<f4')");
     }
     RawText order = npy_value(header, "fortran_order");
     if (!order.skip("False")) {
-        refuse_raw("columns come before rows (fortran_order)");
+        refuse_raw("columns come before rows (fortran_order); save numpy.ascontiguousarray(array)");
     }
     const std::vector<int> shape = npy_shape(header);
     return {{shape[1], shape[0]}, shape.size() == 3 ? shape[2] : 1, begin + length, false};
@@ -162,10 +162,11 @@ RawLayout pfm_layout(std::string_view head)
     if (scale != -1.0) {
         refuse_raw("the header's scale is not -1: little-endian, in the numbers' own unit");
     }
-    if (text.rest().empty() || std::isspace(static_cast<unsigned char>(text.rest()[0])) == 0) {
+    text.skip("\r");
+    if (!text.skip("\n") && !text.skip(" ")) {
         refuse_raw("the header ends too early");
     }
-    const std::size_t begin = head.size() - text.rest().size() + 1;
+    const std::size_t begin = head.size() - text.rest().size();
     return {{width, height}, has_colour ? 3 : 1, begin, true};
 }
 
@@ -218,7 +219,8 @@ RawImage::RawImage(const std::filesystem::path& path, std::vector<std::string> n
         const std::string wanted = least == names_.size()
                                        ? fmt::format("{}", least)
                                        : fmt::format("{} or {}", least, names_.size());
-        refuse(fmt::format("{} numbers a pixel; it must have {}", count, wanted));
+        refuse(fmt::format("{}x{} pixels with {} numbers each; it must have {}",
+                           layout_.size.width_px, layout_.size.height_px, count, wanted));
     }
     names_.resize(count);
 }

@@ -102,6 +102,18 @@ class Packing(unittest.TestCase):
                 numpy.testing.assert_array_equal(channels.pop(name), image, name)
         self.assertEqual(channels, {})
 
+    def test_a_mask_alone(self):
+        mask = save("mask.npy", 3, 5)
+        mask[1, 2] = numpy.nan
+        numpy.save(KIT / "mask.npy", mask)
+        result = run_packer(f"--channel=shadow.V={KIT / 'mask.npy'}")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("needs the whole camera", result.stdout)
+        channels = read()
+        self.assertEqual(set(channels), {"shadow.V", "valid"})
+        self.assertEqual(channels["valid"].sum(), 14)
+        self.assertEqual(channels["valid"][1, 2], 0)
+
     def test_needs_nothing_but_numpy(self):
         dump("a.raw", 1)
         hidden = "import sys; sys.modules['OpenImageIO'] = None; import runpy; runpy.run_path(sys.argv.pop(1))"
@@ -116,10 +128,24 @@ class Packing(unittest.TestCase):
         save("other.npy", 4, 5)
         numpy.save(KIT / "double.npy", numpy.zeros((3, 5)))
         (KIT / "bad.npy").write_bytes(b"no array")
+        (KIT / "empty.npy").write_bytes(b"")
+        (KIT / "odd.raw").write_bytes(b"\0" * 243)
+        save("v.npy", 3, 5)
+        numpy.savez(KIT / "zip", v=numpy.zeros(3))
+        (KIT / "zip.npz").rename(KIT / "zip.npy")
+        huge = numpy.lib.format.header_data_from_array_1_0(numpy.zeros((1, 1), "f4"))
+        huge["shape"] = (1 << 20, 1 << 20)
+        with open(KIT / "huge.npy", "wb") as file:
+            numpy.lib.format.write_array_header_1_0(file, huge)
         p = f"--channel=P={KIT / 'p.npy'}"
         a = ("--width", "5", "--height", "3", "--a", str(KIT / "a.raw"))
         for arguments, message in [
-                ((p,), "no shadow.V"),
+                ((p,), "no mask"),
+                ((f"--channel=shadow.V={KIT / 'zip.npy'}",), "no .npy file of floats"),
+                ((f"--channel=shadow.V={KIT / 'empty.npy'}",), "empty.npy"),
+                ((f"--channel=shadow.V={KIT / 'huge.npy'}",), "huge.npy"),
+                ((*a[:4], "--a", str(KIT / "odd.raw")), "bytes; a float has four"),
+                ((f"--channel=shadow.V={KIT / 'v.npy'}", "-o", str(KIT / "v.npy")), "is one of the inputs"),
                 ((p, f"--channel=shadow.V={KIT / 'other.npy'}"), "files of several sizes, 5x3, 5x4"),
                 ((p, f"--channel=shadow.V={KIT / 'double.npy'}"), "float64 numbers"),
                 ((p, f"--channel=shadow.V={KIT / 'p.npy'}"), "must be (height, width, 1)"),

@@ -75,6 +75,11 @@ TEST(SilhouetteEdges, AreABordersAndThoseOfThreeTriangles)
     // The shared edge of two that lie side by side is none, however they wind.
     EXPECT_EQ(silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 3, 1}}), camera).size(), 4U);
     EXPECT_EQ(silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 1, 3}}), camera).size(), 4U);
+    // One with both faces is one surface.
+    EXPECT_EQ(silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 3, 1}, {2, 1, 0}, {1, 3, 0}}),
+                               camera)
+                  .size(),
+              4U);
     // A third on the same edge hides part of one of them.
     EXPECT_EQ(
         silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 3, 1}, {0, 1, 4}}), camera).size(),

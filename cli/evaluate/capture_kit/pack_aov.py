@@ -7,10 +7,12 @@ Each dump holds width × height pixels of four little-endian float32, row by row
 --bottom-up from the bottom, as glReadPixels and glGetTexImage give them. a: P and the mask; b: normal and
 object; c: r, d and the texel. --channel takes a vector (P, Ng, texel, unmoved.texel) or a single channel
 by its name in docs/evaluate.md, from a .npy file of float32 or a dump of as many floats a pixel as it has.
-What is NaN in P is not judged. Needs Python 3.6 and numpy, nothing else.
+What is NaN in P is not judged; without P, which then the whole camera of case.toml must tell, what is NaN in
+the mask. Needs Python 3.6 and numpy, nothing else.
 """
 
 import argparse
+import os
 import struct
 import sys
 import zlib
@@ -25,7 +27,7 @@ TARGETS = {
 VECTORS = {"P": "XYZ", "Ng": "XYZ", "texel": "XY", "unmoved.texel": "XY"}
 SINGLES = ("shadow.V", "valid", "id.geom", "z.light", "z.map", "map_index", "tan_theta", "unmoved.V",
            "unmoved.z.light", "unmoved.z.map", "unmoved.map_index")
-REQUIRED = ("P.X", "P.Y", "P.Z", "shadow.V")
+POSITION = ("P.X", "P.Y", "P.Z")
 ROWS_OF_BLOCK = 16  # of EXR's ZIP compression
 
 
@@ -46,10 +48,14 @@ def parse_arguments():
 def read_numbers(path):
     try:
         if path.lower().endswith(".npy"):
-            return numpy.load(path, allow_pickle=False)
+            return numpy.asarray(numpy.lib.format.open_memmap(path, mode="r"))
+        if os.path.getsize(path) % 4 != 0:
+            return sys.exit(f"{path}: {os.path.getsize(path)} bytes; a float has four")
         return numpy.fromfile(path, dtype="<f4")
-    except (OSError, ValueError) as error:
-        return sys.exit(f"{path}: {error}")
+    except OSError as error:
+        return sys.exit(f"{path}: {error.strerror or error}")
+    except Exception as error:  # numpy tells of a damaged header in many ways
+        return sys.exit(f"{path}: no .npy file of floats: {str(error).splitlines()[0]}")
 
 
 def load(path, count, arguments):
@@ -57,7 +63,7 @@ def load(path, count, arguments):
     values = read_numbers(path)
     if path.lower().endswith(".npy"):
         if values.dtype != numpy.float32:
-            sys.exit(f"{path}: {values.dtype} numbers; save float32: positions and depths lose no bit then")
+            sys.exit(f"{path}: {values.dtype} numbers; save array.astype('<f4')")
         height, width = values.shape[:2] if values.ndim in (2, 3) else (0, 0)
         if values.size != width * height * count or values.size == 0:
             sys.exit(f"{path}: the shape {values.shape}; it must be (height, width, {count})")
@@ -96,9 +102,8 @@ def read_channels(arguments):
         del channels["texel.X"], channels["texel.Y"]  # gnomon_depths leaves them 0
     for word in arguments.channel:
         add(channels, names_of(word), word.split("=", 1)[1], arguments)
-    missing = [name for name in REQUIRED if name not in channels]
-    if missing:
-        sys.exit(f"no {', '.join(missing)}: give --a, or --channel P=FILE and --channel shadow.V=FILE")
+    if "shadow.V" not in channels:
+        sys.exit("no mask: give --a, or --channel shadow.V=FILE")
     sizes = {image.shape for image in channels.values()}
     if len(sizes) > 1:
         sys.exit("files of several sizes, " + ", ".join(f"{w}x{h}" for h, w in sorted(sizes))
@@ -107,8 +112,9 @@ def read_channels(arguments):
 
 
 def drop_what_shows_nothing(channels):
-    """The mask of pixels without a position is 0 and they are not valid."""
-    seen = numpy.isfinite([channels[name] for name in REQUIRED[:3]]).all(axis=0)
+    """The mask of pixels without a position, or without a mask, is 0 and they are not valid."""
+    telling = [channels[name] for name in POSITION if name in channels] or [channels["shadow.V"]]
+    seen = numpy.isfinite(telling).all(axis=0)
     channels["shadow.V"] = numpy.where(seen, channels["shadow.V"], numpy.float32(0))
     channels["valid"] = seen.astype("f4") * channels.get("valid", numpy.float32(1))
     return int((channels["valid"] != 0).sum())
@@ -161,8 +167,12 @@ def exr_bytes(channels):
 def main():
     arguments = parse_arguments()
     channels = read_channels(arguments)
+    inputs = [arguments.a, arguments.b, arguments.c, *(word.split("=", 1)[1] for word in arguments.channel)]
+    if any(path and os.path.exists(arguments.output) and os.path.samefile(path, arguments.output)
+           for path in inputs):
+        sys.exit(f"{arguments.output}: the output is one of the inputs; name another with -o")
     judged = drop_what_shows_nothing(channels)
-    height, width = channels["P.X"].shape
+    height, width = channels["shadow.V"].shape
     try:
         with open(arguments.output, "wb") as output:
             output.write(exr_bytes(channels))
@@ -170,6 +180,8 @@ def main():
         sys.exit(f"{arguments.output}: {error.strerror}")
     print(f"{arguments.output}: {width}x{height}, {judged} pixels show something; channels "
           f"{', '.join(sorted(channels))}")
+    if POSITION[0] not in channels:
+        print("without P: case.toml needs the whole camera, [camera] eye, target and the rest")
 
 
 main()

@@ -19,6 +19,7 @@ namespace gnomon::testing {
 namespace {
 
 using scene::PixelClass;
+using ::testing::HasSubstr;
 using CameraJson = nlohmann::json;
 
 /// What `evaluate` says of a case, pixel by pixel.
@@ -157,6 +158,85 @@ TEST(EvaluateCamera, NeedsTheWholeCamera)
     folder.write();
     expect_refused(folder.evaluate(), 2,
                    "the world position of each pixel is required, or the whole camera");
+}
+
+/// A case of a mask, in a raw file, and a whole camera; all else is dropped.
+void keep_mask_alone(CaseFolder& folder)
+{
+    std::filesystem::remove(folder.at("aov.exr"));
+    for (const char* const table : {"shadow_map", "lookup", "bias"}) {
+        folder.drop_table(table);
+    }
+    write_npy(folder.at("mask.npy"), {&folder.channels.at("shadow.V")});
+}
+
+void write_case(const CaseFolder& folder, const std::string& more = {})
+{
+    std::ofstream{folder.at("case.toml")} << folder.toml << "\n[files]\nshadow = \"mask.npy\"\n"
+                                          << more;
+}
+
+TEST(EvaluateCamera, SaysWhyNoPixelIsLeft)
+{
+    CaseFolder folder{"sphere-plane"};
+    keep_mask_alone(folder);
+    scene::Image<float> none{folder.channels.at("shadow.V").size(), 0};
+    write_npy(folder.at("valid.npy"), {&none});
+    write_case(folder, "valid = \"valid.npy\"\n");
+    expect_refused(folder.evaluate(), 2, "valid is 0, or the mask not a number, everywhere");
+    folder.replace("target = [0, 0, 0]", "target = [60, 50, 70]");
+    write_case(folder);
+    expect_refused(folder.evaluate(), 2, "the camera sees nothing of the mesh there");
+    folder.replace("target = [60, 50, 70]", "target = [0, 0, 0]");
+    const scene::Image<float> one{{1, 1}, 1};
+    write_npy(folder.at("mask.npy"), {&one});
+    write_case(folder);
+    expect_refused(folder.evaluate(), 2,
+                   "a silhouette may cross each of the 1 that show something");
+}
+
+TEST(EvaluateCamera, WarnsOfACameraThatTheMaskContradicts)
+{
+    CaseFolder folder{"yard"};
+    keep_mask_alone(folder);
+    folder.replace("vertical_fov_deg = 40", "vertical_fov_deg = 60");
+    write_case(folder, "[channels]\nfractions = true\n");
+    const Ending ending = folder.evaluate({"--check"});
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    EXPECT_THAT(ending.out, HasSubstr("of the camera's pixel centres, as the image has none"));
+    EXPECT_THAT(ending.out, HasSubstr("look at camera.eye, camera.target, camera.up, the units"));
+}
+
+TEST(EvaluateCamera, TakesTheMeshsYForUpInARenderersAxes)
+{
+    CaseFolder folder{"sphere-plane"};
+    drop_positions(folder);
+    folder.write();
+    const Judged own = judge(folder);
+    std::erase_if(folder.channels, [](const auto& one) {
+        return one.first != "shadow.V" && one.first != "valid" && one.first != "id.geom";
+    });
+    for (const char* const table : {"shadow_map", "lookup", "bias", "camera", "light"}) {
+        folder.drop_table(table);
+    }
+    // x, −z, y of the mesh: Blender's space.
+    folder.toml +=
+        "[camera]\neye = [6, -7, 5]\ntarget = [0, 0, 0]\nvertical_fov_deg = 60\n"
+        "[light]\ntype = \"spot\"\nposition = [2.5, -4.3, 4.8]\ntarget = [2.5, -3.5, 0]\n"
+        "cone_deg = 120\n[conventions]\nup = \"z\"\n";
+    folder.write();
+    const Judged other = judge(folder);
+    EXPECT_EQ(other.json.at("pixels").at("background"), own.json.at("pixels").at("background"))
+        << folder.toml;
+    EXPECT_EQ(other.json.at("pixels").at("lit"), own.json.at("pixels").at("lit"));
+}
+
+TEST(EvaluateCamera, DoesNotReplacePositionsThatArePromised)
+{
+    CaseFolder folder{"sphere-plane"};
+    folder.write();
+    std::ofstream{folder.at("case.toml")} << folder.toml << "[channels]\nposition = \"World\"\n";
+    expect_refused(folder.evaluate(), 2, "no channel World.X");
 }
 
 } // namespace
