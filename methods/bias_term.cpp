@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace gnomon::methods {
 namespace {
@@ -70,9 +71,13 @@ void check(const BiasTerm& term)
     const scene::Stages stages = stages_of(term);
     switch (term.place) {
     case BiasPlace::map_drawn:
-        refuse(term, "no pass draws maps with such a term yet");
-    case BiasPlace::per_tap:
-        refuse(term, "no lookup has a depth of its own for each tap yet");
+        if (stages != scene::only(Stage::shadow_map)) {
+            refuse(term, "the stage of its keys must be shadow map");
+        }
+        if (term.offset == nullptr) {
+            refuse(term, "it has no offset");
+        }
+        return;
     case BiasPlace::receiver_depth:
         if (stages == scene::only(Stage::bias)) {
             if (term.own_keys != nullptr) {
@@ -83,6 +88,7 @@ void check(const BiasTerm& term)
         }
         [[fallthrough]];
     case BiasPlace::lookup_position:
+    case BiasPlace::per_tap:
         if (stages != scene::only(Stage::lookup)) {
             refuse(term, "the stage of its keys must be lookup");
         }
@@ -104,11 +110,27 @@ void check(std::span<const BiasTerm> terms)
     }
 }
 
+double number_in(const scene::Job& job, std::string_view key)
+{
+    const scene::HandedKey* handed = scene::find_handed_key(key);
+    if (handed == nullptr || !handed->is_of(job.method.name)) {
+        return 0;
+    }
+    const auto* number = std::get_if<double>(&handed->value_of(job));
+    if (number == nullptr) {
+        throw std::invalid_argument(fmt::format("number_in: {} is no number", key));
+    }
+    return *number;
+}
+
 std::vector<ActiveBias> active_biases(std::span<const BiasTerm> terms, const scene::Job& job,
                                       const scene::View& view)
 {
     std::vector<ActiveBias> active;
     for (const BiasTerm& term : terms) {
+        if (term.piece == nullptr) {
+            continue; // acts on the map
+        }
         if (auto piece = term.piece(job, view)) {
             active.push_back({&term, *std::move(piece)});
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "methods/passes.hpp"
+#include "methods/polygon_offset.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
@@ -35,10 +36,13 @@ enum class BiasPlace : std::uint8_t {
 ///         the receiver's depth in place of r
 ///     lookup_position, lookup  vec4 NAME(Receiver receiver, vec4 clip)
 ///         the light clip position that is looked up in place of clip
+///     per_tap, lookup          vec2 NAME(Receiver receiver)
+///         what a tap's reference depth changes by per texel from the point that is looked up
 ///
-/// No pass asks for other terms yet: `check` refuses them. Terms of the stage bias are the
-/// formula's b and slope, which the bias curve knows; the others make a lookup that is not at the
-/// receiver itself, whose depth and place every formula takes as they come.
+/// A term of `map_drawn`, of the stage shadow map, has no GLSL but an `offset`. Terms of the stage
+/// bias are the formula's b and slope, which the bias curve knows; the others make a lookup that is
+/// not at the receiver itself, or in another map, whose depths and place every formula takes as
+/// they come.
 struct BiasTerm {
     std::string_view name;
     std::span<const std::string_view> keys; ///< of a job, that set it: one, or one in place of
@@ -51,6 +55,10 @@ struct BiasTerm {
     std::optional<Piece> (*piece)(const scene::Job& job, const scene::View& view) = nullptr;
     /// Rows of those keys that the scene has none of; nullptr: it has all.
     std::vector<scene::HandedKey> (*own_keys)() = nullptr;
+    /// Of `map_drawn`: what the map is drawn with; nothing where the term does not act.
+    std::optional<PolygonOffset> (*offset)(const scene::View& view) = nullptr;
+    /// Refuses a job in which it cannot act, by `scene::InputError`; nullptr: there is none.
+    void (*check)(const scene::Job& job) = nullptr;
 };
 
 /// The rows of its keys in the key table.
@@ -79,6 +87,10 @@ struct ActiveBias {
     const BiasTerm* term = nullptr;
     Piece piece;
 };
+
+/// What a job has one of the terms' own keys at; 0 where its method has no such key.
+/// @throws std::invalid_argument  if it is no number.
+[[nodiscard]] double number_in(const scene::Job& job, std::string_view key);
 
 /// Those of the terms that act on a job's lookups, in their order.
 [[nodiscard]] std::vector<ActiveBias> active_biases(std::span<const BiasTerm> terms,

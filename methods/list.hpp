@@ -32,8 +32,13 @@ void check(const scene::Job& job);
 [[nodiscard]] std::vector<ActiveBias> active_biases(const scene::Job& job, const scene::View& view);
 
 /// Whether other biases act than the curve's formula has: then the lookup is not at the receiver
-/// itself, and the one without bias does not follow from it.
+/// itself, or in a map that a bias was drawn into, and the one without bias does not follow from
+/// it.
 [[nodiscard]] bool moves_lookups(const scene::Job& job, const scene::View& view);
+
+/// What the job's maps are drawn with; nothing where no bias term acts there.
+[[nodiscard]] std::optional<PolygonOffset> map_offset(const scene::Job& job,
+                                                      const scene::View& view);
 
 /// The keys of those biases, of the job's method: at their defaults they do not act.
 [[nodiscard]] std::vector<std::string_view> moving_bias_keys(const scene::Job& job);

@@ -123,6 +123,11 @@ Promises promises(const scene::Job& job)
 void check(const scene::Job& job)
 {
     const Method& method = method_of(job);
+    for (const BiasTerm& term : method.bias_terms) {
+        if (term.check != nullptr) {
+            term.check(job);
+        }
+    }
     if (method.check != nullptr) {
         method.check(job);
     }
@@ -140,7 +145,19 @@ std::vector<ActiveBias> active_biases(const scene::Job& job, const scene::View& 
 
 bool moves_lookups(const scene::Job& job, const scene::View& view)
 {
-    return moves_lookups(active_biases(job, view));
+    return map_offset(job, view) || moves_lookups(active_biases(job, view));
+}
+
+std::optional<PolygonOffset> map_offset(const scene::Job& job, const scene::View& view)
+{
+    for (const BiasTerm& term : method_of(job).bias_terms) {
+        if (term.offset != nullptr) {
+            if (const auto offset = term.offset(view)) {
+                return offset;
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 std::vector<std::string_view> moving_bias_keys(const scene::Job& job)

@@ -1,5 +1,7 @@
 #include "raster_gl/caster_state.hpp"
 
+#include "scene/error.hpp"
+
 #include <epoxy/gl.h>
 
 #include <cstdint>
@@ -60,6 +62,33 @@ void prepare_to_draw_casters(const scene::LightFrustum& map,
     glDepthMask(GL_TRUE);
     glDepthFunc(map.reversed ? GL_GREATER : GL_LESS);
     set_culling(settings.cull);
+}
+
+OffsetDraws::OffsetDraws(const std::optional<methods::PolygonOffset>& offset)
+    : is_on_{offset.has_value()}
+{
+    if (!is_on_) {
+        return;
+    }
+    if (offset->clamp == 0) {
+        glPolygonOffset(offset->factor, offset->units);
+    } else if (epoxy_gl_version() >= 46 || epoxy_has_gl_extension("GL_ARB_polygon_offset_clamp")) {
+        glPolygonOffsetClamp(offset->factor, offset->units, offset->clamp);
+    } else if (epoxy_has_gl_extension("GL_EXT_polygon_offset_clamp")) {
+        glPolygonOffsetClampEXT(offset->factor, offset->units, offset->clamp);
+    } else {
+        throw scene::InputError("bias.polygon_offset_clamp: this driver has neither "
+                                "GL_ARB_polygon_offset_clamp nor the EXT one; remove the key");
+    }
+    glEnable(GL_POLYGON_OFFSET_FILL);
+}
+
+OffsetDraws::~OffsetDraws()
+{
+    if (is_on_) {
+        glPolygonOffset(0, 0);
+        glDisable(GL_POLYGON_OFFSET_FILL);
+    }
 }
 
 bool is_large_map(int resolution_texels, int samples)

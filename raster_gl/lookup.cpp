@@ -204,6 +204,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"DEPTH_IS_GIVEN", flag(computes.depths.own != nullptr)},
         {"BLENDS", flag(!view.slices.mixed_from.empty())},
         {"SCALED_BIAS", flag(!view.bias_scales.empty())},
+        {"TAP_GRADIENT", flag(has_gradient_of_taps(pieces.biases))},
     };
     add_definitions(pieces.passes.lookup, definitions);
     for (const methods::ActiveBias& bias : pieces.biases) {

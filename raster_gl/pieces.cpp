@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -78,7 +79,24 @@ std::string bias_functions(std::span<const ActiveBias> biases)
                         calls(biases, moves_depth, [](std::string_view function) {
                             return fmt::format("r = {}(receiver, r);", function);
                         }));
+    const auto has_gradient = [](const methods::BiasTerm& term) {
+        return term.place == BiasPlace::per_tap;
+    };
+    const std::string gradients = calls(biases, has_gradient, [](std::string_view function) {
+        return fmt::format("gradient += {}(receiver);", function);
+    });
+    if (!gradients.empty()) {
+        text += fmt::format("vec2 gradient_of_taps(Receiver receiver)\n{{\n    vec2 gradient = "
+                            "vec2(0.0);\n{}    return gradient;\n}}\n",
+                            gradients);
+    }
     return text;
+}
+
+bool has_gradient_of_taps(std::span<const ActiveBias> biases)
+{
+    return std::ranges::any_of(
+        biases, [](const ActiveBias& bias) { return bias.term->place == BiasPlace::per_tap; });
 }
 
 std::string program_key(std::string_view text, const Definitions& definitions)

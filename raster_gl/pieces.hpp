@@ -24,6 +24,9 @@ namespace gnomon::raster_gl {
 /// raster_gl/shaders/lookup.frag, each term in the order of the list.
 [[nodiscard]] std::string bias_functions(std::span<const methods::ActiveBias> biases);
 
+/// Whether each tap has a reference depth of its own: then there is `gradient_of_taps`.
+[[nodiscard]] bool has_gradient_of_taps(std::span<const methods::ActiveBias> biases);
+
 /// Appends what the piece is compiled with.
 void add_definitions(const methods::Piece& piece, Definitions& definitions);
 

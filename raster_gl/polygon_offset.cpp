@@ -1,8 +1,7 @@
 #include "raster_gl/polygon_offset.hpp"
 
+#include "raster_gl/caster_state.hpp"
 #include "raster_gl/raster_planes.hpp"
-
-#include <epoxy/gl.h>
 
 #include <bit>
 #include <cmath>
@@ -10,23 +9,6 @@
 namespace gnomon::raster_gl {
 
 namespace {
-
-/// Enables polygon offset while it lives.
-class PolygonOffset {
-public:
-    explicit PolygonOffset(float units)
-    {
-        glEnable(GL_POLYGON_OFFSET_FILL);
-        glPolygonOffset(0, units);
-    }
-    PolygonOffset(const PolygonOffset&) = delete;
-    PolygonOffset& operator=(const PolygonOffset&) = delete;
-    ~PolygonOffset()
-    {
-        glPolygonOffset(0, 0);
-        glDisable(GL_POLYGON_OFFSET_FILL);
-    }
-};
 
 double stored_depth(std::uint32_t code, scene::DepthFormat format)
 {
@@ -68,7 +50,7 @@ std::vector<OffsetUnit> measure_offset_units(const Context& context, scene::Dept
     constexpr float most_units = 0x1p30F;
     while (shifted[middle] - still[middle] < wanted_shift && units < most_units) {
         units *= 2;
-        const PolygonOffset offset{units};
+        const OffsetDraws offset{methods::PolygonOffset{0, units, 0}};
         shifted = stored_depths(raster, format);
     }
     std::vector<OffsetUnit> result;

@@ -74,7 +74,8 @@ Texture SampledCasters::make_depths(const scene::ShadowMapSettings& settings, in
 std::span<const Texture> SampledCasters::render(const GpuScene& scene,
                                                 std::span<const scene::LightFrustum> maps,
                                                 const scene::ShadowMapSettings& settings,
-                                                int samples)
+                                                int samples,
+                                                const std::optional<methods::PolygonOffset>& offset)
 {
     if (traits_of(settings.depth_format).is_colour) {
         throw std::invalid_argument("SampledCasters::render: settings: samples are depths alone");
@@ -87,6 +88,7 @@ std::span<const Texture> SampledCasters::render(const GpuScene& scene,
         set_uniform(program, "largest_code", scene::code_of_one(settings.depth_format));
     }
     const PerSample shading;
+    const OffsetDraws offset_draws{offset};
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     prepare_to_draw_casters(maps.front(), settings);
     glUseProgram(program.name());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/polygon_offset.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
@@ -8,6 +9,7 @@
 #include "scene/light/frustum.hpp"
 #include "scene/vec.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,7 +29,8 @@ public:
     /// @throws scene::EnvironmentError  if GL fails, memory included.
     std::span<const Texture> render(const GpuScene& scene,
                                     std::span<const scene::LightFrustum> maps,
-                                    const scene::ShadowMapSettings& settings, int samples);
+                                    const scene::ShadowMapSettings& settings, int samples,
+                                    const std::optional<methods::PolygonOffset>& offset = {});
     /// Where in a texel its samples are, from its lower left [texels].
     /// @throws scene::InputError  as `render`.
     [[nodiscard]] std::vector<scene::Vec2d> places(int samples);

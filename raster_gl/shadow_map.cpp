@@ -283,7 +283,8 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
 const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
                                        std::span<const scene::LightFrustum> maps,
                                        const scene::ShadowMapSettings& settings,
-                                       Primitives primitives)
+                                       Primitives primitives,
+                                       const std::optional<methods::PolygonOffset>& offset)
 {
     allocate(settings, maps.size(), primitives);
     const scene::LightFrustum& first = maps.front();
@@ -294,6 +295,7 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
     prepare_to_draw_casters(first, settings);
     set_uniform(program, "largest_code", scene::code_of_one(map_.format));
     glUseProgram(program.name());
+    const OffsetDraws offset_draws{offset};
     for (std::size_t i = 0; i < maps.size(); ++i) {
         attach(i);
         clear(target_, map_);

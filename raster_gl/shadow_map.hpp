@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/polygon_offset.hpp"
 #include "raster_gl/caster_state.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 
 namespace gnomon::raster_gl {
@@ -46,14 +48,16 @@ class ShadowMapPass {
 public:
     explicit ShadowMapPass(const Context& context, ConvertedCodes codes = ConvertedCodes::kept);
 
-    /// @param maps  of a light, drawn in their order.
+    /// @param maps    of a light, drawn in their order.
+    /// @param offset  that their depths are drawn with.
     /// @return  The pass's own maps; the next call overwrites them.
     /// @throws scene::InputError        if the driver substitutes the format or lacks the size.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
     const ShadowMap& render(const GpuScene& scene, std::span<const scene::LightFrustum> maps,
                             const scene::ShadowMapSettings& settings,
-                            Primitives primitives = Primitives::dropped);
-    /// The same maps in these rows alone; what the others hold is not specified.
+                            Primitives primitives = Primitives::dropped,
+                            const std::optional<methods::PolygonOffset>& offset = {});
+    /// The same maps, without offset, in these rows alone; what the others hold is not specified.
     const ShadowMap& render(const GpuScene& scene, std::span<const scene::LightFrustum> maps,
                             const scene::ShadowMapSettings& settings, scene::TexelRows rows);
     /// Stores these depths in place of drawn ones, as d32f.

@@ -71,12 +71,22 @@ ExactRun exact_run_of(const scene::Job& job, const scene::View& view, const Rend
 ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                               scene::LookupLayers layers, const Renderers& renderers)
 {
-    ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}, {}};
+    ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}, {}, {}};
     const methods::Promises promised = methods::promises(job);
     if (!can_derive_unbiased(job, view)) {
         scene::View unbiased = view;
         unbiased.bias = {};
+        const bool is_offset = methods::map_offset(job, view).has_value();
+        if (is_offset) {
+            renderers.draw_map(job, unbiased);
+        }
         lookup.unbiased = renderers.look_up(job, unbiased);
+        if (is_offset && !promised.has_one_tap()) {
+            lookup.unbiased_map_depths = renderers.read_map_depths();
+        }
+        if (is_offset) {
+            renderers.draw_map(job, view);
+        }
     }
     if (!promised.has_one_tap()) {
         lookup.map_depths = renderers.read_map_depths();
@@ -200,6 +210,9 @@ CauseInputs LookupAnswers::cause_inputs() const
                        lookup_.map_depths,
                        exact_->light()};
     inputs.exact_reruns = exact_reruns_ ? &*exact_reruns_ : nullptr;
+    if (!lookup_.unbiased_map_depths.empty()) {
+        inputs.unbiased_map_depths = &lookup_.unbiased_map_depths;
+    }
     inputs.missing_receivers = missing_receivers_ ? &*missing_receivers_ : nullptr;
     return inputs;
 }

@@ -56,6 +56,8 @@ struct ObservedLookup {
     scene::LookupLayers layers;     ///< with any constant and slope bias
     scene::LookupLayers unbiased;   ///< without any bias; empty where it follows from `layers`
     scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
+    /// The same of the map without the offset that it was drawn with; empty: there was none.
+    scene::Image<float> unbiased_map_depths = {};
     /// Empty where a formula tells of other biases, or nothing does.
     std::optional<LookupReruns> reruns;
     /// Empty where causes are exact.

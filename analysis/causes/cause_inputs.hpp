@@ -39,6 +39,8 @@ struct CauseInputs {
     /// Of methods that compare triangles 1 where no map can show the receiver's own, however fine
     /// (`find_missing_receivers`); else nullptr.
     const scene::Image<std::uint8_t>* missing_receivers = nullptr;
+    /// `map_depths` of `unbiased` where a bias was drawn into the map; else nullptr.
+    const scene::Image<float>* unbiased_map_depths = nullptr;
 
     [[nodiscard]] Footprint footprint() const
     {
@@ -49,8 +51,11 @@ struct CauseInputs {
     [[nodiscard]] float stored_depth(const scene::LookupLayers& layers, std::size_t pixel,
                                      const scene::Texel& texel) const
     {
-        return rule.promises.has_one_tap() ? layers.samples[pixel].map_depth
-                                           : at_texel(map_depths, texel);
+        if (rule.promises.has_one_tap()) {
+            return layers.samples[pixel].map_depth;
+        }
+        const bool is_other_map = unbiased_map_depths != nullptr && &layers == &unbiased;
+        return at_texel(is_other_map ? *unbiased_map_depths : map_depths, texel);
     }
     /// Whether a tap shadows without bias, by the depth that GL stored.
     [[nodiscard]] bool shadows(const scene::LookupLayers& layers, std::size_t pixel,

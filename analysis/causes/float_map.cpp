@@ -69,10 +69,11 @@ FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
                             const Renderers& renderers)
 {
     const scene::Job floats = with_floats(job);
-    renderers.draw_shadow_map(floats, view);
-    renderers.prefilter_map(floats, view, FilteredContent::float32);
+    const scene::View unbiased = with_biases(view, 0, 0);
+    renderers.draw_shadow_map(floats, unbiased);
+    renderers.prefilter_map(floats, unbiased, FilteredContent::float32);
     return {renderers.look_up(floats, with_biases(view, view.bias.constant, view.bias.slope)),
-            renderers.look_up(floats, with_biases(view, 0, 0))};
+            renderers.look_up(floats, unbiased)};
 }
 
 } // namespace gnomon::analysis

@@ -79,7 +79,8 @@ void GlRenderer::draw_shadow_map(const scene::Job& job, const scene::View& view)
     }
     shadow_map_ = &shadow_map_pass_.render(
         scene_, view.maps, job.shadow_map,
-        methods::passes(job).draws_primitives ? Primitives::kept : Primitives::dropped);
+        methods::passes(job).draws_primitives ? Primitives::kept : Primitives::dropped,
+        methods::map_offset(job, view));
     filtered_ = nullptr;
 }
 
@@ -94,7 +95,9 @@ void GlRenderer::prefilter_map(const scene::Job& job, const scene::View& view,
         prefilter(job, content, {});
         return;
     }
-    prefilter(job, content, {sampled_casters_.render(scene_, view.maps, job.shadow_map, samples)});
+    prefilter(job, content,
+              {sampled_casters_.render(scene_, view.maps, job.shadow_map, samples,
+                                       methods::map_offset(job, view))});
     sampled_casters_.forget();
 }
 

@@ -2,6 +2,7 @@
 
 #include "methods/depth/bias_terms.hpp"
 #include "methods/depth/filters.hpp"
+#include "methods/depth/terms/receiver_plane.hpp"
 
 #include <array>
 
@@ -18,6 +19,11 @@ constexpr auto depth_tables = std::to_array<std::string_view>({"shadow_map", "lo
 Promises depth_promises(const scene::Job& job)
 {
     Promises promises = filter_promises(job.lookup.filter);
+    if (has_receiver_plane(job)) {
+        // Taps have reference depths of their own, of which no formula knows.
+        promises.compares = Compares::none;
+        promises.curve = Curve::by_bisection;
+    }
     promises.map_bytes = map_bytes(job);
     return promises;
 }

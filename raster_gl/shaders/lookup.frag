@@ -5,6 +5,7 @@
 //     float varied_bias(Receiver receiver)           b of the bias curve, in each map times
 //                                                    bias_scale, where there is one
 //     float added_bias(Receiver receiver)            what is added to it: the slope term
+//     vec2 gradient_of_taps(Receiver receiver)       with TAP_GRADIENT, of taps' reference depths
 //
 // and the filter's piece, which gives
 //
@@ -57,6 +58,9 @@ struct Place {
     vec2 uv;
     vec2 texel;
     bool is_border; // the border mode decides, whatever the bias
+#if TAP_GRADIENT
+    vec2 gradient; // of what taps are compared with
+#endif
 };
 
 // What a verdict is made of, but for the bias that a curve varies.
@@ -81,6 +85,9 @@ float verdict_of_map(Place place, float varied, float slope_term, out float d)
     precise float bias = scaled + slope_term;
 #else
     precise float bias = varied + slope_term;
+#endif
+#if TAP_GRADIENT
+    tap_gradient = place.gradient;
 #endif
     return visibility(place.r, bias, place.uv, place.texel, d);
 }
@@ -240,6 +247,9 @@ Place place_in_map(Receiver receiver)
     place.texel = texel;
     place.r = r;
     place.is_border = false;
+#if TAP_GRADIENT
+    place.gradient = gradient_of_taps(receiver);
+#endif
 #if !OUTSIDE_CLAMP
     place.is_border = beyond_far || !(clip.w > 0.0);
 #if INTERPOLATES

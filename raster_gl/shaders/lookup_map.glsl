@@ -1,5 +1,5 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, PRIMITIVES
+// comparison. TAP_GRADIENT, MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, PRIMITIVES
 // and GRADIENTS are defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
@@ -125,6 +125,56 @@ struct Receiver {
     float cosine;    // of the angle between normal and to_light
     float tan_theta; // of the angle between them, or of its supplement: not negative, finite
 };
+
+#ifdef PLANE_GRADIENT
+// What the depth of the receiver's plane rises per texel along u and v. In the map a plane stays one.
+vec2 plane_gradient(Receiver receiver)
+{
+    mat4 m = light_clip_from_world[map_index];
+    vec3 ndc = receiver.clip.xyz / receiver.clip.w;
+    vec3 w = vec3(m[0].w, m[1].w, m[2].w);
+    vec3 x = vec3(m[0].x, m[1].x, m[2].x) - ndc.x * w;
+    vec3 y = vec3(m[0].y, m[1].y, m[2].y) - ndc.y * w;
+    vec3 z = vec3(m[0].z, m[1].z, m[2].z) - ndc.z * w;
+    float facing = dot(receiver.normal, cross(x, y));
+    vec2 slope = -vec2(dot(receiver.normal, cross(y, z)), dot(receiver.normal, cross(z, x))) / facing;
+#if REVERSED
+    slope *= 2.0; // r is ndc.z, and not half of it
+#endif
+    return facing == 0.0 ? vec2(0.0) : slope / resolution;
+}
+#endif
+
+#if TAP_GRADIENT
+vec2 tap_gradient; // of the pixel, in its map
+#endif
+
+// What a tap is compared with whose texel's centre is so many texels from the point looked up.
+float depth_at_tap(float r, vec2 texels)
+{
+#if TAP_GRADIENT
+    precise float depth = r + (tap_gradient.x * texels.x + tap_gradient.y * texels.y);
+    return depth;
+#else
+    return r;
+#endif
+}
+
+// What 2 × 2 taps are compared with that GL compares at once.
+float depth_of_gather(float r)
+{
+#if TAP_GRADIENT
+    float rise = 2.0 * (abs(tap_gradient.x) + abs(tap_gradient.y));
+#if REVERSED
+    precise float depth = r + rise;
+#else
+    precise float depth = r - rise;
+#endif
+    return depth;
+#else
+    return r;
+#endif
+}
 
 bool is_lit(float r, float b, float d)
 {

@@ -74,7 +74,9 @@ std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias
                                    plain_zero(bias.constant), metres, plain_zero(bias.slope),
                                    plain_zero(bias.normal_texels));
     for (const auto& [key, value] : bias.handed) {
-        text += fmt::format(", {} {:.4g}", scene::key_leaf(key), plain_zero(value));
+        if (value != 0) {
+            text += fmt::format(", {} {:.4g}", scene::key_leaf(key), value);
+        }
     }
     return text;
 }

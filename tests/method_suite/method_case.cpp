@@ -46,11 +46,13 @@ void MethodCase::draw_map()
     using raster_gl::Primitives;
     map_ = &map_pass_.render(gpu_, view.maps, job.shadow_map,
                              methods::passes(job).draws_primitives ? Primitives::kept
-                                                                   : Primitives::dropped);
+                                                                   : Primitives::dropped,
+                             methods::map_offset(job, view));
     const int samples = methods::passes(job).samples;
-    prefilter(samples == 1 ? raster_gl::SampledDepths{}
-                           : raster_gl::SampledDepths{sampled_casters_.render(
-                                 gpu_, view.maps, job.shadow_map, samples)});
+    prefilter(samples == 1
+                  ? raster_gl::SampledDepths{}
+                  : raster_gl::SampledDepths{sampled_casters_.render(
+                        gpu_, view.maps, job.shadow_map, samples, methods::map_offset(job, view))});
 }
 
 void MethodCase::give_map(scene::Image<float> depths)

@@ -32,7 +32,7 @@ std::vector<std::string> keys_with_units(const BiasTerm& term)
 TEST(BiasTerms, AreThoseOfTheList)
 {
     const auto terms = bias_terms();
-    ASSERT_EQ(terms.size(), 3U);
+    ASSERT_EQ(terms.size(), 9U);
     EXPECT_EQ(terms[0].name, "constant");
     EXPECT_EQ(terms[0].place, BiasPlace::receiver_depth);
     EXPECT_THAT(keys_with_units(terms[0]),
@@ -44,6 +44,19 @@ TEST(BiasTerms, AreThoseOfTheList)
     EXPECT_EQ(terms[2].name, "normal offset");
     EXPECT_EQ(terms[2].place, BiasPlace::lookup_position);
     EXPECT_THAT(keys_with_units(terms[2]), ElementsAre("bias.normal_texels [texel widths]"));
+    EXPECT_EQ(terms[3].place, BiasPlace::lookup_position);
+    EXPECT_THAT(keys_with_units(terms[3]), ElementsAre("bias.normal_m [m]"));
+    EXPECT_EQ(terms[4].place, BiasPlace::receiver_depth);
+    EXPECT_THAT(keys_with_units(terms[4]), ElementsAre("bias.constant_texels [texel widths]"));
+    EXPECT_EQ(terms[5].place, BiasPlace::map_drawn);
+    EXPECT_THAT(keys_with_units(terms[5]),
+                ElementsAre("bias.polygon_offset_factor []", "bias.polygon_offset_units [r]",
+                            "bias.polygon_offset_clamp [depth units]"));
+    EXPECT_THAT(keys_with_units(terms[6]), ElementsAre("bias.slope_kernels [kernels]"));
+    EXPECT_THAT(keys_with_units(terms[7]), ElementsAre("bias.adaptive_m [m]"));
+    EXPECT_EQ(terms[8].place, BiasPlace::per_tap);
+    EXPECT_THAT(keys_with_units(terms[8]),
+                ElementsAre("bias.receiver_plane []", "bias.receiver_plane_clamp [depth units]"));
 }
 
 TEST(BiasTerms, AreOfOneStageAndOfAPlaceWhereALookupActs)
@@ -53,18 +66,35 @@ TEST(BiasTerms, AreOfOneStageAndOfAPlaceWhereALookupActs)
         for (const scene::JobKey& key : keys_of(term)) {
             EXPECT_EQ(key.stages, stages_of(term)) << key.name;
         }
-        const bool is_of_depth = term.place == BiasPlace::receiver_depth;
-        EXPECT_EQ(is_of_curve(term), is_of_depth) << term.name;
+        const bool is_of_formula = term.name == "constant" || term.name == "slope";
+        EXPECT_EQ(is_of_curve(term), is_of_formula) << term.name;
     }
+}
+
+/// None of them 0.
+scene::View view_with_every_bias()
+{
+    scene::View view;
+    view.maps.emplace_back();
+    view.bias = {.constant = 1, .slope = 2, .normal_texels = 3, .handed = {}};
+    view.bias.handed = {{"bias.normal_m", 4.0F},
+                        {"bias.constant_texels", 1.0F},
+                        {"bias.polygon_offset_factor", 5.0F},
+                        {"bias.polygon_offset_units", 6.0F},
+                        {"bias.polygon_offset_clamp", 0.5F},
+                        {"bias.slope_kernels", 7.0F},
+                        {"bias.adaptive_m", 8.0F},
+                        {"bias.receiver_plane_clamp", 1.0F}};
+    return view;
 }
 
 TEST(BiasTerms, DefineTheFunctionThatTheyName)
 {
-    const scene::Job job;
-    scene::View view;
-    view.bias = {.constant = 1, .slope = 2, .normal_texels = 3};
+    scene::Job job;
+    job.method.values["bias.receiver_plane"] = std::string{"analytic"};
+    const scene::View view = view_with_every_bias();
     const auto active = active_biases(bias_terms(), job, view);
-    ASSERT_EQ(active.size(), bias_terms().size());
+    ASSERT_EQ(active.size(), bias_terms().size() - 1) << "the polygon offset has no GLSL";
     for (const ActiveBias& bias : active) {
         const std::string start = std::string{" "} + std::string{bias.term->function} + "(Receiver";
         EXPECT_NE(bias.piece.glsl.find(start), std::string_view::npos) << bias.term->name;
@@ -72,6 +102,12 @@ TEST(BiasTerms, DefineTheFunctionThatTheyName)
         EXPECT_NE(bias.piece.uniforms[0].values, std::vector{0.0F}) << bias.term->name;
     }
     EXPECT_TRUE(moves_lookups(active));
+}
+
+TEST(BiasTerms, OffsetTheMapByWhatTheKeysSay)
+{
+    EXPECT_EQ(bias_terms()[5].offset(view_with_every_bias()), (PolygonOffset{5, 6, 0.5F}));
+    EXPECT_EQ(bias_terms()[5].offset(scene::View{}), std::nullopt) << "an unbiased map";
 }
 
 TEST(BiasTerms, OfTheCurveAloneActWithoutANormalOffset)
@@ -138,10 +174,13 @@ TEST(BiasTerms, AreRefusedWhereNoLookupDoesAsTheySay)
     const BiasTerm offset = bias_terms()[2];
     BiasTerm term = offset;
     term.place = BiasPlace::map_drawn;
-    EXPECT_EQ(refusal(term), "bias term normal offset: no pass draws maps with such a term yet");
+    EXPECT_EQ(refusal(term), "bias term normal offset: the stage of its keys must be shadow map");
     term.place = BiasPlace::per_tap;
-    EXPECT_EQ(refusal(term),
-              "bias term normal offset: no lookup has a depth of its own for each tap yet");
+    EXPECT_EQ(refusal(term), "") << "of the stage lookup";
+    term = bias_terms()[5];
+    term.offset = nullptr;
+    EXPECT_EQ(refusal(term), "bias term polygon offset: it has no offset");
+    term = offset;
     term.place = BiasPlace::receiver_depth;
     EXPECT_EQ(refusal(term), "") << "of the stage lookup";
     term = slope;

@@ -84,6 +84,7 @@ TEST(Methods, HaveTheKeysOfTheirTablesAndTheirOwnAndNoOthers)
     }
     Method none = methods()[0];
     none.key_tables = {};
+    none.bias_terms = {};
     EXPECT_TRUE(keys_of(none).empty());
 }
 

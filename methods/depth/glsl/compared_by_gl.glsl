@@ -4,9 +4,9 @@ float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 {
     fetch_depth(floor(texel), d);
 #if REVERSED
-    precise float reference = r + bias;
+    precise float reference = depth_of_gather(r) + bias;
 #else
-    precise float reference = r - bias;
+    precise float reference = depth_of_gather(r) - bias;
 #endif
     return compared_by_gl(uv, reference);
 }

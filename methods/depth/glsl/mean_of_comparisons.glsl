@@ -9,7 +9,8 @@ float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
         for (int x = -TAPS_ACROSS / 2; x <= TAPS_ACROSS / 2; ++x) {
             float tap;
             bool fetched = fetch_depth(centre + vec2(x, y), tap);
-            lit_taps += fetched ? (is_lit(r, bias, tap) ? 1.0 : 0.0) : OUTSIDE_VERDICT;
+            float reference = depth_at_tap(r, centre + vec2(x, y) + 0.5 - texel);
+            lit_taps += fetched ? (is_lit(reference, bias, tap) ? 1.0 : 0.0) : OUTSIDE_VERDICT;
         }
     }
     return lit_taps / float(TAPS_ACROSS * TAPS_ACROSS);
