@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace gnomon::reports {
@@ -12,6 +13,7 @@ namespace {
 using analysis::TunedSetting;
 using scene::Cull;
 using scene::DepthFormat;
+using Offset = std::optional<methods::PolygonOffset>;
 
 /// The names of a depth format; empty where the interface has none.
 struct FormatNames {
@@ -131,7 +133,39 @@ void add_shader(ApiState& state, const TunedSetting& setting)
     }
 }
 
-ApiState gl_state(const TunedSetting& setting)
+std::string gl_offset(const Offset& offset)
+{
+    if (!offset) {
+        return "glDisable(GL_POLYGON_OFFSET_FILL);";
+    }
+    return offset->clamp == 0
+               ? fmt::format("glEnable(GL_POLYGON_OFFSET_FILL); glPolygonOffset({}, {});",
+                             offset->factor, offset->units)
+               : fmt::format("glEnable(GL_POLYGON_OFFSET_FILL); glPolygonOffsetClamp({}, {}, {});",
+                             offset->factor, offset->units, offset->clamp);
+}
+
+/// Direct3D takes whole units; the next one away from 0 keeps as much from shadowing itself.
+std::string direct3d_offset(const Offset& offset)
+{
+    if (!offset) {
+        return "DepthBias = 0, SlopeScaledDepthBias = 0";
+    }
+    const float units = std::copysign(std::ceil(std::abs(offset->units)), offset->units);
+    std::string text =
+        fmt::format("DepthBias = {:.0f}, SlopeScaledDepthBias = {}", units, offset->factor);
+    return offset->clamp == 0 ? text : text + fmt::format(", DepthBiasClamp = {}", offset->clamp);
+}
+
+std::string vulkan_offset(const Offset& offset)
+{
+    return offset ? fmt::format("depthBiasEnable = VK_TRUE, depthBiasConstantFactor = {}, "
+                                "depthBiasSlopeFactor = {}, depthBiasClamp = {}",
+                                offset->units, offset->factor, offset->clamp)
+                  : "depthBiasEnable = VK_FALSE";
+}
+
+ApiState gl_state(const TunedSetting& setting, const Offset& offset)
 {
     const std::string_view format = names_of(setting.map.depth_format).gl;
     if (format.empty()) {
@@ -140,7 +174,7 @@ ApiState gl_state(const TunedSetting& setting)
     const bool reversed = setting.map.frustum.reversed;
     return {"GL",
             {gl_storage(setting, format), std::string{cull_names(setting.map.cull).gl},
-             "glDisable(GL_POLYGON_OFFSET_FILL);",
+             gl_offset(offset),
              reversed ? "glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);"
                       : "glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);",
              fmt::format("glDepthFunc({0}); glClearDepth({1}); // lookup compares with {2}",
@@ -148,7 +182,7 @@ ApiState gl_state(const TunedSetting& setting)
                          reversed ? "GL_GEQUAL" : "GL_LEQUAL")}};
 }
 
-ApiState direct3d_state(const TunedSetting& setting)
+ApiState direct3d_state(const TunedSetting& setting, const Offset& offset)
 {
     const std::string_view format = names_of(setting.map.depth_format).direct3d;
     if (format.empty()) {
@@ -161,8 +195,8 @@ ApiState direct3d_state(const TunedSetting& setting)
                      is_colour(setting) ? "D3D12_RENDER_TARGET" : "D3D12_DEPTH_STENCIL", format,
                      direct3d_maps(setting)),
          fmt::format("D3D12_RASTERIZER_DESC: CullMode = {}, FrontCounterClockwise = TRUE, "
-                     "DepthBias = 0, SlopeScaledDepthBias = 0, DepthClipEnable = TRUE;",
-                     cull_names(setting.map.cull).direct3d),
+                     "{}, DepthClipEnable = TRUE;",
+                     cull_names(setting.map.cull).direct3d, direct3d_offset(offset)),
          fmt::format("D3D12_DEPTH_STENCIL_DESC::DepthFunc = D3D12_COMPARISON_FUNC_{}; clear to "
                      "{}",
                      reversed ? "GREATER" : "LESS", reversed ? 0 : 1)}};
@@ -174,7 +208,7 @@ ApiState direct3d_state(const TunedSetting& setting)
     return state;
 }
 
-ApiState vulkan_state(const TunedSetting& setting)
+ApiState vulkan_state(const TunedSetting& setting, const Offset& offset)
 {
     const std::string_view format = names_of(setting.map.depth_format).vulkan;
     if (format.empty()) {
@@ -185,9 +219,9 @@ ApiState vulkan_state(const TunedSetting& setting)
         "Vulkan",
         {fmt::format("VkImageCreateInfo::format = {};{}", format, vulkan_maps(setting)),
          fmt::format("VkPipelineRasterizationStateCreateInfo: cullMode = {}, frontFace = "
-                     "VK_FRONT_FACE_COUNTER_CLOCKWISE, depthBiasEnable = VK_FALSE, "
+                     "VK_FRONT_FACE_COUNTER_CLOCKWISE, {}, "
                      "depthClampEnable = VK_FALSE;",
-                     cull_names(setting.map.cull).vulkan),
+                     cull_names(setting.map.cull).vulkan, vulkan_offset(offset)),
          fmt::format("VkPipelineDepthStencilStateCreateInfo::depthCompareOp = "
                      "VK_COMPARE_OP_{}; clear to {}",
                      reversed ? "GREATER" : "LESS", reversed ? 0 : 1)}};
@@ -200,9 +234,10 @@ ApiState vulkan_state(const TunedSetting& setting)
 
 } // namespace
 
-std::vector<ApiState> api_states(const TunedSetting& setting)
+std::vector<ApiState> api_states(const TunedSetting& setting, const Offset& offset)
 {
-    std::vector<ApiState> states{gl_state(setting), direct3d_state(setting), vulkan_state(setting)};
+    std::vector<ApiState> states{gl_state(setting, offset), direct3d_state(setting, offset),
+                                 vulkan_state(setting, offset)};
     for (ApiState& state : states) {
         add_shader(state, setting);
     }

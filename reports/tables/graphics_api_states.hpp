@@ -1,8 +1,10 @@
 #pragma once
 
 #include "analysis/tune/tune.hpp"
+#include "methods/polygon_offset.hpp"
 #include "store/json_values.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,11 @@ struct ApiState {
     std::vector<std::string> lines; ///< of code, or why there is none
 };
 
-/// The states that draw and look up such a map: format, comparison, culling, polygon offset. Biases
-/// are not among them: they are subtracted from the receiver's depth in the shader.
-[[nodiscard]] std::vector<ApiState> api_states(const analysis::TunedSetting& setting);
+/// The states that draw and look up such a map: format, comparison, culling, polygon offset. Other
+/// biases are not among them: they are subtracted from the receiver's depth in the shader.
+/// @param offset  of the job; a tuned setting has none of its own.
+[[nodiscard]] std::vector<ApiState>
+api_states(const analysis::TunedSetting& setting,
+           const std::optional<methods::PolygonOffset>& offset = {});
 
 } // namespace gnomon::reports

@@ -1,6 +1,7 @@
 #include "reports/tables/tune_report.hpp"
 
 #include "analysis/advice/fit_setting.hpp"
+#include "methods/list.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/tables/graphics_api_states.hpp"
 #include "reports/tables/table_lines.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -278,10 +280,16 @@ std::string measured(const TuneResult& result, const TuneLimits& limits)
     return text;
 }
 
-std::string states(const TunedSetting& setting)
+/// What the job draws its maps with, of whatever setting.
+std::optional<methods::PolygonOffset> map_offset(const TuneResult& result)
+{
+    return methods::map_offset(result.measured.job, result.measured.view);
+}
+
+std::string states(const TuneResult& result)
 {
     std::string text;
-    for (const ApiState& state : api_states(setting)) {
+    for (const ApiState& state : api_states(result.best(), map_offset(result))) {
         text += fmt::format("\n{}:\n  {}\n", state.api, fmt::join(state.lines, "\n  "));
     }
     return text;
@@ -300,10 +308,10 @@ store::Json views_json(const TuneResult& result, const TuneLimits& limits)
     return json;
 }
 
-store::Json states_json(const TunedSetting& setting)
+store::Json states_json(const TuneResult& result)
 {
     store::Json json = store::Json::object();
-    for (const ApiState& state : api_states(setting)) {
+    for (const ApiState& state : api_states(result.best(), map_offset(result))) {
         json[state.api] = state.lines;
     }
     return json;
@@ -371,7 +379,7 @@ std::string light_text(const TunedLight& tuned, const TuneLimits& limits, TuneDe
         counted(result.considered.size(), "setting"));
     text += table(result, detail) + not_tried(result) + "\n";
     text += verdict(result, limits) + "\n" + best_toml(tuned);
-    text += states(result.best());
+    text += states(result);
     text += measured(result, limits) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
@@ -392,7 +400,7 @@ store::Json light_json(const TunedLight& tuned, const TuneLimits& limits)
                        {"max_resolution", limits.max_resolution_texels}}},
                      {"recommended", setting_json(result.best())},
                      {"toml", best_toml(tuned)},
-                     {"states", states_json(result.best())},
+                     {"states", states_json(result)},
                      {"measured",
                       {{"false_shadow", measured.false_shadow},
                        {"false_lit", measured.false_lit},

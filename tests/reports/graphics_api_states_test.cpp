@@ -50,5 +50,19 @@ TEST(GraphicsApiStates, SayWhereNoFormatStoresIt)
     EXPECT_THAT(states_of("u13"), HasSubstr("no depth format of GL stores u13"));
 }
 
+TEST(GraphicsApiStates, HaveThePolygonOffsetOfTheJob)
+{
+    analysis::TunedSetting setting;
+    std::string text;
+    for (const ApiState& state : api_states(setting, methods::PolygonOffset{1.5F, 2.25F, 0.125F})) {
+        text += fmt::format("{}\n", fmt::join(state.lines, "\n"));
+    }
+    EXPECT_THAT(text, HasSubstr("glPolygonOffsetClamp(1.5, 2.25, 0.125);"));
+    EXPECT_THAT(text,
+                HasSubstr("DepthBias = 3, SlopeScaledDepthBias = 1.5, DepthBiasClamp = 0.125,"));
+    EXPECT_THAT(text, HasSubstr("depthBiasEnable = VK_TRUE, depthBiasConstantFactor = 2.25, "
+                                "depthBiasSlopeFactor = 1.5, depthBiasClamp = 0.125"));
+}
+
 } // namespace
 } // namespace gnomon::reports
