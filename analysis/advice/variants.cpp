@@ -65,8 +65,12 @@ void add_lookups_at_the_receiver(Variants& variants)
 {
     for (const std::string_view key : methods::moving_bias_keys(variants.job())) {
         const scene::KeySpec& spec = *scene::find_key(key);
-        const auto neutral = scene::default_of(spec, variants.job());
-        if (neutral && spec.get(variants.job()) != neutral) {
+        const scene::HandedKey* handed = scene::find_handed_key(key);
+        const auto neutral = handed != nullptr ? std::optional{handed->default_value}
+                                               : scene::default_of(spec, variants.job());
+        const auto own = handed != nullptr ? std::optional{handed->value_of(variants.job())}
+                                           : spec.get(variants.job());
+        if (neutral && own != neutral) {
             variants.add({fmt::format("{} = {}", key, spec.key.default_text)},
                          [&](Job& job) { spec.set(job, *neutral); });
         }

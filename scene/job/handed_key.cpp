@@ -64,8 +64,12 @@ KeySpec spec_of(const HandedKey& handed_key)
             .set = [name = handed_key.key.name](
                        Job& job, const JobValue& value) { job.method.values[name] = value; },
             .get = [handed_key](const Job& job) -> std::optional<JobValue> {
-                return handed_key.is_of(job.method.name) ? std::optional{handed_key.value_of(job)}
-                                                         : std::nullopt;
+                // A bias that a job does not name is none: jobs say nothing of those.
+                const bool is_left_out = is_of_table(handed_key, "bias") &&
+                                         !job.method.values.contains(handed_key.key.name);
+                return handed_key.is_of(job.method.name) && !is_left_out
+                           ? std::optional{handed_key.value_of(job)}
+                           : std::nullopt;
             },
             .example = {}};
 }
