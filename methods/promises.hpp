@@ -65,8 +65,8 @@ enum class Reads : std::uint8_t {
     whole_map, ///< any
 };
 
-/// Weights along the columns, and along the rows, of a square of texels; their sum is 1. They stand
-/// for ever: a table's.
+/// Weights along the columns, and along the rows, of a square of texels: how much each counts is its
+/// share of their sum, which is 1, or whole where they are whole. They stand for ever: a table's.
 struct Kernel {
     std::span<const float> weights; ///< of an odd number; empty: of one texel
 

@@ -7,7 +7,18 @@
 namespace gnomon::scene {
 
 /// How a lookup filters the map, as a job names it; the layer `methods` describes each.
-enum class Filter : std::uint8_t { nearest, linear, hardware, pcf3, pcf5, pcf7, pcf9 };
+enum class Filter : std::uint8_t {
+    nearest,
+    linear,
+    hardware,
+    pcf3,
+    pcf5,
+    pcf7,
+    pcf9,
+    bilinear3,
+    bilinear5,
+    bilinear7
+};
 
 /// The filter's name in job files; empty for a value that is no enumerator.
 [[nodiscard]] constexpr std::string_view filter_name(Filter filter)
@@ -27,6 +38,12 @@ enum class Filter : std::uint8_t { nearest, linear, hardware, pcf3, pcf5, pcf7, 
         return "pcf7";
     case Filter::pcf9:
         return "pcf9";
+    case Filter::bilinear3:
+        return "bilinear3";
+    case Filter::bilinear5:
+        return "bilinear5";
+    case Filter::bilinear7:
+        return "bilinear7";
     }
     return {};
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 
 namespace gnomon::analysis {
 
@@ -234,10 +235,11 @@ private:
         }
         std::array<double, methods::most_taps> weights{};
         inputs_.taps->weights(pixel, weights);
+        const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
         for (std::size_t t = 0; t < taps; ++t) {
             if (own[t]) {
                 visit(t, static_cast<std::uint64_t>(
-                             std::llrint(weights[t] * static_cast<double>(units_each()))));
+                             std::llrint(weights[t] / all * static_cast<double>(units_each()))));
             }
         }
     }

@@ -102,7 +102,7 @@ private:
         return light_.critical_biases(queries, clamps_);
     }
 
-    /// Hardware: each tap is compared; the verdict is lit when enough of the weight is.
+    /// Each tap is compared; the verdict is lit when enough of the weight is.
     [[nodiscard]] std::vector<float> weighted() const
     {
         const std::vector<float> critical = all_taps();
@@ -132,16 +132,16 @@ private:
         return critical;
     }
 
-    /// Whether so much of the weight, of 1, is enough.
-    [[nodiscard]] bool is_enough(double lit) const
+    /// Whether so much of the weight is enough.
+    [[nodiscard]] bool is_enough(double lit, double all) const
     {
         switch (share_) {
         case LitShare::any:
-            return lit > partial_above;
+            return lit > partial_above * all;
         case LitShare::half:
-            return lit >= 0.5;
+            return lit >= 0.5 * all;
         case LitShare::full:
-            return lit >= 1 - partial_above;
+            return lit >= (1 - partial_above) * all;
         }
         return false;
     }
@@ -150,18 +150,20 @@ private:
     [[nodiscard]] float weight_lit(std::span<const Tap> taps, std::span<const float> critical) const
     {
         std::vector<std::pair<float, double>> order;
+        double all = 0;
         for (std::size_t t = 0; t < taps.size(); ++t) {
             order.emplace_back(critical[t], taps[t].weight);
+            all += taps[t].weight;
         }
         std::ranges::sort(order);
         double lit = 0;
         for (const auto& [bias, weight] : order) {
             lit += weight;
-            if (is_enough(lit)) {
+            if (is_enough(lit, all)) {
                 return bias;
             }
         }
-        return infinity; // not reached: the weights' sum is 1
+        return infinity; // not reached: all of the weight is enough
     }
 
     /// The place among K² equal taps, in the order of critical biases, of the one that decides.

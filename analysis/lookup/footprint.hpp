@@ -18,7 +18,8 @@ namespace gnomon::analysis {
 struct Tap {
     scene::Texel texel;
     bool is_inside = true; ///< else there is no texel: the border mode decides
-    double weight = 1;     ///< exact: sums of a lookup's weights do not round
+    double weight = 1;     ///< exact: sums of a lookup's weights do not round; what counts is its
+                           ///< share of them
 };
 
 /// What a tap beyond a map's sides reads.
@@ -55,7 +56,7 @@ public:
     /// Calls `visit(tap)` for the taps of a lookup at the point, row by row from the lower left.
     ///
     /// Equal weights are 1 each. Those that interpolate are from fract(uv·resolution − ½) in
-    /// float32, and 1 in all; with a kernel, whose means are interpolated, up to its rounding. At a
+    /// float32, and 1 in all; with a kernel, whose means are interpolated, the square of its sum. At a
     /// cube's corner, where three texels meet, a fourth that would interpolate has weight 0, and
     /// the three share what it had, as GL recommends.
     template <typename Visit>

@@ -13,6 +13,7 @@ constexpr auto depth_sources = std::to_array<Source>({
     {"L. Williams", 1978, "Casting curved shadows on curved surfaces", {}},
     {"W. T. Reeves, D. H. Salesin, R. L. Cook", 1987,
      "Rendering antialiased shadows with depth maps", "means of comparisons (pcf)"},
+    {"I. Castaño", 2013, "Shadow mapping summary, part 1", "the kernels of bilinear3, 5 and 7"},
 });
 constexpr auto depth_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 

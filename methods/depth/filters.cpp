@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace gnomon::methods {
 namespace {
@@ -35,6 +36,27 @@ constexpr FilterRow mean_of_comparisons(Filter filter, int width_texels, std::st
             "mean_of_comparisons.glsl"};
 }
 
+/// Whole weights, as the field's gathers have them: they approach a Gaussian's.
+constexpr std::array<float, 3> weights3{1, 2, 1};
+constexpr std::array<float, 5> weights5{1, 3, 4, 3, 1};
+constexpr std::array<float, 7> weights7{1, 5, 12, 16, 12, 5, 1};
+
+/// Comparisons with the texels of the kernels about the four nearest centres, interpolated.
+constexpr FilterRow interpolated_comparisons(Filter filter, std::span<const float> weights,
+                                             std::string_view sentence)
+{
+    return {{filter, sentence},
+            {.verdict = Verdict::fraction,
+             .compares = Compares::each_tap,
+             .rises = always,
+             .curve = Curve::by_bisection,
+             .width_texels = static_cast<int>(weights.size()) + 1,
+             .weights = Weights::bilinear,
+             .kernel = {weights}},
+            Sampling::fetched,
+            "interpolated_comparisons.glsl"};
+}
+
 constexpr auto filter_table = std::to_array<FilterRow>({
     mean_of_comparisons(Filter::nearest, 1, "compares with the texel that holds the receiver"),
     {{Filter::linear, "interpolates the depths of 2 × 2 texels, and compares once"},
@@ -62,6 +84,15 @@ constexpr auto filter_table = std::to_array<FilterRow>({
     mean_of_comparisons(Filter::pcf5, 5, "the mean of the comparisons with 5 × 5 texels"),
     mean_of_comparisons(Filter::pcf7, 7, "the mean of the comparisons with 7 × 7 texels"),
     mean_of_comparisons(Filter::pcf9, 9, "the mean of the comparisons with 9 × 9 texels"),
+    interpolated_comparisons(Filter::bilinear3, weights3,
+                             "gathers comparisons with 4 × 4 texels, and interpolates their means "
+                             "over 3 × 3, weighted 1 2 1 along each side"),
+    interpolated_comparisons(Filter::bilinear5, weights5,
+                             "gathers comparisons with 6 × 6 texels, and interpolates their means "
+                             "over 5 × 5, weighted 1 3 4 3 1 along each side"),
+    interpolated_comparisons(Filter::bilinear7, weights7,
+                             "gathers comparisons with 8 × 8 texels, and interpolates their means "
+                             "over 7 × 7, weighted 1 5 12 16 12 5 1 along each side"),
 });
 
 /// Whether the row of each filter stands where its enumerator counts.
@@ -105,7 +136,11 @@ const Promises& filter_promises(Filter filter)
 Passes filter_passes(Filter filter)
 {
     const FilterRow& row = row_of(filter);
-    return {.prefilter = {}, .lookup = {glsl_source(row.glsl)}, .sampling = row.sampling};
+    Piece lookup{glsl_source(row.glsl)};
+    if (const auto weights = row.promises.kernel.weights; !weights.empty()) {
+        lookup.uniforms.push_back({"kernel", {weights.begin(), weights.end()}});
+    }
+    return {.prefilter = {}, .lookup = std::move(lookup), .sampling = row.sampling};
 }
 
 } // namespace gnomon::methods

@@ -99,6 +99,22 @@ float compared_by_gl(vec2 uv, float reference)
 }
 #endif
 
+// Depths of the four texels about a corner of texels, in the order of GL's gathers: the upper left,
+// the upper right, the lower right, the lower left. Beyond the map they are what the border mode says
+// that GL interpolates with.
+vec4 gathered_depths(vec2 corner)
+{
+#if CUBE
+    ivec2 upper_right = ivec2(corner);
+    return vec4(depth_of_texel(upper_right - ivec2(1, 0)), depth_of_texel(upper_right),
+                depth_of_texel(upper_right - ivec2(0, 1)), depth_of_texel(upper_right - 1));
+#elif MAPS > 1
+    return textureGather(map, vec3(corner / resolution, map_index));
+#else
+    return textureGather(map, corner / resolution);
+#endif
+}
+
 // What a prefilter made of the map, interpolated.
 vec4 filtered(vec2 uv)
 {

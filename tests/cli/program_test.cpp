@@ -156,7 +156,8 @@ TEST(Methods, ListsFiltersBiasTermsAndKeysThatAJobTakes)
         filters.insert(filter.at("name"));
     }
     EXPECT_EQ(filters, (std::set<std::string>{"nearest", "linear", "hardware", "pcf3", "pcf5",
-                                              "pcf7", "pcf9"}));
+                                              "pcf7", "pcf9", "bilinear3", "bilinear5",
+                                              "bilinear7"}));
     const std::string job = gnomon({"init"}).out;
     for (const Json& method : json) {
         for (const Json& key : method.at("keys")) {

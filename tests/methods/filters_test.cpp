@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -26,6 +28,7 @@ struct ExpectedFilter {
     bool interpolates;
     bool returns_deciding_depth;
     int equal_taps;
+    int kernel_texels = 1;
 };
 
 constexpr ExpectedFilter expected_filters[]{
@@ -42,6 +45,12 @@ constexpr ExpectedFilter expected_filters[]{
      49},
     {Filter::pcf9, 9, Compares::each_tap, Weights::equal, Curve::by_formula, true, false, false,
      81},
+    {Filter::bilinear3, 4, Compares::each_tap, Weights::bilinear, Curve::by_bisection, true, true,
+     false, 0, 3},
+    {Filter::bilinear5, 6, Compares::each_tap, Weights::bilinear, Curve::by_bisection, true, true,
+     false, 0, 5},
+    {Filter::bilinear7, 8, Compares::each_tap, Weights::bilinear, Curve::by_bisection, true, true,
+     false, 0, 7},
 };
 
 TEST(FilterPromises, AreThoseOfTheTable)
@@ -60,7 +69,7 @@ TEST(FilterPromises, AreThoseOfTheTable)
         EXPECT_EQ(promised.has_fractions(), expected.has_fractions);
         EXPECT_TRUE(promised.has_exact_causes());
         EXPECT_EQ(promised.is_made_of_taps(), expected.compares == Compares::each_tap);
-        EXPECT_EQ(promised.kernel, Kernel{});
+        EXPECT_EQ(promised.kernel.width_texels(), expected.kernel_texels);
         EXPECT_EQ(promised.interpolates(), expected.interpolates);
         EXPECT_EQ(promised.returns_deciding_depth(), expected.returns_deciding_depth);
         EXPECT_EQ(promised.equal_taps(), expected.equal_taps);
@@ -98,6 +107,32 @@ TEST(FilterPromises, RejectWhatIsNoFilter)
     constexpr auto none = static_cast<Filter>(scene::filter_count);
     EXPECT_THROW((void)filter_promises(none), std::out_of_range);
     EXPECT_THROW((void)filter_passes(none), std::out_of_range);
+}
+
+/// The n-th moment of a kernel about its middle.
+double moment(const Kernel& kernel, int n)
+{
+    double sum = 0;
+    double all = 0;
+    for (std::size_t i = 0; i < kernel.weights.size(); ++i) {
+        const double from_middle = static_cast<double>(i) - (kernel.width_texels() - 1) / 2.0;
+        sum += double{kernel.weights[i]} * std::pow(from_middle, n);
+        all += double{kernel.weights[i]};
+    }
+    return sum / all;
+}
+
+TEST(KernelsOfBilinearFilters, AreSymmetricAndHaveTheVarianceOfTheirWeights)
+{
+    const auto kernel = [](Filter filter) { return filter_promises(filter).kernel; };
+    for (const Filter filter : {Filter::bilinear3, Filter::bilinear5, Filter::bilinear7}) {
+        EXPECT_EQ(moment(kernel(filter), 1), 0) << scene::filter_name(filter);
+        EXPECT_EQ(moment(kernel(filter), 3), 0) << scene::filter_name(filter);
+    }
+    // Σ i²·w / Σ w: 2/4, 14/12 and 82/52.
+    EXPECT_EQ(moment(kernel(Filter::bilinear3), 2), 2 / 4.0);
+    EXPECT_EQ(moment(kernel(Filter::bilinear5), 2), 14 / 12.0);
+    EXPECT_EQ(moment(kernel(Filter::bilinear7), 2), 82 / 52.0);
 }
 
 TEST(FilterPasses, NameAPieceOfGlslThatGivesTheVerdict)

@@ -142,6 +142,35 @@ TEST(FootprintOfAKernel, BeginsTheKernelsRadiusBeforeTheNearestCentres)
     EXPECT_EQ(footprint.centre_tap({{3.25F, 4.25F}}), 10U);
 }
 
+/// The published form: bilinear samples u beside the point's base, each with a weight, give its lower
+/// texel weight · (1 − fract) and its upper one weight · fract.
+TEST(FootprintOfAKernel, HasTheWeightsThatTheFieldsBilinearSamplesGive)
+{
+    const Footprint three = footprint_of(Filter::bilinear3, Outside::lit, 8);
+    const Footprint five = footprint_of(Filter::bilinear5, Outside::lit, 8);
+    const Footprint seven = footprint_of(Filter::bilinear7, Outside::lit, 8);
+    for (const float s : {0.0F, 0.125F, 0.5F, 0.8125F}) {
+        const scene::MapPoint at{{3.5F + s, 3.5F}}; // level with a centre: a row's weights are whole
+        const auto row_of = [&](const Footprint& footprint, std::size_t row) {
+            const auto taps = footprint.taps(at);
+            const auto across = static_cast<std::size_t>(footprint.width_texels());
+            std::vector<double> weights;
+            for (std::size_t x = 0; x < across; ++x) {
+                weights.push_back(taps[row * across + x].weight);
+            }
+            return weights;
+        };
+        const double u{s};
+        EXPECT_THAT(row_of(three, 0), ElementsAre(1 - u, 2 - u, 1 + u, u));
+        EXPECT_THAT(row_of(five, 0), ElementsAre(1 - u, 3 - 2 * u, 4 - u, 3 + u, 1 + 2 * u, u));
+        EXPECT_THAT(row_of(seven, 0), ElementsAre(1 - u, 5 - 4 * u, 12 - 7 * u, 16 - 4 * u,
+                                                  12 + 4 * u, 5 + 7 * u, 1 + 4 * u, u));
+        EXPECT_EQ(total_weight(three.taps(at)), 16);
+        EXPECT_EQ(total_weight(five.taps(at)), 144);
+        EXPECT_EQ(total_weight(seven.taps(at)), 52 * 52);
+    }
+}
+
 TEST(FootprintOfAKernel, KeepsItsWeightsBeyondTheBorder)
 {
     const Footprint open{promises_of(gaussian), MapEdge::border, 8};

@@ -100,7 +100,7 @@ TEST(JobFile, NamesFileLineKeyValueAndRangeOfABadValue)
               "job.toml:5: shadow_map.resolution = -1: must be an integer from 1 to 16384");
     EXPECT_EQ(refusal("lookup.filter = \"pfc3\"\n"),
               "job.toml:1: lookup.filter = \"pfc3\": must be one of nearest, linear, hardware, "
-              "pcf3, pcf5, pcf7, pcf9; the nearest is \"pcf3\"");
+              "pcf3, pcf5, pcf7, pcf9, bilinear3, bilinear5, bilinear7; the nearest is \"pcf3\"");
 }
 
 TEST(JobFile, RefusesAKeyGivenTwice)

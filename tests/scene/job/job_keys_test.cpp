@@ -124,7 +124,8 @@ const std::map<std::string, KeyCases> key_cases{
     {"shadow_map.cull", {{"\"none\"", "\"front\"", "\"back\""}, {"\"both\"", "false"}, {}}},
     {"shadow_map.reversed", flags},
     {"lookup.filter",
-     {{"\"nearest\"", "\"linear\"", "\"hardware\"", "\"pcf3\"", "\"pcf5\"", "\"pcf7\"", "\"pcf9\""},
+     {{"\"nearest\"", "\"linear\"", "\"hardware\"", "\"pcf3\"", "\"pcf5\"", "\"pcf7\"", "\"pcf9\"",
+       "\"bilinear3\"", "\"bilinear5\"", "\"bilinear7\""},
       {"\"pcf4\"", "\"pcf11\"", "3"},
       {}}},
     {"lookup.outside", {{"\"lit\"", "\"shadowed\"", "\"clamp\""}, {"\"border\"", "1"}, {}}},
@@ -336,9 +337,10 @@ TEST(DepthFormat, NamesAndFormatsAreInverse)
 
 TEST(Filter, HasANameForEachEnumeratorAndNoMore)
 {
-    EXPECT_EQ(filter_count, 7U);
+    EXPECT_EQ(filter_count, 10U);
     EXPECT_EQ(filter_name(Filter::nearest), "nearest");
     EXPECT_EQ(filter_name(Filter::pcf9), "pcf9");
+    EXPECT_EQ(filter_name(Filter::bilinear7), "bilinear7");
     std::set<std::string_view> seen;
     for (std::size_t i = 0; i < filter_count; ++i) {
         EXPECT_TRUE(seen.insert(filter_name(static_cast<Filter>(i))).second) << i;
