@@ -1,6 +1,7 @@
 #include "methods/list.hpp"
 
 #include "methods/depth/depth_map.hpp"
+#include "methods/pcf/percentage_closer.hpp"
 #include "methods/primitive_id/primitive_map.hpp"
 #include "methods/shadow_volumes/shadow_volumes.hpp"
 #include "methods/vsm/variance_map.hpp"
@@ -11,7 +12,8 @@ namespace gnomon::methods {
 
 std::span<const Method> methods()
 {
-    static const std::array list{depth_map(), variance_map(), primitive_map(), shadow_volumes()};
+    static const std::array list{depth_map(), variance_map(), primitive_map(), shadow_volumes(),
+                                 percentage_closer()};
     return list;
 }
 

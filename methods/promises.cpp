@@ -1,6 +1,13 @@
 #include "methods/promises.hpp"
 
+#include <cmath>
+
 namespace gnomon::methods {
+
+int width_of_radius(double radius_texels)
+{
+    return 2 * static_cast<int>(std::ceil(radius_texels)) + 1;
+}
 
 Promises mixed(Promises promised)
 {

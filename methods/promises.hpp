@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/vec.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -48,9 +50,10 @@ enum class Curve : std::uint8_t {
 /// How much each tap counts.
 enum class Weights : std::uint8_t {
     equal,
-    bilinear,      ///< by the place between texel centres
-    bilinear_of_gl ///< the same, as a driver rounds it: the map's answers to other biases are GL's
-                   ///< own
+    bilinear,       ///< by the place between texel centres
+    bilinear_of_gl, ///< the same, as a driver rounds it: the map's answers to other biases are GL's
+                    ///< own
+    of_taps         ///< each of `ScatteredTaps` its own
 };
 
 /// The triangles whose shadows a verdict without a map is made of.
@@ -80,6 +83,29 @@ struct Kernel {
     }
 };
 
+/// Taps that lie anywhere about the point that is looked up, in place of a square of texels. A
+/// lookup hands out its kernel's axis a, radius and turn of it in texels; the tap at (x, y) reads the
+/// texel that holds
+///
+///     uv · resolution + (fl(x · a.x) − fl(y · a.y), fl(x · a.y) + fl(y · a.x))
+///
+/// each sum rounded to float32. Places and weights stand for ever: a table's.
+struct ScatteredTaps {
+    std::span<const scene::Vec2f> places = {}; ///< in a kernel of radius 1, the first in its
+                                               ///< middle: (0, 0); empty: taps are not scattered
+    std::span<const float> weights = {}; ///< whole multiples of 2^-16 that sum to 1; empty: equal
+    double radius = 0;                   ///< of the kernel [texels]
+    bool is_in_metres = false;           ///< it is: [m] at the receiver, and limited in texels
+    bool is_turned = false;              ///< by an angle of each pixel's own
+
+    friend bool operator==(const ScatteredTaps& a, const ScatteredTaps& b)
+    {
+        return std::ranges::equal(a.places, b.places) && std::ranges::equal(a.weights, b.weights) &&
+               a.radius == b.radius && a.is_in_metres == b.is_in_metres &&
+               a.is_turned == b.is_turned;
+    }
+};
+
 /// No footprint has more texels than this: a kernel of 9 × 9, interpolated.
 inline constexpr std::size_t most_taps = 100;
 
@@ -89,11 +115,13 @@ struct Promises {
     Compares compares = Compares::each_tap;
     Rises rises;
     Curve curve = Curve::by_formula;
-    /// The footprint: the square of so many level-0 texels across that are a verdict's taps.
+    /// The footprint: the square of so many level-0 texels across that are a verdict's taps, or that
+    /// scattered ones lie in; of a radius in metres the least.
     int width_texels = 1;
     Weights weights = Weights::equal;
     /// What `weights` interpolates: means by this kernel. With `equal` it is empty.
     Kernel kernel;
+    ScatteredTaps taps = {};
     Reads reads = Reads::footprint;
     int samples = 1; ///< depths of each of them: at its centre, or several at the driver's samples
     std::uint64_t map_bytes = 0;    ///< memory that the map takes; 0 without a map
@@ -106,14 +134,21 @@ struct Promises {
     [[nodiscard]] constexpr std::size_t tap_count() const
     {
         const auto width = static_cast<std::size_t>(width_texels);
-        return width * width;
+        return taps.places.empty() ? width * width : taps.places.size();
     }
     /// Whether the verdict depends on one texel.
     [[nodiscard]] constexpr bool has_one_tap() const { return width_texels == 1 && !mixes_maps; }
     /// Whether a verdict can lie between 0 and 1.
     [[nodiscard]] constexpr bool has_fractions() const { return verdict == Verdict::fraction; }
     /// Whether taps lie around the point looked up, and not about the texel that holds it.
-    [[nodiscard]] constexpr bool interpolates() const { return weights != Weights::equal; }
+    [[nodiscard]] constexpr bool interpolates() const
+    {
+        return weights == Weights::bilinear || weights == Weights::bilinear_of_gl;
+    }
+    /// Whether taps count by their weights.
+    [[nodiscard]] constexpr bool weighs_taps() const { return weights != Weights::equal; }
+    /// Whether taps lie anywhere, and not in a square of texels.
+    [[nodiscard]] constexpr bool scatters_taps() const { return !taps.places.empty(); }
     /// Whether the verdict is the share of taps that are lit.
     [[nodiscard]] constexpr bool is_made_of_taps() const { return compares == Compares::each_tap; }
     /// Whether the verdict is made of depths that are compared.
@@ -145,6 +180,13 @@ struct Promises {
         return is_made_of_taps() && weights == Weights::equal ? static_cast<int>(tap_count()) : 0;
     }
 };
+
+/// The largest radius of a kernel [texels].
+inline constexpr double largest_radius_texels = 64;
+
+/// The width of what a kernel of this radius can read [texels]: the texel in the middle, and on
+/// either side of it as many as it reaches into.
+[[nodiscard]] int width_of_radius(double radius_texels);
 
 /// Of verdicts that are mixed of two maps': they lie between both, rise where both do, and follow
 /// from no comparison that one lookup returns. The footprint is that of one of the maps.

@@ -1,6 +1,7 @@
 #include "raster_gl/lookup.hpp"
 
 #include "methods/list.hpp"
+#include "methods/taps/tap_kernel.hpp"
 #include "raster_gl/pieces.hpp"
 #include "raster_gl/readback.hpp"
 #include "scene/error.hpp"
@@ -13,6 +14,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -123,6 +125,52 @@ std::string map_choice(const scene::View& view)
     return {};
 }
 
+/// Source of the places of taps; nothing where they are a square of texels.
+std::string tap_places(const methods::ScatteredTaps& taps)
+{
+    return taps.places.empty()
+               ? std::string{}
+               : fmt::format("#line 1 9\n{}", shader_source("scattered_taps.glsl"));
+}
+
+std::vector<float> coordinates(std::span<const scene::Vec2f> vectors)
+{
+    std::vector<float> all;
+    for (const scene::Vec2f& vector : vectors) {
+        all.insert(all.end(), {vector.x, vector.y});
+    }
+    return all;
+}
+
+void add_definitions(const methods::ScatteredTaps& taps, Definitions& definitions)
+{
+    const bool is_scattered = !taps.places.empty();
+    definitions.push_back({"SCATTERED", flag(is_scattered)});
+    if (is_scattered) {
+        definitions.push_back({"TAPS", std::to_string(taps.places.size())});
+        definitions.push_back({"RADIUS_IN_METRES", flag(taps.is_in_metres)});
+        definitions.push_back({"TURNED", flag(taps.is_turned)});
+        definitions.push_back({"ROTATIONS", std::to_string(methods::rotation_count)});
+    }
+}
+
+void set_uniforms(const Program& lookup, const methods::ScatteredTaps& taps,
+                  const scene::View& view, int resolution_texels)
+{
+    if (taps.places.empty()) {
+        return;
+    }
+    std::vector<float> widths_m;
+    for (const scene::LightFrustum& map : view.maps) {
+        widths_m.push_back(static_cast<float>(map.texel_width_m(1.0, resolution_texels)));
+    }
+    set_uniform(lookup, "tap_places", coordinates(taps.places));
+    set_uniform(lookup, "kernel_radius", static_cast<float>(taps.radius));
+    set_uniform(lookup, "rotations", coordinates(methods::rotations()));
+    set_uniform(lookup, "texel_width_m", widths_m);
+    set_uniform(lookup, "largest_radius", static_cast<float>(methods::largest_radius_texels));
+}
+
 /// What a program that looks up may ask of the light, its maps and the camera.
 void set_uniforms(const Program& lookup, const scene::View& view)
 {
@@ -206,11 +254,13 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"SCALED_BIAS", flag(!view.bias_scales.empty())},
         {"TAP_GRADIENT", flag(has_gradient_of_taps(pieces.biases))},
     };
+    add_definitions(promised.taps, definitions);
     add_definitions(pieces.passes.lookup, definitions);
     for (const methods::ActiveBias& bias : pieces.biases) {
         add_definitions(bias.piece, definitions);
     }
-    const std::string biases = map_choice(view) + bias_functions(pieces.biases);
+    const std::string biases =
+        map_choice(view) + bias_functions(pieces.biases) + tap_places(promised.taps);
     std::string key = program_key(biases + std::string{pieces.passes.lookup.glsl}, definitions);
     const auto found = programs_.find(key);
     if (found != programs_.end()) {
@@ -223,12 +273,13 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     return programs_.emplace(std::move(key), std::move(made)).first->second;
 }
 
-void LookupPass::allocate(const scene::View& view)
+void LookupPass::allocate(const scene::View& view, bool scatters)
 {
     const scene::ImageSize size = view.image;
     const bool has_maps = view.maps.size() > 1;
     const bool has_next = !view.slices.mixed_from.empty();
-    if (size_ == size && has_maps != maps_.empty() && has_next != next_texels_.empty()) {
+    if (size_ == size && has_maps != maps_.empty() && has_next != next_texels_.empty() &&
+        scatters != kernel_axes_.empty()) {
         return;
     }
     const auto made_if = [&](bool is_asked, GLenum format) {
@@ -238,10 +289,11 @@ void LookupPass::allocate(const scene::View& view)
     texels_ = made_if(true, GL_RG32F);
     maps_ = made_if(has_maps, GL_R8UI);
     next_texels_ = made_if(has_next, GL_RG32F);
+    kernel_axes_ = made_if(scatters, GL_RG32F);
     target_ = make_framebuffer();
-    std::array<GLenum, 4> outputs{};
+    std::array<GLenum, 5> outputs{};
     GLenum attachment = GL_COLOR_ATTACHMENT0;
-    for (const Texture* texture : {&samples_, &texels_, &maps_, &next_texels_}) {
+    for (const Texture* texture : {&samples_, &texels_, &maps_, &next_texels_, &kernel_axes_}) {
         const bool is_written = !texture->empty();
         outputs.at(attachment - GL_COLOR_ATTACHMENT0) = is_written ? attachment : GL_NONE;
         glNamedFramebufferTexture(target_.name(), attachment, texture->name(), 0);
@@ -307,10 +359,11 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
 void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view,
                         const ReceiverDepths& receiver_depths)
 {
-    allocate(view);
+    const methods::Promises promised = methods::promises(job);
+    allocate(view, promised.scatters_taps());
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     draw(from, job, view, {.depths = receiver_depths});
-    equal_taps_ = methods::promises(job).equal_taps();
+    equal_taps_ = promised.equal_taps();
     context_.check("looking up the shadow map");
 }
 
@@ -343,6 +396,7 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     set_uniforms(lookup, view);
     set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
     set_uniform(lookup, "lit_from", computes.lit_from);
+    set_uniforms(lookup, methods::promises(job).taps, view, from.map.resolution_texels);
     set_uniforms(lookup, passes.lookup);
     for (const methods::ActiveBias& bias : biases) {
         set_uniforms(lookup, bias.piece);
@@ -395,6 +449,9 @@ scene::LookupLayers LookupPass::read() const
     }
     if (!next_texels_.empty()) {
         layers.next_texels = read_texture<scene::Vec2f>(next_texels_, size_, GL_RG, GL_FLOAT);
+    }
+    if (!kernel_axes_.empty()) {
+        layers.kernel_axes = read_texture<scene::Vec2f>(kernel_axes_, size_, GL_RG, GL_FLOAT);
     }
     context_.check("reading the lookup");
     return layers;

@@ -89,7 +89,8 @@ private:
     };
     const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
                            const Pieces& pieces, const Computes& computes);
-    void allocate(const scene::View& view);
+    /// @param scatters  the lookups' taps, whose kernels' axes are handed out.
+    void allocate(const scene::View& view, bool scatters);
     /// Draws to the bound framebuffer.
     void draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
               const Computes& computes);
@@ -109,6 +110,7 @@ private:
     Texture texels_;
     Texture maps_;        ///< where the light has several
     Texture next_texels_; ///< where two are mixed
+    Texture kernel_axes_; ///< where taps are scattered
     scene::ImageSize size_{0, 0};
     int equal_taps_ = 0; ///< of what was drawn last
 };

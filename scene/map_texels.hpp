@@ -28,6 +28,8 @@ inline constexpr Vec2d texel_centre{0.5, 0.5};
 struct MapPoint {
     Vec2f texel; ///< uv · resolution: the origin is at the map's lower left
     int map = 0;
+    Vec2f kernel_axis{0}; ///< of a lookup whose taps are scattered: where its kernel's (1, 0) is,
+                          ///< from the point [texels]
 };
 
 /// Of each pixel the index of the map that its lookup reads; empty where the light has but one.

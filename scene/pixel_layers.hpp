@@ -37,11 +37,12 @@ struct LookupLayers {
     /// Where the verdict is mixed with the next map's, the same there; NaN at other pixels; empty
     /// where no maps are mixed.
     Image<Vec2f> next_texels = {};
+    Image<Vec2f> kernel_axes = {}; ///< where taps are scattered (`MapPoint::kernel_axis`)
 
     /// Where the pixel's lookup reads.
     [[nodiscard]] MapPoint at(std::size_t pixel) const
     {
-        return {texels[pixel], map_of(maps, pixel)};
+        return {texels[pixel], map_of(maps, pixel), axis_of(pixel)};
     }
     /// Where it reads the next map, or nothing.
     [[nodiscard]] std::optional<MapPoint> next_at(std::size_t pixel) const
@@ -49,7 +50,12 @@ struct LookupLayers {
         if (next_texels.empty() || std::isnan(next_texels[pixel].x)) {
             return std::nullopt;
         }
-        return MapPoint{next_texels[pixel], map_of(maps, pixel) + 1};
+        return MapPoint{next_texels[pixel], map_of(maps, pixel) + 1, axis_of(pixel)};
+    }
+    /// The axis of the pixel's kernel; 0 where taps are not scattered.
+    [[nodiscard]] Vec2f axis_of(std::size_t pixel) const
+    {
+        return kernel_axes.empty() ? Vec2f{0} : kernel_axes[pixel];
     }
 };
 

@@ -15,9 +15,10 @@ std::vector<float> slopes(const BiasQuestion& question)
 {
     const scene::LightFrustum& frustum = question.view.first_map();
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
-    return default_slopes(depth_per_footprint(frustum, question.job.shadow_map.resolution_texels,
-                                              methods::promises(question.job).width_texels,
-                                              light_distance_m));
+    const int resolution = question.job.shadow_map.resolution_texels;
+    const int width = footprint_width_texels(methods::promises(question.job), frustum, resolution,
+                                             light_distance_m);
+    return default_slopes(depth_per_footprint(frustum, resolution, width, light_distance_m));
 }
 
 /// Nothing where even the slope's best bias leaves no less than `own` does: it is no remedy then.

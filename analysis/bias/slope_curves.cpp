@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -18,6 +19,17 @@ double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_te
 {
     return footprint_texels * frustum.texel_width_m(light_distance_m, resolution_texels) *
            depth_per_metre(frustum, light_distance_m);
+}
+
+int footprint_width_texels(const methods::Promises& promises, const scene::LightFrustum& frustum,
+                           int resolution_texels, double light_distance_m)
+{
+    const methods::ScatteredTaps& taps = promises.taps;
+    if (!taps.is_in_metres) {
+        return promises.width_texels;
+    }
+    const double radius = taps.radius / frustum.texel_width_m(light_distance_m, resolution_texels);
+    return methods::width_of_radius(std::min(radius, methods::largest_radius_texels));
 }
 
 std::vector<float> default_slopes(double per_footprint)
@@ -52,7 +64,7 @@ SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
     const auto acne_free = [&](std::span<const std::uint64_t> allowed_pixels) {
         return find_acne_free({inputs.classes, criticals, inputs.causes, taps ? &*taps : nullptr,
                                rule.promises.is_made_of_taps() && rule.promises.has_fractions(),
-                               rule.promises.interpolates()},
+                               rule.promises.weighs_taps()},
                               allowed_pixels);
     };
     const BiasBounds bounds =

@@ -2,6 +2,7 @@
 
 #include "analysis/bias/bias_limits.hpp"
 #include "analysis/lookup/critical_bias.hpp"
+#include "methods/promises.hpp"
 
 #include <functional>
 #include <vector>
@@ -17,6 +18,12 @@ namespace gnomon::analysis {
 /// depth flattens. Source: docs/bias_curve.md#slope.
 [[nodiscard]] double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_texels,
                                          int footprint_texels, double light_distance_m);
+
+/// The width of a lookup's footprint at this light distance [texels]: of a radius in metres another
+/// at each.
+[[nodiscard]] int footprint_width_texels(const methods::Promises& promises,
+                                         const scene::LightFrustum& frustum, int resolution_texels,
+                                         double light_distance_m);
 
 /// Slope factors worth a curve: 0, ¼, ½, 1, 2 and 4 times `per_footprint`.
 ///

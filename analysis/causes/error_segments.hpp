@@ -238,12 +238,12 @@ private:
                                                    std::span<TapChange> changes) const
     {
         std::array<double, methods::most_taps> weights; // filled as far as it is read
-        if (promises_.interpolates()) {
+        if (promises_.weighs_taps()) {
             inputs_.taps->weights(pixel, weights);
         }
         for (std::size_t t = 0; t < criticals.size(); ++t) {
             changes[t] = {index_.first_from(criticals[t]),
-                          promises_.interpolates() ? weights[t] : 1.0, own[t]};
+                          promises_.weighs_taps() ? weights[t] : 1.0, own[t]};
         }
         const auto taps = changes.first(criticals.size());
         std::ranges::sort(taps, {}, &TapChange::lit_from);

@@ -21,14 +21,16 @@ constexpr float no_depth = std::numeric_limits<float>::quiet_NaN();
 
 /// The median of the taps' depths; NaN where the border mode decides.
 float deciding_depth(const StoredTaps& taps, const scene::LookupSample& sample,
-                     const scene::MapPoint& at)
+                     const scene::MapPoint& at, bool reversed)
 {
     std::array<float, methods::most_taps> depths; // filled as far as it is read
     const std::span<float> read = taps.gather(sample, at, depths);
     if (read.empty()) {
         return no_depth;
     }
-    float* const middle = read.data() + deciding_rank(read.size());
+    // The farther a tap is, the smaller a bias lights it: of an even number there are two middles.
+    const std::size_t rank = deciding_rank(read.size());
+    float* const middle = read.data() + (reversed ? rank : read.size() - 1 - rank);
     std::nth_element(read.data(), middle, read.data() + read.size());
     return std::isinf(*middle) ? no_depth : *middle;
 }
@@ -68,7 +70,7 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Lo
     for_each_run(lookup.samples.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             scene::LookupSample& sample = lookup.samples[i];
-            sample.map_depth = deciding_depth(taps, sample, where.at(i));
+            sample.map_depth = deciding_depth(taps, sample, where.at(i), rule.reversed);
         }
     });
     return lookup;

@@ -47,7 +47,7 @@ public:
         if (promised.compares == methods::Compares::mean_depth) {
             return interpolated();
         }
-        if (promised.interpolates()) {
+        if (promised.weighs_taps()) {
             return weighted();
         }
         return promised.has_one_tap() ? all_taps() : tap_of_rank();
@@ -122,14 +122,29 @@ private:
         const std::size_t each = lookups_.taps_of(0).size();
         tbb::parallel_for(std::size_t{0}, lookups_.size(), [&](std::size_t i) {
             for (std::size_t t = 0; t < each; ++t) {
-                queries[i * each + t] = query(i, t);
+                queries[i * each + t] = is_of_border(i, t) ? unread_query(i) : query(i, t);
             }
         });
         std::vector<float> critical = light_.critical_biases(queries, clamps_);
-        for (std::size_t i = 0; i < critical.size() && !always_lit_.empty(); ++i) {
-            critical[i] = is_always_lit(i / each, i % each) ? -infinity : critical[i];
+        for (std::size_t i = 0; i < critical.size(); ++i) {
+            if (is_of_border(i / each, i % each)) {
+                critical[i] = rule_.border_critical_bias();
+            } else if (is_always_lit(i / each, i % each)) {
+                critical[i] = -infinity;
+            }
         }
         return critical;
+    }
+    /// Whether the border mode decides the tap by itself.
+    [[nodiscard]] bool is_of_border(std::size_t lookup, std::size_t tap) const
+    {
+        return rule_.promises.scatters_taps() && lookups_.hits_of(lookup)[tap] == nullptr;
+    }
+    /// In place of one that the border mode answers.
+    [[nodiscard]] NearestQuery unread_query(std::size_t lookup) const
+    {
+        const scene::Texel& texel = lookups_.first_tap(lookup);
+        return {lookups_.pixel(lookup), {texel, scene::no_triangle, 1, 0}, texel.map};
     }
 
     /// Whether so much of the weight is enough.
@@ -172,7 +187,7 @@ private:
         const std::size_t each = lookups_.taps_of(0).size();
         switch (share_) {
         case LitShare::any:
-            return 0; // one of at most 81 taps is more than 1/256
+            return 0; // one of at most 100 taps is more than 1/256
         case LitShare::half:
             return deciding_rank(each);
         case LitShare::full:

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -25,10 +27,24 @@ int texel_coordinate(float x, int resolution)
 
 Texel Footprint::first_tap(const MapPoint& point) const
 {
+    if (is_scattered()) {
+        return scattered_texel(point, 0);
+    }
     const float shift = interpolates_ ? 0.5F : 0.0F;
     const int before = kernel_.width_texels() / 2 + (interpolates_ ? 0 : width_ / 2);
     return {texel_coordinate(point.texel.x - shift, resolution_) - before,
             texel_coordinate(point.texel.y - shift, resolution_) - before, point.map};
+}
+
+Texel Footprint::scattered_texel(const MapPoint& point, std::size_t i) const
+{
+    const scene::Vec2f& place = scattered_.places[i];
+    const scene::Vec2f& axis = point.kernel_axis;
+    // As raster_gl/shaders/scattered_taps.glsl: each product and sum rounded.
+    const float x = place.x * axis.x + place.y * -axis.y;
+    const float y = place.x * axis.y + place.y * axis.x;
+    return {texel_coordinate(point.texel.x + x, resolution_),
+            texel_coordinate(point.texel.y + y, resolution_), point.map};
 }
 
 std::vector<Tap> Footprint::taps(const MapPoint& point) const
@@ -92,6 +108,9 @@ Texel Footprint::texel_beyond(const Texel& texel) const
 
 std::size_t Footprint::centre_tap(const MapPoint& point) const
 {
+    if (is_scattered()) {
+        return 0;
+    }
     const Texel first = first_tap(point);
     const auto place = [&](float x, int lowest) {
         return static_cast<std::size_t>(
@@ -103,26 +122,59 @@ std::size_t Footprint::centre_tap(const MapPoint& point) const
 
 std::optional<Texel> Footprint::first_if_on_map(const MapPoint& point) const
 {
+    if (is_scattered()) {
+        return std::nullopt;
+    }
     const Texel first = first_tap(point);
     const Texel last{first.x + width_ - 1, first.y + width_ - 1, first.map};
     return is_on_map(first) && is_on_map(last) ? std::optional{first} : std::nullopt;
 }
 
+void Footprint::append_texel(const Texel& texel, std::vector<Texel>& texels) const
+{
+    if (is_on_map(texel)) {
+        texels.push_back(texel);
+    } else if (edge_ == MapEdge::seam) {
+        texels.push_back(texel_beyond(texel));
+    }
+}
+
+std::vector<Texel> Footprint::ring_of_scattered(const MapPoint& point) const
+{
+    const auto place = [](const Texel& texel) { return std::pair{texel.y, texel.x}; };
+    std::set<std::pair<int, int>> taps;
+    std::set<std::pair<int, int>> around;
+    for (std::size_t i = 0; i < scattered_.places.size(); ++i) {
+        const Texel tap = scattered_texel(point, i);
+        taps.insert(place(tap));
+        for (int y = -1; y <= 1; ++y) {
+            for (int x = -1; x <= 1; ++x) {
+                around.insert(place({tap.x + x, tap.y + y, tap.map}));
+            }
+        }
+    }
+    std::vector<Texel> texels;
+    for (const auto& [y, x] : around) {
+        if (!taps.contains({y, x})) {
+            append_texel({x, y, point.map}, texels);
+        }
+    }
+    return texels;
+}
+
 std::vector<Texel> Footprint::ring(const MapPoint& point) const
 {
+    if (is_scattered()) {
+        return ring_of_scattered(point);
+    }
     const Texel first = first_tap(point);
     std::vector<Texel> texels;
     for (int y = -1; y <= width_; ++y) {
         for (int x = -1; x <= width_; ++x) {
             const bool is_tap = x >= 0 && y >= 0 && x < width_ && y < width_;
             const Texel texel{first.x + x, first.y + y, first.map};
-            if (is_tap) {
-                continue;
-            }
-            if (is_on_map(texel)) {
-                texels.push_back(texel);
-            } else if (edge_ == MapEdge::seam) {
-                texels.push_back(texel_beyond(texel));
+            if (!is_tap) {
+                append_texel(texel, texels);
             }
         }
     }

@@ -46,6 +46,7 @@ class Footprint {
 public:
     Footprint(const methods::Promises& promises, MapEdge edge, int resolution_texels)
         : kernel_{promises.kernel},
+          scattered_{promises.taps},
           interpolates_{promises.interpolates()},
           edge_{edge},
           width_{promises.width_texels},
@@ -53,7 +54,8 @@ public:
     {
     }
 
-    /// Calls `visit(tap)` for the taps of a lookup at the point, row by row from the lower left.
+    /// Calls `visit(tap)` for the taps of a lookup at the point, row by row from the lower left, or
+    /// in their own order where they are scattered.
     ///
     /// Equal weights are 1 each. Those that interpolate are from fract(uv·resolution − ½) in
     /// float32, and 1 in all; with a kernel, whose means are interpolated, the square of its sum. At a
@@ -62,6 +64,14 @@ public:
     template <typename Visit>
     void visit_taps(const scene::MapPoint& point, const Visit& visit) const
     {
+        if (is_scattered()) {
+            for (std::size_t i = 0; i < scattered_.places.size(); ++i) {
+                const double weight =
+                    scattered_.weights.empty() ? 1 : double{scattered_.weights[i]};
+                visit(tap_at(scattered_texel(point, i), weight));
+            }
+            return;
+        }
         const scene::Texel first = first_tap(point);
         const LineWeights columns = weights(point.texel.x);
         const LineWeights rows = weights(point.texel.y);
@@ -83,24 +93,27 @@ public:
     /// Appends the same taps.
     void append_taps(const scene::MapPoint& point, std::vector<Tap>& taps) const;
 
-    /// Taps across.
+    /// Taps across, where they are a square.
     [[nodiscard]] int width_texels() const { return width_; }
     [[nodiscard]] std::size_t tap_count() const
     {
-        return static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
+        return is_scattered() ? scattered_.places.size()
+                              : static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
     }
 
-    /// The texel of the lower left tap, before any clamping.
+    /// The texel of the lower left tap, or of the middle one where they are scattered, before any
+    /// clamping.
     [[nodiscard]] scene::Texel first_tap(const scene::MapPoint& point) const;
 
     /// Index of the tap that reads the texel that contains the point, or would, were it on the map.
     [[nodiscard]] std::size_t centre_tap(const scene::MapPoint& point) const;
 
     /// The lower left tap's texel if all taps are on the map, which then are the square from it;
-    /// else empty.
+    /// else, and where taps are scattered, empty.
     [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::MapPoint& point) const;
 
-    /// The texels around the taps: the 4K + 4 around K × K; fewer at a map's border.
+    /// The texels around the taps: the 4K + 4 around K × K, or of scattered ones those next to each
+    /// that are none themselves; fewer at a map's border.
     [[nodiscard]] std::vector<scene::Texel> ring(const scene::MapPoint& point) const;
 
     /// True when the point lies on the map; a cube's faces leave nothing out.
@@ -112,6 +125,13 @@ private:
     /// Weights along a line of taps; as many as there are taps across.
     using LineWeights = std::array<double, most_across>;
 
+    [[nodiscard]] bool is_scattered() const { return !scattered_.places.empty(); }
+    /// Of the i-th scattered tap, before any clamping.
+    [[nodiscard]] scene::Texel scattered_texel(const scene::MapPoint& point, std::size_t i) const;
+    [[nodiscard]] std::vector<scene::Texel> ring_of_scattered(const scene::MapPoint& point) const;
+
+    /// Appends what is read there, if anything is.
+    void append_texel(const scene::Texel& texel, std::vector<scene::Texel>& texels) const;
     /// Of the parts that the kernel around the two nearest texels' centres has in a point between
     /// them; without interpolation they are not read.
     [[nodiscard]] LineWeights weights(float x) const;
@@ -140,6 +160,7 @@ private:
     [[nodiscard]] scene::Texel texel_beyond(const scene::Texel& texel) const;
 
     methods::Kernel kernel_;
+    methods::ScatteredTaps scattered_;
     bool interpolates_;
     MapEdge edge_;
     int width_;

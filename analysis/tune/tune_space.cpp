@@ -172,8 +172,9 @@ std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrus
     // A spot's at the geometric mean of near and far.
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
     const methods::Promises promises = methods::promises(with_filter(job, filter));
-    const double depth =
-        depth_per_footprint(frustum, resolution_texels, promises.width_texels, light_distance_m);
+    const int width =
+        footprint_width_texels(promises, frustum, resolution_texels, light_distance_m);
+    const double depth = depth_per_footprint(frustum, resolution_texels, width, light_distance_m);
     std::set<double> tried{0.0, job.bias.slope};
     for (const float slope : default_slopes(depth)) {
         const bool is_the_unit = slope == static_cast<float>(depth);

@@ -12,7 +12,7 @@
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
 // MAPS, PRIMITIVES, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// DISTANCE, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the
+// DISTANCE, SCATTERED, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the
 // program that compiles this. Where no formula tells of other biases, BISECTS finds the smallest
 // bias with which the very same verdict is at least `lit_from`: it rises with the bias.
 #if BISECTS
@@ -26,6 +26,9 @@ layout(location = 2) out uint map_out;
 #endif
 #if BLENDS
 layout(location = 3) out vec2 next_texel_out; // in the next map, where that is mixed in; else NaN
+#endif
+#if SCATTERED
+layout(location = 4) out vec2 kernel_axis_out; // of the own map's lookup, in texels
 #endif
 #endif
 
@@ -61,6 +64,9 @@ struct Place {
 #if TAP_GRADIENT
     vec2 gradient; // of what taps are compared with
 #endif
+#if SCATTERED
+    vec2 kernel_axis;
+#endif
 };
 
 // What a verdict is made of, but for the bias that a curve varies.
@@ -88,6 +94,9 @@ float verdict_of_map(Place place, float varied, float slope_term, out float d)
 #endif
 #if TAP_GRADIENT
     tap_gradient = place.gradient;
+#endif
+#if SCATTERED
+    kernel_axis = place.kernel_axis;
 #endif
     return visibility(place.r, bias, place.uv, place.texel, d);
 }
@@ -164,6 +173,9 @@ void write_nothing()
 #endif
 #if BLENDS
     next_texel_out = vec2(not_a_depth);
+#endif
+#if SCATTERED
+    kernel_axis_out = vec2(0.0);
 #endif
 #endif
 }
@@ -250,6 +262,9 @@ Place place_in_map(Receiver receiver)
 #if TAP_GRADIENT
     place.gradient = gradient_of_taps(receiver);
 #endif
+#if SCATTERED
+    place.kernel_axis = kernel_axis_at(receiver);
+#endif
 #if !OUTSIDE_CLAMP
     place.is_border = beyond_far || !(clip.w > 0.0);
 #if INTERPOLATES
@@ -312,6 +327,9 @@ void main()
     texel_out = lookup.place.texel;
 #if MAPS > 1
     map_out = uint(map_index);
+#endif
+#if SCATTERED
+    kernel_axis_out = lookup.place.kernel_axis;
 #endif
 #endif
 #if BLENDS

@@ -54,7 +54,8 @@ protected:
 /// Those with a map of depths that decides.
 class MethodOfDepths : public ListedMethod {};
 
-/// Those whose verdicts turn with plates: a plate's diagonal, and so its triangles, do not.
+/// Those whose verdicts turn with plates: a plate's diagonal, and so its triangles, do not, nor do
+/// kernels without symmetry.
 class MethodThatTurns : public ListedMethod {};
 
 /// Those that promise an exact curve.
@@ -396,9 +397,20 @@ bool compare_depths(const Promises& promised)
     return promised.has_map && promised.compares != methods::Compares::primitives;
 }
 
+/// Whether taps lie alike when they are mirrored or turned by a quarter.
+bool is_symmetric(const methods::ScatteredTaps& taps)
+{
+    const auto has = [&](const scene::Vec2f& place) {
+        return std::ranges::find(taps.places, place) != taps.places.end();
+    };
+    return !taps.is_turned && std::ranges::all_of(taps.places, [&](const scene::Vec2f& place) {
+        return has({-place.x, place.y}) && has({-place.y, place.x});
+    });
+}
+
 bool turn(const Promises& promised)
 {
-    return promised.compares != methods::Compares::primitives;
+    return promised.compares != methods::Compares::primitives && is_symmetric(promised.taps);
 }
 
 bool have_exact_curve(const Promises& promised)

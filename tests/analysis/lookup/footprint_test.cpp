@@ -228,6 +228,66 @@ TEST(FootprintOfAKernel, SumsToOneUpToTheKernelsRounding)
     EXPECT_NEAR(total_weight(taps), 1, 2.1 * 9 * 0x1p-28);
 }
 
+/// Of a method whose taps lie at these places.
+methods::Promises promises_of(std::span<const scene::Vec2f> places,
+                              std::span<const float> weights = {})
+{
+    return {.width_texels = 5,
+            .weights = weights.empty() ? methods::Weights::equal : methods::Weights::of_taps,
+            .kernel = {},
+            .taps = {.places = places, .weights = weights, .radius = 2}};
+}
+
+const std::array<scene::Vec2f, 3> three_places{
+    {scene::Vec2f{0, 0}, scene::Vec2f{1, 0}, scene::Vec2f{0.5F, -1}}};
+
+TEST(FootprintOfScatteredTaps, ReadsTheTexelsThatHoldThem)
+{
+    const Footprint footprint{promises_of(three_places), MapEdge::border, 8};
+    EXPECT_EQ(footprint.tap_count(), 3U);
+    // Radius 2, not turned: at (3.75, 4.5), (5.75, 4.5) and (4.75, 2.5).
+    const scene::MapPoint straight{{3.75F, 4.5F}, 0, {2, 0}};
+    EXPECT_THAT(texels_of(footprint.taps(straight)),
+                ElementsAre(std::pair{3, 4}, std::pair{5, 4}, std::pair{4, 2}));
+    EXPECT_EQ(total_weight(footprint.taps(straight)), 3);
+    // Turned by a quarter: (0, 2) and, for (x, y) becomes (−y, x), (2, 1) from the middle.
+    const scene::MapPoint turned{{3.75F, 4.5F}, 0, {0, 2}};
+    EXPECT_THAT(texels_of(footprint.taps(turned)),
+                ElementsAre(std::pair{3, 4}, std::pair{3, 6}, std::pair{5, 5}));
+    EXPECT_EQ(footprint.centre_tap(straight), 0U);
+    EXPECT_EQ(footprint.first_tap(straight), (scene::Texel{3, 4, 0}));
+    EXPECT_FALSE(footprint.first_if_on_map(straight).has_value());
+}
+
+TEST(FootprintOfScatteredTaps, WeighsThemByTheirOwnWeights)
+{
+    constexpr std::array<float, 3> weights{0.5F, 0.375F, 0.125F};
+    const Footprint footprint{promises_of(three_places, weights), MapEdge::border, 8};
+    const auto taps = footprint.taps({{3.75F, 4.5F}, 0, {2, 0}});
+    EXPECT_EQ(taps[0].weight, 0.5);
+    EXPECT_EQ(taps[1].weight, 0.375);
+    EXPECT_EQ(taps[2].weight, 0.125);
+}
+
+TEST(FootprintOfScatteredTaps, EndsAtTheBorderUnlessClamped)
+{
+    const scene::MapPoint corner{{6.5F, 0.5F}, 0, {2, 0}}; // taps at (6, 0), (8, 0), (7, −2)
+    const auto open = Footprint{promises_of(three_places), MapEdge::border, 8}.taps(corner);
+    EXPECT_EQ(std::ranges::count(open, true, &Tap::is_inside), 1);
+    const auto clamped = Footprint{promises_of(three_places), MapEdge::clamp, 8}.taps(corner);
+    EXPECT_THAT(texels_of(clamped), ElementsAre(std::pair{6, 0}, std::pair{7, 0}, std::pair{7, 0}));
+}
+
+TEST(FootprintOfScatteredTaps, HasARingOfWhatLiesNextToThem)
+{
+    const Footprint footprint{promises_of(three_places), MapEdge::border, 64};
+    // All three in one texel: the eight around it.
+    EXPECT_EQ(footprint.ring({{30.5F, 30.5F}, 0, {0.25F, 0}}).size(), 8U);
+    // (30, 30), (32, 30) and (31, 28): 5 × 3 about the first two, 3 × 3 about the third of which
+    // one row is among those already, without the three themselves.
+    EXPECT_EQ(footprint.ring({{30.5F, 30.5F}, 0, {2, 0}}).size(), 15U + 6U - 3U);
+}
+
 TEST(Footprint, PointsThatCannotBeCountedAreOutside)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();

@@ -1,0 +1,141 @@
+#include "methods/pcf/percentage_closer.hpp"
+
+#include "methods/depth/bias_terms.hpp"
+#include "methods/depth/depth_map.hpp"
+#include "methods/glsl.hpp"
+#include "methods/taps/tap_keys.hpp"
+#include "scene/error.hpp"
+#include "scene/job/keys.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace gnomon::methods {
+namespace {
+
+using scene::HandedKey;
+using scene::Stage;
+
+constexpr auto pcf_sources = std::to_array<Source>({
+    {"W. T. Reeves, D. H. Salesin, R. L. Cook", 1987,
+     "Rendering antialiased shadows with depth maps", {}},
+    {"H. Vogel", 1979, "A better way to construct the sunflower head", "the spiral"},
+    {"D. P. Mitchell", 1991, "Spectrally optimal sampling for distribution ray tracing",
+     "Poisson discs by best candidates"},
+    {"J. R. Isidoro", 2006, "Shadow mapping: GPU-based tips and techniques",
+     "kernels that are turned at each pixel"},
+});
+constexpr auto pcf_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
+
+const HandedKey& radius_texels_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.radius_texels", "radius of the kernel [{unit}]", "",
+                        scene::only(Stage::lookup), "texels"),
+        scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels}, 2.0};
+    return key;
+}
+const HandedKey& radius_m_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.radius_m",
+                        "the same at the receiver [{unit}], but at most 64 texels; 0: "
+                        "radius_texels says it",
+                        "", scene::only(Stage::lookup), "m"),
+        scene::RealDomain{.lower = 0, .upper = 1000, .normal_float = true}, 0.0};
+    return key;
+}
+const HandedKey& weights_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.weights",
+                        "how much taps count: all the same, or falling from the middle", "",
+                        scene::only(Stage::lookup)),
+        scene::WordDomain{.words = {"equal", "tent", "gaussian"}}, std::string{"equal"}};
+    return key;
+}
+
+double pcf_number(const HandedKey& key, const scene::Job& job)
+{
+    return std::get<double>(key.value_of(job));
+}
+
+TapWeights tap_weights(const scene::Job& job)
+{
+    const auto& word = std::get<std::string>(weights_key().value_of(job));
+    return word == "equal"  ? TapWeights::equal
+           : word == "tent" ? TapWeights::tent
+                            : TapWeights::gaussian;
+}
+
+void pcf_check(const scene::Job& job)
+{
+    check_taps(job);
+    if (pcf_number(radius_m_key(), job) > 0 && scene::mixes_maps(job)) {
+        throw scene::InputError("method.radius_m: a radius in metres is another one in each of two "
+                                "maps that are mixed; use method.radius_texels, or remove "
+                                "shadow_map.blend");
+    }
+}
+
+ScatteredTaps taps_of(const scene::Job& job)
+{
+    const TapKernel& kernel = tap_kernel(tap_pattern(job), tap_count(job), tap_weights(job));
+    const double radius_m = pcf_number(radius_m_key(), job);
+    const double radius_texels = pcf_number(radius_texels_key(), job);
+    return {.places = kernel.places,
+            .weights = kernel.weights,
+            .radius = radius_m > 0 ? radius_m : radius_texels,
+            .is_in_metres = radius_m > 0,
+            .is_turned = is_turned(job)};
+}
+
+Promises pcf_promises(const scene::Job& job)
+{
+    const ScatteredTaps taps = taps_of(job);
+    const bool is_equal = taps.weights.empty();
+    return {.verdict = Verdict::fraction,
+            .compares = Compares::each_tap,
+            .rises = {Rise::exactly, 0},
+            .curve = is_equal ? Curve::by_formula : Curve::by_bisection,
+            .width_texels = width_of_radius(taps.is_in_metres ? 1 : taps.radius),
+            .weights = is_equal ? Weights::equal : Weights::of_taps,
+            .kernel = {},
+            .taps = taps,
+            .map_bytes = map_bytes(job)};
+}
+
+Passes pcf_passes(const scene::Job& job)
+{
+    const auto weights = taps_of(job).weights;
+    Passes made;
+    made.lookup = {glsl_source("scattered_comparisons.glsl"),
+                   {{"WEIGHTED", weights.empty() ? "0" : "1"}},
+                   {}};
+    if (!weights.empty()) {
+        made.lookup.uniforms.push_back({"tap_weights", {weights.begin(), weights.end()}});
+    }
+    return made;
+}
+
+} // namespace
+
+Method percentage_closer()
+{
+    return {.name = "pcf",
+            .sentence = "compares with texels that a kernel of any radius scatters about the "
+                        "receiver's, and takes the mean",
+            .sources = pcf_sources,
+            .page = "docs/methods/pcf.md",
+            .key_tables = pcf_tables,
+            .keys = {pattern_key(), radius_texels_key(), radius_m_key(), taps_key(), weights_key(),
+                     turned_key()},
+            .filters = {},
+            .bias_terms = bias_terms(),
+            .promises = pcf_promises,
+            .passes = pcf_passes,
+            .check = pcf_check};
+}
+
+} // namespace gnomon::methods

@@ -1,0 +1,78 @@
+#include "methods/taps/tap_keys.hpp"
+
+#include "scene/error.hpp"
+#include "scene/job/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+namespace gnomon::methods {
+
+using scene::HandedKey;
+using scene::Stage;
+
+const HandedKey& pattern_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.pattern",
+                        "how taps lie: in rows and columns, anywhere far from each other, or on a "
+                        "spiral",
+                        "", scene::only(Stage::lookup)),
+        scene::WordDomain{.words = {"grid", "poisson", "vogel"}}, std::string{"grid"}};
+    return key;
+}
+
+const HandedKey& taps_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.taps",
+                        "{unit} of a kernel; of a grid 9, 25, 49 or 81", "",
+                        scene::only(Stage::lookup), "taps"),
+        scene::IntegerDomain{.lower = least_kernel_taps, .upper = most_kernel_taps},
+        std::int64_t{25}};
+    return key;
+}
+
+const HandedKey& turned_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.turned",
+                        "turns each pixel's kernel by an angle that a hash of the pixel gives", "",
+                        scene::only(Stage::lookup)),
+        scene::FlagDomain{}, false};
+    return key;
+}
+
+TapPattern tap_pattern(const scene::Job& job)
+{
+    const auto& word = std::get<std::string>(pattern_key().value_of(job));
+    return word == "grid"      ? TapPattern::grid
+           : word == "poisson" ? TapPattern::poisson
+                               : TapPattern::vogel;
+}
+
+int tap_count(const scene::Job& job)
+{
+    return static_cast<int>(std::get<std::int64_t>(taps_key().value_of(job)));
+}
+
+bool is_turned(const scene::Job& job)
+{
+    return std::get<bool>(turned_key().value_of(job));
+}
+
+void check_taps(const scene::Job& job)
+{
+    const int taps = tap_count(job);
+    if (tap_pattern(job) == TapPattern::grid && !is_grid(taps)) {
+        throw scene::InputError(fmt::format(
+            "method.taps = {}: a grid has an odd number of taps along each side; use 9, 25, 49 or "
+            "81, or another method.pattern",
+            taps));
+    }
+}
+
+} // namespace gnomon::methods

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "methods/taps/tap_kernel.hpp"
+#include "scene/job/handed_key.hpp"
+#include "scene/job/job.hpp"
+
+namespace gnomon::methods {
+
+/// Keys of methods whose taps are scattered: how they lie, how many, what they weigh, whether
+/// kernels are turned.
+[[nodiscard]] const scene::HandedKey& pattern_key();
+[[nodiscard]] const scene::HandedKey& taps_key();
+[[nodiscard]] const scene::HandedKey& turned_key();
+
+/// What these keys of a job say.
+[[nodiscard]] TapPattern tap_pattern(const scene::Job& job);
+[[nodiscard]] int tap_count(const scene::Job& job);
+[[nodiscard]] bool is_turned(const scene::Job& job);
+
+/// @throws scene::InputError  where the job asks for a grid of a number of taps that is none.
+void check_taps(const scene::Job& job);
+
+} // namespace gnomon::methods
