@@ -2,6 +2,7 @@
 
 #include "methods/depth/depth_map.hpp"
 #include "methods/pcf/percentage_closer.hpp"
+#include "methods/pcss/soft_shadows.hpp"
 #include "methods/primitive_id/primitive_map.hpp"
 #include "methods/shadow_volumes/shadow_volumes.hpp"
 #include "methods/vsm/variance_map.hpp"
@@ -12,8 +13,9 @@ namespace gnomon::methods {
 
 std::span<const Method> methods()
 {
-    static const std::array list{depth_map(), variance_map(), primitive_map(), shadow_volumes(),
-                                 percentage_closer()};
+    static const std::array list{depth_map(),         variance_map(),
+                                 primitive_map(),     shadow_volumes(),
+                                 percentage_closer(), percentage_closer_soft_shadows()};
     return list;
 }
 

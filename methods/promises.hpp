@@ -68,8 +68,9 @@ enum class Reads : std::uint8_t {
     whole_map, ///< any
 };
 
-/// Weights along the columns, and along the rows, of a square of texels: how much each counts is its
-/// share of their sum, which is 1, or whole where they are whole. They stand for ever: a table's.
+/// Weights along the columns, and along the rows, of a square of texels: how much each counts is
+/// its share of their sum, which is 1, or whole where they are whole. They stand for ever: a
+/// table's.
 struct Kernel {
     std::span<const float> weights; ///< of an odd number; empty: of one texel
 
@@ -84,8 +85,8 @@ struct Kernel {
 };
 
 /// Taps that lie anywhere about the point that is looked up, in place of a square of texels. A
-/// lookup hands out its kernel's axis a, radius and turn of it in texels; the tap at (x, y) reads the
-/// texel that holds
+/// lookup hands out its kernel's axis a, radius and turn of it in texels; the tap at (x, y) reads
+/// the texel that holds
 ///
 ///     uv · resolution + (fl(x · a.x) − fl(y · a.y), fl(x · a.y) + fl(y · a.x))
 ///
@@ -115,8 +116,8 @@ struct Promises {
     Compares compares = Compares::each_tap;
     Rises rises;
     Curve curve = Curve::by_formula;
-    /// The footprint: the square of so many level-0 texels across that are a verdict's taps, or that
-    /// scattered ones lie in; of a radius in metres the least.
+    /// The footprint: the square of so many level-0 texels across that are a verdict's taps, or
+    /// that scattered ones lie in; of a radius in metres the least.
     int width_texels = 1;
     Weights weights = Weights::equal;
     /// What `weights` interpolates: means by this kernel. With `equal` it is empty.

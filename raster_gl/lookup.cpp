@@ -128,9 +128,8 @@ std::string map_choice(const scene::View& view)
 /// Source of the places of taps; nothing where they are a square of texels.
 std::string tap_places(const methods::ScatteredTaps& taps)
 {
-    return taps.places.empty()
-               ? std::string{}
-               : fmt::format("#line 1 9\n{}", shader_source("scattered_taps.glsl"));
+    return taps.places.empty() ? std::string{}
+                               : fmt::format("#line 1 9\n{}", shader_source("scattered_taps.glsl"));
 }
 
 std::vector<float> coordinates(std::span<const scene::Vec2f> vectors)

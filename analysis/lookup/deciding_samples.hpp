@@ -14,7 +14,8 @@ namespace gnomon::analysis {
 /// nearest and linear make one comparison: their samples are returned as they came. pcfK makes n =
 /// K², or a kernel of n taps as many, and is lit when at least ⌈n/2⌉ are; the critical bias is
 /// monotone in the map depth, so the
-/// deciding tap is the one of median depth, of two that with which half are lit, where a tap outside the map counts as farther
+/// deciding tap is the one of median depth, of two that with which half are lit, where a tap
+/// outside the map counts as farther
 /// (`outside` lit) or nearer (shadowed) than every depth. Depends on no bias that
 /// the curve's formula has.
 /// @param where       the same lookup: its texels and maps.

@@ -58,9 +58,9 @@ public:
     /// in their own order where they are scattered.
     ///
     /// Equal weights are 1 each. Those that interpolate are from fract(uv·resolution − ½) in
-    /// float32, and 1 in all; with a kernel, whose means are interpolated, the square of its sum. At a
-    /// cube's corner, where three texels meet, a fourth that would interpolate has weight 0, and
-    /// the three share what it had, as GL recommends.
+    /// float32, and 1 in all; with a kernel, whose means are interpolated, the square of its sum.
+    /// At a cube's corner, where three texels meet, a fourth that would interpolate has weight 0,
+    /// and the three share what it had, as GL recommends.
     template <typename Visit>
     void visit_taps(const scene::MapPoint& point, const Visit& visit) const
     {

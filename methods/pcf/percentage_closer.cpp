@@ -18,8 +18,10 @@ using scene::HandedKey;
 using scene::Stage;
 
 constexpr auto pcf_sources = std::to_array<Source>({
-    {"W. T. Reeves, D. H. Salesin, R. L. Cook", 1987,
-     "Rendering antialiased shadows with depth maps", {}},
+    {"W. T. Reeves, D. H. Salesin, R. L. Cook",
+     1987,
+     "Rendering antialiased shadows with depth maps",
+     {}},
     {"H. Vogel", 1979, "A better way to construct the sunflower head", "the spiral"},
     {"D. P. Mitchell", 1991, "Spectrally optimal sampling for distribution ray tracing",
      "Poisson discs by best candidates"},
@@ -110,9 +112,8 @@ Passes pcf_passes(const scene::Job& job)
 {
     const auto weights = taps_of(job).weights;
     Passes made;
-    made.lookup = {glsl_source("scattered_comparisons.glsl"),
-                   {{"WEIGHTED", weights.empty() ? "0" : "1"}},
-                   {}};
+    made.lookup = {
+        glsl_source("scattered_comparisons.glsl"), {{"WEIGHTED", weights.empty() ? "0" : "1"}}, {}};
     if (!weights.empty()) {
         made.lookup.uniforms.push_back({"tap_weights", {weights.begin(), weights.end()}});
     }

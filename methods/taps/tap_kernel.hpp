@@ -13,7 +13,7 @@ namespace gnomon::methods {
 enum class TapPattern : std::uint8_t {
     grid,    ///< rows and columns, as far apart, to the square's border
     poisson, ///< anywhere, but far from each other
-    vogel,   ///< on a spiral: the i-th of n at √(i / (n − 1)), a golden angle after the one before
+    vogel, ///< on a spiral: the i-th of n at √(i / (n − 1)), a golden angle after the one before
 };
 
 /// How much the taps of a kernel count.

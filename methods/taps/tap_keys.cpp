@@ -28,8 +28,7 @@ const HandedKey& pattern_key()
 const HandedKey& taps_key()
 {
     static const HandedKey key{
-        scene::make_key("method.taps",
-                        "{unit} of a kernel; of a grid 9, 25, 49 or 81", "",
+        scene::make_key("method.taps", "{unit} of a kernel; of a grid 9, 25, 49 or 81", "",
                         scene::only(Stage::lookup), "taps"),
         scene::IntegerDomain{.lower = least_kernel_taps, .upper = most_kernel_taps},
         std::int64_t{25}};

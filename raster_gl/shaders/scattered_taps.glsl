@@ -3,9 +3,9 @@
 // this. The CPU places the same taps by what is handed out: the kernel's axis.
 uniform float tap_places[2 * TAPS]; // x and y in a kernel of radius 1, the middle one first
 uniform float kernel_radius;        // in texels, or in metres
-#if RADIUS_IN_METRES
 uniform float texel_width_m[MAPS]; // for POSITIONAL at ζ = 1
-uniform float largest_radius;      // in texels
+#if RADIUS_IN_METRES
+uniform float largest_radius; // in texels
 #endif
 #if TURNED
 uniform float rotations[2 * ROTATIONS]; // cosines and sines

@@ -145,9 +145,9 @@ TEST(Methods, ListsFiltersBiasTermsAndKeysThatAJobTakes)
     const Ending ending = gnomon({"methods", "--json"});
     expect_done(ending);
     const Json json = Json::parse(ending.out);
-    ASSERT_EQ(json.size(), 5U);
-    const std::vector<std::string> names{"depth", "vsm", "primitive_id", "shadow_volumes",
-                                         "pcf"};
+    ASSERT_EQ(json.size(), 6U);
+    const std::vector<std::string> names{"depth",          "vsm", "primitive_id",
+                                         "shadow_volumes", "pcf", "pcss"};
     for (std::size_t i = 0; i < json.size(); ++i) {
         EXPECT_EQ(json[i].at("name"), names[i]);
         EXPECT_EQ(json[i].at("promises").at("has_map"), i != 3);
@@ -156,9 +156,9 @@ TEST(Methods, ListsFiltersBiasTermsAndKeysThatAJobTakes)
     for (const Json& filter : json[0].at("filters")) {
         filters.insert(filter.at("name"));
     }
-    EXPECT_EQ(filters, (std::set<std::string>{"nearest", "linear", "hardware", "pcf3", "pcf5",
-                                              "pcf7", "pcf9", "bilinear3", "bilinear5",
-                                              "bilinear7"}));
+    EXPECT_EQ(filters,
+              (std::set<std::string>{"nearest", "linear", "hardware", "pcf3", "pcf5", "pcf7",
+                                     "pcf9", "bilinear3", "bilinear5", "bilinear7"}));
     const std::string job = gnomon({"init"}).out;
     for (const Json& method : json) {
         for (const Json& key : method.at("keys")) {

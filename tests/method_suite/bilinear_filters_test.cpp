@@ -1,5 +1,5 @@
-// The filters that gather comparisons: GL's verdict is the share of lit taps, by the weights that the
-// CPU knows.
+// The filters that gather comparisons: GL's verdict is the share of lit taps, by the weights that
+// the CPU knows.
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"

@@ -1,5 +1,5 @@
-// Kernels whose taps lie anywhere: the CPU knows which texels GL reads, so that causes are exact and
-// curves those of GL's reruns.
+// Kernels whose taps lie anywhere: the CPU knows which texels GL reads, so that causes are exact
+// and curves those of GL's reruns.
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
@@ -114,8 +114,8 @@ void expect_shares(GlCase& c)
         const float bias = c.view.bias.constant * rule.bias_scale(scene::map_of(lookup.maps, i)) +
                            c.view.bias.slope * sample.tan_theta;
         const float share = share_of(taps, rule, depths, sample.receiver_depth, bias);
-        ASSERT_EQ(sample.verdict, share) << "pixel " << i << " at " << lookup.texels[i].x << ' '
-                                         << lookup.texels[i].y;
+        ASSERT_EQ(sample.verdict, share)
+            << "pixel " << i << " at " << lookup.texels[i].x << ' ' << lookup.texels[i].y;
         between += share > 0.1F && share < 0.9F ? 1U : 0U;
     }
     EXPECT_GT(between, 100U);
@@ -141,12 +141,12 @@ TEST(ScatteredTaps, OfAGridOfWholeTexelsAreThoseOfTheSquareFilters)
             SCOPED_TRACE(std::string{layout.name} + ", " + std::to_string(half));
             const std::string across = std::to_string(2 * half + 1);
             const std::string taps = std::to_string((2 * half + 1) * (2 * half + 1));
-            GlCase kernel{
-                layout.builtin,
-                with(with(small, layout.keys),
-                     {{"method.taps", taps}, {"method.radius_texels", std::to_string(half)}})};
+            GlCase kernel{layout.builtin, with(with(small, layout.keys),
+                                               {{"method.taps", taps},
+                                                {"method.radius_texels", std::to_string(half)}})};
             Keys keys = with(with(small, layout.keys), {{"lookup.filter", "pcf" + across}});
-            std::erase_if(keys, [](const scene::Override& key) { return key.key == "method.name"; });
+            std::erase_if(keys,
+                          [](const scene::Override& key) { return key.key == "method.name"; });
             GlCase square{layout.builtin, keys};
             kernel.draw_all();
             square.draw_all();
@@ -162,7 +162,8 @@ TEST(ScatteredTaps, OfAGridOfWholeTexelsAreThoseOfTheSquareFilters)
 TEST(ScatteredTaps, AreTurnedByAnglesOfEachPixelsOwn)
 {
     GNOMON_REQUIRE_GL();
-    GlCase c{"sphere-plane", with(small, {{"method.turned", "true"}, {"method.radius_texels", "3"}})};
+    GlCase c{"sphere-plane",
+             with(small, {{"method.turned", "true"}, {"method.radius_texels", "3"}})};
     c.draw_all();
     const auto lookup = c.lookup_pass.read();
     const auto triangles = read_triangles(*shared_context(), *c.receivers);

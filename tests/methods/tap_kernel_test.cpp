@@ -137,8 +137,8 @@ TEST(TapKernels, OfAGaussianFallAsItDoes)
 {
     const TapKernel& kernel = tap_kernel(TapPattern::vogel, 25, TapWeights::gaussian);
     for (std::size_t i = 1; i < kernel.places.size(); ++i) {
-        const double square = std::pow(double{kernel.places[i].x}, 2) +
-                              std::pow(double{kernel.places[i].y}, 2);
+        const double square =
+            std::pow(double{kernel.places[i].x}, 2) + std::pow(double{kernel.places[i].y}, 2);
         // Both weights are rounded to 2^-17, and the middle's has what rounding left of 25.
         const double middle{kernel.weights.front()};
         EXPECT_NEAR(double{kernel.weights[i]}, middle * std::exp(-2 * square), 14 * 0x1p-16);

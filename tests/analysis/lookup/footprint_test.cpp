@@ -142,15 +142,16 @@ TEST(FootprintOfAKernel, BeginsTheKernelsRadiusBeforeTheNearestCentres)
     EXPECT_EQ(footprint.centre_tap({{3.25F, 4.25F}}), 10U);
 }
 
-/// The published form: bilinear samples u beside the point's base, each with a weight, give its lower
-/// texel weight · (1 − fract) and its upper one weight · fract.
+/// The published form: bilinear samples u beside the point's base, each with a weight, give its
+/// lower texel weight · (1 − fract) and its upper one weight · fract.
 TEST(FootprintOfAKernel, HasTheWeightsThatTheFieldsBilinearSamplesGive)
 {
     const Footprint three = footprint_of(Filter::bilinear3, Outside::lit, 8);
     const Footprint five = footprint_of(Filter::bilinear5, Outside::lit, 8);
     const Footprint seven = footprint_of(Filter::bilinear7, Outside::lit, 8);
     for (const float s : {0.0F, 0.125F, 0.5F, 0.8125F}) {
-        const scene::MapPoint at{{3.5F + s, 3.5F}}; // level with a centre: a row's weights are whole
+        const scene::MapPoint at{
+            {3.5F + s, 3.5F}}; // level with a centre: a row's weights are whole
         const auto row_of = [&](const Footprint& footprint, std::size_t row) {
             const auto taps = footprint.taps(at);
             const auto across = static_cast<std::size_t>(footprint.width_texels());
