@@ -4,6 +4,7 @@
 #include "methods/pcf/percentage_closer.hpp"
 #include "methods/pcss/soft_shadows.hpp"
 #include "methods/primitive_id/primitive_map.hpp"
+#include "methods/second_layer/second_layer.hpp"
 #include "methods/shadow_volumes/shadow_volumes.hpp"
 #include "methods/vsm/variance_map.hpp"
 
@@ -15,7 +16,8 @@ std::span<const Method> methods()
 {
     static const std::array list{depth_map(),         variance_map(),
                                  primitive_map(),     shadow_volumes(),
-                                 percentage_closer(), percentage_closer_soft_shadows()};
+                                 percentage_closer(), percentage_closer_soft_shadows(),
+                                 second_layer_map()};
     return list;
 }
 

@@ -45,7 +45,7 @@ struct Piece {
 ///     vec4 texel(ivec2 at)
 ///
 /// what the texel holds; raster_gl/shaders/prefilter_source.glsl is what it may call, and SAMPLES
-/// is how many depths of each texel the first reads (`Passes::samples`), the others 1.
+/// is how many depths of each texel the first reads (`Passes::depths_of_texel`), the others 1.
 struct PrefilterPass {
     Piece piece;
     TexelFormat format = TexelFormat::rg32f;
@@ -74,6 +74,8 @@ struct ShadowVolumes {
 struct Passes {
     std::vector<PrefilterPass> prefilter;
     int samples = 1; ///< of each texel, that the casters are drawn with for the first pass
+    int layers = 1; ///< 2: the casters are drawn again for the first pass, what lies first and what
+                    ///< lies behind it
     bool draws_primitives = false; ///< beside depths, which triangle each texel shows
     Piece lookup;
     Sampling sampling = Sampling::fetched; ///< of the last pass's texture, else of the depths
@@ -81,6 +83,8 @@ struct Passes {
     int anisotropy = 1;                    ///< most samples along a pixel's longer side there
     std::optional<ShadowVolumes> volumes;  ///< in place of all else: there is no map
 
+    /// How many depths of each texel the first pass reads.
+    [[nodiscard]] int depths_of_texel() const { return layers > 1 ? layers : samples; }
     /// Whether the lookup's piece has `uv_dx` and `uv_dy`, the change of uv to the next pixel.
     [[nodiscard]] bool has_gradients() const { return makes_mipmaps || anisotropy > 1; }
 };

@@ -125,6 +125,7 @@ struct Promises {
     ScatteredTaps taps = {};
     Reads reads = Reads::footprint;
     int samples = 1; ///< depths of each of them: at its centre, or several at the driver's samples
+    int layers = 1;  ///< surfaces of each that count: the first, or the second behind it, too
     std::uint64_t map_bytes = 0;    ///< memory that the map takes; 0 without a map
     bool has_map = true;            ///< else nothing is drawn from the light
     Casters casters = Casters::all; ///< without a map

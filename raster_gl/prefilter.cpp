@@ -78,13 +78,14 @@ PrefilterPass::Source PrefilterPass::first_source(const ShadowMap& map,
                                                   const methods::Passes& passes,
                                                   const SampledDepths& samples)
 {
-    if (passes.samples == 1) {
+    if (passes.depths_of_texel() == 1) {
         return layers_of(map.depth);
     }
     if (samples.of_maps.size() != map.depth.layer_count()) {
-        throw std::invalid_argument("PrefilterPass: the passes ask for samples of each map");
+        throw std::invalid_argument(
+            "PrefilterPass: the passes ask for several depths of each texel");
     }
-    Source source{{}, passes.samples, samples.are_layers};
+    Source source{{}, passes.depths_of_texel(), samples.are_layers};
     for (const Texture& texture : samples.of_maps) {
         source.of_maps.push_back(&texture);
     }

@@ -21,9 +21,9 @@ enum class FilteredFormats : std::uint8_t {
     float32,   ///< 32-bit floats in their place
 };
 
-/// Depths at several samples of each texel.
+/// Several depths of each texel: at samples, or of surfaces one behind the other.
 struct SampledDepths {
-    /// Of each map: a multisampled texture, or a layer for each sample. Empty: texel centres alone.
+    /// Of each map: a multisampled texture, or a layer for each depth. Empty: texel centres alone.
     std::span<const Texture> of_maps = {};
     bool are_layers = false;
 };
@@ -33,7 +33,7 @@ class PrefilterPass {
 public:
     explicit PrefilterPass(const Context& context);
 
-    /// @param samples  what the first pass reads where the passes ask for samples.
+    /// @param samples  what the first pass reads where the passes ask for samples or layers.
     /// @return  What the last pass made of each map, the object's own; empty without passes. The
     ///          next call overwrites it.
     /// @throws scene::InputError        if the driver lacks a format.

@@ -47,31 +47,36 @@ ExactDepthCache::ExactDepthCache(scene::ImageSize maps, scene::ImageSize image)
 {
 }
 
-ExactDepths ExactDepthCache::of(const CauseInputs& inputs, std::span<const scene::Vec2d> places)
+ExactDepths ExactDepthCache::of(const CauseInputs& inputs, std::span<const scene::Vec2d> places,
+                                int layers)
 {
-    Traced& traced = traced_at(places);
+    Traced& traced = traced_at(places, layers);
     want_texels(inputs, traced.knows_texel);
     trace(inputs.light, traced);
     if (!knows_receivers_) {
         find_receivers(inputs);
         find_next_receivers(inputs);
     }
-    const bool has_samples = places.size() > 1;
+    const bool has_samples = traced.depths.size() > 1;
     return {traced.depths.front(), receivers_, next_receivers_,
             has_samples ? std::span<const scene::Image<float>>{traced.depths}
                         : std::span<const scene::Image<float>>{}};
 }
 
-ExactDepthCache::Traced& ExactDepthCache::traced_at(std::span<const scene::Vec2d> places)
+ExactDepthCache::Traced& ExactDepthCache::traced_at(std::span<const scene::Vec2d> places,
+                                                    int layers)
 {
-    const auto known = std::ranges::find_if(
-        traced_, [&](const Traced& traced) { return std::ranges::equal(traced.places, places); });
+    const auto known = std::ranges::find_if(traced_, [&](const Traced& traced) {
+        return traced.layers == layers && std::ranges::equal(traced.places, places);
+    });
     if (known != traced_.end()) {
         return *known;
     }
     return traced_.emplace_back(
         Traced{{places.begin(), places.end()},
-               std::vector<scene::Image<float>>(places.size(), scene::Image<float>{maps_, 1.0F}),
+               layers,
+               std::vector<scene::Image<float>>(places.size() * static_cast<std::size_t>(layers),
+                                                scene::Image<float>{maps_, 1.0F}),
                scene::Image<std::uint8_t>{maps_}});
 }
 
@@ -106,11 +111,16 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::u
 void ExactDepthCache::trace(const scene::ExactLight& light, Traced& traced)
 {
     const std::vector<scene::Texel> texels = unknown_texels(traced.knows_texel);
-    for (std::size_t place = 0; place < traced.places.size(); ++place) {
-        const std::vector<float> depths = light.texel_depths(texels, traced.places[place]);
+    const auto keep = [&](std::size_t image, const std::vector<float>& depths) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
-            at_texel(traced.depths[place], texels[i]) = depths[i];
+            at_texel(traced.depths[image], texels[i]) = depths[i];
         }
+    };
+    for (std::size_t place = 0; place < traced.places.size(); ++place) {
+        keep(place, light.texel_depths(texels, traced.places[place]));
+    }
+    if (traced.layers > 1) {
+        keep(1, light.second_depths(texels));
     }
     for (const scene::Texel& texel : texels) {
         at_texel(traced.knows_texel, texel) |= is_known;

@@ -23,18 +23,22 @@ public:
 
     /// What the inputs' scored receivers and their footprints need; others keep what they have.
     /// @param places  in each texel (`ExactLight::texel_depths`); the centre alone: no samples.
+    /// @param layers  2: with the depths of what lies behind (`ExactLight::second_depths`), as if
+    ///                those were other samples; at the centre alone.
     /// @return  Valid as long as this.
-    [[nodiscard]] ExactDepths of(const CauseInputs& inputs, std::span<const scene::Vec2d> places);
+    [[nodiscard]] ExactDepths of(const CauseInputs& inputs, std::span<const scene::Vec2d> places,
+                                 int layers);
 
 private:
     /// Depths at some places of texels, the same of all.
     struct Traced {
         std::vector<scene::Vec2d> places;
-        std::vector<scene::Image<float>> depths; ///< by place, as shaders see them
+        int layers = 1;
+        std::vector<scene::Image<float>> depths; ///< by place or layer, as shaders see them
         scene::Image<std::uint8_t> knows_texel;
     };
 
-    [[nodiscard]] Traced& traced_at(std::span<const scene::Vec2d> places);
+    [[nodiscard]] Traced& traced_at(std::span<const scene::Vec2d> places, int layers);
     static void want_texels(const CauseInputs& inputs, scene::Image<std::uint8_t>& texels);
     static void trace(const scene::ExactLight& light, Traced& traced);
     void find_receivers(const CauseInputs& inputs);

@@ -65,13 +65,13 @@ CauseCache* ExactLightCache::causes_of(const CauseInputs& inputs)
 }
 
 ExactDepths ExactLightCache::exact_depths(const CauseInputs& inputs,
-                                          std::span<const scene::Vec2d> places)
+                                          std::span<const scene::Vec2d> places, int layers)
 {
     if (!exact_depths_) {
         exact_depths_.emplace(scene::maps_image_size(resolution_texels_, view_.maps.size()),
                               view_.image);
     }
-    return exact_depths_->of(inputs, places);
+    return exact_depths_->of(inputs, places, layers);
 }
 
 CauseInputs ExactLightCache::with_known_hits(CauseInputs inputs)

@@ -65,8 +65,9 @@ public:
     [[nodiscard]] const CentreHits& centre_hits(const CauseInputs& inputs);
     /// What a method that compares no depths is run over.
     /// @param places  in each texel, whose depths it reads.
+    /// @param layers  surfaces there, one behind the other.
     [[nodiscard]] ExactDepths exact_depths(const CauseInputs& inputs,
-                                           std::span<const scene::Vec2d> places);
+                                           std::span<const scene::Vec2d> places, int layers);
     /// Lets go of `centre_hits`; they are traced again if they are asked for.
     void forget_texels() { centre_hits_.reset(); }
 

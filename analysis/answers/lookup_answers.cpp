@@ -63,6 +63,7 @@ ExactRun exact_run_of(const scene::Job& job, const scene::View& view, const Rend
     if (promised.samples > 1) {
         run.places = renderers.sample_places(promised.samples);
     }
+    run.layers = promised.layers;
     return run;
 }
 

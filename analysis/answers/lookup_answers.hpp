@@ -47,6 +47,7 @@ struct ExactRun {
         look_up;
     /// Where in each texel (`ExactLight::texel_depths`) the depths are to be.
     std::vector<scene::Vec2d> places = {scene::texel_centre};
+    int layers = 1; ///< surfaces of each that are wanted: 2 with the second, at texel centres
 };
 
 /// One GL lookup, and what it was made with.

@@ -46,7 +46,7 @@ void LookupAnswers::rerun_exactly()
     constexpr float partial{partial_above};
     const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
     const ExactRun& run = *lookup_.exact_run;
-    const ExactDepths depths = exact_->exact_depths(cause_inputs(), run.places);
+    const ExactDepths depths = exact_->exact_depths(cause_inputs(), run.places, run.layers);
     if (run.find_critical_biases) {
         auto criticals = run.find_critical_biases(depths, lit_from);
         exact_reruns_ = {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};

@@ -40,6 +40,7 @@ GlRenderer::GlRenderer(const raster_gl::Context& context, const scene::TriangleS
       scene_{context, triangles},
       shadow_map_pass_{context, raster_gl::ConvertedCodes::dropped},
       sampled_casters_{context},
+      peeled_casters_{context},
       prefilter_pass_{context},
       lookup_pass_{context},
       volume_pass_{context, triangles}
@@ -88,6 +89,11 @@ void GlRenderer::prefilter_map(const scene::Job& job, const scene::View& view,
                                analysis::FilteredContent content)
 {
     if (!methods::promises(job).has_map) {
+        return;
+    }
+    if (methods::passes(job).layers > 1) {
+        prefilter(job, content, {peeled_casters_.render(scene_, view.maps, job.shadow_map), true});
+        peeled_casters_.forget();
         return;
     }
     const int samples = methods::passes(job).samples;

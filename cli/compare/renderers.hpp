@@ -4,6 +4,7 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/lookup.hpp"
+#include "raster_gl/peeled_casters.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/sampled_casters.hpp"
@@ -84,6 +85,7 @@ private:
     std::size_t slot_ = 0;
     raster_gl::ShadowMapPass shadow_map_pass_;
     raster_gl::SampledCasters sampled_casters_;
+    raster_gl::PeeledCasters peeled_casters_;
     raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
     raster_gl::ShadowVolumePass volume_pass_;

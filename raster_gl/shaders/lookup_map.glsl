@@ -233,6 +233,23 @@ bool fetch_depth(vec2 texel, out float d)
     return true;
 }
 
+// What a prefilter made of that texel, alike.
+bool fetch_filtered(vec2 texel, out vec4 kept)
+{
+    kept = vec4(not_a_depth);
+    if (!is_on_map(texel)) {
+        return false;
+    }
+#if CUBE
+    kept = texelFetch(filtered_map, texel_across_seams(ivec2(texel)), 0);
+#elif MAPS > 1
+    kept = texelFetch(filtered_map, ivec3(texel, map_index), 0);
+#else
+    kept = texelFetch(filtered_map, ivec2(texel), 0);
+#endif
+    return true;
+}
+
 #if PRIMITIVES
 uint receiver_primitive; // the triangle that the pixel shows
 

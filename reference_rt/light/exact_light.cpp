@@ -121,20 +121,12 @@ public:
                                     const scene::Vec2d& place) const override
     {
         const MapsOfLight maps{view_, rays_.resolution_texels(), place};
-        const TexelFirstHits finder{reference_, maps, map_, cull_, HitDetail::bounded};
-        const TapDepths taps{reference_.triangles, maps};
-        std::vector<float> depths(texels.size());
-        for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
-            std::vector<TexelHit> hits(run.size());
-            finder.find(run, hits);
-            for (std::size_t i = 0; i < run.size(); ++i) {
-                const TexelHit& hit = hits[i];
-                depths[first + i] =
-                    taps.nearest_float({run[i], hit.triangle, hit.depth, hit.depth_error});
-            }
-        });
-        reference_.errors.check("texel_depths");
-        return depths;
+        return depths_of(maps, texels, &TexelFirstHits::find);
+    }
+
+    std::vector<float> second_depths(std::span<const Texel> texels) const override
+    {
+        return depths_of(*maps_, texels, &TexelFirstHits::find_second);
     }
 
     std::vector<float> critical_biases(std::span<const NearestQuery> queries,
@@ -206,6 +198,27 @@ public:
     }
 
 private:
+    /// The depths of what `find` finds through the maps' texels, rounded once.
+    [[nodiscard]] std::vector<float>
+    depths_of(const MapsOfLight& maps, std::span<const Texel> texels,
+              void (TexelFirstHits::*find)(std::span<const Texel>, std::span<TexelHit>) const) const
+    {
+        const TexelFirstHits finder{reference_, maps, map_, cull_, HitDetail::bounded};
+        const TapDepths taps{reference_.triangles, maps};
+        std::vector<float> depths(texels.size());
+        for_each_texel_run(texels, [&](std::size_t first, std::span<const Texel> run) {
+            std::vector<TexelHit> hits(run.size());
+            (finder.*find)(run, hits);
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                const TexelHit& hit = hits[i];
+                depths[first + i] =
+                    taps.nearest_float({run[i], hit.triangle, hit.depth, hit.depth_error});
+            }
+        });
+        reference_.errors.check("texel_depths");
+        return depths;
+    }
+
     /// For each pixel 1 where a triangle of the scope crosses the open segment P→light; else 0.
     [[nodiscard]] std::vector<std::uint8_t> find_crossed(std::span<const std::size_t> pixels,
                                                          const SegmentScope& scope) const

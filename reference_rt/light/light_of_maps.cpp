@@ -80,6 +80,14 @@ public:
                                });
     }
 
+    std::vector<float> second_depths(std::span<const Texel> texels) const override
+    {
+        return ask_each<float>(texels, MapOfQuestion{},
+                               [&](std::size_t map, const Part<Texel>& part) {
+                                   return maps_[map]->second_depths(part.questions);
+                               });
+    }
+
     std::vector<float> critical_biases(std::span<const NearestQuery> queries,
                                        bool clamps) const override
     {

@@ -88,29 +88,14 @@ public:
     /// Forgets the texels before.
     void trace(std::span<const Texel> texels)
     {
-        assert(!texels.empty() && texels.size() <= packet_size);
-        RTCRayHit16 packet;
-        PacketMask valid;
-        nearest_.fill({});
-        edges_.clear();
-        proxy_rays_.clear();
-        for (std::size_t i = 0; i < texels.size(); ++i) {
-            rays_[i] = CameraRay{setting_.rays.ray(texels[i])};
-            lines_[i] = setting_.depth.plainly_along(rays_[i].ray);
-            const CameraProxyRays& proxy =
-                proxy_rays_.emplace_back(rays_[i], setting_.reference.frame);
-            if (setting_.rays.has_positional()) {
-                points_.set(i, rays_[i].ray.direction, 0);
-            } else {
-                points_.set(i, proxy.origin().position, proxy.origin().error);
-            }
-            // A triangle in the near plane itself may be before the origin by the origin's
-            // roundings: less than the padding has to spare.
-            set_lane(packet.ray, i, proxy.ray(std::numeric_limits<float>::infinity(), casters));
-            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-            valid.add(i);
-        }
-        setting_.reference.find_candidates(valid, packet, *this);
+        front_.fill({});
+        trace_on(texels);
+    }
+    /// After `trace` of the same texels: what lies behind what it found.
+    void trace_behind(std::span<const Texel> texels)
+    {
+        front_ = nearest_;
+        trace_on(texels);
     }
 
     [[nodiscard]] TexelHit result(std::size_t lane, HitDetail detail)
@@ -162,6 +147,33 @@ public:
     }
 
 private:
+    void trace_on(std::span<const Texel> texels)
+    {
+        assert(!texels.empty() && texels.size() <= packet_size);
+        RTCRayHit16 packet;
+        PacketMask valid;
+        nearest_.fill({});
+        edges_.clear();
+        proxy_rays_.clear();
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            rays_[i] = CameraRay{setting_.rays.ray(texels[i])};
+            lines_[i] = setting_.depth.plainly_along(rays_[i].ray);
+            const CameraProxyRays& proxy =
+                proxy_rays_.emplace_back(rays_[i], setting_.reference.frame);
+            if (setting_.rays.has_positional()) {
+                points_.set(i, rays_[i].ray.direction, 0);
+            } else {
+                points_.set(i, proxy.origin().position, proxy.origin().error);
+            }
+            // A triangle in the near plane itself may be before the origin by the origin's
+            // roundings: less than the padding has to spare.
+            set_lane(packet.ray, i, proxy.ray(std::numeric_limits<float>::infinity(), casters));
+            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            valid.add(i);
+        }
+        setting_.reference.find_candidates(valid, packet, *this);
+    }
+
     struct EdgeContact {
         std::size_t lane;
         std::uint32_t triangle;
@@ -178,7 +190,8 @@ private:
     {
         // In front of the light a ray comes from the side that n·(−d) = −δ names.
         const KeptHit& kept = nearest_[lane];
-        if (!is_left(setting_.cull, -hit.delta_sign) || kept.certain_order(hit) > 0) {
+        if (!is_left(setting_.cull, -hit.delta_sign) || kept.certain_order(hit) > 0 ||
+            !is_behind_front(lane, hit)) {
             return false;
         }
         const LineContact contact = is_inside ? LineContact{Contact::cross, 0}
@@ -203,7 +216,7 @@ private:
     {
         KeptHit& kept = nearest_[lane];
         const Sign certain = kept.certain_order(hit);
-        const Sign order = certain != 0 ? certain : compare_with_kept(lane, hit);
+        const Sign order = certain != 0 ? certain : compare(lane, hit, kept);
         if (order < 0) {
             kept = {triangle, hit.t, hit.t_error, depth};
         } else if (order == 0) {
@@ -211,10 +224,22 @@ private:
         }
     }
 
-    [[nodiscard]] Sign compare_with_kept(std::size_t lane, const Receiver& hit)
+    /// −1 where `hit` is exactly nearer than the kept one, 1 where farther, else 0.
+    [[nodiscard]] Sign compare(std::size_t lane, const Receiver& hit, const KeptHit& kept)
     {
-        const ExactTriangle face = face_of(nearest_[lane].triangle);
+        const ExactTriangle face = face_of(kept.triangle);
         return compare_distance(hit, Receiver{face, rays_[lane], counts_}, counts_);
+    }
+
+    /// Whether the hit is farther than the one that lies in front, where one does.
+    [[nodiscard]] bool is_behind_front(std::size_t lane, const Receiver& hit)
+    {
+        const KeptHit& front = front_[lane];
+        if (front.triangle == no_triangle) {
+            return true;
+        }
+        const Sign certain = front.certain_order(hit);
+        return (certain != 0 ? certain : compare(lane, hit, front)) > 0;
     }
 
     bool meet_edge(std::size_t lane, const Receiver& hit, const Bounded& depth, int edge)
@@ -240,6 +265,7 @@ private:
     PacketOf<ClipLine> lines_;
     std::vector<CameraProxyRays> proxy_rays_;
     PacketOf<KeptHit> nearest_;
+    PacketOf<KeptHit> front_; ///< what is looked for lies behind these
     std::vector<EdgeContact> edges_;
     LightDepth::PlaceMemory place_memory_;
 };
@@ -252,6 +278,19 @@ void TexelFirstHits::find(std::span<const Texel> texels, std::span<TexelHit> hit
     for (std::size_t first = 0; first < texels.size(); first += packet_size) {
         const std::size_t count = std::min(packet_size, texels.size() - first);
         packet.trace(texels.subspan(first, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[first + i] = packet.result(i, detail_);
+        }
+    }
+}
+
+void TexelFirstHits::find_second(std::span<const Texel> texels, std::span<TexelHit> hits) const
+{
+    TexelPacket packet{{reference_, rays_, depth_, distance_, cull_, pencil_}};
+    for (std::size_t first = 0; first < texels.size(); first += packet_size) {
+        const std::size_t count = std::min(packet_size, texels.size() - first);
+        packet.trace(texels.subspan(first, count));
+        packet.trace_behind(texels.subspan(first, count));
         for (std::size_t i = 0; i < count; ++i) {
             hits[first + i] = packet.result(i, detail_);
         }

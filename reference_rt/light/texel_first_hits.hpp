@@ -28,6 +28,8 @@ public:
 
     /// The first hits of texels, packet by packet: best where sixteen in a row are neighbours.
     void find(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
+    /// The first hits behind those: exactly farther along the ray.
+    void find_second(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
 
 private:
     const ReferenceScene::Implementation& reference_;

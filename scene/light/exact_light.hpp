@@ -119,6 +119,10 @@ public:
     [[nodiscard]] virtual std::vector<float> texel_depths(std::span<const Texel> texels,
                                                           const Vec2d& place) const = 0;
 
+    /// The depth of the second hit of each texel-centre ray: the first of those that are exactly
+    /// farther along it than the first hit; rounded and, without one, as of `texel_depths`.
+    [[nodiscard]] virtual std::vector<float> second_depths(std::span<const Texel> texels) const = 0;
+
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
     /// @param clamps  limits r to [0, 1] first, as the border mode `clamp` does.

@@ -52,6 +52,13 @@ public:
         return answer<float>(texels, [&](const scene::Texel& t) { return hit(t).depth; });
     }
 
+    /// Nothing lies behind.
+    [[nodiscard]] std::vector<float>
+    second_depths(std::span<const scene::Texel> texels) const override
+    {
+        return std::vector<float>(texels.size(), 1.0F);
+    }
+
     [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::NearestQuery> queries,
                                                      bool clamps) const override
     {

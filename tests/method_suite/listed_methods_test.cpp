@@ -140,6 +140,7 @@ TEST_P(ListedMethod, PromisesTheSamplesThatItsPassesAskFor)
 {
     const scene::Job job = job_of_builtin("wall", keys());
     EXPECT_EQ(methods::promises(job).samples, methods::passes(job).samples);
+    EXPECT_EQ(methods::promises(job).layers, methods::passes(job).layers);
 }
 
 TEST_P(MethodThatRises, RisesWithTheBiasAsPromised)
@@ -312,7 +313,9 @@ TEST_P(MethodThatTurns, MirrorsAndTurnsItsVerdictsWithTheScene)
                     << turned.samples(last - y, x).verdict;
             }
         }
-        EXPECT_GT(std::min(lit, shadowed), 250U);
+        if (methods::promises(job).layers == 1) { // else light may reach under one plate
+            EXPECT_GT(std::min(lit, shadowed), 250U);
+        }
     }
 }
 

@@ -17,6 +17,7 @@ MethodCase::MethodCase(scene::Job the_job, scene::SceneFile the_file)
       receiver_pass_{*shared_context()},
       map_pass_{*shared_context()},
       sampled_casters_{*shared_context()},
+      peeled_casters_{*shared_context()},
       prefilter_pass_{*shared_context()},
       lookup_pass_{*shared_context()},
       volume_pass_{*shared_context(), file.scene}
@@ -48,6 +49,10 @@ void MethodCase::draw_map()
                              methods::passes(job).draws_primitives ? Primitives::kept
                                                                    : Primitives::dropped,
                              methods::map_offset(job, view));
+    if (methods::passes(job).layers > 1) {
+        prefilter({peeled_casters_.render(gpu_, view.maps, job.shadow_map), true});
+        return;
+    }
     const int samples = methods::passes(job).samples;
     prefilter(samples == 1
                   ? raster_gl::SampledDepths{}
@@ -58,7 +63,7 @@ void MethodCase::draw_map()
 void MethodCase::give_map(scene::Image<float> depths)
 {
     std::vector<scene::Image<float>> of_samples(
-        static_cast<std::size_t>(methods::passes(job).samples), depths);
+        static_cast<std::size_t>(methods::passes(job).depths_of_texel()), depths);
     const raster_gl::Texture samples = raster_gl::upload_layers(of_samples);
     map_ = &map_pass_.store(std::move(depths), view.first_map().reversed);
     prefilter({{&samples, 1}, true});

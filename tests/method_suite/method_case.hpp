@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl_case.hpp"
+#include "raster_gl/peeled_casters.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/sampled_casters.hpp"
 #include "raster_gl/shadow_volumes.hpp"
@@ -45,6 +46,7 @@ private:
     raster_gl::ReceiverPass receiver_pass_;
     raster_gl::ShadowMapPass map_pass_;
     raster_gl::SampledCasters sampled_casters_;
+    raster_gl::PeeledCasters peeled_casters_;
     raster_gl::PrefilterPass prefilter_pass_;
     raster_gl::LookupPass lookup_pass_;
     raster_gl::ShadowVolumePass volume_pass_;

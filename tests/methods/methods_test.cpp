@@ -27,7 +27,7 @@ scene::Job job_with(Filter filter)
 
 TEST(Methods, AreListedByName)
 {
-    ASSERT_EQ(methods().size(), 6U);
+    ASSERT_EQ(methods().size(), 7U);
     EXPECT_EQ(methods()[0].name, "depth");
     EXPECT_EQ(methods()[1].name, "vsm");
     EXPECT_EQ(find_method("depth"), &methods()[0]);
@@ -51,9 +51,13 @@ TEST(Methods, DescribeThemselves)
 const std::set<std::string>& tables_of(std::string_view method)
 {
     static const std::map<std::string, std::set<std::string>, std::less<>> tables{
-        {"depth", {"shadow_map", "lookup", "bias"}}, {"vsm", {"shadow_map", "lookup", "bias"}},
-        {"primitive_id", {"shadow_map", "lookup"}},  {"shadow_volumes", {}},
-        {"pcf", {"shadow_map", "lookup", "bias"}},   {"pcss", {"shadow_map", "lookup", "bias"}}};
+        {"depth", {"shadow_map", "lookup", "bias"}},
+        {"vsm", {"shadow_map", "lookup", "bias"}},
+        {"primitive_id", {"shadow_map", "lookup"}},
+        {"shadow_volumes", {}},
+        {"pcf", {"shadow_map", "lookup", "bias"}},
+        {"pcss", {"shadow_map", "lookup", "bias"}},
+        {"second_layer", {"shadow_map", "lookup", "bias"}}};
     return tables.find(method)->second;
 }
 
