@@ -2,6 +2,7 @@
 
 #include "methods/promises.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,7 +19,7 @@ enum class Sampling : std::uint8_t {
 };
 
 /// What a texture's texels hold.
-enum class TexelFormat : std::uint8_t { rg16, rg16f, rg32f };
+enum class TexelFormat : std::uint8_t { r16f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f };
 
 /// Preprocessor definitions that a piece is compiled with.
 struct Definition {
@@ -81,7 +82,9 @@ struct Passes {
     Sampling sampling = Sampling::fetched; ///< of the last pass's texture, else of the depths
     bool makes_mipmaps = false;            ///< of the last pass's texture
     int anisotropy = 1;                    ///< most samples along a pixel's longer side there
-    std::optional<ShadowVolumes> volumes;  ///< in place of all else: there is no map
+    /// What the last pass makes of depth 0, and of depth 1: beyond the map's edge, by border mode.
+    std::array<std::array<float, 4>, 2> of_ends{{{0, 0, 0, 0}, {1, 1, 1, 1}}};
+    std::optional<ShadowVolumes> volumes; ///< in place of all else: there is no map
 
     /// How many depths of each texel the first pass reads.
     [[nodiscard]] int depths_of_texel() const { return layers > 1 ? layers : samples; }

@@ -36,17 +36,20 @@ scene::Vec3f light_uniform(const scene::Light& light)
                                 : scene::Vec3f{-glm::normalize(light.direction)};
 }
 
+/// Of what stands for depth 0 and for depth 1.
+using Ends = std::array<std::array<float, 4>, 2>;
+constexpr Ends depth_ends{{{0, 0, 0, 0}, {1, 1, 1, 1}}};
+
 /// A texel outside the map is as far as can be where it shall count as lit, else as near.
-float border_depth(Outside outside, bool reversed)
+const std::array<float, 4>& border_of(const Ends& ends, Outside outside, bool reversed)
 {
-    return (outside == Outside::shadowed) != reversed ? 0.0F : 1.0F;
+    return (outside == Outside::shadowed) != reversed ? ends.front() : ends.back();
 }
 
-void set_sampler(const Sampler& sampler, GLint filter, Outside outside, bool reversed)
+void set_sampler(const Sampler& sampler, GLint filter, Outside outside,
+                 const std::array<float, 4>& border)
 {
     const GLint wrap = outside == Outside::clamp ? GL_CLAMP_TO_EDGE : GL_CLAMP_TO_BORDER;
-    const float depth = border_depth(outside, reversed);
-    const std::array<float, 4> border{depth, depth, depth, depth};
     glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, filter);
     glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, filter);
     glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, wrap);
@@ -323,9 +326,10 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
     }
     const bool interpolates = passes.sampling == Sampling::interpolated;
     const ShadowMap& map = from.map;
+    const auto& depth_border = border_of(depth_ends, outside, map.reversed);
     set_sampler(map_sampler_, interpolates && !has_filtered ? GL_LINEAR : GL_NEAREST, outside,
-                map.reversed);
-    set_sampler(compare_sampler_, GL_LINEAR, outside, map.reversed);
+                depth_border);
+    set_sampler(compare_sampler_, GL_LINEAR, outside, depth_border);
     glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_MODE,
                         GL_COMPARE_REF_TO_TEXTURE);
     glSamplerParameteri(compare_sampler_.name(), GL_TEXTURE_COMPARE_FUNC,
@@ -344,7 +348,7 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
     }
     if (has_filtered) {
         set_sampler(filtered_sampler_, interpolates ? GL_LINEAR : GL_NEAREST, outside,
-                    map.reversed);
+                    border_of(passes.of_ends, outside, map.reversed));
         if (passes.makes_mipmaps) {
             glSamplerParameteri(filtered_sampler_.name(), GL_TEXTURE_MIN_FILTER,
                                 GL_LINEAR_MIPMAP_LINEAR);

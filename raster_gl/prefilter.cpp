@@ -24,25 +24,62 @@ struct GlTexelFormat {
     GLint red_bits = 0;
 };
 
-GlTexelFormat gl_format(TexelFormat format, FilteredFormats formats)
+/// The same components as 32-bit floats.
+TexelFormat float32_of(TexelFormat format)
 {
-    if (formats == FilteredFormats::float32) {
-        return {GL_RG32F, "rg32f", GL_FLOAT, 32};
-    }
     switch (format) {
+    case TexelFormat::r16f:
+    case TexelFormat::r32f:
+        return TexelFormat::r32f;
+    case TexelFormat::rg16:
+    case TexelFormat::rg16f:
+    case TexelFormat::rg32f:
+        return TexelFormat::rg32f;
+    case TexelFormat::rgba16:
+    case TexelFormat::rgba16f:
+    case TexelFormat::rgba32f:
+        return TexelFormat::rgba32f;
+    }
+    return format;
+}
+
+GlTexelFormat gl_format(TexelFormat format)
+{
+    switch (format) {
+    case TexelFormat::r16f:
+        return {GL_R16F, "r16f", GL_FLOAT, 16};
+    case TexelFormat::r32f:
+        return {GL_R32F, "r32f", GL_FLOAT, 32};
     case TexelFormat::rg16:
         return {GL_RG16, "rg16", GL_UNSIGNED_NORMALIZED, 16};
     case TexelFormat::rg16f:
         return {GL_RG16F, "rg16f", GL_FLOAT, 16};
     case TexelFormat::rg32f:
         return {GL_RG32F, "rg32f", GL_FLOAT, 32};
+    case TexelFormat::rgba16:
+        return {GL_RGBA16, "rgba16", GL_UNSIGNED_NORMALIZED, 16};
+    case TexelFormat::rgba16f:
+        return {GL_RGBA16F, "rgba16f", GL_FLOAT, 16};
+    case TexelFormat::rgba32f:
+        return {GL_RGBA32F, "rgba32f", GL_FLOAT, 32};
     }
     return {};
 }
 
-/// A driver may give a texture more or fewer bits than it was asked for.
+/// A driver need not draw into a format, or filter it, and may give a texture more or fewer bits
+/// than it was asked for.
 void require_format(const Texture& texture, const GlTexelFormat& asked)
 {
+    for (const auto& [ability, verb] :
+         {std::pair{GLenum{GL_FRAMEBUFFER_RENDERABLE}, "draw into"}, {GL_FILTER, "filter"}}) {
+        GLint support = GL_NONE;
+        glGetInternalformativ(GL_TEXTURE_2D, asked.internal, ability, 1, &support);
+        if (support == GL_NONE) {
+            throw scene::InputError(fmt::format(
+                "the map's content {}: this driver does not {} it; choose another content",
+                asked.name, verb));
+        }
+    }
     GLint bits = 0;
     GLint type = 0;
     glGetTextureLevelParameteriv(texture.name(), 0, GL_TEXTURE_RED_SIZE, &bits);
@@ -110,7 +147,8 @@ const Program& PrefilterPass::program(const methods::Piece& piece, const Source&
 void PrefilterPass::draw(const methods::PrefilterPass& pass, const Source& source,
                          int resolution_texels, int levels, FilteredFormats formats, Made& made)
 {
-    const GlTexelFormat format = gl_format(pass.format, formats);
+    const GlTexelFormat format =
+        gl_format(formats == FilteredFormats::float32 ? float32_of(pass.format) : pass.format);
     const std::size_t maps = source.of_maps.size();
     if (made.format != format.internal || made.resolution_texels != resolution_texels ||
         made.levels != levels || made.texture.layer_count() != maps) {

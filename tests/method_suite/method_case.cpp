@@ -4,6 +4,8 @@
 #include "raster_gl/readback.hpp"
 #include "scene/job/handed_key.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <utility>
 #include <variant>
 
@@ -104,7 +106,7 @@ scene::Image<std::uint32_t> MethodCase::triangles() const
 namespace {
 
 /// Those of a key's values that are tried beside its default: every other word, the other flag, the
-/// largest integer, but of samples as many as drivers have.
+/// largest integer, the smallest power of two, but of samples as many as drivers have.
 std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
 {
     std::vector<scene::JobValue> values;
@@ -114,9 +116,25 @@ std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
         values = {true, false};
     } else if (const auto* const integers = std::get_if<scene::IntegerDomain>(&key.domain)) {
         values = {key.key.name == "method.samples" ? 4 : integers->upper};
+        if (integers->is_power_of_two) {
+            values.emplace_back(integers->lower);
+        }
     }
     std::erase(values, key.default_value);
     return values;
+}
+
+/// A key that an earlier method has, too, is tried of that one alone, but for the bits of what is
+/// stored; in the full lane of each.
+bool is_tried(const scene::HandedKey& key, const methods::Method& method)
+{
+    const auto has_key = [&](const methods::Method& other) {
+        return std::ranges::any_of(
+            other.keys, [&](const scene::HandedKey& own) { return own.key.name == key.key.name; });
+    };
+    const auto first = std::ranges::find_if(methods::methods(), has_key);
+    return std::getenv("GNOMON_FULL_TESTS") != nullptr || key.key.name == "method.bits" ||
+           first->name == method.name;
 }
 
 } // namespace
@@ -135,7 +153,9 @@ std::vector<Configuration> configurations()
             all.push_back({name + " " + word, with(base, {{"lookup.filter", word}})});
         }
         for (const scene::HandedKey& key : method.keys) {
-            for (const scene::JobValue& value : other_values(key)) {
+            const auto values =
+                is_tried(key, method) ? other_values(key) : std::vector<scene::JobValue>{};
+            for (const scene::JobValue& value : values) {
                 const std::string text = scene::to_toml(value);
                 std::string shown =
                     name + " " + key.key.name.substr(key.key.name.find('.') + 1) + " " + text;

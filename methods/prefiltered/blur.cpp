@@ -1,0 +1,253 @@
+#include "methods/prefiltered/blur.hpp"
+
+#include "methods/depth/depth_map.hpp"
+#include "methods/glsl.hpp"
+#include "methods/prefiltered/kernels.hpp"
+#include "scene/error.hpp"
+#include "scene/job/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace gnomon::methods {
+namespace {
+
+using scene::HandedKey;
+using scene::Stage;
+
+const HandedKey& blur_kernel_key()
+{
+    static const HandedKey key{scene::make_key("method.kernel", "weights of the blur's mean", "",
+                                               scene::only(Stage::prefilter)),
+                               scene::WordDomain{.words = {"box", "gaussian"}}, std::string{"box"}};
+    return key;
+}
+const HandedKey& blur_width_key()
+{
+    static const HandedKey key{scene::make_key("method.kernel_width",
+                                               "{unit} across that the map is averaged over", "",
+                                               scene::only(Stage::prefilter), "texels"),
+                               scene::IntegerDomain{1, 9, 2}, std::int64_t{5}};
+    return key;
+}
+const HandedKey& blur_samples_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.samples",
+                        "depths of each texel that the mean is of, at GL's places of so many", "",
+                        scene::only(Stage::prefilter), "samples"),
+        scene::IntegerDomain{.lower = 1, .upper = 8, .is_power_of_two = true}, std::int64_t{1}};
+    return key;
+}
+const HandedKey& blur_mips_key()
+{
+    static const HandedKey key{scene::make_key("method.mips",
+                                               "averages over a pixel, by coarser levels of the "
+                                               "blurred map",
+                                               "", scene::only(Stage::prefilter)),
+                               scene::FlagDomain{}, false};
+    return key;
+}
+const HandedKey& blur_anisotropy_key()
+{
+    static const HandedKey key{scene::make_key("method.anisotropy",
+                                               "most {unit} along a pixel's longer side", "",
+                                               scene::only(Stage::lookup), "samples"),
+                               scene::IntegerDomain{1, 16}, std::int64_t{1}};
+    return key;
+}
+
+const Kernel& kernel_in(const scene::Job& job)
+{
+    return blur_kernel(value_in<std::string>(job, blur_kernel_key()),
+                       static_cast<int>(value_in<std::int64_t>(job, blur_width_key())));
+}
+
+int samples_in(const scene::Job& job)
+{
+    return static_cast<int>(value_in<std::int64_t>(job, blur_samples_key()));
+}
+
+/// What GLSL calls a format's components.
+struct GlslComponents {
+    std::string type;
+    std::string swizzle;
+    std::uint64_t bytes = 0; ///< of all of them
+};
+
+GlslComponents components_of(TexelFormat format)
+{
+    switch (format) {
+    case TexelFormat::r16f:
+        return {"float", "r", 2};
+    case TexelFormat::r32f:
+        return {"float", "r", 4};
+    case TexelFormat::rg16:
+    case TexelFormat::rg16f:
+        return {"vec2", "rg", 4};
+    case TexelFormat::rg32f:
+        return {"vec2", "rg", 8};
+    case TexelFormat::rgba16:
+    case TexelFormat::rgba16f:
+        return {"vec4", "rgba", 8};
+    case TexelFormat::rgba32f:
+        return {"vec4", "rgba", 16};
+    }
+    return {};
+}
+
+/// The piece, given the job's kernel.
+PrefilterPass pass_of(Piece piece, const Kernel& kernel, TexelFormat format)
+{
+    const GlslComponents components = components_of(format);
+    piece.definitions.push_back({"KERNEL_ACROSS", std::to_string(kernel.width_texels())});
+    piece.definitions.push_back({"CONTENT", components.type});
+    piece.definitions.push_back({"COMPONENTS", components.swizzle});
+    piece.uniforms.push_back({"kernel", {kernel.weights.begin(), kernel.weights.end()}});
+    return {std::move(piece), format};
+}
+
+bool has_several_levels(const scene::Job& job)
+{
+    return value_in<bool>(job, blur_mips_key());
+}
+
+int anisotropy_in(const scene::Job& job)
+{
+    return static_cast<int>(value_in<std::int64_t>(job, blur_anisotropy_key()));
+}
+
+/// The depths that were drawn, at centres and at samples, and a texture of each pass.
+std::uint64_t blur_bytes(const scene::Job& job, TexelFormat format)
+{
+    const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
+    const std::uint64_t passes = kernel_in(job).width_texels() > 1 ? 2 : 1;
+    std::uint64_t texels = passes * side * side;
+    for (std::uint64_t level = side / 2; level > 0 && has_several_levels(job); level /= 2) {
+        texels += level * level;
+    }
+    texels *= scene::map_count(job);
+    const std::uint64_t drawn = map_bytes(job);
+    const auto samples = static_cast<std::uint64_t>(samples_in(job));
+    return drawn + (samples > 1 ? samples * drawn : 0) + texels * components_of(format).bytes;
+}
+
+} // namespace
+
+const HandedKey& bits_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.bits", "{unit} of each number that a texel stores", "",
+                        scene::only(Stage::prefilter), "bits"),
+        scene::IntegerDomain{.lower = 16, .upper = 32, .is_power_of_two = true}, std::int64_t{32}};
+    return key;
+}
+
+const HandedKey& reduction_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.bleeding_reduction",
+                        "verdicts up to this count as shadow, and the others are stretched", "",
+                        scene::only(Stage::lookup)),
+        scene::RealDomain{.lower = 0, .upper = 0.99}, 0.0};
+    return key;
+}
+
+std::vector<HandedKey> blur_keys()
+{
+    return {blur_kernel_key(), blur_width_key(), blur_samples_key(), blur_mips_key(),
+            blur_anisotropy_key()};
+}
+
+bool is_16_bit(const scene::Job& job)
+{
+    return value_in<std::int64_t>(job, bits_key()) == 16;
+}
+
+std::string with_mean_of_rows(std::string_view content)
+{
+    return fmt::format("{}{}", content, glsl_source("mean_of_rows.glsl"));
+}
+
+std::string with_exponential(std::string_view piece)
+{
+    return fmt::format("{}{}", glsl_source("exponential.glsl"), piece);
+}
+
+Blur mean_of(const ContentOfDepths& content)
+{
+    return {{content.rows, content.definitions, content.uniforms},
+            {glsl_source("mean_of_columns.glsl")},
+            content.format};
+}
+
+Passes blur_passes(const scene::Job& job, const Blur& blur)
+{
+    const Kernel& kernel = kernel_in(job);
+    Passes made;
+    made.samples = samples_in(job);
+    made.prefilter.push_back(pass_of(blur.rows, kernel, blur.format));
+    if (kernel.width_texels() > 1) {
+        made.prefilter.push_back(pass_of(blur.columns, kernel, blur.format));
+    }
+    made.sampling = Sampling::interpolated;
+    made.makes_mipmaps = has_several_levels(job);
+    made.anisotropy = anisotropy_in(job);
+    return made;
+}
+
+std::vector<Uniform> reduction_uniforms(const scene::Job& job)
+{
+    const auto reduction = static_cast<float>(value_in<double>(job, reduction_key()));
+    return {{"bleeding_reduction", {reduction}}, {"stretch", {1 / (1 - reduction)}}};
+}
+
+Promises blur_promises(const scene::Job& job, TexelFormat format)
+{
+    const Kernel& kernel = kernel_in(job);
+    const bool has_gradients = has_several_levels(job) || anisotropy_in(job) > 1;
+    return {.verdict = Verdict::fraction,
+            .compares = Compares::none,
+            .rises = {Rise::exactly, 0},
+            .curve = Curve::by_bisection,
+            .width_texels = kernel.width_texels() + 1,
+            .weights = Weights::bilinear,
+            .kernel = kernel,
+            .reads = has_gradients ? Reads::whole_map : Reads::footprint,
+            .samples = samples_in(job),
+            .map_bytes = blur_bytes(job, format)};
+}
+
+void check_blur(const scene::Job& job)
+{
+    const std::string& name = job.method.name;
+    if (scene::map_layout(job) == scene::MapLayout::cube) {
+        throw scene::InputError(
+            fmt::format("method.name = \"{}\": its kernels do not lead over a cube's seams, so "
+                        "that a point light's maps have none; use \"depth\"",
+                        name));
+    }
+    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
+        throw scene::InputError(
+            fmt::format("method.name = \"{}\": it averages what it makes of depths; remove "
+                        "shadow_map.content = \"distance\"",
+                        name));
+    }
+    if (const scene::DepthFormat format = job.shadow_map.depth_format;
+        traits_of(format).is_colour) {
+        throw scene::InputError(fmt::format(
+            "shadow_map.depth_format = \"{}\": what method.name = \"{}\" averages is made of a "
+            "depth texture, and stored in a format of its own; use d16, d24 or d32f",
+            depth_format_name(format), name));
+    }
+    const auto width = value_in<std::int64_t>(job, blur_width_key());
+    if (width > job.shadow_map.resolution_texels) {
+        throw scene::InputError(fmt::format(
+            "method.kernel_width = {}: wider than the map of {} texels; choose a narrower kernel, "
+            "or raise shadow_map.resolution",
+            width, job.shadow_map.resolution_texels));
+    }
+}
+
+} // namespace gnomon::methods
