@@ -207,6 +207,30 @@ TEST(JobSettings, RefusesKernelsThatAMethodCannotHave)
                             "method.bleeding_reduction");
 }
 
+TEST(JobSettings, RefusesWhatBlurredMapsCannotHave)
+{
+    for (const std::string method : {"esm", "evsm", "msm"}) {
+        const std::string name = "method.name=" + method;
+        for (const char* const width : {"0", "1000"}) {
+            expect_settings_refused("wall", {name, fmt::format("method.kernel_width={}", width)},
+                                    "method.kernel_width");
+        }
+        expect_settings_refused("wall", {name, "shadow_map.depth_format=r32f"},
+                                "made of a depth texture");
+        expect_settings_refused("wall", {name, "method.bits=24"}, "method.bits");
+        expect_settings_refused("wall", {name, "light.type=point", "light.position=[0,5,0]"},
+                                "its kernels do not lead over a cube's seams");
+    }
+    expect_settings_refused("wall", {"method.name=evsm", "method.positive_exponent=44"},
+                            "use 43.32 or less");
+    expect_settings_refused("wall",
+                            {"method.name=evsm", "method.bits=16", "method.negative_exponent=5.6"},
+                            "use 5.54 or less, or method.bits = 32");
+    expect_settings_refused("wall", {"method.name=esm", "method.exponent=0"}, "method.exponent");
+    expect_settings_refused("wall", {"method.name=msm", "method.moment_bias=-1"},
+                            "method.moment_bias");
+}
+
 TEST(JobSettings, NamesFileAndLineOfAMistake)
 {
     const TemporaryFolder folder;

@@ -27,7 +27,7 @@ scene::Job job_with(Filter filter)
 
 TEST(Methods, AreListedByName)
 {
-    ASSERT_EQ(methods().size(), 7U);
+    ASSERT_EQ(methods().size(), 10U);
     EXPECT_EQ(methods()[0].name, "depth");
     EXPECT_EQ(methods()[1].name, "vsm");
     EXPECT_EQ(find_method("depth"), &methods()[0]);
@@ -53,6 +53,9 @@ const std::set<std::string>& tables_of(std::string_view method)
     static const std::map<std::string, std::set<std::string>, std::less<>> tables{
         {"depth", {"shadow_map", "lookup", "bias"}},
         {"vsm", {"shadow_map", "lookup", "bias"}},
+        {"esm", {"shadow_map", "lookup", "bias"}},
+        {"evsm", {"shadow_map", "lookup", "bias"}},
+        {"msm", {"shadow_map", "lookup", "bias"}},
         {"primitive_id", {"shadow_map", "lookup"}},
         {"shadow_volumes", {}},
         {"pcf", {"shadow_map", "lookup", "bias"}},

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "method_case.hpp"
+
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace gnomon::tests {
+
+/// A kernel of a blurred map, by the names of its keys.
+struct BlurChoice {
+    const char* kernel = "box";
+    int width_texels = 1;
+
+    [[nodiscard]] std::vector<scene::Override> keys() const;
+    /// Texels from a lookup's point within which all lie that it reads.
+    [[nodiscard]] int reach_texels() const { return width_texels / 2 + 1; }
+};
+
+/// A number of a blurred map, in double: what the method makes of each depth, averaged by the
+/// kernel, and made into something else by `after`.
+class BlurModel {
+public:
+    using Function = std::function<double(double)>;
+
+    /// @param depths  of a square map, top left first.
+    BlurModel(
+        const scene::Image<float>& depths, const BlurChoice& blur, const Function& content,
+        const Function& after = [](double mean) { return mean; });
+
+    /// Interpolated where a lookup reads.
+    [[nodiscard]] double at(const scene::Vec2f& texel) const;
+    /// By how much the four texels differ that are interpolated there.
+    [[nodiscard]] double spread_at(const scene::Vec2f& texel) const;
+
+private:
+    [[nodiscard]] std::array<double, 4> around(const scene::Vec2f& texel) const;
+
+    scene::Image<double> texels_; ///< lower left first
+};
+
+/// By how much a driver may round the weights that it interpolates with: the product of uv and the
+/// map's 64 texels and a difference round; other drivers keep 8 bits.
+[[nodiscard]] double interpolation_error();
+
+/// The side of the maps that models are made of.
+inline constexpr int model_side_texels = 64;
+
+/// Keys of small images and maps, without any bias.
+[[nodiscard]] std::vector<scene::Override> model_keys(const std::string& method);
+
+/// A pixel whose lookup reads nothing beyond the map's edge.
+struct InnerPixel {
+    std::size_t pixel = 0;
+    scene::Vec2f texel;
+    double receiver_depth = 0;
+    double verdict = 0;
+};
+[[nodiscard]] std::vector<InnerPixel> inner_pixels(MethodCase& c, int reach_texels);
+
+} // namespace gnomon::tests

@@ -1,0 +1,209 @@
+// Exponential variance shadow maps against their formula in double, and in closed form.
+
+#include "blur_model.hpp"
+#include "methods/list.hpp"
+#include "random_depths.hpp"
+#include "scene/error.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace gnomon::tests {
+namespace {
+
+constexpr double least_deviation = 1e-3; // of depths
+
+/// What one warp says of the footprint, in double, and by how much GL may be off.
+class WarpModel {
+public:
+    /// @param exponent  negative: of the negative warp, whose sign is left away.
+    WarpModel(const scene::Image<float>& depths, const BlurChoice& blur, double exponent,
+              bool reversed)
+        : exponent_{exponent},
+          direction_{reversed ? -1.0 : 1.0},
+          width_texels_{blur.width_texels},
+          first_{depths, blur, [this](double z) { return warp(z); }},
+          second_{depths, blur, [this](double z) { return warp(z) * warp(z); }}
+    {
+    }
+
+    struct Interval {
+        double low = 0;
+        double high = 0;
+    };
+    /// Chebyshev's bound. Each warp is off by (3.5·c + 5)·2^-24 of itself: its exponent's two
+    /// products round, and so does what becomes of the depth. The variance of warps that are off by
+    /// a is off by 2σa + a². What else rounds is in sums, as of any moments: see `BoundOfPlane` of
+    /// the variance maps' test; here all of it is relative to the second moment.
+    [[nodiscard]] Interval bound(const InnerPixel& pixel) const
+    {
+        const double m1 = first_.at(pixel.texel);
+        const double m2 = second_.at(pixel.texel);
+        const double variance = std::max(m2 - m1 * m1, 0.0);
+        const double reference = warp(pixel.receiver_depth);
+        const double c = std::abs(exponent_);
+        const double of_warp = (3.5 * c + 5) * 0x1p-24;
+        const double in_sums = (1 + 2 * (3 + (width_texels_ + 1) / 2.0) + 4) * 0x1p-24;
+        const double largest = std::max(reference, std::sqrt(m2));
+        const double off = 2 * std::sqrt(variance * m2) * of_warp + m2 * of_warp * of_warp +
+                           (3 * in_sums + 2 * 0x1p-24) * m2 +
+                           interpolation_error() * (second_.spread_at(pixel.texel) +
+                                                    2 * m1 * first_.spread_at(pixel.texel));
+        const double beyond = exponent_ > 0 ? reference - m1 : m1 - reference;
+        const double beyond_off = (2 * of_warp + in_sums + 0x1p-24) * largest +
+                                  interpolation_error() * first_.spread_at(pixel.texel);
+        return {of(variance - off, beyond + beyond_off, reference),
+                of(variance + off, beyond - beyond_off, reference)};
+    }
+
+private:
+    [[nodiscard]] double warp(double depth) const
+    {
+        return std::exp(exponent_ * direction_ * (2 * depth - 1));
+    }
+    [[nodiscard]] double of(double variance, double beyond, double reference) const
+    {
+        if (beyond <= 0) {
+            return 1;
+        }
+        const double scale = 2 * exponent_ * reference * least_deviation;
+        const double at_least = std::max(variance, scale * scale);
+        return at_least / (at_least + beyond * beyond);
+    }
+
+    double exponent_;
+    double direction_;
+    int width_texels_;
+    BlurModel first_;
+    BlurModel second_;
+};
+
+struct EvsmCase {
+    BlurChoice blur;
+    int moments = 4;
+    double positive = 40;
+    double negative = 5;
+    bool reversed = false;
+
+    [[nodiscard]] std::vector<scene::Override> keys() const
+    {
+        return with(with(model_keys("evsm"), blur.keys()),
+                    {{"method.moments", std::to_string(moments)},
+                     {"method.positive_exponent", fmt::format("{}", positive)},
+                     {"method.negative_exponent", fmt::format("{}", negative)},
+                     {"method.min_deviation", fmt::format("{}", least_deviation)},
+                     {"shadow_map.reversed", reversed ? "true" : "false"}});
+    }
+};
+
+TEST(ExponentialVarianceMap, IsTheFormulaInDouble)
+{
+    GNOMON_REQUIRE_GL();
+    std::mt19937 random{11};
+    for (const EvsmCase& tried : {EvsmCase{{"box", 1}},
+                                  {{"box", 5}},
+                                  {{"gaussian", 7}, 2, 20},
+                                  {{"gaussian", 9}, 4, 10, 10},
+                                  {{"box", 9}, 2, 43.32},
+                                  {{"box", 3}, 4, 40, 5, true},
+                                  {{"gaussian", 5}, 4, 5.5, 5.5, true}}) {
+        SCOPED_TRACE(fmt::format("{} {}, {} moments, exponents {} and {}, reversed {}",
+                                 tried.blur.kernel, tried.blur.width_texels, tried.moments,
+                                 tried.positive, tried.negative, tried.reversed));
+        MethodCase c{"terrain", tried.keys()};
+        const auto depths = random_depths(random, model_side_texels);
+        c.give_map(depths);
+        const WarpModel positive{depths, tried.blur, tried.positive, tried.reversed};
+        const WarpModel negative{depths, tried.blur, -tried.negative, tried.reversed};
+        std::size_t fractions = 0;
+        for (const InnerPixel& pixel : inner_pixels(c, tried.blur.reach_texels())) {
+            auto expected = positive.bound(pixel);
+            if (tried.moments == 4) {
+                const auto other = negative.bound(pixel);
+                expected = {std::min(expected.low, other.low), std::min(expected.high, other.high)};
+            }
+            // The last sums and quotients round.
+            const double rounding = 6 * 0x1p-24;
+            ASSERT_GE(pixel.verdict, expected.low - rounding) << "pixel " << pixel.pixel;
+            ASSERT_LE(pixel.verdict, expected.high + rounding) << "pixel " << pixel.pixel;
+            fractions += pixel.verdict > 0.01 && pixel.verdict < 0.99 ? 1U : 0U;
+        }
+        EXPECT_GT(fractions, 20U);
+    }
+}
+
+/// Of two planes square to the light, of which the nearer has the share q of the footprint, the
+/// farther one is lit to 1 − q: Chebyshev's bound is exact for two depths, whatever the warp.
+TEST(ExponentialVarianceMap, LightsTheFartherOfTwoPlanesByItsShare)
+{
+    GNOMON_REQUIRE_GL();
+    for (const int moments : {2, 4}) {
+        EvsmCase tried{{"box", 5}, moments, 10, 5};
+        MethodCase c{"terrain", with(tried.keys(), {{"method.min_deviation", "0"}})};
+        // A receiver's own depth is the farther plane's: the map is made for one at a time.
+        std::size_t tries = 0;
+        const auto pixels = [&] {
+            c.give_map(scene::Image<float>{{model_side_texels, model_side_texels}, 1.0F});
+            return inner_pixels(c, tried.blur.reach_texels());
+        }();
+        for (std::size_t i = 0; i < pixels.size(); i += pixels.size() / 8 + 1) {
+            const auto farther = static_cast<float>(pixels[i].receiver_depth);
+            const float nearer = farther * 0.5F;
+            const int edge = static_cast<int>(pixels[i].texel.x);
+            scene::Image<float> depths{{model_side_texels, model_side_texels}, farther};
+            for (int y = 0; y < model_side_texels; ++y) {
+                for (int x = 0; x < edge; ++x) {
+                    depths(x, y) = nearer;
+                }
+            }
+            c.give_map(depths);
+            const BlurModel share{depths, tried.blur,
+                                  [&](double z) { return z < double{farther} ? 1.0 : 0.0; }};
+            const auto& sample = c.look_up().samples[pixels[i].pixel];
+            // As in the formula above, with σ² of at least 0.05 of the moments: 1e-5 is 100 times
+            // what rounds.
+            EXPECT_NEAR(sample.verdict, 1 - share.at(pixels[i].texel),
+                        1e-4 + interpolation_error());
+            ++tries;
+        }
+        EXPECT_GE(tries, 4U);
+    }
+}
+
+TEST(ExponentialVarianceMap, RefusesExponentsWhoseSquaresOverflow)
+{
+    const auto refusal = [](const std::vector<scene::Override>& keys) -> std::string {
+        try {
+            methods::check(job_of_builtin("wall", with({{"method.name", "evsm"}}, keys)));
+        } catch (const scene::InputError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(refusal({{"method.positive_exponent", "43.32"}}), "no error");
+    EXPECT_NE(refusal({{"method.positive_exponent", "43.4"}})
+                  .find("method.positive_exponent = 43.4: the square of e^43.4 overflows sums of "
+                        "32-bit floats; use 43.32 or less"),
+              std::string::npos);
+    EXPECT_EQ(refusal({{"method.bits", "16"}}), "no error");
+    EXPECT_NE(refusal({{"method.bits", "16"}, {"method.positive_exponent", "6"}})
+                  .find("use 5.54 or less, or method.bits = 32"),
+              std::string::npos);
+    EXPECT_NE(refusal({{"method.bits", "16"}, {"method.negative_exponent", "6"}})
+                  .find("method.negative_exponent = 6"),
+              std::string::npos);
+    // Of two moments there is no negative warp.
+    EXPECT_EQ(
+        refusal(
+            {{"method.bits", "16"}, {"method.moments", "2"}, {"method.negative_exponent", "6"}}),
+        "no error");
+}
+
+} // namespace
+} // namespace gnomon::tests
