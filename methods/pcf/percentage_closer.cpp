@@ -83,7 +83,7 @@ void pcf_check(const scene::Job& job)
 
 ScatteredTaps taps_of(const scene::Job& job)
 {
-    const TapKernel& kernel = tap_kernel(tap_pattern(job), tap_count(job), tap_weights(job));
+    const TapKernel& kernel = tap_kernel(job, tap_weights(job));
     const double radius_m = pcf_number(radius_m_key(), job);
     const double radius_texels = pcf_number(radius_texels_key(), job);
     return {.places = kernel.places,

@@ -90,7 +90,7 @@ void pcss_check(const scene::Job& job)
 Promises pcss_promises(const scene::Job& job)
 {
     const double radius = pcss_number(search_radius_key(), job);
-    const TapKernel& kernel = tap_kernel(tap_pattern(job), tap_count(job), TapWeights::equal);
+    const TapKernel& kernel = tap_kernel(job, TapWeights::equal);
     const bool is_biased = has_biased_search(job);
     return {.verdict = Verdict::fraction,
             .compares = Compares::none,

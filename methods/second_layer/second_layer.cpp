@@ -49,6 +49,12 @@ const HandedKey& largest_offset_key()
 void layer_check(const scene::Job& job)
 {
     const scene::ShadowMapSettings& map = job.shadow_map;
+    if (number_in(job, "bias.polygon_offset_factor") != 0 ||
+        number_in(job, "bias.polygon_offset_units") != 0) {
+        throw scene::InputError(
+            "method.name = \"second_layer\" tells layers apart by their own depths, "
+            "which a polygon offset moves; remove bias.polygon_offset_*");
+    }
     if (map.cull != scene::Cull::none) {
         throw scene::InputError(
             fmt::format("shadow_map.cull = \"{}\": removes one of the two surfaces that "

@@ -63,6 +63,15 @@ bool is_turned(const scene::Job& job)
     return std::get<bool>(turned_key().value_of(job));
 }
 
+const TapKernel& tap_kernel(const scene::Job& job, TapWeights weights)
+{
+    constexpr int smallest_grid = 9;
+    const TapPattern pattern = tap_pattern(job);
+    const int taps = tap_count(job);
+    const bool is_none = pattern == TapPattern::grid && !is_grid(taps);
+    return tap_kernel(pattern, is_none ? smallest_grid : taps, weights);
+}
+
 void check_taps(const scene::Job& job)
 {
     const int taps = tap_count(job);

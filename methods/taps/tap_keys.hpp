@@ -17,6 +17,10 @@ namespace gnomon::methods {
 [[nodiscard]] int tap_count(const scene::Job& job);
 [[nodiscard]] bool is_turned(const scene::Job& job);
 
+/// The kernel that they say; in place of a grid that there is not, which `check_taps` refuses, the
+/// smallest.
+[[nodiscard]] const TapKernel& tap_kernel(const scene::Job& job, TapWeights weights);
+
 /// @throws scene::InputError  where the job asks for a grid of a number of taps that is none.
 void check_taps(const scene::Job& job);
 

@@ -236,6 +236,11 @@ TEST(PcfCheck, RefusesInOneLineWhatDoesNotGoTogether)
               "mixed; use method.radius_texels, or remove shadow_map.blend");
 }
 
+TEST(PcfPromises, CanBeAskedOfAJobThatIsRefused)
+{
+    EXPECT_EQ(promises(pcf_job({{"method.taps", "16"}})).tap_count(), 9U);
+}
+
 TEST(PcfKeys, RefuseARadiusOfNothingAndOneOfAThousandTexels)
 {
     for (const char* const radius : {"0", "0.1", "65", "1000"}) {

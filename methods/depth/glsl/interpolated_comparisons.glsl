@@ -4,6 +4,10 @@
 // @param d  the depth of the texel that holds the point
 uniform float kernel[KERNEL_ACROSS]; // whole numbers
 
+// Of a gather's four texels, from the corner between them.
+const vec2 centres_about[4] =
+    vec2[4](vec2(-0.5, 0.5), vec2(0.5, 0.5), vec2(0.5, -0.5), vec2(-0.5, -0.5));
+
 // Weights of two neighbours along a line of taps; `upper` is where between the two nearest centres
 // the point lies.
 vec2 weights_of_taps(int first, float upper)
@@ -40,10 +44,12 @@ float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
         vec2 rows = weights_of_taps(y, upper.y);
         for (int x = 0; x < TAPS_ACROSS; x += 2) {
             vec2 columns = weights_of_taps(x, upper.x);
-            vec4 depths = gathered_depths(nearest + vec2(x, y) + float(1 - KERNEL_ACROSS / 2));
+            vec2 corner = nearest + vec2(x, y) + float(1 - KERNEL_ACROSS / 2);
+            vec4 depths = gathered_depths(corner);
             vec4 answers;
             for (int i = 0; i < 4; ++i) {
-                answers[i] = is_lit(r, bias, depths[i]) ? 1.0 : 0.0;
+                float reference = depth_at_tap(r, corner + centres_about[i] - texel);
+                answers[i] = is_lit(reference, bias, depths[i]) ? 1.0 : 0.0;
             }
             lit = lit + weighted_sum(answers, columns, rows);
             all = all + weighted_sum(vec4(1.0), columns, rows);

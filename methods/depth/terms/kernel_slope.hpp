@@ -2,6 +2,8 @@
 
 #include "methods/bias_term.hpp"
 #include "methods/depth/terms/plane_gradient.hpp"
+#include "methods/list.hpp"
+#include "scene/error.hpp"
 #include "scene/job/keys.hpp"
 
 #include <array>
@@ -50,6 +52,10 @@ inline std::optional<Piece> kernel_slope_piece(const scene::Job& /*job*/, const 
 inline void check_kernel_slope(const scene::Job& job)
 {
     refuse_distances(job, kernel_slope_keys[0]);
+    if (number_in(job, kernel_slope_keys[0]) != 0 && promises(job).taps.is_in_metres) {
+        throw scene::InputError("bias.slope_kernels counts in the kernel's texels, and "
+                                "method.radius_m gives it metres; use method.radius_texels");
+    }
 }
 
 /// What a plane needs under a kernel, whatever its size.
