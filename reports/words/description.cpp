@@ -66,16 +66,22 @@ bool reads(const scene::Job& job, std::string_view table)
     return std::ranges::find(tables, table) != tables.end();
 }
 
-std::string describe_bias(const scene::BiasSettings& settings, const scene::Bias& bias)
+std::string describe_bias(const scene::Job& job, const scene::Bias& bias)
 {
-    const std::string metres =
-        settings.constant_m ? fmt::format(" ({:.4g} m)", *settings.constant_m) : std::string{};
+    const auto& metres_m = job.bias.constant_m;
+    const std::string metres = metres_m ? fmt::format(" ({:.4g} m)", *metres_m) : std::string{};
     std::string text = fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
                                    plain_zero(bias.constant), metres, plain_zero(bias.slope),
                                    plain_zero(bias.normal_texels));
     for (const auto& [key, value] : bias.handed) {
         if (value != 0) {
             text += fmt::format(", {} {:.4g}", scene::key_leaf(key), value);
+        }
+    }
+    for (const auto& [key, value] : job.method.values) {
+        const auto* word = std::get_if<std::string>(&value);
+        if (word != nullptr && *word != "off" && key.starts_with("bias.")) {
+            text += fmt::format(", {} {}", scene::key_leaf(key), *word);
         }
     }
     return text;
@@ -118,7 +124,7 @@ Description describe(const analysis::Comparison& comparison)
         .range = has_map && !view.maps.empty() ? describe_range(view.maps, job.shadow_map.cull)
                                                : std::string{},
         .lookup = lookup_name(job) + outside,
-        .bias = reads(job, "bias") ? describe_bias(job.bias, view.bias) : "none",
+        .bias = reads(job, "bias") ? describe_bias(job, view.bias) : "none",
         .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),
     };
 }

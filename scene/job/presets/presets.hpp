@@ -21,7 +21,7 @@ enum class PresetKind : std::uint8_t {
 /// "lesson", "engine".
 [[nodiscard]] std::string_view preset_kind_name(PresetKind kind);
 
-/// What a preset's bias has that no key takes.
+/// What an engine's bias has that its preset does not set.
 struct UnexpressedBias {
     double constant_texels = 0; ///< a constant one, in widths of a texel
     double polygon_factor = 0;  ///< of glPolygonOffset in the pass that draws the map
