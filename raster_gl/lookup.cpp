@@ -147,12 +147,12 @@ std::vector<float> coordinates(std::span<const scene::Vec2f> vectors)
 void add_definitions(const methods::ScatteredTaps& taps, Definitions& definitions)
 {
     const bool is_scattered = !taps.places.empty();
-    definitions.push_back({"SCATTERED", flag(is_scattered)});
+    definitions.emplace_back("SCATTERED", flag(is_scattered));
     if (is_scattered) {
-        definitions.push_back({"TAPS", std::to_string(taps.places.size())});
-        definitions.push_back({"RADIUS_IN_METRES", flag(taps.is_in_metres)});
-        definitions.push_back({"TURNED", flag(taps.is_turned)});
-        definitions.push_back({"ROTATIONS", std::to_string(methods::rotation_count)});
+        definitions.emplace_back("TAPS", std::to_string(taps.places.size()));
+        definitions.emplace_back("RADIUS_IN_METRES", flag(taps.is_in_metres));
+        definitions.emplace_back("TURNED", flag(taps.is_turned));
+        definitions.emplace_back("ROTATIONS", std::to_string(methods::rotation_count));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "methods/list.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
@@ -174,8 +175,14 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
     }
     for (const std::string_view key : methods::moving_bias_keys(comparison.job)) {
         const scene::KeySpec& spec = *scene::find_key(key);
-        if (!subject.file.says(key) ||
-            spec.get(comparison.job) != scene::default_of(spec, comparison.job)) {
+        const scene::HandedKey* const handed = scene::find_handed_key(key);
+        // Few renderers have the terms that bring keys of their own: those need not be said.
+        const bool is_neutral =
+            handed != nullptr
+                ? handed->value_of(comparison.job) == handed->default_value
+                : subject.file.says(key) &&
+                      spec.get(comparison.job) == scene::default_of(spec, comparison.job);
+        if (!is_neutral) {
             missing.push_back(fmt::format("{} = {}", key, spec.key.default_text));
         }
     }
