@@ -18,9 +18,10 @@ scene::Image<double> averaged_along_x(const scene::Image<double>& image,
     scene::Image<double> averaged{image.size()};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            for (int i = -reach; i <= reach; ++i) {
-                averaged(x, y) += double{weights[static_cast<std::size_t>(reach + i)]} *
-                                  image(std::clamp(x + i, 0, width - 1), y);
+            int column = x - reach;
+            for (const float weight : weights) {
+                averaged(x, y) += double{weight} * image(std::clamp(column, 0, width - 1), y);
+                ++column;
             }
         }
     }

@@ -108,8 +108,9 @@ TEST(ExponentialMap, MixesTwoPlanesAsInClosedForm)
         }
     }
     c.give_map(depths);
+    constexpr int middle = model_side_texels / 2;
     const auto mean_of_column = [&](int x) {
-        const double share = std::clamp((model_side_texels / 2 - (x - 2)) / 5.0, 0.0, 1.0);
+        const double share = std::clamp((middle - (x - 2)) / 5.0, 0.0, 1.0);
         return farther + std::log(1 - share + share * std::exp(-10 * (farther - nearer))) / 10;
     };
     std::size_t mixed = 0;
