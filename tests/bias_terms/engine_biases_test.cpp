@@ -266,7 +266,7 @@ TEST_P(SteepPlane, HasNoAcneWhereEachTapIsComparedWithIt)
 {
     GNOMON_REQUIRE_GL();
     const Compared compared{plane(GetParam(), {})};
-    for (const char* const filter : {"nearest", "pcf3", "pcf7", "hardware"}) {
+    for (const char* const filter : {"nearest", "pcf3", "pcf7", "bilinear5", "hardware"}) {
         const auto false_shadow = [&](const char* how, double steps) {
             const Settings keys{{"lookup.filter", filter},
                                 {"bias.receiver_plane", how},

@@ -126,8 +126,9 @@ inline void check_receiver_plane(const scene::Job& job)
     }
     if (job.method.name != "depth" || job.lookup.filter == scene::Filter::linear) {
         throw scene::InputError(
-            "bias.receiver_plane gives each tap a depth of its own, and this lookup compares one "
-            "mean of taps; use method.name = \"depth\" and another lookup.filter than \"linear\"");
+            "bias.receiver_plane gives each tap of method.name = \"depth\" a depth of its own, but "
+            "for "
+            "lookup.filter = \"linear\"; use another filter and that method, or remove the key");
     }
 }
 
