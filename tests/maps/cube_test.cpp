@@ -174,8 +174,8 @@ TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
         for (const char* content : {"depth", "distance"}) {
             for (const char* filter : {"nearest", "hardware", "pcf3", "pcf9"}) {
                 const scene::Job job =
-                    scene::builtin_job("lamp-room", {{"image.width", "240"},
-                                                     {"image.height", "135"},
+                    scene::builtin_job("lamp-room", {{"image.width", "96"},
+                                                     {"image.height", "54"},
                                                      {"shadow_map.resolution", resolution},
                                                      {"shadow_map.content", content},
                                                      {"lookup.filter", filter}})

@@ -65,27 +65,21 @@ BlurModel::BlurModel(const scene::Image<float>& depths, const BlurChoice& blur,
     }
 }
 
-std::array<double, 4> BlurModel::around(const scene::Vec2f& texel) const
+BlurredNumber BlurModel::number_at(const scene::Vec2d& texel) const
 {
-    const int x = static_cast<int>(std::floor(double{texel.x} - 0.5));
-    const int y = static_cast<int>(std::floor(double{texel.y} - 0.5));
-    return {texels_(x, y), texels_(x + 1, y), texels_(x, y + 1), texels_(x + 1, y + 1)};
-}
-
-double BlurModel::at(const scene::Vec2f& texel) const
-{
-    const auto four = around(texel);
-    const double x = double{texel.x} - 0.5;
-    const double y = double{texel.y} - 0.5;
+    const int last = texels_.size().width_px - 1;
+    const double x = texel.x - 0.5;
+    const double y = texel.y - 0.5;
+    const auto of = [&](int column, int row) {
+        return texels_(std::clamp(static_cast<int>(std::floor(x)) + column, 0, last),
+                       std::clamp(static_cast<int>(std::floor(y)) + row, 0, last));
+    };
+    const std::array<double, 4> four{of(0, 0), of(1, 0), of(0, 1), of(1, 1)};
     const double u = x - std::floor(x);
     const double v = y - std::floor(y);
-    return (1 - v) * ((1 - u) * four[0] + u * four[1]) + v * ((1 - u) * four[2] + u * four[3]);
-}
-
-double BlurModel::spread_at(const scene::Vec2f& texel) const
-{
-    const auto [least, greatest] = std::ranges::minmax(around(texel));
-    return greatest - least;
+    const auto [least, greatest] = std::ranges::minmax(four);
+    return {(1 - v) * ((1 - u) * four[0] + u * four[1]) + v * ((1 - u) * four[2] + u * four[3]),
+            greatest - least};
 }
 
 double interpolation_error()
@@ -111,7 +105,7 @@ std::vector<InnerPixel> inner_pixels(MethodCase& c, int reach_texels)
     const auto lookup = c.look_up();
     const auto triangles = c.triangles();
     const auto first = static_cast<float>(reach_texels);
-    const auto last = static_cast<float>(model_side_texels - reach_texels);
+    const auto last = static_cast<float>(c.job.shadow_map.resolution_texels - reach_texels);
     std::vector<InnerPixel> inner;
     for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
         const scene::Vec2f texel = lookup.texels[i];

@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::tests {
@@ -19,6 +20,12 @@ struct BlurChoice {
     [[nodiscard]] int reach_texels() const { return width_texels / 2 + 1; }
 };
 
+/// A number of a blurred map where a lookup reads, in double.
+struct BlurredNumber {
+    double value = 0;  ///< interpolated
+    double spread = 0; ///< by how much the four texels differ that are interpolated
+};
+
 /// A number of a blurred map, in double: what the method makes of each depth, averaged by the
 /// kernel, and made into something else by `after`.
 class BlurModel {
@@ -30,14 +37,20 @@ public:
         const scene::Image<float>& depths, const BlurChoice& blur, const Function& content,
         const Function& after = [](double mean) { return mean; });
 
-    /// Interpolated where a lookup reads.
-    [[nodiscard]] double at(const scene::Vec2f& texel) const;
-    /// By how much the four texels differ that are interpolated there.
-    [[nodiscard]] double spread_at(const scene::Vec2f& texel) const;
+    /// @param texels  what a map holds, lower left first.
+    explicit BlurModel(scene::Image<double> texels) : texels_{std::move(texels)} {}
+
+    /// Beyond the edge the nearest texel counts.
+    [[nodiscard]] BlurredNumber number_at(const scene::Vec2d& texel) const;
+    [[nodiscard]] double at(const scene::Vec2f& texel) const { return number_at(texel).value; }
+    [[nodiscard]] double spread_at(const scene::Vec2f& texel) const
+    {
+        return number_at(texel).spread;
+    }
+    /// Lower left first.
+    [[nodiscard]] const scene::Image<double>& texels() const { return texels_; }
 
 private:
-    [[nodiscard]] std::array<double, 4> around(const scene::Vec2f& texel) const;
-
     scene::Image<double> texels_; ///< lower left first
 };
 

@@ -4,6 +4,7 @@
 #include "methods/list.hpp"
 #include "random_depths.hpp"
 #include "scene/error.hpp"
+#include "warp_model.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,71 +19,6 @@ namespace gnomon::tests {
 namespace {
 
 constexpr double least_deviation = 1e-3; // of depths
-
-/// What one warp says of the footprint, in double, and by how much GL may be off.
-class WarpModel {
-public:
-    /// @param exponent  negative: of the negative warp, whose sign is left away.
-    WarpModel(const scene::Image<float>& depths, const BlurChoice& blur, double exponent,
-              bool reversed)
-        : exponent_{exponent},
-          direction_{reversed ? -1.0 : 1.0},
-          width_texels_{blur.width_texels},
-          first_{depths, blur, [this](double z) { return warp(z); }},
-          second_{depths, blur, [this](double z) { return warp(z) * warp(z); }}
-    {
-    }
-
-    struct Interval {
-        double low = 0;
-        double high = 0;
-    };
-    /// Chebyshev's bound. Each warp is off by (3.5·c + 5)·2^-24 of itself: its exponent's two
-    /// products round, and so does what becomes of the depth. The variance of warps that are off by
-    /// a is off by 2σa + a². What else rounds is in sums, as of any moments: see `BoundOfPlane` of
-    /// the variance maps' test; here all of it is relative to the second moment.
-    [[nodiscard]] Interval bound(const InnerPixel& pixel) const
-    {
-        const double m1 = first_.at(pixel.texel);
-        const double m2 = second_.at(pixel.texel);
-        const double variance = std::max(m2 - m1 * m1, 0.0);
-        const double reference = warp(pixel.receiver_depth);
-        const double c = std::abs(exponent_);
-        const double of_warp = (3.5 * c + 5) * 0x1p-24;
-        const double in_sums = (1 + 2 * (3 + (width_texels_ + 1) / 2.0) + 4) * 0x1p-24;
-        const double largest = std::max(reference, std::sqrt(m2));
-        const double off = 2 * std::sqrt(variance * m2) * of_warp + m2 * of_warp * of_warp +
-                           (3 * in_sums + 2 * 0x1p-24) * m2 +
-                           interpolation_error() * (second_.spread_at(pixel.texel) +
-                                                    2 * m1 * first_.spread_at(pixel.texel));
-        const double beyond = exponent_ > 0 ? reference - m1 : m1 - reference;
-        const double beyond_off = (2 * of_warp + in_sums + 0x1p-24) * largest +
-                                  interpolation_error() * first_.spread_at(pixel.texel);
-        return {of(variance - off, beyond + beyond_off, reference),
-                of(variance + off, beyond - beyond_off, reference)};
-    }
-
-private:
-    [[nodiscard]] double warp(double depth) const
-    {
-        return std::exp(exponent_ * direction_ * (2 * depth - 1));
-    }
-    [[nodiscard]] double of(double variance, double beyond, double reference) const
-    {
-        if (beyond <= 0) {
-            return 1;
-        }
-        const double scale = 2 * exponent_ * reference * least_deviation;
-        const double at_least = std::max(variance, scale * scale);
-        return at_least / (at_least + beyond * beyond);
-    }
-
-    double exponent_;
-    double direction_;
-    int width_texels_;
-    BlurModel first_;
-    BlurModel second_;
-};
 
 struct EvsmCase {
     BlurChoice blur;
@@ -100,6 +36,30 @@ struct EvsmCase {
                      {"method.min_deviation", fmt::format("{}", least_deviation)},
                      {"shadow_map.reversed", reversed ? "true" : "false"}});
     }
+    [[nodiscard]] Warp warp(double exponent) const { return {exponent, reversed, least_deviation}; }
+};
+
+/// Both moments of a warp of depths, blurred.
+class BlurredWarp {
+public:
+    BlurredWarp(const scene::Image<float>& depths, const BlurChoice& blur, const Warp& warp)
+        : warp_{warp},
+          errors_{MomentErrors::of_blur(warp, blur.width_texels)},
+          first_{depths, blur, warp},
+          second_{depths, blur, [&warp](double z) { return warp(z) * warp(z); }}
+    {
+    }
+    [[nodiscard]] WarpBound bound(const InnerPixel& pixel) const
+    {
+        return warp_bound(warp_, first_.number_at(pixel.texel), second_.number_at(pixel.texel),
+                          errors_, pixel.receiver_depth);
+    }
+
+private:
+    Warp warp_;
+    MomentErrors errors_;
+    BlurModel first_;
+    BlurModel second_;
 };
 
 TEST(ExponentialVarianceMap, IsTheFormulaInDouble)
@@ -119,8 +79,8 @@ TEST(ExponentialVarianceMap, IsTheFormulaInDouble)
         MethodCase c{"terrain", tried.keys()};
         const auto depths = random_depths(random, model_side_texels);
         c.give_map(depths);
-        const WarpModel positive{depths, tried.blur, tried.positive, tried.reversed};
-        const WarpModel negative{depths, tried.blur, -tried.negative, tried.reversed};
+        const BlurredWarp positive{depths, tried.blur, tried.warp(tried.positive)};
+        const BlurredWarp negative{depths, tried.blur, tried.warp(-tried.negative)};
         std::size_t fractions = 0;
         for (const InnerPixel& pixel : inner_pixels(c, tried.blur.reach_texels())) {
             auto expected = positive.bound(pixel);

@@ -354,15 +354,17 @@ void expect_causes_add_up(const analysis::Comparison& result)
 TEST_P(ListedMethod, ExplainsEveryErrorOnce)
 {
     GNOMON_REQUIRE_GL();
+    const std::vector<scene::Override> size{{"image.width", "112"}, {"image.height", "63"}};
     for (const char* const builtin : {"sphere-cube", "wall"}) {
-        const Compared scene{job_of_builtin(builtin, keys())};
+        const Compared scene{job_of_builtin(builtin, keys(size))};
         for (const char* const outside : {"lit", "shadowed", "clamp"}) {
             for (const char* const bias : {"0", "0.01"}) {
                 SCOPED_TRACE(fmt::format("{} {} bias {}", builtin, outside, bias));
                 const auto result = scene(job_of_builtin(
-                    builtin, keys({{"lookup.outside", outside}, {"bias.constant", bias}})));
+                    builtin,
+                    keys(with(size, {{"lookup.outside", outside}, {"bias.constant", bias}}))));
                 if (methods::promises(result.job).has_map) {
-                    EXPECT_GT(result.metrics.amounts.total(), 1);
+                    EXPECT_GT(result.metrics.amounts.total(), 0);
                 }
                 expect_causes_add_up(result);
             }

@@ -64,10 +64,14 @@ void MethodCase::draw_map()
 
 void MethodCase::give_map(scene::Image<float> depths)
 {
-    std::vector<scene::Image<float>> of_samples(
-        static_cast<std::size_t>(methods::passes(job).depths_of_texel()), depths);
+    give_samples({static_cast<std::size_t>(methods::passes(job).depths_of_texel()), depths});
+}
+
+void MethodCase::give_samples(std::vector<scene::Image<float>> of_samples)
+{
+    scene::Image<float> first = of_samples.front();
     const raster_gl::Texture samples = raster_gl::upload_layers(of_samples);
-    map_ = &map_pass_.store(std::move(depths), view.first_map().reversed);
+    map_ = &map_pass_.store(std::move(first), view.first_map().reversed);
     prefilter({{&samples, 1}, true});
 }
 
@@ -96,6 +100,22 @@ scene::LookupLayers MethodCase::look_up(float constant_bias)
 scene::Image<float> MethodCase::find_critical_biases()
 {
     return lookup_pass_.find_critical_biases(looked_up(), job, view);
+}
+
+std::array<scene::Image<double>, 4> MethodCase::stored(int level) const
+{
+    const int side = std::max(job.shadow_map.resolution_texels >> level, 1);
+    std::vector<float> numbers(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * 4);
+    glGetTextureImage(filtered_->layer(0).name(), level, GL_RGBA, GL_FLOAT,
+                      static_cast<GLsizei>(numbers.size() * sizeof(float)), numbers.data());
+    const scene::ImageSize size{side, side};
+    std::array<scene::Image<double>, 4> channels{
+        scene::Image<double>{size}, scene::Image<double>{size}, scene::Image<double>{size},
+        scene::Image<double>{size}};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        channels.at(i % 4)[i / 4] = double{numbers[i]};
+    }
+    return channels;
 }
 
 scene::Image<std::uint32_t> MethodCase::triangles() const

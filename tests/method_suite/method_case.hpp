@@ -11,6 +11,7 @@
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
+#include <array>
 #include <cstdint>
 #include <ostream>
 #include <string>
@@ -30,8 +31,12 @@ public:
     void draw_map();
     /// @param depths  top left first.
     void give_map(scene::Image<float> depths);
+    /// @param of_samples  as many as the method reads of each texel; top left first.
+    void give_samples(std::vector<scene::Image<float>> of_samples);
     [[nodiscard]] scene::LookupLayers look_up(float constant_bias = 0);
     [[nodiscard]] scene::Image<float> find_critical_biases();
+    /// What a level of the method's blurred map holds: red, green, blue, alpha; lower left first.
+    [[nodiscard]] std::array<scene::Image<double>, 4> stored(int level = 0) const;
     [[nodiscard]] scene::Image<std::uint32_t> triangles() const;
 
     scene::Job job;
