@@ -1,6 +1,7 @@
 #include "analysis/comparison.hpp"
 
 #include "analysis/causes/float_map.hpp"
+#include "analysis/receiver_geometry.hpp"
 #include "methods/list.hpp"
 
 #include <fmt/format.h>
@@ -163,6 +164,29 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
                                 pixels, comparison.view.bias);
 }
 
+/// What the job's polygon offset is at its pixels, where its maps have one.
+std::optional<DrawnOffset> measure_drawn_offset(const Comparison& comparison,
+                                                const Renderers& renderers)
+{
+    const auto offset = methods::map_offset(comparison.job, comparison.view);
+    if (!offset || !renderers.measure_offset_units) {
+        return std::nullopt;
+    }
+    const scene::Image<scene::PixelClass>& classes = comparison.truth.pixel_class;
+    const ReceiverGeometry geometry{*comparison.triangles, comparison.view,
+                                    comparison.receivers.triangle};
+    const scene::Image<float> light_distance_m = light_distances_m(classes, geometry);
+    const auto units = renderers.measure_offset_units(comparison.job.shadow_map.depth_format);
+    return find_drawn_offset(*offset, {*comparison.triangles,
+                                       comparison.receivers.triangle,
+                                       classes,
+                                       light_distance_m,
+                                       {comparison.view.maps, comparison.lookup.maps,
+                                        comparison.job.shadow_map.resolution_texels},
+                                       comparison.job.shadow_map.depth_format,
+                                       units});
+}
+
 } // namespace
 
 void finish_comparison(Comparison& begun, const Renderers& renderers)
@@ -183,6 +207,8 @@ void finish_comparison(Comparison& begun, const Renderers& renderers)
         begun.precision_kinds =
             timed(seconds.analysis, [&] { return measure_precision_kinds(begun, renderers); });
     }
+    begun.drawn_offset =
+        timed(seconds.analysis, [&] { return measure_drawn_offset(begun, renderers); });
 }
 
 Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)

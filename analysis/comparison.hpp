@@ -3,6 +3,7 @@
 #include "analysis/advice/remedy.hpp"
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/bias/bias_verification.hpp"
+#include "analysis/bias/drawn_offset.hpp"
 #include "analysis/causes/precision_kinds.hpp"
 #include "analysis/evaluate/evaluation.hpp"
 #include "analysis/metrics/metrics.hpp"
@@ -80,6 +81,8 @@ struct Comparison {
     std::optional<BiasVerification> verification;
     /// Of the wrong pixels of cause `precision`; empty: not asked for.
     std::optional<PrecisionKinds> precision_kinds;
+    /// Of a job that draws its maps with one, what the polygon offset is at its pixels.
+    std::optional<DrawnOffset> drawn_offset;
     std::vector<Remedy> advice;                        ///< reruns of GL; empty: not asked for
     AdviceViews advice_views;                          ///< what it was made from
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for

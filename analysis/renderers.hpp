@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/depth/offset_unit.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
 #include "scene/pixel_layers.hpp"
@@ -88,6 +89,9 @@ struct Renderers {
     /// Those of some rows of the same map drawn as d32f; the map drawn last is lost.
     std::function<scene::Image<float>(const scene::Job&, const scene::View&, scene::TexelRows)>
         read_float_depths;
+    /// The driver's unit of polygon offset, measured at depths across [0, 1]. What was drawn last
+    /// stays. Empty: what an offset is long is not told.
+    std::function<std::vector<scene::OffsetUnit>(scene::DepthFormat)> measure_offset_units;
     /// Empty: errors stay without a diagnosis. What it makes may refer to its arguments.
     std::function<std::unique_ptr<scene::ExactLight>(const scene::Job&, const scene::View&,
                                                      const scene::ReceiverLayers&)>

@@ -37,7 +37,8 @@ std::vector<double> stored_depths(RasterPlanes& planes, scene::DepthFormat forma
 
 } // namespace
 
-std::vector<OffsetUnit> measure_offset_units(const Context& context, scene::DepthFormat format)
+std::vector<scene::OffsetUnit> measure_offset_units(const Context& context,
+                                                    scene::DepthFormat format)
 {
     const scene::MeasuredPlanes planes = flat_planes();
     RasterPlanes raster{context, planes};
@@ -53,7 +54,7 @@ std::vector<OffsetUnit> measure_offset_units(const Context& context, scene::Dept
         const OffsetDraws offset{methods::PolygonOffset{0, units, 0}};
         shifted = stored_depths(raster, format);
     }
-    std::vector<OffsetUnit> result;
+    std::vector<scene::OffsetUnit> result;
     for (std::size_t i = 1; i + 1 < still.size(); ++i) { // the ends meet near and far
         result.push_back({still[i], (shifted[i] - still[i]) / double{units}});
     }

@@ -1,17 +1,12 @@
 #pragma once
 
 #include "raster_gl/context.hpp"
+#include "scene/depth/offset_unit.hpp"
 #include "scene/job/job.hpp"
 
 #include <vector>
 
 namespace gnomon::raster_gl {
-
-/// The unit r of glPolygonOffset at a depth: `units` of 1 add r to the window depth.
-struct OffsetUnit {
-    double depth = 0; ///< of the plane, without offset
-    double r = 0;     ///< window depth
-};
 
 /// Measures r on flat planes at depths across [0, 1], by the shift that many units cause.
 ///
@@ -20,7 +15,7 @@ struct OffsetUnit {
 /// @throws scene::InputError        if the driver lacks the format.
 /// @throws scene::EnvironmentError  if GL fails.
 /// Source: OpenGL 4.6, 14.6.5.
-[[nodiscard]] std::vector<OffsetUnit> measure_offset_units(const Context& context,
-                                                           scene::DepthFormat format);
+[[nodiscard]] std::vector<scene::OffsetUnit> measure_offset_units(const Context& context,
+                                                                  scene::DepthFormat format);
 
 } // namespace gnomon::raster_gl

@@ -2,6 +2,7 @@
 
 #include "methods/list.hpp"
 #include "raster_gl/clip_positions.hpp"
+#include "raster_gl/polygon_offset.hpp"
 #include "raster_gl/readback.hpp"
 #include "reference_rt/light/exact_light.hpp"
 
@@ -208,6 +209,11 @@ scene::Image<float> GlRenderer::read_map_depths() const
     return raster_gl::read_shader_depths(context_, *shadow_map_);
 }
 
+std::vector<scene::OffsetUnit> GlRenderer::measure_offset_units(scene::DepthFormat format) const
+{
+    return raster_gl::measure_offset_units(context_, format);
+}
+
 void GlRenderer::forget_shadow_map()
 {
     shadow_map_ = nullptr;
@@ -267,6 +273,9 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     renderers.read_float_depths = [&gl](const scene::Job& job, const scene::View& view,
                                         scene::TexelRows rows) {
         return gl.read_float_depths(job, view, rows);
+    };
+    renderers.measure_offset_units = [&gl](scene::DepthFormat format) {
+        return gl.measure_offset_units(format);
     };
     if (options.method == reference_rt::TruthMethod::exact) {
         renderers.make_exact_light =

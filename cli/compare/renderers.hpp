@@ -11,6 +11,7 @@
 #include "raster_gl/shadow_map.hpp"
 #include "raster_gl/shadow_volumes.hpp"
 #include "reference_rt/truth.hpp"
+#include "scene/depth/offset_unit.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -54,6 +55,9 @@ public:
                     const analysis::ExactDepths& depths, std::span<const scene::Bias> biases);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
+    /// The driver's unit of polygon offset in maps of the format, at depths across [0, 1].
+    [[nodiscard]] std::vector<scene::OffsetUnit>
+    measure_offset_units(scene::DepthFormat format) const;
     /// Gives the last shadow map's memory back: it is to be drawn again before it is asked.
     void forget_shadow_map();
     /// Draws these rows of the job's map as d32f, which takes its place, and reads their depths.

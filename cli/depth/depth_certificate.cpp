@@ -88,11 +88,7 @@ reports::CertifiedRange certify_range(const raster_gl::Context& context,
 reports::FormatOffsetUnits offset_units(const raster_gl::Context& context,
                                         scene::DepthFormat format)
 {
-    reports::FormatOffsetUnits result{scene::depth_format_name(format), {}};
-    for (const auto& [depth, r] : raster_gl::measure_offset_units(context, format)) {
-        result.units.push_back({depth, r});
-    }
-    return result;
+    return {scene::depth_format_name(format), raster_gl::measure_offset_units(context, format)};
 }
 
 } // namespace

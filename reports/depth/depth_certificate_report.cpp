@@ -33,15 +33,15 @@ std::string line(const std::string& name, std::string_view triangles,
         certificate.rms_residual_codes);
 }
 
-std::string units_text(const std::vector<OffsetUnitLine>& units)
+std::string units_text(const std::vector<scene::OffsetUnit>& units)
 {
-    const auto [least, most] = std::ranges::minmax(units, {}, &OffsetUnitLine::r);
+    const auto [least, most] = std::ranges::minmax(units, {}, &scene::OffsetUnit::r);
     constexpr double measured_to = 1.01;
     if (most.r <= measured_to * least.r) {
         return fmt::format("  2^{:.2f} at every depth", std::log2(most.r));
     }
     std::string text;
-    for (const OffsetUnitLine& unit : units) {
+    for (const scene::OffsetUnit& unit : units) {
         text += fmt::format("  2^{:.2f} at {:.2f}", std::log2(unit.r), unit.depth);
     }
     return text;

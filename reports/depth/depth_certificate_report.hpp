@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/depth/texel_class.hpp"
+#include "scene/depth/offset_unit.hpp"
 #include "scene/light/depth_range.hpp"
 #include "store/json_values.hpp"
 
@@ -22,15 +23,9 @@ struct CertifiedRange {
     std::vector<CertifiedFormat> formats;
 };
 
-/// The unit r of glPolygonOffset at a depth.
-struct OffsetUnitLine {
-    double depth = 0;
-    double r = 0;
-};
-
 struct FormatOffsetUnits {
     std::string name;
-    std::vector<OffsetUnitLine> units; ///< at least one
+    std::vector<scene::OffsetUnit> units; ///< at least one
 };
 
 /// What the doctor found of a driver's depths; empty if it was not asked for.

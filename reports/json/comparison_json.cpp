@@ -91,6 +91,29 @@ store::Json exact_inputs_object(const analysis::Comparison& comparison)
     return json;
 }
 
+store::Json quantiles_of(const analysis::Quantiles& values)
+{
+    return {{"median", values.median}, {"p95", values.p95}, {"max", values.max}};
+}
+
+store::Json lengths_object(const analysis::OffsetLengths& lengths)
+{
+    return {{"depth", quantiles_of(lengths.depth)},
+            {"m", quantiles_of(lengths.metres)},
+            {"texels", quantiles_of(lengths.texels)}};
+}
+
+store::Json polygon_offset_object(const analysis::DrawnOffset& drawn)
+{
+    return {{"factor", drawn.offset.factor},
+            {"units", drawn.offset.units},
+            {"clamp", drawn.offset.clamp},
+            {"r", quantiles_of(drawn.r)},
+            {"of_factor", lengths_object(drawn.of_factor)},
+            {"of_units", lengths_object(drawn.of_units)},
+            {"whole", lengths_object(drawn.whole)}};
+}
+
 /// All that is said of one light's comparison.
 void add_comparison(store::Json& json, const analysis::Comparison& comparison)
 {
@@ -101,6 +124,9 @@ void add_comparison(store::Json& json, const analysis::Comparison& comparison)
     json["scene"] = scene_object(comparison.scene);
     json["job"] = store::job_object(comparison);
     json["frustum"] = frustum_value(comparison.job, comparison.view);
+    if (comparison.drawn_offset) {
+        json["polygon_offset"] = polygon_offset_object(*comparison.drawn_offset);
+    }
     json["truth_method"] = comparison.truth_method;
     json["truth_signs"] = truth_signs(comparison.truth.signs);
     json["float_audit"] = float_audit(comparison.float_audit);

@@ -28,6 +28,35 @@ std::string signs(const scene::TruthSigns& signs)
                                                    grouped(signs.exact), grouped(all)));
 }
 
+/// "factor 2: 0.0026, 0.262 m, 6.61 texels; 95 % up to 1.12 m", at the median pixel.
+std::string length_words(std::string_view of, const analysis::OffsetLengths& lengths)
+{
+    return fmt::format("{}: {:.3g}, {:.3g} m, {:.3g} texels; 95 % up to {:.3g} m", of,
+                       lengths.depth.median, lengths.metres.median, lengths.texels.median,
+                       lengths.metres.p95);
+}
+
+/// What the job's polygon offset is at its pixels: of factor and units those that are not 0.
+std::string offset_lines(const analysis::DrawnOffset& drawn)
+{
+    const methods::PolygonOffset& offset = drawn.offset;
+    std::string text;
+    const auto add = [&text](const std::string& words) {
+        text += setting_line(text.empty() ? "polygon offset" : "", words);
+    };
+    if (offset.factor != 0) {
+        add(length_words(fmt::format("factor {:.4g}", offset.factor), drawn.of_factor));
+    }
+    if (offset.units != 0) {
+        add(length_words(fmt::format("units {:.4g} of r {:.3g}", offset.units, drawn.r.median),
+                         drawn.of_units));
+    }
+    if (offset.factor != 0 && offset.units != 0) {
+        add(length_words("both", drawn.whole));
+    }
+    return text;
+}
+
 std::string settings(const analysis::Comparison& comparison)
 {
     if (comparison.evaluation) {
@@ -45,6 +74,7 @@ std::string settings(const analysis::Comparison& comparison)
     text += words.range.empty() ? "" : setting_line("", words.range);
     text += setting_line("lookup", words.lookup);
     text += setting_line("bias", words.bias);
+    text += comparison.drawn_offset ? offset_lines(*comparison.drawn_offset) : "";
     text += setting_line("GL", environment.gl_renderer);
     text += setting_line("", environment.gl_version);
     text +=

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <numbers>
 #include <vector>
 
 /// The bias terms that engines have, each against a closed form.
@@ -229,6 +230,41 @@ TEST(PolygonOffset, IsLimitedByItsClamp)
 }
 
 // A flat caster has no slope: units · r is all, and in a map of 24 bits the same everywhere.
+// Evenly spaced depths have one r, and a plane one slope. Each depth rounds to 2^-24, the driver's
+// plane is off by some of those, and r was measured to 2^-9 of itself: 4096 of them to 8.
+TEST(PolygonOffset, IsAsLongAsItMovesWhatIsDrawn)
+{
+    GNOMON_REQUIRE_GL();
+    const Settings d24{{"shadow_map.depth_format", "d24"}};
+    const scene::Job job = plane(60, d24);
+    const scene::Job offset_job = plane(60, joined(d24, {{"bias.polygon_offset_factor", "2"},
+                                                         {"bias.polygon_offset_units", "4096"}}));
+    const Compared compared{job};
+    const Comparison plain = compared.without_diagnosis(job);
+    EXPECT_FALSE(plain.drawn_offset);
+    const analysis::Renderers renderers = compared.renderers();
+    renderers.draw_map(job, plain.view);
+    const scene::Image<float> before = renderers.read_map_depths();
+    const Comparison offset = compared.without_diagnosis(offset_job);
+    ASSERT_TRUE(offset.drawn_offset);
+    renderers.draw_map(offset_job, offset.view);
+    const scene::Image<float> after = renderers.read_map_depths();
+    const double whole{offset.drawn_offset->whole.depth.median};
+    const double of_factor{offset.drawn_offset->of_factor.depth.median};
+    const double least = whole - 72 * 0x1p-24;
+    const double most = whole + (std::numbers::sqrt2 - 1) * of_factor + 72 * 0x1p-24;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < before.pixel_count(); ++i) {
+        if (before[i] < 1 && after[i] < 1) {
+            ++moved;
+            ASSERT_GE(double{after[i]} - double{before[i]}, least) << "texel " << i;
+            ASSERT_LE(double{after[i]} - double{before[i]}, most) << "texel " << i;
+        }
+    }
+    EXPECT_GT(moved, 1000U);
+    EXPECT_GT(whole, of_factor + 4000 * 0x1p-24);
+}
+
 TEST(PolygonOffset, IsTheCauseOfTheLightThatItLetsIn)
 {
     GNOMON_REQUIRE_GL();

@@ -76,6 +76,20 @@ void for_each_member(const Json& json, const Visit& visit)
     }
 }
 
+TEST(JsonSchemaDocument, NamesTheMembersOfAPolygonOffset)
+{
+    const std::string text = document_text(schema_document);
+    const store::Example example;
+    analysis::Comparison comparison = example.comparison;
+    comparison.drawn_offset.emplace();
+    const Json json = Json::parse(comparison_json(comparison));
+    EXPECT_TRUE(is_named(text, "polygon_offset"));
+    for_each_member(json.at("polygon_offset"), [&](const std::string& name) {
+        EXPECT_TRUE(is_named(text, name)) << "polygon_offset." << name;
+    });
+    EXPECT_FALSE(Json::parse(comparison_json(example.comparison)).contains("polygon_offset"));
+}
+
 TEST(JsonSchemaDocument, NamesTheMembersOfMethods)
 {
     std::string text = document_text(schema_document);

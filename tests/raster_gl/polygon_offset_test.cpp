@@ -18,7 +18,7 @@ TEST(OffsetUnit, IsBetweenOneAndTwoStepsOfEachFormat)
         const auto format = scene::depth_format_from_name(support.name).value();
         const auto units = measure_offset_units(*tests::shared_context(), format);
         ASSERT_EQ(units.size(), 6U) << support.name;
-        for (const OffsetUnit& unit : units) {
+        for (const scene::OffsetUnit& unit : units) {
             // GL's conformance tests accept r in [2^-b, 2·2^-b] for unorm. For float it is
             // 2^(e − 23), and twice that on NVIDIA's driver.
             // float32 pipelines cannot resolve 32 bits: there r is a float's, 2^-24 and more.

@@ -14,6 +14,7 @@ namespace {
 
 using scene::ClassReason;
 using testing::HasSubstr;
+using testing::Not;
 
 analysis::Comparison with_counts()
 {
@@ -72,6 +73,27 @@ TEST(ComparisonTable, NamesSceneSettingsAndEnvironment)
     EXPECT_THAT(table, HasSubstr("bias            constant 0.002, slope 0, normal 0 texels\n"));
     EXPECT_THAT(table, HasSubstr("truth           exact, Embree 3.13.5\n"));
     EXPECT_THAT(table, HasSubstr("seconds         scene "));
+}
+
+TEST(ComparisonTable, TellsHowLongAPolygonOffsetIs)
+{
+    analysis::Comparison comparison = with_counts();
+    EXPECT_THAT(comparison_table(comparison), Not(HasSubstr("polygon offset")));
+    const auto lengths = [](float median, float p95) {
+        const analysis::Quantiles spread{.median = median, .p95 = p95};
+        return analysis::OffsetLengths{spread, spread, spread};
+    };
+    comparison.drawn_offset = {.offset = {2, 0.5F, 0},
+                               .r = {.median = 0x1p-4F},
+                               .of_factor = lengths(0.25F, 0.5F),
+                               .of_units = lengths(0.125F, 0.125F),
+                               .whole = lengths(0.375F, 0.625F)};
+    EXPECT_THAT(comparison_table(comparison),
+                HasSubstr("polygon offset  factor 2: 0.25, 0.25 m, 0.25 texels; 95 % up to 0.5 m\n"
+                          "                units 0.5 of r 0.0625: 0.125, 0.125 m, 0.125 texels; "
+                          "95 % up to 0.125 m\n"
+                          "                both: 0.375, 0.375 m, 0.375 texels; 95 % up to 0.625 "
+                          "m\n"));
 }
 
 TEST(ComparisonTable, ShowsTheNotesOnTheScene)
