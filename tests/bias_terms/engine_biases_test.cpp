@@ -4,6 +4,7 @@
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "scene/error.hpp"
+#include "scene/map_texels.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,8 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <numbers>
+#include <string>
 #include <vector>
 
 /// The bias terms that engines have, each against a closed form.
@@ -229,7 +230,6 @@ TEST(PolygonOffset, IsLimitedByItsClamp)
     }
 }
 
-// A flat caster has no slope: units · r is all, and in a map of 24 bits the same everywhere.
 // Evenly spaced depths have one r, and a plane one slope. Each depth rounds to 2^-24, the driver's
 // plane is off by some of those, and r was measured to 2^-9 of itself: 4096 of them to 8.
 TEST(PolygonOffset, IsAsLongAsItMovesWhatIsDrawn)
@@ -265,6 +265,7 @@ TEST(PolygonOffset, IsAsLongAsItMovesWhatIsDrawn)
     EXPECT_GT(whole, of_factor + 4000 * 0x1p-24);
 }
 
+// A flat caster has no slope: units · r is all, and in a map of 24 bits the same everywhere.
 TEST(PolygonOffset, IsTheCauseOfTheLightThatItLetsIn)
 {
     GNOMON_REQUIRE_GL();
@@ -340,6 +341,82 @@ TEST_P(SteepPlane, HasNoAcneWithASlopeOfAWholeKernel)
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, SteepPlane, testing::Values(20, 60, 80));
+
+/// How much deeper a lit receiver lies than the nearest of the four texels that GL compares at
+/// once, over what its plane rises per texel; of all receivers the largest.
+double largest_need_of_gathers(const Comparison& comparison, const scene::Image<float>& map)
+{
+    const double per_texel = PlaneDepth{comparison}.per_texel();
+    const scene::LookupLayers& lookup = comparison.lookup;
+    const int last = map.size().width_px - 1;
+    double largest = 0;
+    for (std::size_t i = 0; i < lookup.samples.pixel_count(); ++i) {
+        const scene::Vec2f texel = lookup.texels[i] - 0.5F;
+        const auto x = static_cast<int>(std::floor(texel.x));
+        const auto y = static_cast<int>(std::floor(texel.y));
+        const bool is_inside = x >= 0 && y >= 0 && x < last && y < last;
+        if (comparison.truth.pixel_class[i] != PixelClass::lit || !is_inside) {
+            continue;
+        }
+        float nearest = 1;
+        for (const scene::Texel tap :
+             {scene::Texel{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}}) {
+            nearest = std::min(nearest, scene::at_texel(map, tap));
+        }
+        const double need = double{lookup.samples[i].receiver_depth} - double{nearest};
+        largest = std::max(largest, need / per_texel);
+    }
+    return largest;
+}
+
+// Without the fractional term the plane is followed to the point that is looked up, t = 0, which is
+// no plane at all: one reference for four texels, of which the farthest lies up to a texel away
+// along each axis. So a constant of |g_u| + |g_v| is enough, and the term is twice that. Roundings
+// as above: 16 steps.
+TEST_P(SteepPlane, NeedsTheFractionalTermWhereGlComparesFourTexelsAtOnce)
+{
+    GNOMON_REQUIRE_GL();
+    const Compared compared{plane(GetParam(), {})};
+    const auto hardware = [&](double bias, const char* how) {
+        return compared.without_diagnosis(
+            plane(GetParam(), {{"lookup.filter", "hardware"},
+                               {"bias.constant", fmt::format("{:.17g}", bias)},
+                               {"bias.receiver_plane", how}}));
+    };
+    const double roundings = 16 * 0x1p-24;
+    const Comparison without = hardware(roundings, "off");
+    EXPECT_GT(without.metrics.false_shadow, 1000U);
+    EXPECT_EQ(hardware(roundings, "analytic").metrics.amounts.shadow, 0);
+    const double per_texel = PlaneDepth{without}.per_texel();
+    EXPECT_EQ(hardware(per_texel + roundings, "off").metrics.amounts.shadow, 0);
+    EXPECT_GT(hardware(0.75 * per_texel, "off").metrics.amounts.shadow, 0);
+    const analysis::Renderers renderers = compared.renderers();
+    renderers.draw_map(without.job, without.view);
+    const double need = largest_need_of_gathers(without, renderers.read_map_depths());
+    EXPECT_LE(need, 1 + roundings / per_texel);
+    EXPECT_GT(need, 0.9);
+    RecordProperty("false_shadow_without_the_term",
+                   fmt::format("{}", without.metrics.false_shadow));
+    RecordProperty("largest_need", fmt::format("{:.4f}", need));
+}
+
+// Dou et al. move the depth to the centre of one texel, that which holds the receiver: of a kernel
+// all taps are compared with it, and the farther ones shadow the plane.
+TEST_P(SteepPlane, KeepsAcneOfAKernelsOtherTapsWithAnAdaptiveBias)
+{
+    GNOMON_REQUIRE_GL();
+    const Compared compared{plane(GetParam(), {})};
+    const auto shadow = [&](const char* filter, const Settings& bias) {
+        const Settings keys{{"lookup.filter", filter}, {"bias.constant", "1e-6"}};
+        return compared.without_diagnosis(plane(GetParam(), joined(keys, bias)))
+            .metrics.amounts.shadow;
+    };
+    const Settings adaptive{{"bias.adaptive_m", "0.0001"}};
+    EXPECT_EQ(shadow("nearest", adaptive), 0);
+    EXPECT_GT(shadow("pcf5", adaptive), 1000);
+    EXPECT_EQ(shadow("pcf5", {{"bias.receiver_plane", "analytic"}}), 0);
+    RecordProperty("shadow_amount_of_pcf5", fmt::format("{:.1f}", shadow("pcf5", adaptive)));
+}
 
 TEST(ReceiverPlane, LeavesAcneWhereItsClampIsLessThanThePlaneNeeds)
 {
