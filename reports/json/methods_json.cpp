@@ -1,5 +1,6 @@
 #include "reports/json/methods_json.hpp"
 
+#include "methods/refusal.hpp"
 #include "scene/job/stage_names.hpp"
 #include "store/json_values.hpp"
 
@@ -75,6 +76,7 @@ store::Json bias_term_array(const methods::Method& method)
         json.push_back({{"name", term.name},
                         {"sentence", term.sentence},
                         {"acts", methods::name(term.place)},
+                        {"refused", methods::refuses(method, term)},
                         {"stages", scene::stage_names(methods::stages_of(term))},
                         {"keys", std::move(keys)}});
     }

@@ -1,5 +1,6 @@
 #include "reports/tables/methods_table.hpp"
 
+#include "methods/refusal.hpp"
 #include "reports/tables/aligned_rows.hpp"
 #include "scene/job/stage_names.hpp"
 
@@ -72,10 +73,12 @@ std::string bias_columns(const methods::Method& method)
         for (const scene::JobKey& key : methods::keys_of(term)) {
             keys.push_back(fmt::format("{} [{}]", key.name, key.unit));
         }
-        rows.push_back({std::string{term.name}, spaced(methods::name(term.place)),
-                        spaced(fmt::format(
-                            "{}", fmt::join(scene::stage_names(methods::stages_of(term)), ", "))),
-                        fmt::format("{}", fmt::join(keys, ", ")), std::string{term.sentence}});
+        rows.push_back(
+            {std::string{term.name},
+             methods::refuses(method, term) ? "refused" : spaced(methods::name(term.place)),
+             spaced(
+                 fmt::format("{}", fmt::join(scene::stage_names(methods::stages_of(term)), ", "))),
+             fmt::format("{}", fmt::join(keys, ", ")), std::string{term.sentence}});
     }
     return aligned_rows(rows);
 }

@@ -1,4 +1,6 @@
 #include "methods/depth/bias_terms.hpp"
+#include "methods/list.hpp"
+#include "methods/refusal.hpp"
 
 #include "scene/job/keys.hpp"
 
@@ -27,6 +29,19 @@ std::vector<std::string> keys_with_units(const BiasTerm& term)
         texts.push_back(key.name + " [" + key.unit + "]");
     }
     return texts;
+}
+
+TEST(BiasTerms, AreRefusedWhereNoTapHasADepthOfItsOwn)
+{
+    for (const Method& method : methods()) {
+        for (const BiasTerm& term : method.bias_terms) {
+            const bool has_no_taps = term.name == "receiver plane" && method.name != "depth";
+            const bool has_two_layers =
+                term.place == BiasPlace::map_drawn && method.name == "second_layer";
+            EXPECT_EQ(refuses(method, term), has_no_taps || has_two_layers)
+                << method.name << ": " << term.name;
+        }
+    }
 }
 
 TEST(BiasTerms, AreThoseOfTheList)

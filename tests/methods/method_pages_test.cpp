@@ -2,6 +2,7 @@
 // GNOMON_UPDATE_DOCUMENTS=1 writes them.
 
 #include "methods/list.hpp"
+#include "methods/refusal.hpp"
 #include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>
@@ -84,7 +85,7 @@ std::string bias_table(const Method& method)
             keys.push_back(fmt::format("`{}` [{}]", key.name, key.unit));
         }
         text += fmt::format("| {} | {} | {} | {} | {} |\n", term.name, fmt::join(keys, ", "),
-                            spaced(name(term.place)),
+                            refuses(method, term) ? "refused" : spaced(name(term.place)),
                             fmt::join(scene::stage_names(stages_of(term)), ", "), term.sentence);
     }
     return text;
