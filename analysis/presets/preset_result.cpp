@@ -3,8 +3,11 @@
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/depth/depth_mapping.hpp"
+#include "methods/bias_term.hpp"
 #include "methods/list.hpp"
+#include "scene/job/handed_key.hpp"
 
+#include <string_view>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -29,6 +32,19 @@ double step_at(const scene::Job& job, const scene::LightFrustum& map, double lig
     return depth_step(job.shadow_map.depth_format, static_cast<float>(depth));
 }
 
+/// The keys of the bias terms beyond `ReceiverBias` that the job has not at their defaults.
+std::map<std::string, scene::JobValue> further_keys(const scene::Job& job)
+{
+    std::map<std::string, scene::JobValue> keys;
+    for (const std::string_view name : methods::moving_bias_keys(job)) {
+        const scene::HandedKey* key = scene::find_handed_key(name);
+        if (key != nullptr && key->value_of(job) != key->default_value) {
+            keys.emplace(name, key->value_of(job));
+        }
+    }
+    return keys;
+}
+
 } // namespace
 
 ReceiverBias bias_at(const scene::Job& job, const scene::View& view, double light_distance_m)
@@ -44,20 +60,27 @@ ReceiverBias bias_at(const scene::Job& job, const scene::View& view, double ligh
     return at;
 }
 
-UnexpressedLength length_of(const scene::UnexpressedBias& bias, const scene::Job& job,
-                            const scene::View& view, double light_distance_m)
+std::optional<FurtherBias> further_bias_at(const scene::Job& job, const scene::View& view,
+                                           double light_distance_m, std::optional<double> unit)
 {
+    FurtherBias further{.keys = further_keys(job)};
+    if (further.keys.empty()) {
+        return std::nullopt;
+    }
     const scene::LightFrustum& map = view.first_map();
     const double texel_m = map.texel_width_m(light_distance_m, job.shadow_map.resolution_texels);
     const double step = step_at(job, map, light_distance_m);
-    UnexpressedLength length;
-    length.constant = bias_of_length(map, bias.constant_texels * texel_m, light_distance_m) +
-                      bias.polygon_units * step;
-    length.constant_m = bias_length_m(map, length.constant, light_distance_m);
-    length.constant_texels = length.constant_m / texel_m;
-    length.constant_r = length.constant / step;
-    length.slope_m = bias.polygon_factor * texel_m;
-    return length;
+    const double texels = methods::number_in(job, "bias.constant_texels");
+    const methods::PolygonOffset offset =
+        methods::map_offset(job, view).value_or(methods::PolygonOffset{});
+    const double away = map.reversed ? -1 : 1;
+    further.constant = bias_of_length(map, texels * texel_m, light_distance_m) +
+                       away * double{offset.units} * unit.value_or(step);
+    further.constant_m = bias_length_m(map, further.constant, light_distance_m);
+    further.constant_texels = further.constant_m / texel_m;
+    further.constant_r = further.constant / step;
+    further.slope_m = away * double{offset.factor} * texel_m;
+    return further;
 }
 
 PresetResult preset_result(const Comparison& comparison, const scene::Preset* preset)
@@ -72,10 +95,11 @@ PresetResult preset_result(const Comparison& comparison, const scene::Preset* pr
     const auto light_distance_m = median_receiver_m(comparison);
     if (light_distance_m && !comparison.view.maps.empty()) {
         result.receiver = bias_at(comparison.job, comparison.view, *light_distance_m);
-        if (preset != nullptr && preset->unexpressed) {
-            result.unexpressed =
-                length_of(*preset->unexpressed, comparison.job, comparison.view, *light_distance_m);
+        std::optional<double> unit;
+        if (comparison.drawn_offset) {
+            unit = double{comparison.drawn_offset->r.median};
         }
+        result.further = further_bias_at(comparison.job, comparison.view, *light_distance_m, unit);
     }
     result.map_bytes = methods::promises(comparison.job).map_bytes;
     return result;

@@ -5,8 +5,10 @@
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "scene/job/job.hpp"
 #include "scene/job/presets/presets.hpp"
+#include "scene/job/value.hpp"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,9 +27,11 @@ struct ReceiverBias {
     double constant_r = 0;    ///< the constant bias, in smallest steps of the format at that depth
 };
 
-/// A bias that no key takes, at the same place.
-struct UnexpressedLength {
-    double constant = 0; ///< depth units
+/// At the same place the job's bias terms that the bias curve's formula does not know, but for the
+/// normal offset in texels.
+struct FurtherBias {
+    std::map<std::string, scene::JobValue> keys; ///< of those terms, that are not at their defaults
+    double constant = 0; ///< texels and the polygon offset's units together, depth units
     double constant_m = 0;
     double constant_texels = 0;
     double constant_r = 0;
@@ -40,17 +44,22 @@ struct UnexpressedLength {
 [[nodiscard]] ReceiverBias bias_at(const scene::Job& job, const scene::View& view,
                                    double light_distance_m);
 
-/// What constant texels, polygon units and factor are at a receiver: the texels and the units'
-/// steps added, and factor × texel. Source: OpenGL 4.6 §14.6.5.
-[[nodiscard]] UnexpressedLength length_of(const scene::UnexpressedBias& bias, const scene::Job& job,
-                                          const scene::View& view, double light_distance_m);
+/// What those terms are at a receiver; empty where the job sets none of them. A reversed map's
+/// polygon offset counts as that of the same map the other way round.
+/// @param light_distance_m  of the receivers; > 0 for a spot.
+/// @param unit  of the polygon offset there [depth units]; empty: a step of the format.
+/// Source: OpenGL 4.6 §14.6.5.
+[[nodiscard]] std::optional<FurtherBias> further_bias_at(const scene::Job& job,
+                                                         const scene::View& view,
+                                                         double light_distance_m,
+                                                         std::optional<double> unit = {});
 
 /// What a preset, or the job itself, gives on a job.
 struct PresetResult {
     const scene::Preset* preset = nullptr; ///< nullptr: the job as it is
     scene::Job job;
     std::optional<ReceiverBias> receiver; ///< empty: no pixel is scored, or the light has no map
-    std::optional<UnexpressedLength> unexpressed; ///< of a preset that has such a bias
+    std::optional<FurtherBias> further;   ///< empty: the same, or the job has no such bias
     Metrics metrics;
     Gaps peter_panning;
     std::uint64_t map_bytes = 0;

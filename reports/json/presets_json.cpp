@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace gnomon::reports {
 
@@ -28,26 +29,18 @@ store::Json light_array(const scene::Preset& preset)
     return json;
 }
 
-store::Json unexpressed_object(const scene::Preset& preset)
+store::Json further_bias_object(const std::optional<analysis::FurtherBias>& further)
 {
-    if (!preset.unexpressed) {
+    if (!further) {
         return nullptr;
     }
-    return {{"constant_texels", preset.unexpressed->constant_texels},
-            {"polygon_factor", preset.unexpressed->polygon_factor},
-            {"polygon_units", preset.unexpressed->polygon_units}};
-}
-
-store::Json unexpressed_length_object(const std::optional<analysis::UnexpressedLength>& length)
-{
-    if (!length) {
-        return nullptr;
+    store::Json keys = store::Json::object();
+    for (const auto& [key, value] : further->keys) {
+        keys[key] = store::Json::parse(scene::to_toml(value));
     }
-    return {{"constant", length->constant},
-            {"constant_m", length->constant_m},
-            {"constant_texels", length->constant_texels},
-            {"constant_r", length->constant_r},
-            {"slope_m", length->slope_m}};
+    return {{"keys", std::move(keys)},           {"constant", further->constant},
+            {"constant_m", further->constant_m}, {"constant_texels", further->constant_texels},
+            {"constant_r", further->constant_r}, {"slope_m", further->slope_m}};
 }
 
 store::Json map_object(const scene::Job& job)
@@ -93,6 +86,7 @@ void add_outcome(store::Json& json, const analysis::PresetResult& result)
     json["map"] = map_object(result.job);
     json["map_bytes"] = result.map_bytes;
     json["bias"] = bias_object(result.receiver);
+    json["further_bias"] = further_bias_object(result.further);
     json["lit"] = metrics.pixels.of(scene::PixelClass::lit);
     json["blocked"] = metrics.pixels.of(scene::PixelClass::blocked);
     json["mismatch"] = metrics.pixels.of(scene::ClassReason::mismatch);
@@ -111,8 +105,7 @@ store::Json result_object(const analysis::PresetResult& result)
 {
     store::Json json{{"name", result.preset->name},
                      {"kind", scene::preset_kind_name(result.preset->kind)},
-                     {"own_bias", result.preset->own_bias},
-                     {"unexpressed_bias", unexpressed_length_object(result.unexpressed)}};
+                     {"own_bias", result.preset->own_bias}};
     add_outcome(json, result);
     return json;
 }
@@ -129,7 +122,6 @@ std::string presets_json(std::span<const scene::Preset> presets)
                         {"source", preset.source},
                         {"lights", light_array(preset)},
                         {"own_bias", preset.own_bias},
-                        {"unexpressed", unexpressed_object(preset)},
                         {"cannot", preset.cannot},
                         {"keys", layer_object(preset.job)},
                         {"own_scene", layer_object(preset.own_scene)}});

@@ -3,6 +3,7 @@
 #include "reports/tables/aligned_rows.hpp"
 #include "reports/words/text.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -102,19 +103,23 @@ PresetRow bias_row(const analysis::PresetResult& result)
     return row;
 }
 
-PresetRow unexpressed_row(const analysis::PresetResult& result)
+/// "polygon_offset_factor 2, polygon_offset_units 0.5"
+std::string further_keys_text(const analysis::FurtherBias& further)
 {
-    const scene::UnexpressedBias& bias = *result.preset->unexpressed;
-    const analysis::UnexpressedLength& length = *result.unexpressed;
-    const bool has_offset = bias.polygon_factor != 0 || bias.polygon_units != 0;
-    return {result.preset->name,
-            has_offset ? fmt::format("{} {}", bias.polygon_factor, bias.polygon_units)
-                       : std::string{nothing_there},
-            digits(length.constant),
-            digits(length.constant_m),
-            digits(length.constant_texels),
-            digits(length.constant_r),
-            digits(length.slope_m)};
+    std::string text;
+    for (const auto& [key, value] : further.keys) {
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", scene::key_leaf(key),
+                            scene::to_toml(value));
+    }
+    return text;
+}
+
+PresetRow further_row(const analysis::PresetResult& result)
+{
+    const analysis::FurtherBias& further = *result.further;
+    return {preset_label(result),       further_keys_text(further),      digits(further.constant),
+            digits(further.constant_m), digits(further.constant_texels), digits(further.constant_r),
+            digits(further.slope_m)};
 }
 
 std::string gap_text(const std::optional<analysis::Quantiles>& gaps)
@@ -155,15 +160,15 @@ std::string preset_comparison_table(const analysis::PresetComparison& comparison
 {
     std::vector<PresetRow> biases{
         {"", "map", "filter", "constant", "[m]", "[texels]", "[r]", "slope", "normal [texels]"}};
-    std::vector<PresetRow> unexpressed{
-        {"not in a job", "polygon offset", "constant", "[m]", "[texels]", "[r]", "slope [m]"}};
+    std::vector<PresetRow> further{
+        {"", "further bias", "constant", "[m]", "[texels]", "[r]", "slope [m]"}};
     std::vector<PresetRow> errors{{"", "false shadow", "of lit", "false lit", "of blocked", "both",
                                    "dark [px]", "light [px]", "gap [m]"}};
     const auto add = [&](const analysis::PresetResult& result) {
         biases.push_back(bias_row(result));
         errors.push_back(error_row(result));
-        if (result.unexpressed) {
-            unexpressed.push_back(unexpressed_row(result));
+        if (result.further) {
+            further.push_back(further_row(result));
         }
     };
     add(comparison.job);
@@ -175,7 +180,7 @@ std::string preset_comparison_table(const analysis::PresetComparison& comparison
                             "smallest step\n",
                             digits(receiver->light_distance_m));
     }
-    text += aligned_rows(biases) + aligned_rows(unexpressed) + aligned_rows(errors);
+    text += aligned_rows(biases) + aligned_rows(further) + aligned_rows(errors);
     for (const analysis::SkippedPreset& one : comparison.skipped) {
         text += fmt::format("{}left out: {}: {}\n", &one == comparison.skipped.data() ? "\n" : "",
                             one.preset->name, one.why);

@@ -119,21 +119,31 @@ TEST(PresetsCommand, SaysTheSameOfABiasInEveryUnit)
     EXPECT_DOUBLE_EQ(filament.at("normal_offset_m").get<double>(), 40.0 / 1024);
 }
 
-TEST(PresetsCommand, SaysInEveryUnitWhatAJobCannotExpress)
+TEST(PresetsCommand, SaysInEveryUnitWhatFurtherBiasesAre)
 {
     const PresetsJson json = presets_from({"presets", "--compare", "--builtin", "yard", "--set",
                                            "image.width=96", "--set", "image.height=54"});
-    const PresetsJson& unity = preset_of(json, "unity").at("unexpressed_bias");
+    const PresetsJson& unity = preset_of(json, "unity").at("further_bias");
+    EXPECT_EQ(unity.at("keys"), PresetsJson({{"bias.constant_texels", 1.0}}));
     // A texel of 40 m / 2048, over a range of 99.99 m, whose steps are 1 / 65535.
     EXPECT_DOUBLE_EQ(unity.at("constant_texels").get<double>(), 1);
     EXPECT_NEAR(unity.at("constant_m").get<double>(), 40.0 / 2048, 1e-12);
     EXPECT_NEAR(unity.at("constant").get<double>(), 40.0 / 2048 / 99.99, 1e-12);
     EXPECT_NEAR(unity.at("constant_r").get<double>(), 40.0 / 2048 / 99.99 * 0xFFFF, 1e-8);
     EXPECT_EQ(unity.at("slope_m"), 0);
-    const PresetsJson& filament = preset_of(json, "filament").at("unexpressed_bias");
-    EXPECT_DOUBLE_EQ(filament.at("constant_r").get<double>(), 0.5);
+    const PresetsJson& filament = preset_of(json, "filament").at("further_bias");
+    EXPECT_EQ(filament.at("keys"), PresetsJson({{"bias.polygon_offset_factor", 2.0},
+                                                {"bias.polygon_offset_units", 0.5}}));
+    // A unit is the driver's: one or two steps. It was measured to 2^-9 of itself.
+    EXPECT_GE(filament.at("constant_r").get<double>(), 0.5 * (1 - 0x1p-8));
+    EXPECT_LE(filament.at("constant_r").get<double>(), 1 + 0x1p-8);
     EXPECT_DOUBLE_EQ(filament.at("slope_m").get<double>(), 2 * 40.0 / 1024);
-    EXPECT_TRUE(preset_of(json, "three").at("unexpressed_bias").is_null());
+    const PresetsJson& mjp = preset_of(json, "mjp-shadows").at("further_bias");
+    EXPECT_EQ(mjp.at("keys"), PresetsJson({{"bias.receiver_plane", "derivatives"},
+                                           {"bias.receiver_plane_clamp", 0.01}}));
+    EXPECT_EQ(mjp.at("constant"), 0);
+    EXPECT_TRUE(preset_of(json, "three").at("further_bias").is_null());
+    EXPECT_TRUE(json.at("job").at("further_bias").is_null());
 }
 
 TEST(PresetsCommand, PutsPresetsInPlaceOfTheJobsOwnSettings)
@@ -151,9 +161,10 @@ TEST(PresetsCommand, PrintsTheComparisonAsATable)
     const Ending ending = gnomon({"presets", "--compare", "--builtin", "wall", "--set",
                                   "image.width=96", "--set", "image.height=54"});
     expect_done(ending);
-    EXPECT_THAT(ending.out, AllOf(HasSubstr("wall, directional light"), HasSubstr("polygon offset"),
-                                  HasSubstr("4 of 2048x2048 d32f"), HasSubstr("false shadow"),
-                                  HasSubstr("left out: playcanvas: not for a directional light")));
+    EXPECT_THAT(ending.out,
+                AllOf(HasSubstr("wall, directional light"), HasSubstr("polygon_offset_factor 2"),
+                      HasSubstr("4 of 2048x2048 d32f"), HasSubstr("false shadow"),
+                      HasSubstr("left out: playcanvas: not for a directional light")));
 }
 
 TEST(PresetsCommand, LeavesOutThoseThatASettingExcludes)

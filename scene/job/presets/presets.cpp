@@ -58,17 +58,6 @@ PresetKind kind_of_word(std::string_view preset, const std::string& word)
     refuse_preset(preset, fmt::format("there is no kind {}", word));
 }
 
-double number_of_member(std::string_view preset, const TomlMember& member)
-{
-    if (const auto* integer = std::get_if<std::int64_t>(&member.node.value)) {
-        return static_cast<double>(*integer);
-    }
-    if (const auto* real = std::get_if<double>(&member.node.value)) {
-        return *real;
-    }
-    refuse_preset(preset, fmt::format("{} must be a number", member.key));
-}
-
 const TomlTable& table_of_member(std::string_view preset, const TomlMember& member)
 {
     const auto* table = std::get_if<TomlTable>(&member.node.value);
@@ -76,24 +65,6 @@ const TomlTable& table_of_member(std::string_view preset, const TomlMember& memb
         refuse_preset(preset, fmt::format("{} must be a table", member.key));
     }
     return *table;
-}
-
-UnexpressedBias unexpressed_of(std::string_view preset, const TomlMember& member)
-{
-    UnexpressedBias bias;
-    for (const TomlMember& part : table_of_member(preset, member)) {
-        const double number = number_of_member(preset, part);
-        if (part.key == "constant_texels") {
-            bias.constant_texels = number;
-        } else if (part.key == "polygon_factor") {
-            bias.polygon_factor = number;
-        } else if (part.key == "polygon_units") {
-            bias.polygon_units = number;
-        } else {
-            refuse_preset(preset, fmt::format("unknown member {}.{}", member.key, part.key));
-        }
-    }
-    return bias;
 }
 
 /// Its keys over those of what it is based on.
@@ -127,8 +98,6 @@ void read_preset_member(Preset& preset, const TomlMember& member)
         for (const std::string& word : texts_of_member(name, member)) {
             preset.lights.push_back(light_of_word(name, word));
         }
-    } else if (member.key == "unexpressed") {
-        preset.unexpressed = unexpressed_of(name, member);
     } else if (member.key == "job") {
         lay_keys(preset.job, name, member);
     } else if (member.key == "own_scene") {

@@ -4,7 +4,6 @@
 #include "scene/light/light.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,13 +20,6 @@ enum class PresetKind : std::uint8_t {
 /// "lesson", "engine".
 [[nodiscard]] std::string_view preset_kind_name(PresetKind kind);
 
-/// What an engine's bias has that its preset does not set.
-struct UnexpressedBias {
-    double constant_texels = 0; ///< a constant one, in widths of a texel
-    double polygon_factor = 0;  ///< of glPolygonOffset in the pass that draws the map
-    double polygon_units = 0;   ///< of the format's smallest step, r
-};
-
 /// The shadow map of a lesson or an engine, in the terms of a job: a file NAME.toml beside this
 /// one.
 struct Preset {
@@ -38,8 +30,7 @@ struct Preset {
     std::vector<LightType> lights;   ///< whose jobs it can be laid under
     std::string own_bias;            ///< its bias in its own words and units
     std::vector<std::string> cannot; ///< what a job cannot express of it
-    std::optional<UnexpressedBias> unexpressed;
-    Layer job;       ///< keys of method, map, lookup and bias, under any job
+    Layer job;                       ///< keys of method, map, lookup and bias, under any job
     Layer own_scene; ///< keys of its scene, camera and light, and where its map looks; may be empty
 
     [[nodiscard]] bool is_for(LightType type) const;

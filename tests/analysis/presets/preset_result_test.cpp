@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace gnomon::analysis {
 namespace {
@@ -66,18 +67,65 @@ TEST(ReceiverBias, HasFinerStepsNearerToZeroInFloats)
               0.25 * 0x1p25);
 }
 
-TEST(UnexpressedBias, AddsTexelsAndUnitsAndMakesASlopeOfTheFactor)
+FurtherBias further_bias(const scene::Job& job, const scene::View& view)
 {
-    const scene::View view = one_map(scene::Projection::orthographic);
-    const UnexpressedLength length =
-        length_of({.constant_texels = 1, .polygon_factor = 2, .polygon_units = 4}, job_of_64(d16),
-                  view, receiver_m);
+    const auto further = further_bias_at(job, view, receiver_m);
+    return further.value_or(FurtherBias{});
+}
+
+TEST(FurtherBias, AddsTexelsAndUnitsAndMakesASlopeOfTheFactor)
+{
+    scene::Job job = job_of_64(d16);
+    job.method.values["bias.constant_texels"] = 1.0;
+    job.method.values["bias.polygon_offset_factor"] = 2.0;
+    scene::View view = one_map(scene::Projection::orthographic);
+    view.bias.handed = {{"bias.polygon_offset_factor", 2.0F}, {"bias.polygon_offset_units", 4.0F}};
+    const FurtherBias further = further_bias(job, view);
     const double texel_in_depth = 1.0 / 32 / 8;
-    EXPECT_DOUBLE_EQ(length.constant, texel_in_depth + 4.0 / 65535);
-    EXPECT_DOUBLE_EQ(length.constant_m, 8 * length.constant);
-    EXPECT_DOUBLE_EQ(length.constant_texels, 8 * length.constant * 32);
-    EXPECT_DOUBLE_EQ(length.constant_r, texel_in_depth * 65535 + 4);
-    EXPECT_DOUBLE_EQ(length.slope_m, 2.0 / 32);
+    EXPECT_DOUBLE_EQ(further.constant, texel_in_depth + 4.0 / 65535);
+    EXPECT_DOUBLE_EQ(further.constant_m, 8 * further.constant);
+    EXPECT_DOUBLE_EQ(further.constant_texels, 8 * further.constant * 32);
+    EXPECT_DOUBLE_EQ(further.constant_r, texel_in_depth * 65535 + 4);
+    EXPECT_DOUBLE_EQ(further.slope_m, 2.0 / 32);
+}
+
+TEST(FurtherBias, TakesTheDriversUnitWhereItWasMeasured)
+{
+    scene::Job job = job_of_64(d16);
+    job.method.values["bias.polygon_offset_units"] = 4.0;
+    scene::View view = one_map(scene::Projection::orthographic);
+    view.bias.handed = {{"bias.polygon_offset_units", 4.0F}};
+    const auto further = further_bias_at(job, view, receiver_m, 0x1p-15);
+    ASSERT_TRUE(further);
+    EXPECT_EQ(further->constant, 0x1p-13);
+}
+
+TEST(FurtherBias, CountsNegativeUnitsOfAReversedMapAsAwayFromTheLight)
+{
+    scene::Job job = job_of_64(d16);
+    job.method.values["bias.polygon_offset_units"] = -4.0;
+    scene::View view = one_map(scene::Projection::orthographic);
+    view.maps.front().reversed = true;
+    view.bias.handed = {{"bias.polygon_offset_units", -4.0F}};
+    EXPECT_DOUBLE_EQ(further_bias(job, view).constant_r, 4);
+}
+
+TEST(FurtherBias, NamesTheKeysThatAreNotAtTheirDefaults)
+{
+    scene::Job job = job_of_64(d16);
+    job.bias.normal_texels = 2;
+    job.method.values["bias.adaptive_m"] = 0.0;
+    job.method.values["bias.receiver_plane"] = std::string{"analytic"};
+    const FurtherBias further = further_bias(job, one_map(scene::Projection::orthographic));
+    ASSERT_EQ(further.keys.size(), 1U);
+    EXPECT_EQ(further.keys.begin()->first, "bias.receiver_plane");
+    EXPECT_EQ(further.constant, 0);
+}
+
+TEST(FurtherBias, IsNoneOfAJobThatNamesNone)
+{
+    EXPECT_FALSE(
+        further_bias_at(job_of_64(d16), one_map(scene::Projection::orthographic), receiver_m));
 }
 
 } // namespace
