@@ -98,7 +98,7 @@ TEST(MethodsJson, TakesUnitsDefaultsAndStagesFromTheKeyTable)
 {
     const auto json = Json::parse(methods_json(std::vector{made_up()}));
     EXPECT_EQ(json[0]["bias_terms"], Json::parse(R"([{"name": "offset", "sentence": "moves P",
-        "acts": "lookup_position", "stages": ["lookup"],
+        "acts": "lookup_position", "refused": false, "stages": ["lookup"],
         "keys": [{"name": "bias.normal_texels", "unit": "texel widths"}]}])"));
     ASSERT_EQ(json[0]["keys"].size(), 3U);
     EXPECT_EQ(json[0]["keys"][1], Json::parse(R"({"name": "lookup.outside",
