@@ -127,6 +127,12 @@ def recommended(errors):
     return errors.index(least)
 
 
+def short_name(key):
+    """Of a key beside its term: the table's "factor" of bias.polygon_offset_factor."""
+    name = key.removeprefix("bias.")
+    return name.removeprefix("polygon_offset_").removeprefix("receiver_plane_")
+
+
 def table_of_scene(program, scene, filters):
     views, depth_m = find_views(program, scene)
     choices = terms(1e-4 * depth_m)
@@ -140,7 +146,7 @@ def table_of_scene(program, scene, filters):
                 at = recommended([point["error"] for point in curve])
                 found.append((curve[at]["error"], BIASES[at], curve[at], keys))
             _, bias, point, keys = min(found, key=lambda one: one[0])
-            setting = ", ".join(f"{key.removeprefix('bias.')} {value:.3g}" for key, value in keys.items()
+            setting = ", ".join(f"{short_name(key)} {value:.3g}" for key, value in keys.items()
                                 if not isinstance(value, str)) or "–"
             print(f"| {Path(scene).stem} | {lookup} | {term} | {setting} | {bias:.2g} | {point['shadow']:.0f} | "
                   f"{point['light']:.0f} | {100 * point['error'] / (point['lit'] + point['blocked']):.3f} | "
