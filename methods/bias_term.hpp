@@ -7,6 +7,7 @@
 #include "scene/job/job.hpp"
 #include "scene/view/view.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -59,6 +60,13 @@ struct BiasTerm {
     std::optional<PolygonOffset> (*offset)(const scene::View& view) = nullptr;
     /// Refuses a job in which it cannot act, by `scene::InputError`; nullptr: there is none.
     void (*check)(const scene::Job& job) = nullptr;
+    /// Of `lookup_position`: how far along the normal it moves the lookup of a receiver at ζ in one
+    /// of the maps [m]; nullptr: it moves it otherwise.
+    double (*length_m)(const scene::Job& job, const scene::View& view, std::size_t map,
+                       double light_distance_m) = nullptr;
+    /// Whether its piece reads normals of vertices, which a scene is then loaded with; nullptr:
+    /// never.
+    bool (*reads_vertex_normals)(const scene::Job& job) = nullptr;
 };
 
 /// The rows of its keys in the key table.

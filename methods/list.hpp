@@ -1,7 +1,10 @@
 #pragma once
 
 #include "methods/method.hpp"
+#include "scene/vertex_normals.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -39,6 +42,18 @@ void check(const scene::Job& job);
 /// What the job's maps are drawn with; nothing where no bias term acts there.
 [[nodiscard]] std::optional<PolygonOffset> map_offset(const scene::Job& job,
                                                       const scene::View& view);
+
+/// How far along the normal the job's biases move the lookup of a receiver at ζ in one of the maps
+/// [m]; empty where one of them moves it otherwise.
+[[nodiscard]] std::optional<double> normal_offset_m(const scene::Job& job, const scene::View& view,
+                                                    std::size_t map, double light_distance_m);
+
+/// Whether a scene is to be loaded with normals of its vertices for the job: a bias term of its
+/// method reads them.
+[[nodiscard]] scene::VertexNormals vertex_normals(const scene::Job& job);
+
+/// The same for several jobs: kept where one of them needs them.
+[[nodiscard]] scene::VertexNormals vertex_normals(std::span<const scene::LightJob> jobs);
 
 /// The keys of those biases, of the job's method: at their defaults they do not act.
 [[nodiscard]] std::vector<std::string_view> moving_bias_keys(const scene::Job& job);

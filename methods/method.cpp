@@ -160,6 +160,38 @@ std::optional<PolygonOffset> map_offset(const scene::Job& job, const scene::View
     return std::nullopt;
 }
 
+std::optional<double> normal_offset_m(const scene::Job& job, const scene::View& view,
+                                      std::size_t map, double light_distance_m)
+{
+    double length_m = 0;
+    for (const ActiveBias& bias : active_biases(job, view)) {
+        if (bias.term->place != BiasPlace::lookup_position) {
+            continue;
+        }
+        if (bias.term->length_m == nullptr) {
+            return std::nullopt;
+        }
+        length_m += bias.term->length_m(job, view, map, light_distance_m);
+    }
+    return length_m;
+}
+
+scene::VertexNormals vertex_normals(const scene::Job& job)
+{
+    const bool are_read = std::ranges::any_of(method_of(job).bias_terms, [&](const BiasTerm& term) {
+        return term.reads_vertex_normals != nullptr && term.reads_vertex_normals(job);
+    });
+    return are_read ? scene::VertexNormals::kept : scene::VertexNormals::dropped;
+}
+
+scene::VertexNormals vertex_normals(std::span<const scene::LightJob> jobs)
+{
+    const bool are_read = std::ranges::any_of(jobs, [](const scene::LightJob& light) {
+        return vertex_normals(light.job) == scene::VertexNormals::kept;
+    });
+    return are_read ? scene::VertexNormals::kept : scene::VertexNormals::dropped;
+}
+
 std::vector<std::string_view> moving_bias_keys(const scene::Job& job)
 {
     std::vector<std::string_view> keys;

@@ -27,6 +27,9 @@ struct Definition {
     std::string value;
 };
 
+/// Defined by pieces that read `Receiver::vertex_normal`: receivers must be drawn with normals.
+inline constexpr std::string_view vertex_normals_definition = "VERTEX_NORMALS";
+
 /// The value of a uniform of a piece: a float, or an array of floats.
 struct Uniform {
     std::string name;

@@ -33,6 +33,36 @@ std::vector<scene::Vec4f> unit_normals(const scene::TriangleScene& triangles)
     return normals;
 }
 
+/// A triangle's corner, as the receivers are drawn with it.
+struct CornerVertex {
+    scene::Vec3f position;
+    scene::Vec3f normal;
+};
+static_assert(sizeof(CornerVertex) == 6 * sizeof(float));
+
+/// Corners in place of vertices: one of these has another normal in each triangle across a crease.
+std::vector<CornerVertex> corner_vertices(const scene::TriangleScene& triangles)
+{
+    std::vector<CornerVertex> corners;
+    corners.reserve(3 * triangles.triangles.size());
+    for (std::uint32_t t = 0; t < triangles.triangles.size(); ++t) {
+        const auto positions = triangles.corners(t);
+        const scene::CornerNormals& normals = triangles.vertex_normals[t];
+        for (std::size_t k = 0; k < positions.size(); ++k) {
+            corners.push_back({positions.at(k), normals.at(k)});
+        }
+    }
+    return corners;
+}
+
+/// Three floats of a vertex, from the buffer at the first binding.
+void add_attribute(const VertexArray& layout, GLuint location, GLuint first_byte)
+{
+    glEnableVertexArrayAttrib(layout.name(), location);
+    glVertexArrayAttribFormat(layout.name(), location, 3, GL_FLOAT, GL_FALSE, first_byte);
+    glVertexArrayAttribBinding(layout.name(), location, 0);
+}
+
 void require_buffer_texture(std::size_t texels)
 {
     GLint largest = 0;
@@ -83,9 +113,15 @@ GpuScene::GpuScene(const Context& context, const scene::TriangleScene& triangles
     normals_view_ = view_of(normals_);
     glVertexArrayVertexBuffer(layout_.name(), 0, vertices_.name(), 0, sizeof(scene::Vec3f));
     glVertexArrayElementBuffer(layout_.name(), indices_.name());
-    glEnableVertexArrayAttrib(layout_.name(), 0);
-    glVertexArrayAttribFormat(layout_.name(), 0, 3, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(layout_.name(), 0, 0);
+    add_attribute(layout_, 0, 0);
+    if (!triangles.vertex_normals.empty()) {
+        corner_layout_ = make_vertex_array();
+        corners_ = upload(corner_vertices(triangles));
+        glVertexArrayVertexBuffer(corner_layout_.name(), 0, corners_.name(), 0,
+                                  sizeof(CornerVertex));
+        add_attribute(corner_layout_, 0, 0);
+        add_attribute(corner_layout_, 1, sizeof(scene::Vec3f));
+    }
     context.check("uploading the scene");
 }
 
@@ -114,6 +150,16 @@ void GpuScene::draw_receivers(const Program& program) const
     glBindVertexArray(layout_.name());
     for (const scene::TriangleRange& range : receivers_) {
         draw_range(program, range);
+    }
+}
+
+void GpuScene::draw_receivers_with_normals(const Program& program) const
+{
+    glBindVertexArray(corner_layout_.name());
+    for (const scene::TriangleRange& range : receivers_) {
+        set_uniform(program, "first_triangle", range.first);
+        glDrawArrays(GL_TRIANGLES, static_cast<GLint>(range.first * 3),
+                     static_cast<GLsizei>(range.count * 3));
     }
 }
 

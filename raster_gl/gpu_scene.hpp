@@ -9,7 +9,8 @@
 
 namespace gnomon::raster_gl {
 
-/// The scene in GL's buffers: vertices, indices, and a unit geometric normal per triangle.
+/// The scene in GL's buffers: vertices, indices, and a unit geometric normal per triangle; beside
+/// them, where the scene has them, vertices with their normals.
 class GpuScene {
 public:
     /// @throws scene::EnvironmentError  if GL has no room for it.
@@ -24,6 +25,10 @@ public:
     void draw_casters_in_parts(const Program& program) const;
     /// Draws the receiving triangles; sets first_triangle in the same way.
     void draw_receivers(const Program& program) const;
+    /// The same with normals, as the attribute at location 1.
+    /// Precondition: `has_vertex_normals()`.
+    void draw_receivers_with_normals(const Program& program) const;
+    [[nodiscard]] bool has_vertex_normals() const { return !corners_.empty(); }
     /// Draws every vertex once as a point, in order.
     void draw_vertices() const;
     [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
@@ -38,6 +43,8 @@ private:
     Buffer indices_;
     Buffer normals_;
     Texture normals_view_;
+    VertexArray corner_layout_;
+    Buffer corners_; ///< of triangles, each with its normal; empty: there are none
     std::vector<scene::TriangleRange> casters_;
     std::vector<scene::TriangleRange> receivers_;
     std::size_t vertex_count_ = 0;

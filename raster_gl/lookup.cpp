@@ -12,8 +12,10 @@
 #include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -157,6 +159,22 @@ void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& conte
         glSamplerParameterf(sampler.name(), GL_TEXTURE_MAX_ANISOTROPY,
                             static_cast<float>(anisotropy));
     }
+}
+
+bool reads_vertex_normals(std::span<const methods::ActiveBias> biases)
+{
+    return std::ranges::any_of(biases, [](const methods::ActiveBias& bias) {
+        return std::ranges::find(bias.piece.definitions, methods::vertex_normals_definition,
+                                 &methods::Definition::name) != bias.piece.definitions.end();
+    });
+}
+
+void bind_vertex_normals(const ReceiverBuffer& receivers)
+{
+    if (receivers.vertex_normal.empty()) {
+        throw std::invalid_argument("LookupPass: the scene was loaded without normals of vertices");
+    }
+    glBindTextureUnit(11, receivers.vertex_normal.name());
 }
 
 /// The share that a count of taps has.
@@ -367,6 +385,9 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
                                        from.receivers.light_clip.name(),
                                        from.receivers.world_position.name()};
     glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
+    if (reads_vertex_normals(biases)) {
+        bind_vertex_normals(from.receivers);
+    }
     bind_map(from, passes, job.lookup.outside);
     Texture faces;
     if (is_cube(view) && passes.sampling != Sampling::fetched) {

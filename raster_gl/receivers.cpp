@@ -10,7 +10,7 @@
 namespace gnomon::raster_gl {
 namespace {
 
-void clear(const Framebuffer& target)
+void clear(const Framebuffer& target, bool has_normals)
 {
     constexpr std::array<GLuint, 4> nothing{scene::no_triangle, 0, 0, 0};
     constexpr std::array<GLfloat, 4> zero{};
@@ -18,19 +18,30 @@ void clear(const Framebuffer& target)
     glClearNamedFramebufferuiv(target.name(), GL_COLOR, 0, nothing.data());
     glClearNamedFramebufferfv(target.name(), GL_COLOR, 1, zero.data());
     glClearNamedFramebufferfv(target.name(), GL_COLOR, 2, zero.data());
+    if (has_normals) {
+        glClearNamedFramebufferfv(target.name(), GL_COLOR, 3, zero.data());
+    }
     glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitely_far);
+}
+
+Program make_receiver_program(bool has_normals)
+{
+    return make_program({"receivers.vert",
+                         "receivers.frag",
+                         {{"VERTEX_NORMALS", has_normals ? "1" : "0"}},
+                         nullptr});
 }
 
 } // namespace
 
 ReceiverPass::ReceiverPass(const Context& context)
     : context_{context},
-      program_{make_program({"receivers.vert", "receivers.frag", {}, nullptr})}
+      program_{make_receiver_program(false)}
 {
     context.check("compiling the receiver program");
 }
 
-void ReceiverPass::allocate(scene::ImageSize size)
+void ReceiverPass::allocate(scene::ImageSize size, bool has_normals)
 {
     const int largest =
         std::min(context_.facts().max_texture_texels, context_.facts().max_viewport_px);
@@ -40,7 +51,7 @@ void ReceiverPass::allocate(scene::ImageSize size)
                         "a side",
                         size.width_px, size.height_px, largest));
     }
-    if (buffer_.size == size) {
+    if (buffer_.size == size && has_normals != buffer_.vertex_normal.empty()) {
         return;
     }
     buffer_ = {};
@@ -51,15 +62,19 @@ void ReceiverPass::allocate(scene::ImageSize size)
     buffer_.light_clip = texture(GL_RGBA32F);
     buffer_.world_position = texture(GL_RGBA32F);
     buffer_.depth = texture(GL_DEPTH_COMPONENT32F);
+    if (has_normals) {
+        buffer_.vertex_normal = texture(GL_RGBA32F);
+    }
     target_ = make_framebuffer();
     const GLuint name = target_.name();
     glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, buffer_.triangle.name(), 0);
     glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT1, buffer_.light_clip.name(), 0);
     glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT2, buffer_.world_position.name(), 0);
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT3, buffer_.vertex_normal.name(), 0);
     glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, buffer_.depth.name(), 0);
-    constexpr std::array<GLenum, 3> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                            GL_COLOR_ATTACHMENT2};
-    glNamedFramebufferDrawBuffers(name, 3, outputs.data());
+    constexpr std::array<GLenum, 4> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                            GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3};
+    glNamedFramebufferDrawBuffers(name, has_normals ? 4 : 3, outputs.data());
     context_.check(fmt::format("allocating {}×{} receiver buffers", size.width_px, size.height_px));
     buffer_.size = size;
 }
@@ -67,7 +82,12 @@ void ReceiverPass::allocate(scene::ImageSize size)
 const ReceiverBuffer& ReceiverPass::render(const GpuScene& scene, const scene::View& view,
                                            const scene::Box& box)
 {
-    allocate(view.image);
+    const bool has_normals = scene.has_vertex_normals();
+    if (has_normals && program_with_normals_.empty()) {
+        program_with_normals_ = make_receiver_program(true);
+    }
+    const Program& program = has_normals ? program_with_normals_ : program_;
+    allocate(view.image, has_normals);
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     glViewport(0, 0, view.image.width_px, view.image.height_px);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -75,14 +95,18 @@ const ReceiverBuffer& ReceiverPass::render(const GpuScene& scene, const scene::V
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GREATER);
     glDisable(GL_CULL_FACE);
-    clear(target_);
-    set_uniform(program_, "camera_clip_from_world",
+    clear(target_, has_normals);
+    set_uniform(program, "camera_clip_from_world",
                 scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box)});
     const scene::Mat4f no_map{1};
-    set_uniform(program_, "light_clip_from_world",
+    set_uniform(program, "light_clip_from_world",
                 view.maps.empty() ? no_map : view.first_map().light_clip_from_world);
-    glUseProgram(program_.name());
-    scene.draw_receivers(program_);
+    glUseProgram(program.name());
+    if (has_normals) {
+        scene.draw_receivers_with_normals(program);
+    } else {
+        scene.draw_receivers(program);
+    }
     glFinish();
     context_.check("rendering the receivers");
     return buffer_;
@@ -108,6 +132,13 @@ scene::Image<scene::Vec4f> read_world_positions(const Context& context,
 {
     auto image = read_texture<scene::Vec4f>(buffer.world_position, buffer.size, GL_RGBA, GL_FLOAT);
     context.check("reading the receivers' world positions");
+    return image;
+}
+
+scene::Image<scene::Vec4f> read_vertex_normals(const Context& context, const ReceiverBuffer& buffer)
+{
+    auto image = read_texture<scene::Vec4f>(buffer.vertex_normal, buffer.size, GL_RGBA, GL_FLOAT);
+    context.check("reading the receivers' normals");
     return image;
 }
 

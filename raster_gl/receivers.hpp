@@ -17,12 +17,16 @@ struct ReceiverBuffer {
     Texture triangle;       ///< R32UI: index of GL's triangle T, `no_triangle` for none
     Texture light_clip;     ///< RGBA32F: light clip coordinates, interpolated from the vertices
     Texture world_position; ///< RGBA32F: interpolated world position [m], 1
-    Texture depth;          ///< D32F, reversed, near = 1e-6 × the scene's diagonal
+    /// RGBA32F: normal interpolated from the vertices, of any length, 0; empty where the scene has
+    /// no normals
+    Texture vertex_normal;
+    Texture depth; ///< D32F, reversed, near = 1e-6 × the scene's diagonal
     scene::ImageSize size{0, 0};
 };
 
-/// Draws the receivers from the camera. Depends on camera and image size only, `light_clip` on the
-/// matrix of the light's first map too: where a light has several, lookups do not read it.
+/// Draws the receivers from the camera, with normals where the scene has them. Depends on camera
+/// and image size only, `light_clip` on the matrix of the light's first map too: where a light has
+/// several, lookups do not read it.
 class ReceiverPass {
 public:
     explicit ReceiverPass(const Context& context);
@@ -34,10 +38,11 @@ public:
                                  const scene::Box& box);
 
 private:
-    void allocate(scene::ImageSize size);
+    void allocate(scene::ImageSize size, bool has_normals);
 
     const Context& context_;
     Program program_;
+    Program program_with_normals_; ///< made when it is needed
     Framebuffer target_;
     ReceiverBuffer buffer_;
 };
@@ -51,5 +56,10 @@ private:
 /// World position (x, y, z, 1) per pixel [m], interpolated; all 0 where there is no receiver.
 [[nodiscard]] scene::Image<scene::Vec4f> read_world_positions(const Context& context,
                                                               const ReceiverBuffer& buffer);
+/// Normal interpolated from the vertices (x, y, z, 0) per pixel, of any length; 0 where there is no
+/// receiver.
+/// Precondition: the buffer has normals.
+[[nodiscard]] scene::Image<scene::Vec4f> read_vertex_normals(const Context& context,
+                                                             const ReceiverBuffer& buffer);
 
 } // namespace gnomon::raster_gl

@@ -5,7 +5,7 @@
 
 namespace gnomon::scene {
 
-SceneFile load_scene(const SceneSettings& settings)
+SceneFile load_scene(const SceneSettings& settings, VertexNormals normals)
 {
     if (settings.builtin.empty() == settings.file.empty()) {
         throw InputError(
@@ -16,12 +16,15 @@ SceneFile load_scene(const SceneSettings& settings)
         const BuiltinScene& builtin = find_builtin_scene(settings.builtin);
         loaded.scene = builtin.build(complete_parameters(builtin, settings.parameters));
     } else {
-        loaded = load_scene_file(settings.file);
+        loaded = load_scene_file(settings.file, {}, normals);
     }
     if (settings.ground) {
         add_ground(loaded.scene);
     }
     set_roles(loaded.scene, settings.no_cast, settings.no_receive);
+    if (normals == VertexNormals::kept) {
+        complete_vertex_normals(loaded.scene);
+    }
     return loaded;
 }
 

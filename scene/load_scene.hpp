@@ -2,11 +2,15 @@
 
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
+#include "scene/vertex_normals.hpp"
 
 namespace gnomon::scene {
 
 /// Builds or reads the scene that a job names, adds the ground and sets the roles.
+/// @param normals  kept: of every corner, the file's, and where it has none, and of built-in
+///                 scenes, those of `complete_vertex_normals`.
 /// @throws InputError  as `load_scene_file`, `complete_parameters` and `set_roles` do.
-[[nodiscard]] SceneFile load_scene(const SceneSettings& settings);
+[[nodiscard]] SceneFile load_scene(const SceneSettings& settings,
+                                   VertexNormals normals = VertexNormals::dropped);
 
 } // namespace gnomon::scene

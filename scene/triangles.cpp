@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace gnomon::scene {
@@ -174,10 +175,14 @@ std::vector<TriangleRange> receiving_ranges(const TriangleScene& scene)
 }
 
 void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
-                       std::span<const std::array<std::uint32_t, 3>> triangles)
+                       std::span<const std::array<std::uint32_t, 3>> triangles,
+                       std::span<const CornerNormals> normals)
 {
     if (triangles.empty()) {
         return;
+    }
+    if (!normals.empty() && normals.size() != triangles.size()) {
+        throw std::invalid_argument("SceneBuilder::add: there must be normals of each triangle");
     }
     if (scene_.triangles.size() + triangles.size() >= no_triangle ||
         scene_.vertices.size() + vertices.size() >= no_triangle) {
@@ -213,6 +218,10 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
             placed[k] = slot;
         }
         scene_.triangles.push_back(placed);
+        if (!normals.empty()) {
+            scene_.vertex_normals.resize(scene_.triangles.size()); // objects before may have none
+            scene_.vertex_normals.back() = normals[t];
+        }
     }
     const auto count = static_cast<std::uint32_t>(scene_.triangles.size()) - first;
     scene_.objects.push_back({std::string{name}, first, count});
@@ -222,6 +231,10 @@ TriangleScene SceneBuilder::take()
 {
     scene_.vertices.shrink_to_fit(); // they grew by doubling
     scene_.triangles.shrink_to_fit();
+    if (!scene_.vertex_normals.empty()) {
+        scene_.vertex_normals.resize(scene_.triangles.size());
+        scene_.vertex_normals.shrink_to_fit();
+    }
     return std::exchange(scene_, {});
 }
 
@@ -247,6 +260,9 @@ void add_ground(TriangleScene& scene)
     }
     scene.objects.push_back(
         {free_name(scene, "ground"), first, static_cast<std::uint32_t>(ground.triangles.size())});
+    if (!scene.vertex_normals.empty()) {
+        scene.vertex_normals.resize(scene.triangles.size()); // it brings none
+    }
 }
 
 void set_roles(TriangleScene& scene, std::span<const std::string> no_cast,

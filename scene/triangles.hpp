@@ -40,7 +40,11 @@ struct Object {
     bool receives = true; ///< drawn to the camera
 };
 
-/// The scene that both renderers see: world-space float32 triangles, and nothing else.
+/// Unit normals of a triangle's corners.
+using CornerNormals = std::array<Vec3f, 3>;
+
+/// The scene that both renderers see: world-space float32 triangles. What is true depends on
+/// nothing else.
 ///
 /// Vertices are shared through `triangles` only to save work; two vertices are the same point when
 /// their coordinates are bit-equal. Every coordinate is finite, within ±1e15, not subnormal and not
@@ -50,6 +54,9 @@ struct TriangleScene {
     std::vector<Vec3f> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<Object> objects;
+    /// Normals of each triangle's vertices, as its surface was modelled; empty unless they were
+    /// asked for (scene/vertex_normals.hpp). Renderers that offset lookups alone read them.
+    std::vector<CornerNormals> vertex_normals;
     std::uint64_t dropped_triangles = 0;  ///< zero-area triangles that were removed
     std::uint64_t ignored_primitives = 0; ///< points and lines that the file held
     FileContents file;                    ///< what else it held; none for a built-in scene
@@ -84,10 +91,13 @@ public:
     /// Appends one object. An empty mesh adds nothing.
     /// @param vertices   World-space corners [m].
     /// @param triangles  Indices into `vertices`, counter-clockwise seen from outside.
+    /// @param normals    Of each triangle's corners, unit or 0 for none; empty: all have none.
     /// @throws InputError  naming object and vertex, if a coordinate is not finite or beyond 1e15,
     ///                     or if an index is out of range, or if there are 2^32 - 1 triangles.
+    /// @throws std::invalid_argument  if there are normals, but not of every triangle.
     void add(std::string_view name, std::span<const Vec3d> vertices,
-             std::span<const std::array<std::uint32_t, 3>> triangles);
+             std::span<const std::array<std::uint32_t, 3>> triangles,
+             std::span<const CornerNormals> normals = {});
     /// Counts points and lines of a file that are not part of the scene.
     void count_ignored_primitives(std::uint64_t count) { scene_.ignored_primitives += count; }
     /// Keeps what else a file held beside its triangles.
@@ -108,7 +118,8 @@ void add_ground(TriangleScene& scene);
 void set_roles(TriangleScene& scene, std::span<const std::string> no_cast,
                std::span<const std::string> no_receive);
 
-/// A 64-bit FNV-1a hash of vertices, indices, object names and roles, as 16 hexadecimal digits.
+/// A 64-bit FNV-1a hash of vertices, indices, object names and roles, as 16 hexadecimal digits: of
+/// all that truth depends on, and so not of normals.
 [[nodiscard]] std::string content_hash(const TriangleScene& scene);
 
 } // namespace gnomon::scene

@@ -1,8 +1,10 @@
 #include "analysis/sweep/scene_identity.hpp"
 
+#include "methods/list.hpp"
 #include "scene/job/file.hpp"
 
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -30,9 +32,14 @@ std::string keys_taken(const scene::Job& job, const scene::SceneDefaults& defaul
 } // namespace
 
 SceneIdentity identify_scene(const scene::Job& job, std::string hash,
-                             const scene::SceneDefaults& defaults)
+                             const scene::SceneDefaults& defaults, std::string_view normals)
 {
-    return {std::move(hash), keys_taken(job, defaults)};
+    SceneIdentity identity{std::move(hash), keys_taken(job, defaults)};
+    if (methods::vertex_normals(job) == scene::VertexNormals::kept) {
+        identity.taken_keys += "\nscene.vertex_normals=";
+        identity.taken_keys += normals;
+    }
+    return identity;
 }
 
 } // namespace gnomon::analysis

@@ -65,7 +65,9 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const analysis::Comparison& comparison = lights[i];
         sweep_curves.describe(
-            i, analysis::identify_scene(comparison.job, comparison.scene.hash, defaults),
+            i,
+            analysis::identify_scene(comparison.job, comparison.scene.hash, defaults,
+                                     scene::normals_hash(*comparison.triangles)),
             [&](const analysis::Configuration& own) { configurations.push_back(own); });
         if (comparison.evaluation) {
             keep_given(configurations.back().parameters, comparison.evaluation->given_keys);

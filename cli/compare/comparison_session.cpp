@@ -2,6 +2,7 @@
 
 #include "cli/system/memory.hpp"
 #include "cli/system/stopwatch.hpp"
+#include "methods/list.hpp"
 
 namespace gnomon::cli {
 
@@ -10,7 +11,7 @@ namespace {
 scene::SceneFile load_checked(std::span<const scene::LightJob> jobs)
 {
     require_memory(jobs);
-    return scene::load_scene(jobs.front().job.scene);
+    return scene::load_scene(jobs.front().job.scene, methods::vertex_normals(jobs));
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "cli/compare/comparison_session.hpp"
 #include "cli/compare/kept_pixels.hpp"
 #include "cli/system/process.hpp"
+#include "methods/list.hpp"
 #include "reports/page/run_overview.hpp"
 #include "scene/error.hpp"
 #include "store/run_folder/pixels.hpp"
@@ -45,11 +46,12 @@ std::string id_without_axes(scene::JobSource source, std::string_view case_name)
         return {};
     }
     const scene::Job job = sweep_curves.job(0);
-    const scene::SceneFile file = scene::load_scene(job.scene);
+    const scene::SceneFile file = scene::load_scene(job.scene, methods::vertex_normals(job));
     std::string id;
-    sweep_curves.describe(
-        0, analysis::identify_scene(job, scene::content_hash(file.scene), file.defaults),
-        [&](const analysis::Configuration& own) { id = own.id; });
+    sweep_curves.describe(0,
+                          analysis::identify_scene(job, scene::content_hash(file.scene),
+                                                   file.defaults, scene::normals_hash(file.scene)),
+                          [&](const analysis::Configuration& own) { id = own.id; });
     return id;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/system/memory.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
+#include "methods/list.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
@@ -73,6 +74,17 @@ std::size_t waiting_curves(const std::vector<CurveRequest>& requests)
     return std::clamp<std::size_t>(most_waiting_rows / most_rows, 1, most_waiting_curves);
 }
 
+/// Kept for all where one of them needs them.
+scene::VertexNormals needed_normals(const SweepCurves& curves)
+{
+    for (std::size_t i = 0; i < curves.requests().size(); ++i) {
+        if (methods::vertex_normals(curves.job(i)) == scene::VertexNormals::kept) {
+            return scene::VertexNormals::kept;
+        }
+    }
+    return scene::VertexNormals::dropped;
+}
+
 class SweepRun {
 public:
     SweepRun(const scene::SweepSpace& space, const SweepRunOptions& options)
@@ -82,7 +94,7 @@ public:
           sweep_curves_{space, options.keeps_pixels, GNOMON_VERSION},
           refusals_{sweep_curves_.refusals()},
           context_{options.session.device},
-          scenes_{context_, options.session},
+          scenes_{context_, options.session, needed_normals(sweep_curves_)},
           store_{options.folder, RunStore::Access::write}
     {
         if (options.session.threads > 0) {
@@ -128,7 +140,8 @@ private:
             largest_need_bytes_ = std::max(largest_need_bytes_, needed_memory_bytes(job));
             store::add_notes(notes_, analysis::scene_name(job.scene),
                              content.notes[scene::left_to_file(job)], request.ordinals.size());
-            identities_.push_back(analysis::identify_scene(job, content.hash, content.defaults));
+            identities_.push_back(
+                analysis::identify_scene(job, content.hash, content.defaults, content.normals));
             is_refused_.push_back(!message.empty());
             if (!message.empty()) {
                 refusals_.push_back({request.ordinals, message, analysis::Retry::may_help});

@@ -5,9 +5,11 @@
 
 namespace gnomon::cli {
 
-SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options)
+SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
+                         scene::VertexNormals normals)
     : context_{context},
-      options_{options}
+      options_{options},
+      normals_{normals}
 {
 }
 
@@ -19,14 +21,15 @@ void SweepScenes::read(const scene::Job& job)
     }
     scene_session_.reset(); // refers to the file
     file_.reset();
-    file_ = std::make_unique<scene::SceneFile>(scene::load_scene(job.scene));
+    file_ = std::make_unique<scene::SceneFile>(scene::load_scene(job.scene, normals_));
     key_ = std::move(key);
 }
 
 SweepScenes::Content SweepScenes::content(const scene::Job& job)
 {
     read(job);
-    Content content{scene::content_hash(file_->scene), file_->defaults, {}};
+    Content content{
+        scene::content_hash(file_->scene), scene::normals_hash(file_->scene), file_->defaults, {}};
     for (const scene::LeftToFile left :
          {scene::LeftToFile{false, false}, {false, true}, {true, false}, {true, true}}) {
         content.notes[left] = scene::scene_notes(file_->scene, file_->defaults, left);

@@ -19,11 +19,14 @@ namespace gnomon::cli {
 class SweepScenes {
 public:
     /// The context must outlive this.
-    SweepScenes(const raster_gl::Context& context, const SessionOptions& options);
+    /// @param normals  kept where a job of the sweep needs them.
+    SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
+                scene::VertexNormals normals);
 
     /// What of a scene decides its sweep's ids, and what is to be said of it.
     struct Content {
-        std::string hash; ///< `scene::content_hash`
+        std::string hash;    ///< `scene::content_hash`
+        std::string normals; ///< `scene::normals_hash`
         scene::SceneDefaults defaults;
         /// By what a job may leave to the file.
         std::map<scene::LeftToFile, std::vector<scene::SceneNote>> notes;
@@ -40,6 +43,7 @@ private:
 
     const raster_gl::Context& context_;
     SessionOptions options_;
+    scene::VertexNormals normals_;
     std::string key_; ///< of the scene in memory
     std::unique_ptr<scene::SceneFile> file_;
     std::optional<SceneSession> scene_session_;

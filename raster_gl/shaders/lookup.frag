@@ -306,6 +306,9 @@ void main()
     uv_dy = uv_change(pixel, ivec2(0, 1), triangle);
 #endif
     receiver.normal = texelFetch(normals, int(triangle)).xyz;
+#ifdef VERTEX_NORMALS
+    receiver.vertex_normal = vertex_normal_of(pixel, receiver.normal);
+#endif
 #if POSITIONAL
     receiver.to_light = normalize(light - receiver.position);
 #else

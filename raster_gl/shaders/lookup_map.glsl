@@ -8,6 +8,9 @@ layout(binding = 0) uniform usampler2D receiver_triangle;
 layout(binding = 1) uniform sampler2D receiver_light_clip;
 layout(binding = 2) uniform sampler2D receiver_world_position;
 layout(binding = 5) uniform samplerBuffer normals; // unit, by triangle
+#ifdef VERTEX_NORMALS
+layout(binding = 11) uniform sampler2D receiver_vertex_normal; // of any length
+#endif
 // The light's map, or its maps as layers: as the filter samples it, for filters that GL compares, and
 // what a prefilter made of it. A cube's faces are sampled as a cube map where GL filters them.
 #if MAPS > 1
@@ -136,11 +139,31 @@ const float not_a_depth = uintBitsToFloat(0x7FC00000u);
 struct Receiver {
     vec3 position;   // in the world
     vec3 normal;     // geometric, unit
+#ifdef VERTEX_NORMALS
+    vec3 vertex_normal; // interpolated from the vertices, unit, on the side of normal
+#endif
     vec3 to_light;   // unit
     vec4 clip;       // its light clip position
     float cosine;    // of the angle between normal and to_light
     float tan_theta; // of the angle between them, or of its supplement: not negative, finite
 };
+
+#ifdef VERTEX_NORMALS
+// Of a pixel that shows a surface; the geometric one where those of the vertices cancel out. Each
+// product and sum is rounded, so that all programs that look up agree.
+vec3 vertex_normal_of(ivec2 pixel, vec3 geometric)
+{
+    vec3 sum = texelFetch(receiver_vertex_normal, pixel, 0).xyz;
+    precise float square = sum.x * sum.x + sum.y * sum.y + sum.z * sum.z;
+    precise vec3 normal = sum / sqrt(square);
+    precise float side =
+        sum.x * geometric.x + sum.y * geometric.y + sum.z * geometric.z;
+    if (!(square > 0.0)) {
+        return geometric;
+    }
+    return side < 0.0 ? -normal : normal;
+}
+#endif
 
 #ifdef PLANE_GRADIENT
 // What the depth of the receiver's plane rises per texel along u and v. In the map a plane stays one.

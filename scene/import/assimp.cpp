@@ -250,13 +250,26 @@ void check_size(const std::vector<Instance>& all, const ImportLimits& limits)
     for (const Instance& instance : all) {
         triangles += instance.mesh->triangles.size();
         bytes += instance.mesh->vertices.size() * sizeof(Vec3d) +
-                 instance.mesh->triangles.size() * sizeof(TriangleIndices);
+                 instance.mesh->triangles.size() * sizeof(TriangleIndices) +
+                 instance.mesh->normals.size() * sizeof(CornerNormals);
         if (triangles > limits.triangles || bytes > limits.memory_bytes) {
             throw std::runtime_error{
                 fmt::format("more than {} triangles or {} MiB once its instances are flattened",
                             limits.triangles, limits.memory_bytes >> 20U)};
         }
     }
+}
+
+/// The file's normals, unit in the world.
+std::vector<CornerNormals> world_normals(const ImportedMesh& mesh, const glm::dmat3& world)
+{
+    std::vector<CornerNormals> normals = mesh.normals;
+    for (CornerNormals& corners : normals) {
+        for (Vec3f& normal : corners) {
+            normal = moved_normal(world, Vec3d{normal});
+        }
+    }
+    return normals;
 }
 
 void write_instance(const Instance& instance, ImportWriter& writer)
@@ -273,16 +286,22 @@ void write_instance(const Instance& instance, ImportWriter& writer)
         vertices.push_back(is_finite ? Vec3d{world * Vec4d{local, 1.0}} : local);
     }
     std::vector<TriangleIndices> triangles = instance.mesh->triangles;
+    std::vector<CornerNormals> normals = world_normals(*instance.mesh, glm::dmat3{world});
     if (glm::determinant(glm::dmat3{world}) < 0) {
         // A mirrored instance keeps its front faces in front.
         for (TriangleIndices& triangle : triangles) {
             std::swap(triangle[1], triangle[2]);
         }
+        for (CornerNormals& corners : normals) {
+            std::swap(corners[1], corners[2]);
+        }
     }
-    writer.put(ImportedObject{instance.name.size(), vertices.size(), triangles.size()});
+    writer.put(ImportedObject{instance.name.size(), vertices.size(), triangles.size(),
+                              3 * normals.size()});
     writer.put_array(std::span<const char>{instance.name});
     writer.put_array(std::span<const Vec3d>{vertices});
     writer.put_array(std::span<const TriangleIndices>{triangles});
+    writer.put_array(std::span<const CornerNormals>{normals});
 }
 
 /// The format, by what the file's name ends with.
@@ -326,7 +345,7 @@ void count_placed(const aiScene& scene, const std::vector<PlacedNode>& nodes,
 }
 
 void write_scene(const aiScene& scene, const FileFacts& facts, const ImportLimits& limits,
-                 int output)
+                 VertexNormals normals, int output)
 {
     const std::vector<PlacedNode> nodes = placed_nodes(*scene.mRootNode);
     ImportHeader header;
@@ -337,7 +356,7 @@ void write_scene(const aiScene& scene, const FileFacts& facts, const ImportLimit
     header.light_count = lights.size();
     std::vector<ImportedMesh> meshes;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-        meshes.push_back(imported_mesh(*scene.mMeshes[m]));
+        meshes.push_back(imported_mesh(*scene.mMeshes[m], normals));
         header.ignored_primitives += meshes.back().ignored_primitives;
     }
     const std::vector<Instance> all = instances(scene, nodes, meshes);
@@ -388,7 +407,7 @@ bool reads_known_format(std::string_view extensions)
 }
 
 void write_imported_scene(const std::filesystem::path& scene_file, const ImportLimits& limits,
-                          ImportAllowance& allowance, int output)
+                          VertexNormals normals, ImportAllowance& allowance, int output)
 {
     Assimp::Importer importer;
     auto* folder =
@@ -406,7 +425,7 @@ void write_imported_scene(const std::filesystem::path& scene_file, const ImportL
         if (is_ply) {
             require_ply_faces(scene_file, scene);
         }
-        write_scene(scene, facts, limits, output);
+        write_scene(scene, facts, limits, normals, output);
     } catch (const UnsupportedContent& content) {
         write_refusal(content.what(), output, ImportOutcome::unsupported);
     } catch (const std::bad_alloc&) {

@@ -13,11 +13,12 @@ namespace gnomon::scene {
 /// in 5.4.
 [[nodiscard]] bool reads_known_format(std::string_view extensions);
 
-/// Reads the file with Assimp and writes it, flattened to world space, as an import stream.
+/// Reads the file with Assimp and writes it, flattened to world space, as an import stream; with
+/// its vertices' normals where they are kept.
 ///
 /// To be run in a child process: damaged files make Assimp crash. What it refuses, and files that
 /// exceed `limits` once flattened, become a refusal in the stream.
 void write_imported_scene(const std::filesystem::path& scene_file, const ImportLimits& limits,
-                          ImportAllowance& allowance, int output);
+                          VertexNormals normals, ImportAllowance& allowance, int output);
 
 } // namespace gnomon::scene

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cstddef>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 namespace gnomon::scene {
@@ -92,9 +94,40 @@ void check_corners(const aiMesh& mesh)
     }
 }
 
+/// Normals of the corners of a face's triangles, whose vertices are by now those of `polygon`.
+class FaceNormals {
+public:
+    FaceNormals(const aiMesh& mesh, std::size_t vertex_count)
+        : mesh_{mesh},
+          source_of_(vertex_count)
+    {
+    }
+
+    /// @param polygon    the vertices of the face's corners, in their order.
+    /// @param triangles  what it was cut into.
+    void append(const aiFace& face, std::span<const std::uint32_t> polygon,
+                std::span<const TriangleIndices> triangles, std::vector<CornerNormals>& normals)
+    {
+        for (unsigned k = 0; k < face.mNumIndices; ++k) {
+            source_of_[polygon[k]] = face.mIndices[k];
+        }
+        for (const TriangleIndices& triangle : triangles) {
+            CornerNormals& corners = normals.emplace_back();
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const aiVector3D& n = mesh_.mNormals[source_of_[triangle.at(k)]];
+                corners.at(k) = {n.x, n.y, n.z};
+            }
+        }
+    }
+
+private:
+    const aiMesh& mesh_;
+    std::vector<std::uint32_t> source_of_; ///< [vertex] the mesh's, at the face's corner
+};
+
 } // namespace
 
-ImportedMesh imported_mesh(const aiMesh& mesh)
+ImportedMesh imported_mesh(const aiMesh& mesh, VertexNormals normals)
 {
     check_indices(mesh);
     check_corners(mesh);
@@ -106,6 +139,8 @@ ImportedMesh imported_mesh(const aiMesh& mesh)
         index_of[v] = table.index_of({p.x, p.y, p.z});
     }
     result.triangles.reserve(mesh.mNumFaces);
+    const bool keeps_normals = normals == VertexNormals::kept && mesh.HasNormals();
+    FaceNormals face_normals{mesh, keeps_normals ? result.vertices.size() : 0};
     std::vector<std::uint32_t> polygon;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
         const aiFace& face = mesh.mFaces[f];
@@ -117,7 +152,12 @@ ImportedMesh imported_mesh(const aiMesh& mesh)
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             polygon.push_back(index_of[face.mIndices[k]]);
         }
+        const std::size_t first = result.triangles.size();
         triangulate(result.vertices, polygon, result.triangles);
+        if (keeps_normals) {
+            face_normals.append(face, polygon, std::span{result.triangles}.subspan(first),
+                                result.normals);
+        }
     }
     return result;
 }

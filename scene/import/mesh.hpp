@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/import/stream.hpp"
+#include "scene/vertex_normals.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -13,12 +14,14 @@ namespace gnomon::scene {
 struct ImportedMesh {
     std::vector<Vec3f> vertices;
     std::vector<TriangleIndices> triangles;
+    std::vector<CornerNormals> normals;   ///< of the file, of any length; empty: it has none
     std::uint64_t ignored_primitives = 0; ///< points and lines
 };
 
 /// Takes positions and triangulated faces, sharing vertices that importers keep apart for their
 /// normals.
+/// @param normals  kept: those of the corners, too.
 /// @throws std::runtime_error  naming mesh and face, if a face uses a vertex that is not there.
-[[nodiscard]] ImportedMesh imported_mesh(const aiMesh& mesh);
+[[nodiscard]] ImportedMesh imported_mesh(const aiMesh& mesh, VertexNormals normals);
 
 } // namespace gnomon::scene

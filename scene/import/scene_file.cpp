@@ -208,12 +208,14 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
         const std::string name = names.make(given.empty() ? fallback : given);
         const auto vertices = reader.take_array<Vec3d>(object.vertex_count);
         const auto triangles = reader.take_array<TriangleIndices>(object.triangle_count);
+        const auto normals = reader.take_array<CornerNormals>(object.normal_count / 3);
         triangle_count += triangles.size();
-        if (triangle_count > limits.triangles) {
+        if (triangle_count > limits.triangles ||
+            (object.normal_count != 0 && object.normal_count != 3 * triangles.size())) {
             throw CorruptStream{};
         }
         try {
-            builder.add(name, vertices, triangles);
+            builder.add(name, vertices, triangles, normals);
         } catch (const InputError& error) {
             throw InputError{label + ": " + error.what()};
         }
@@ -225,7 +227,8 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
 
 } // namespace
 
-SceneFile load_scene_file(const std::filesystem::path& path, const ImportLimits& limits)
+SceneFile load_scene_file(const std::filesystem::path& path, const ImportLimits& limits,
+                          VertexNormals normals)
 {
     check_readable(path);
     const std::string label = path.string();
@@ -233,7 +236,7 @@ SceneFile load_scene_file(const std::filesystem::path& path, const ImportLimits&
     const auto scene_file = folder / path.filename();
     const SealedBytes result =
         run_in_child(label, limits, [&](int output, ImportAllowance& allowance) {
-            write_imported_scene(scene_file, limits, allowance, output);
+            write_imported_scene(scene_file, limits, normals, allowance, output);
         });
     try {
         SceneFile file = decoded_scene(label, result.bytes(), limits);

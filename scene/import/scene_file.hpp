@@ -2,6 +2,7 @@
 
 #include "scene/scene_defaults.hpp"
 #include "scene/triangles.hpp"
+#include "scene/vertex_normals.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -35,9 +36,12 @@ struct SceneFile {
 /// The importer runs in a child process under `limits`; only validated flat arrays come back. Node
 /// transforms are composed in double, instances flattened, polygons triangulated, points and lines
 /// counted and ignored. Object names are node names ("node", "node.2" when repeated).
+/// @param normals  kept: the file's own normals at corners, unit in world space, 0 where it has
+///                 none; empty where it has none at all.
 /// @throws InputError  one line: missing, a folder, empty, refused by the importer, out of limits,
 ///                     no triangle, a coordinate not finite or beyond 1e15.
 [[nodiscard]] SceneFile load_scene_file(const std::filesystem::path& path,
-                                        const ImportLimits& limits = {});
+                                        const ImportLimits& limits = {},
+                                        VertexNormals normals = VertexNormals::dropped);
 
 } // namespace gnomon::scene

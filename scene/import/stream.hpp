@@ -54,11 +54,13 @@ struct ImportHeader {
     ImportedCamera camera;
 };
 
-/// Precedes the name, the vertices and the triangles of one object, each padded to 8 bytes.
+/// Precedes the name, the vertices, the triangles and their corners' normals of one object, each
+/// padded to 8 bytes.
 struct ImportedObject {
     std::uint64_t name_bytes = 0;
     std::uint64_t vertex_count = 0;
     std::uint64_t triangle_count = 0;
+    std::uint64_t normal_count = 0; ///< 0, or of each triangle three
 };
 
 using TriangleIndices = std::array<std::uint32_t, 3>;

@@ -228,10 +228,8 @@ std::vector<KeySpec> lookup_and_bias_keys()
                          "0", only(Stage::bias), "depth units per unit of the tangent"),
                 steepest, [](auto& job) -> auto& { return job.bias.slope; }),
             bias_key(
-                make_key("bias.normal_texels",
-                         "moves the lookup along the geometric normal "
-                         "[{unit}]",
-                         "0", only(Stage::lookup), "texel widths"),
+                make_key("bias.normal_texels", "moves the lookup along the normal [{unit}]", "0",
+                         only(Stage::lookup), "texel widths"),
                 steepest, [](auto& job) -> auto& { return job.bias.normal_texels; })};
 }
 

@@ -43,25 +43,23 @@ public:
 
     void add(const scene::Object& object)
     {
-        std::vector<Vec3f> positions;
+        WrittenVertices written;
         std::vector<std::uint32_t> indices;
-        std::vector<std::uint32_t> seen;
         for (std::uint32_t t = 0; t < object.triangle_count; ++t) {
-            for (const std::uint32_t corner : scene_.triangles[object.first_triangle + t]) {
-                if (number_of_[corner] == scene::no_triangle) {
-                    number_of_[corner] = static_cast<std::uint32_t>(positions.size());
-                    positions.push_back(scene_.vertices[corner]);
-                    seen.push_back(corner);
-                }
-                indices.push_back(number_of_[corner]);
+            const std::uint32_t triangle = object.first_triangle + t;
+            for (std::size_t k = 0; k < 3; ++k) {
+                indices.push_back(number(written, scene_.triangles[triangle].at(k), triangle, k));
             }
         }
-        for (const std::uint32_t corner : seen) {
-            number_of_[corner] = scene::no_triangle;
+        for (const std::uint32_t vertex : written.vertices) {
+            number_of_[vertex] = scene::no_triangle;
         }
-        const std::size_t position = add_positions(positions);
+        GlbJson attributes{{"POSITION", add_positions(written.positions)}};
+        if (!written.normals.empty()) {
+            attributes["NORMAL"] = add_vectors(written.normals);
+        }
         const std::size_t index = add_indices(indices);
-        GlbJson primitive{{"attributes", {{"POSITION", position}}}, {"indices", index}};
+        GlbJson primitive{{"attributes", std::move(attributes)}, {"indices", index}};
         json_["nodes"].push_back({{"name", object.name}, {"mesh", json_["meshes"].size()}});
         json_["meshes"].push_back({{"primitives", GlbJson::array({std::move(primitive)})}});
     }
@@ -97,6 +95,38 @@ public:
     }
 
 private:
+    /// An object's vertices: each once for each of its normals.
+    struct WrittenVertices {
+        std::vector<std::uint32_t> vertices; ///< of the scene
+        std::vector<Vec3f> positions;
+        std::vector<Vec3f> normals;      ///< empty where the scene has none
+        std::vector<std::uint32_t> next; ///< the same vertex with another normal
+    };
+
+    /// The number of a triangle's corner among those written.
+    std::uint32_t number(WrittenVertices& written, std::uint32_t vertex, std::uint32_t triangle,
+                         std::size_t corner)
+    {
+        const bool has_normals = !scene_.vertex_normals.empty();
+        const Vec3f normal = has_normals ? scene_.vertex_normals[triangle].at(corner) : Vec3f{};
+        std::uint32_t* place = &number_of_[vertex];
+        while (*place != scene::no_triangle && has_normals && written.normals[*place] != normal) {
+            place = &written.next[*place];
+        }
+        if (*place == scene::no_triangle) {
+            const auto added = static_cast<std::uint32_t>(written.positions.size());
+            *place = added; // before what it points into grows
+            written.vertices.push_back(vertex);
+            written.positions.push_back(scene_.vertices[vertex]);
+            written.next.push_back(scene::no_triangle);
+            if (has_normals) {
+                written.normals.push_back(normal);
+            }
+            return added;
+        }
+        return *place;
+    }
+
     static void append(std::vector<std::byte>& bytes, const void* data, std::size_t size)
     {
         const std::size_t old = bytes.size();
@@ -138,6 +168,13 @@ private:
                          {"type", "VEC3"},
                          {"min", {lower.x, lower.y, lower.z}},
                          {"max", {upper.x, upper.y, upper.z}}});
+    }
+
+    std::size_t add_vectors(const std::vector<Vec3f>& vectors)
+    {
+        return add_view(
+            vectors.data(), vectors.size() * sizeof(Vec3f), vertex_target,
+            {{"componentType", float_component}, {"count", vectors.size()}, {"type", "VEC3"}});
     }
 
     std::size_t add_indices(const std::vector<std::uint32_t>& indices)

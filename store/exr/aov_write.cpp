@@ -1,5 +1,7 @@
 #include "store/exr/aov_write.hpp"
 
+#include "methods/list.hpp"
+#include "scene/vertex_normals.hpp"
 #include "store/exr/facing_normal.hpp"
 #include "store/exr/header.hpp"
 #include "store/images/image_encoding.hpp"
@@ -7,10 +9,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <initializer_list>
 #include <limits>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace gnomon::store {
@@ -36,21 +41,38 @@ float truth_code(scene::PixelClass pixel_class)
 
 /// What the camera sees at each pixel.
 struct Surface {
-    scene::Image<scene::Vec3f> normal;  ///< NaN for none
+    scene::Image<scene::Vec3f> normal; ///< NaN for none
+    /// Interpolated from the vertices, NaN for none; empty where no lookup reads it.
+    scene::Image<scene::Vec3f> vertex_normal;
     scene::Image<std::uint32_t> object; ///< `no_object` for none
 };
 
-Surface seen_surface(const analysis::Comparison& comparison)
+bool reads_vertex_normals(const analysis::Comparison& comparison)
+{
+    return methods::vertex_normals(comparison.job) == scene::VertexNormals::kept;
+}
+
+/// The camera's: the same of every light.
+/// @param lights  at least one.
+Surface seen_surface(std::span<const analysis::Comparison> lights,
+                     const scene::Image<scene::Vec3f>& points)
 {
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    const analysis::Comparison& comparison = lights.front();
+    const bool has_vertex_normals = std::ranges::any_of(lights, reads_vertex_normals);
     const scene::Image<std::uint32_t>& triangle = comparison.receivers.triangle;
     const scene::ImageSize size = triangle.size();
-    Surface surface{scene::Image<scene::Vec3f>{size, {none, none, none}},
+    const scene::Image<scene::Vec3f> no_normals{size, {none, none, none}};
+    Surface surface{no_normals, has_vertex_normals ? no_normals : scene::Image<scene::Vec3f>{},
                     scene::Image<std::uint32_t>{size, no_object}};
     for (int y = 0; y < size.height_px; ++y) {
         for (int x = 0; x < size.width_px; ++x) {
             if (triangle(x, y) < comparison.triangles->triangles.size()) {
                 surface.normal(x, y) = scene::Vec3f{facing_normal(comparison, x, y)};
+                if (has_vertex_normals) {
+                    surface.vertex_normal(x, y) = scene::Vec3f{
+                        facing_vertex_normal(comparison, x, y, scene::Vec3d{points(x, y)})};
+                }
                 surface.object(x, y) =
                     static_cast<std::uint32_t>(comparison.triangles->object_of(triangle(x, y)));
             }
@@ -59,13 +81,22 @@ Surface seen_surface(const analysis::Comparison& comparison)
     return surface;
 }
 
+void add_vector(std::vector<ExrChannel>& channels, const std::string& name,
+                const scene::Image<scene::Vec3f>& vectors)
+{
+    using enum ChannelType;
+    channels.push_back({name + ".X", float32, [&](std::size_t i) { return bits(vectors[i].x); }});
+    channels.push_back({name + ".Y", float32, [&](std::size_t i) { return bits(vectors[i].y); }});
+    channels.push_back({name + ".Z", float32, [&](std::size_t i) { return bits(vectors[i].z); }});
+}
+
 void add_surface(std::vector<ExrChannel>& channels, const Surface& surface)
 {
     using enum ChannelType;
-    const auto& normal = surface.normal;
-    channels.push_back({"N.X", float32, [&](std::size_t i) { return bits(normal[i].x); }});
-    channels.push_back({"N.Y", float32, [&](std::size_t i) { return bits(normal[i].y); }});
-    channels.push_back({"N.Z", float32, [&](std::size_t i) { return bits(normal[i].z); }});
+    add_vector(channels, "N", surface.normal);
+    if (!surface.vertex_normal.empty()) {
+        add_vector(channels, "Ns", surface.vertex_normal);
+    }
     channels.push_back({"object", uint32, [&](std::size_t i) { return surface.object[i]; }});
 }
 
@@ -158,7 +189,7 @@ void write_aov(const std::filesystem::path& path, const analysis::Comparison& co
                const scene::Image<scene::Vec3f>& points)
 {
     require_size(comparison, points);
-    const Surface surface = seen_surface(comparison);
+    const Surface surface = seen_surface({&comparison, 1}, points);
     write_file(path, encode_exr(points.size(), channels(comparison, points, surface),
                                 exr_header(comparison)));
 }
@@ -166,10 +197,12 @@ void write_aov(const std::filesystem::path& path, const analysis::Comparison& co
 void write_aov(const std::filesystem::path& path, std::span<const analysis::Comparison> lights,
                const scene::Image<scene::Vec3f>& points)
 {
-    const Surface surface = seen_surface(lights.front()); // the camera's: the same of every light
-    std::vector<ExrChannel> all;
     for (const analysis::Comparison& light : lights) {
         require_size(light, points);
+    }
+    const Surface surface = seen_surface(lights, points);
+    std::vector<ExrChannel> all;
+    for (const analysis::Comparison& light : lights) {
         for (ExrChannel& channel : channels(light, points, surface)) {
             channel.name = fmt::format("{}.{}", light.light, channel.name);
             all.push_back(std::move(channel));

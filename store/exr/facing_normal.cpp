@@ -1,8 +1,11 @@
 #include "store/exr/facing_normal.hpp"
 
+#include "scene/vertex_normals.hpp"
 #include "scene/view/camera.hpp"
 
 #include <glm/geometric.hpp>
+
+#include <cstdint>
 
 namespace gnomon::store {
 
@@ -20,6 +23,14 @@ Vec3d facing_normal(const analysis::Comparison& comparison, int x, int y)
     const Vec3d normal = twice_area > 0 ? across / twice_area : Vec3d{0, 1, 0};
     const scene::Ray ray = scene::pixel_ray(comparison.view.camera, comparison.view.image, x, y);
     return glm::dot(normal, ray.direction) > 0 ? -normal : normal;
+}
+
+Vec3d facing_vertex_normal(const analysis::Comparison& comparison, int x, int y, const Vec3d& point)
+{
+    const std::uint32_t triangle = comparison.receivers.triangle(x, y);
+    const Vec3d normal = scene::vertex_normal_at(*comparison.triangles, triangle, point);
+    const double side = glm::dot(normal, facing_normal(comparison, x, y));
+    return side < 0 ? -normal : normal;
 }
 
 } // namespace gnomon::store

@@ -3,6 +3,7 @@
 #include "analysis/comparison.hpp"
 #include "cli/compare/renderers.hpp"
 #include "gl_case.hpp"
+#include "methods/list.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
@@ -16,7 +17,10 @@ namespace gnomon::tests {
 /// A scene that both renderers have loaded, compared under any number of settings.
 class Compared {
 public:
-    explicit Compared(const scene::Job& job) : Compared{scene::load_scene(job.scene)} {}
+    explicit Compared(const scene::Job& job)
+        : Compared{scene::load_scene(job.scene, methods::vertex_normals(job))}
+    {
+    }
     explicit Compared(scene::SceneFile file);
 
     /// Compares under a job that shows the same scene.

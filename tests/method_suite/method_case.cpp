@@ -10,10 +10,22 @@
 #include <variant>
 
 namespace gnomon::tests {
+namespace {
+
+/// With normals where the job needs them.
+scene::SceneFile completed(const scene::Job& job, scene::SceneFile file)
+{
+    if (methods::vertex_normals(job) == scene::VertexNormals::kept) {
+        scene::complete_vertex_normals(file.scene);
+    }
+    return file;
+}
+
+} // namespace
 
 MethodCase::MethodCase(scene::Job the_job, scene::SceneFile the_file)
     : job{std::move(the_job)},
-      file{std::move(the_file)},
+      file{completed(job, std::move(the_file))},
       view{resolve_view(job, file.scene, file.defaults)},
       gpu_{*shared_context(), file.scene},
       receiver_pass_{*shared_context()},
@@ -157,6 +169,17 @@ bool is_tried(const scene::HandedKey& key, const methods::Method& method)
            first->name == method.name;
 }
 
+/// Of the bias terms that methods share the one that reads what no other reads is tried, too.
+bool is_first_with_normals(const methods::Method& method)
+{
+    const auto has_key = [](const methods::Method& other) {
+        return scene::has_any_key(other.name, "bias.normal_from");
+    };
+    const auto first = std::ranges::find_if(methods::methods(), has_key);
+    return has_key(method) &&
+           (std::getenv("GNOMON_FULL_TESTS") != nullptr || first->name == method.name);
+}
+
 } // namespace
 
 std::vector<Configuration> configurations()
@@ -182,6 +205,11 @@ std::vector<Configuration> configurations()
                 std::erase(shown, '"');
                 all.push_back({shown, with(base, {{key.key.name, text}})});
             }
+        }
+        if (is_first_with_normals(method)) {
+            all.push_back(
+                {name + " along normals of vertices",
+                 with(base, {{"bias.normal_from", "vertices"}, {"bias.normal_texels", "1.5"}})});
         }
     }
     return all;

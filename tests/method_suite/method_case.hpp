@@ -70,8 +70,8 @@ struct Configuration {
 
 /// All methods of the list: each with its defaults, each filter, and each of its own keys at other
 /// values: each word, the other flag, the largest integer, the smallest power of two;
-/// of samples as many as drivers have. Keys that methods share are tried of the first of them, in
-/// the full lane of all.
+/// of samples as many as drivers have. Keys that methods share, and offsets along the normals of
+/// vertices, are tried of the first of them, in the full lane of all.
 [[nodiscard]] std::vector<Configuration> configurations();
 
 /// Both lists of keys, the second over the first.

@@ -60,7 +60,7 @@ TEST(BiasTerms, AreThoseOfTheList)
     EXPECT_EQ(terms[2].place, BiasPlace::lookup_position);
     EXPECT_THAT(keys_with_units(terms[2]), ElementsAre("bias.normal_texels [texel widths]"));
     EXPECT_EQ(terms[3].place, BiasPlace::lookup_position);
-    EXPECT_THAT(keys_with_units(terms[3]), ElementsAre("bias.normal_m [m]"));
+    EXPECT_THAT(keys_with_units(terms[3]), ElementsAre("bias.normal_m [m]", "bias.normal_from []"));
     EXPECT_EQ(terms[4].place, BiasPlace::receiver_depth);
     EXPECT_THAT(keys_with_units(terms[4]), ElementsAre("bias.constant_texels [texel widths]"));
     EXPECT_EQ(terms[5].place, BiasPlace::map_drawn);

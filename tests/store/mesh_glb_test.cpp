@@ -54,5 +54,26 @@ TEST(MeshGlb, ImportsBitByBit)
     std::filesystem::remove(file);
 }
 
+TEST(MeshGlb, KeepsNormalsBitByBit)
+{
+    const auto file = std::filesystem::path{::testing::TempDir()} / "mesh_glb_normals_test.glb";
+    for (const char* const name : {"sphere-cube", "columns"}) {
+        scene::SceneSettings settings;
+        settings.builtin = name;
+        const auto kept = scene::VertexNormals::kept;
+        const scene::TriangleScene own = scene::load_scene(settings, kept).scene;
+        write_file(file, encode_glb(own));
+        const scene::TriangleScene back = scene::load_scene_file(file, {}, kept).scene;
+        ASSERT_EQ(back.triangles.size(), own.triangles.size()) << name;
+        EXPECT_EQ(back.vertex_normals, own.vertex_normals) << name;
+        std::size_t different = 0;
+        for (std::uint32_t t = 0; t < own.triangles.size(); ++t) {
+            different += corner_bits(own, t) != corner_bits(back, t) ? 1U : 0U;
+        }
+        EXPECT_EQ(different, 0U) << name;
+    }
+    std::filesystem::remove(file);
+}
+
 } // namespace
 } // namespace gnomon::store

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "methods/bias_term.hpp"
+#include "methods/depth/terms/offset_normal.hpp"
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -22,24 +24,33 @@ vec4 normal_offset(Receiver receiver, vec4 clip)
 #else
     float offset = normal_offset_m[map_index];
 #endif
-    vec3 towards_light = receiver.cosine >= 0.0 ? receiver.normal : -receiver.normal;
+    vec3 towards_light =
+        receiver.cosine >= 0.0 ? receiver.OFFSET_NORMAL : -receiver.OFFSET_NORMAL;
     precise vec4 moved = clip + light_clip_from_world[map_index] * vec4(offset * towards_light, 0.0);
     return moved;
 }
 )";
 
-inline std::optional<Piece> normal_offset_piece(const scene::Job& job, const scene::View& view)
+inline double normal_offset_length_m(const scene::Job& job, const scene::View& view,
+                                     std::size_t map, double light_distance_m)
 {
     const double texels = view.bias.normal_texels;
-    if (texels == 0) {
+    return texels *
+           view.maps.at(map).texel_width_m(light_distance_m, job.shadow_map.resolution_texels);
+}
+
+inline std::optional<Piece> normal_offset_piece(const scene::Job& job, const scene::View& view)
+{
+    if (view.bias.normal_texels == 0) {
         return std::nullopt;
     }
     std::vector<float> offsets_m;
-    for (const scene::LightFrustum& map : view.maps) {
-        const double texel_m = map.texel_width_m(1.0, job.shadow_map.resolution_texels);
-        offsets_m.push_back(static_cast<float>(texels * texel_m));
+    for (std::size_t map = 0; map < view.maps.size(); ++map) {
+        offsets_m.push_back(static_cast<float>(normal_offset_length_m(job, view, map, 1.0)));
     }
-    return Piece{normal_offset_glsl, {}, {{"normal_offset_m", std::move(offsets_m)}}};
+    return Piece{normal_offset_glsl,
+                 offset_normal_definitions(job),
+                 {{"normal_offset_m", std::move(offsets_m)}}};
 }
 
 /// Looks up a point above the surface.
@@ -48,8 +59,11 @@ inline constexpr BiasTerm normal_offset{
     .keys = normal_offset_keys,
     .place = BiasPlace::lookup_position,
     .sentence = "looks up P + normal_texels · w · n in place of P: w a texel's width there, n the "
-                "geometric normal on the light's side",
+                "geometric normal on the light's side, or with normal_from = vertices the one "
+                "interpolated from the vertices, on the same side",
     .function = "normal_offset",
-    .piece = normal_offset_piece};
+    .piece = normal_offset_piece,
+    .length_m = normal_offset_length_m,
+    .reads_vertex_normals = follows_vertex_normals};
 
 } // namespace gnomon::methods
