@@ -32,13 +32,15 @@ CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format,
 Program make_caster_program(const CasterOutput& output)
 {
     using Kind = scene::DepthFormat::Kind;
-    const bool has_distances = output.content == scene::MapContent::distance;
     const auto flag = [](bool on) { return on ? "1" : "0"; };
+    const auto holds = [&](scene::MapContent content) { return flag(output.content == content); };
     ProgramParts parts{"shadow_map.vert",
                        {},
-                       {{"DISTANCE", flag(has_distances)}, {"PRIMITIVES", flag(output.primitives)}},
+                       {{"DISTANCE", holds(scene::MapContent::distance)},
+                        {"LINEAR", holds(scene::MapContent::linear)},
+                        {"PRIMITIVES", flag(output.primitives)}},
                        nullptr};
-    if (has_distances || output.converted || output.primitives) {
+    if (output.content != scene::MapContent::depth || output.converted || output.primitives) {
         parts.fragment = "shadow_map_written.frag";
         parts.before_fragment = shader_source("depth_codes.glsl");
     }

@@ -9,7 +9,7 @@ std::vector<scene::Vec4f> capture_clip_positions(const Context& context, const G
                                                  const scene::Mat4f& clip_from_world)
 {
     const Program program =
-        make_program({"shadow_map.vert", {}, {{"DISTANCE", "0"}}, "gl_Position"});
+        make_program({"shadow_map.vert", {}, {{"DISTANCE", "0"}, {"LINEAR", "0"}}, "gl_Position"});
     std::vector<scene::Vec4f> positions(scene.vertex_count());
     const auto bytes = static_cast<GLsizeiptr>(positions.size() * sizeof(scene::Vec4f));
     const Framebuffer nothing = make_framebuffer(); // drawing needs a complete one all the same

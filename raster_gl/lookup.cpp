@@ -136,6 +136,7 @@ void set_uniforms(const Program& lookup, const scene::View& view)
     const scene::Vec2d depth_row = clip_depth_row(first.depth_range());
     set_uniform(lookup, "light_clip_from_world", matrices_of(view));
     set_uniform(lookup, "light", light_uniform(view.light));
+    set_uniform(lookup, "near", static_cast<float>(first.near_m));
     set_uniform(lookup, "far", static_cast<float>(first.far_m));
     set_uniform(lookup, "half_side",
                 std::array{static_cast<float>(first.right_side), static_cast<float>(first.top)});
@@ -220,6 +221,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"PRIMITIVES", flag(pieces.passes.draws_primitives)},
         {"CUBE", flag(is_cube(view))},
         {"DISTANCE", flag(view.first_map().content == scene::MapContent::distance)},
+        {"LINEAR", flag(view.first_map().content == scene::MapContent::linear)},
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
         {"BISECTS", flag(computes.critical_bias)},
         {"GRADIENTS", flag(pieces.passes.has_gradients())},

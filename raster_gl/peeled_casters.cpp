@@ -30,7 +30,7 @@ PeeledCasters::PeeledCasters(const Context& context)
     : context_{context},
       behind_{make_program({"shadow_map.vert",
                             "peeled_casters.frag",
-                            {{"DISTANCE", "0"}, {"PRIMITIVES", "0"}},
+                            {{"DISTANCE", "0"}, {"LINEAR", "0"}, {"PRIMITIVES", "0"}},
                             nullptr})},
       target_{make_framebuffer()}
 {

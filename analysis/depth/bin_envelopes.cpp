@@ -17,9 +17,9 @@ public:
         : frustum_{frustum},
           mapping_{frustum.stored_range()},
           coding_{DepthCoding::of(format)},
-          corner_{frustum.content == scene::MapContent::depth
-                      ? 1
-                      : glm::length(scene::Vec3d{frustum.right_side, frustum.top, 1})}
+          corner_{frustum.content == scene::MapContent::distance
+                      ? glm::length(scene::Vec3d{frustum.right_side, frustum.top, 1})
+                      : 1}
     {
     }
 

@@ -33,7 +33,7 @@ double largest_but_few(std::vector<double>& values)
     return *nth;
 }
 
-/// What the map stores of a point: its matrix depth, or its distance over far.
+/// What the map stores of a point: its matrix depth, its distance over far, or linear depth.
 double depth_of(const scene::LightFrustum& frustum, const Vec3d& point)
 {
     if (frustum.content == scene::MapContent::distance) {
@@ -41,6 +41,9 @@ double depth_of(const scene::LightFrustum& frustum, const Vec3d& point)
     }
     const scene::Vec4d clip =
         scene::Mat4d{frustum.light_clip_from_world} * scene::Vec4d{point, 1.0};
+    if (frustum.content == scene::MapContent::linear) {
+        return (clip.w - frustum.near_m) / frustum.range_m();
+    }
     const double ndc = clip.z / clip.w;
     return frustum.clip_range == scene::ClipRange::minus_one_to_one ? 0.5 * ndc + 0.5 : ndc;
 }

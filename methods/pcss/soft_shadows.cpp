@@ -7,6 +7,8 @@
 #include "scene/error.hpp"
 #include "scene/job/keys.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -80,9 +82,12 @@ void pcss_check(const scene::Job& job)
             "method.name = \"pcss\": its search radius would be another in each cascade; use "
             "shadow_map.layout = \"single\", or the method \"pcf\"");
     }
-    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
-        throw scene::InputError("method.name = \"pcss\": it finds distances from depths; remove "
-                                "shadow_map.content = \"distance\"");
+    if (const scene::MapContent content = job.shadow_map.frustum.content;
+        content != scene::MapContent::depth) {
+        throw scene::InputError(
+            fmt::format("method.name = \"pcss\": it finds distances from depths; remove "
+                        "shadow_map.content = \"{}\"",
+                        scene::map_content_name(content)));
     }
 }
 

@@ -228,11 +228,12 @@ void check_blur(const scene::Job& job)
                         "that a point light's maps have none; use \"depth\"",
                         name));
     }
-    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
+    if (const scene::MapContent content = job.shadow_map.frustum.content;
+        content != scene::MapContent::depth) {
         throw scene::InputError(
             fmt::format("method.name = \"{}\": it averages what it makes of depths; remove "
-                        "shadow_map.content = \"distance\"",
-                        name));
+                        "shadow_map.content = \"{}\"",
+                        name, scene::map_content_name(content)));
     }
     if (const scene::DepthFormat format = job.shadow_map.depth_format;
         traits_of(format).is_colour) {

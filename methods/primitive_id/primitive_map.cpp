@@ -24,10 +24,12 @@ void primitive_check(const scene::Job& job)
         throw scene::InputError("method.name = \"primitive_id\": indices of two maps cannot be "
                                 "mixed; remove shadow_map.blend");
     }
-    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
-        throw scene::InputError(
+    if (const scene::MapContent content = job.shadow_map.frustum.content;
+        content != scene::MapContent::depth) {
+        throw scene::InputError(fmt::format(
             "method.name = \"primitive_id\": its map stores which triangle the light sees, and no "
-            "distances; remove shadow_map.content = \"distance\"");
+            "distances; remove shadow_map.content = \"{}\"",
+            scene::map_content_name(content)));
     }
 }
 

@@ -61,9 +61,12 @@ void layer_check(const scene::Job& job)
                         "method.name = \"second_layer\" needs; remove it",
                         scene::cull_name(map.cull)));
     }
-    if (map.frustum.content == scene::MapContent::distance) {
-        throw scene::InputError("method.name = \"second_layer\": its layers are of depths; remove "
-                                "shadow_map.content = \"distance\"");
+    if (const scene::MapContent content = map.frustum.content;
+        content != scene::MapContent::depth) {
+        throw scene::InputError(
+            fmt::format("method.name = \"second_layer\": its layers are of depths; remove "
+                        "shadow_map.content = \"{}\"",
+                        scene::map_content_name(content)));
     }
     if (map.depth_format.kind != scene::DepthFormat::Kind::d32f) {
         throw scene::InputError(fmt::format(

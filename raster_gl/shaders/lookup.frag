@@ -12,7 +12,7 @@
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
 // MAPS, PRIMITIVES, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// DISTANCE, SCATTERED, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the
+// DISTANCE, LINEAR, SCATTERED, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the
 // program that compiles this. Where no formula tells of other biases, BISECTS finds the smallest
 // bias with which the very same verdict is at least `lit_from`: it rises with the bias.
 #if BISECTS
@@ -244,6 +244,10 @@ Place place_in_map(Receiver receiver)
 #endif
 #if DISTANCE
     precise float r = distance_over_far(clip);
+    r = moved_depth(receiver, r);
+    bool beyond_far = !(r <= 1.0);
+#elif LINEAR
+    precise float r = (clip.w - near) / (far - near);
     r = moved_depth(receiver, r);
     bool beyond_far = !(r <= 1.0);
 #elif REVERSED

@@ -1,6 +1,6 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. TAP_GRADIENT, MAPS, CUBE, DISTANCE, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, PRIMITIVES
-// and GRADIENTS are defined by the program that compiles this.
+// comparison. TAP_GRADIENT, MAPS, CUBE, DISTANCE, LINEAR, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL,
+// PRIMITIVES and GRADIENTS are defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
@@ -38,6 +38,9 @@ uniform float resolution; // in texels
 #if DISTANCE
 uniform float far;         // what distances to the light are divided by
 uniform float half_side[2]; // of the map at ζ = 1, along u and v
+#elif LINEAR
+uniform float near; // light distance where linear depth is 0,
+uniform float far;  // and 1
 #endif
 
 #if GRADIENTS

@@ -1,5 +1,5 @@
-// What GL does not store by itself: with DISTANCE the distance to the light over far, in place of
-// depth; codes of either, after depth_codes.glsl; and with PRIMITIVES which triangle it is.
+// What GL does not store by itself: with DISTANCE the distance to the light over far, with
+// LINEAR the light distance from near to far, in place of depth; codes of any, after depth_codes.glsl; and with PRIMITIVES which triangle it is.
 //
 // UNORM: an n-bit unsigned normalised code, code = floor(z·(2^n − 1) + ½), exactly: z has 24
 // significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53 bits wherever the
@@ -32,6 +32,16 @@ float stored_value()
     vec3 from_light = world_position - light;
     return min(length(from_light) / far, 1.0);
 }
+#elif LINEAR
+in float light_distance;
+
+uniform float near;
+uniform float far;
+
+float stored_value()
+{
+    return clamp((light_distance - near) / (far - near), 0.0, 1.0);
+}
 #else
 float stored_value()
 {
@@ -50,7 +60,7 @@ void main()
     code = uint(floor(steps + 0.5LF));
     unquantised_z = z;
     gl_FragDepth = float(double(code) / double(largest_code));
-#elif DISTANCE
+#elif DISTANCE || LINEAR
     gl_FragDepth = z;
 #endif
 #if IS_COLOUR

@@ -22,7 +22,7 @@ ExactDepth DepthTerm::exact() const
     if (hit_ == nullptr) {
         return {Fraction::number(bounded_.value), false};
     }
-    return distance_ != nullptr ? ExactDepth{distance_->square_at(*hit_), true}
+    return distance_ != nullptr ? distance_->exactly_at(*hit_)
                                 : ExactDepth{depth_->exactly_at(*hit_), false};
 }
 

@@ -9,14 +9,6 @@
 
 namespace gnomon::reference_rt {
 
-/// An exact depth, or its square.
-struct ExactDepth {
-    Fraction number;
-    bool is_square = false;
-
-    [[nodiscard]] Fraction square() const { return is_square ? number : number * number; }
-};
-
 /// The depth of a point, or what a map stores in its place: bounded, and what makes it exact.
 class DepthTerm {
 public:

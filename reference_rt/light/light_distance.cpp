@@ -1,6 +1,7 @@
 #include "reference_rt/light/light_distance.hpp"
 
 #include "reference_rt/exact/terms.hpp"
+#include "reference_rt/light/texel_rays.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 namespace gnomon::reference_rt {
 
 using scene::Vec3d;
+using scene::Vec4d;
 
 namespace {
 
@@ -52,31 +54,70 @@ auto square_of(Field field, const Receiver& hit, const Vec3d& light, double far_
     return std::pair{x * x + y * y + z * z, scale * scale};
 }
 
+/// W·(P, 1) − near over far − near, alike: both times δ.
+template <typename Field>
+auto linear_of(Field field, const Receiver& hit, const Vec4d& axis, double near_m, double far_m)
+{
+    const auto plane = plane_hit(field, hit);
+    const auto near = Field::number(near_m);
+    const auto span = Field::number(far_m) - near;
+    auto numerator = scaled_row(field, axis, hit.ray(), plane) - plane.delta * near;
+    auto denominator = plane.delta * span;
+    return std::pair{std::move(numerator), std::move(denominator)};
+}
+
+/// Less than nothing, and more than far, is as good as at the end.
+Bounded limited(const Bounded& share)
+{
+    return {std::clamp(share.value, 0.0, 1.0), share.error};
+}
+
 } // namespace
+
+LightDistance::LightDistance(const scene::LightFrustum& frustum)
+    : is_linear_{frustum.content == scene::MapContent::linear},
+      light_{frustum.origin},
+      axis_{ClipRows{frustum}.w},
+      near_m_{static_cast<float>(frustum.near_m)},
+      far_m_{static_cast<float>(frustum.far_m)}
+{
+}
 
 Bounded LightDistance::at(const Receiver& hit) const
 {
     const scene::Ray& ray = hit.ray();
     const Bounded t = parameter_of(hit);
+    if (is_linear_) {
+        const Bounded from_near = plain_row_at(axis_, ray.origin, 1) - Bounded{double{near_m_}, 0} +
+                                  t * plain_row_at(axis_, ray.direction, 0);
+        return from_near / (Bounded{double{far_m_}, 0} - Bounded{double{near_m_}, 0});
+    }
     const auto component = [&](double origin, double light, double direction) {
         return rounded_once(origin - light, 0) + t * Bounded{direction, 0};
     };
     const Bounded x = component(ray.origin.x, light_.x, ray.direction.x);
     const Bounded y = component(ray.origin.y, light_.y, ray.direction.y);
     const Bounded z = component(ray.origin.z, light_.z, ray.direction.z);
-    return root_of(x * x + y * y + z * z) / Bounded{far_m_, 0};
+    return root_of(x * x + y * y + z * z) / Bounded{double{far_m_}, 0};
 }
 
 Wide LightDistance::widely_at(const Receiver& hit) const
 {
-    const auto [numerator, denominator] = square_of(WideField{}, hit, light_, far_m_);
+    if (is_linear_) {
+        const auto [numerator, denominator] =
+            linear_of(WideField{}, hit, axis_, double{near_m_}, double{far_m_});
+        return numerator / denominator;
+    }
+    const auto [numerator, denominator] = square_of(WideField{}, hit, light_, double{far_m_});
     return root_of(numerator / denominator);
 }
 
-Fraction LightDistance::square_at(const Receiver& hit) const
+ExactDepth LightDistance::exactly_at(const Receiver& hit) const
 {
-    auto [numerator, denominator] = square_of(ExactField{}, hit, light_, far_m_);
-    return {std::move(numerator), std::move(denominator)};
+    auto [numerator, denominator] =
+        is_linear_ ? linear_of(ExactField{}, hit, axis_, double{near_m_}, double{far_m_})
+                   : square_of(ExactField{}, hit, light_, double{far_m_});
+    return {{std::move(numerator), std::move(denominator)}, !is_linear_};
 }
 
 Bounded LightDistance::place(const Receiver& hit) const
@@ -87,10 +128,12 @@ Bounded LightDistance::place(const Receiver& hit) const
         distance = widely_at(hit).rounded();
     }
     if (!(distance.error <= largest_error)) {
-        // Beyond far the size does not matter, nor then its error.
-        distance = {std::min(Root{square_at(hit)}.value(), 2.0), largest_error};
+        // Beyond the ends the size does not matter, nor then its error.
+        const auto [number, is_square] = exactly_at(hit);
+        const double value = is_square ? Root{number}.value() : number.value();
+        distance = {std::clamp(value, -1.0, 2.0), largest_error};
     }
-    return distance.value > 1 ? Bounded{1, distance.error} : distance;
+    return limited(distance);
 }
 
 double Root::value() const

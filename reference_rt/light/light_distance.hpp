@@ -9,29 +9,37 @@
 
 namespace gnomon::reference_rt {
 
-/// What a map of distances holds of a point H: |H − L| over the map's far plane, both as GL has
-/// them, in float32; what is farther is as good as not there.
+/// An exact depth, or its square.
+struct ExactDepth {
+    Fraction number;
+    bool is_square = false;
+
+    [[nodiscard]] Fraction square() const { return is_square ? number : number * number; }
+};
+
+/// What a map holds of a point H in place of its matrix depth, with L, near and far as GL has them,
+/// in float32, and W the last row of the matrix: of distances |H − L| / far, of linear depth
+/// (W·(H, 1) − near) / (far − near). What is farther than 1 is as good as not there.
 class LightDistance {
 public:
-    /// @param frustum  of a light with a position.
-    explicit LightDistance(const scene::LightFrustum& frustum)
-        : light_{frustum.origin},
-          far_m_{static_cast<float>(frustum.far_m)}
-    {
-    }
+    /// @param frustum  of a light with a position, whose map does not hold depths.
+    explicit LightDistance(const scene::LightFrustum& frustum);
 
     /// To within the roundings of plain sums, and what those of the hit's parameter amount to.
     [[nodiscard]] Bounded at(const Receiver& hit) const;
     /// In twice double's precision. Precondition: the hit is well scaled.
     [[nodiscard]] Wide widely_at(const Receiver& hit) const;
-    /// Its square, exactly. Precondition: δ is not 0.
-    [[nodiscard]] Fraction square_at(const Receiver& hit) const;
-    /// At most 1, within 2^-48.
+    /// Of a distance its square. Precondition: δ is not 0.
+    [[nodiscard]] ExactDepth exactly_at(const Receiver& hit) const;
+    /// In [0, 1], within 2^-48.
     [[nodiscard]] Bounded place(const Receiver& hit) const;
 
 private:
+    bool is_linear_;
     scene::Vec3d light_; ///< L
-    double far_m_;
+    scene::Vec4d axis_;  ///< W
+    float near_m_;       // floats, for GCC 12 drops two roundings side by side (scene/vec.hpp)
+    float far_m_;
 };
 
 /// The root of a number that is not negative.

@@ -75,7 +75,7 @@ store::Json frustum_value(const scene::Job& job, const scene::View& view)
                      {"far_m", frustum.far_m},
                      {"reversed", frustum.reversed},
                      {"texel_m", frustum.texel_width_m(1.0, resolution_texels)}};
-    if (frustum.content == scene::MapContent::distance) {
+    if (frustum.content != scene::MapContent::depth) {
         json["content"] = scene::map_content_name(frustum.content);
     }
     return json;

@@ -66,8 +66,12 @@ PixelRules::PixelRules(const store::Json& detail)
         setting_of<std::string>(detail, "shadow_map.depth_format", ""));
     light.projection = frustum.at("projection") == "perspective" ? scene::Projection::perspective
                                                                  : scene::Projection::orthographic;
-    light.content = frustum.value("content", "depth") == "distance" ? scene::MapContent::distance
-                                                                    : scene::MapContent::depth;
+    for (const scene::MapContent content :
+         {scene::MapContent::distance, scene::MapContent::linear}) {
+        if (frustum.value("content", "depth") == scene::map_content_name(content)) {
+            light.content = content;
+        }
+    }
     light.near_m = frustum.at("near_m").get<double>();
     light.far_m = frustum.at("far_m").get<double>();
     light.reversed = frustum.at("reversed").get<bool>();

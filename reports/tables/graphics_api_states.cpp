@@ -131,6 +131,11 @@ void add_shader(ApiState& state, const TunedSetting& setting)
             "fragment shader of the map: depth = distance(P, L) / far, in place "
             "of its own; lookup compares the same of the receiver");
     }
+    if (setting.map.frustum.content == scene::MapContent::linear) {
+        state.lines.emplace_back(
+            "fragment shader of the map: depth = (w - near) / (far - near), w the clip position's, "
+            "in place of its own; lookup compares the same of the receiver");
+    }
 }
 
 std::string gl_offset(const Offset& offset)

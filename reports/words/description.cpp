@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <string_view>
 #include <variant>
 
 namespace gnomon::reports {
@@ -36,13 +37,25 @@ std::string describe_light(const scene::Light& light)
     return fmt::format("spot, cone {:.4g} deg", 2 * std::acos(light.cos_half_cone) * deg_from_rad);
 }
 
+std::string_view describe_content(scene::MapContent content)
+{
+    switch (content) {
+    case scene::MapContent::depth:
+        return "";
+    case scene::MapContent::distance:
+        return ", distances";
+    case scene::MapContent::linear:
+        return ", linear depth";
+    }
+    return {};
+}
+
 std::string describe_map(const scene::Job& job)
 {
     const scene::ShadowMapSettings& map = job.shadow_map;
-    const bool has_distances = map.frustum.content == scene::MapContent::distance;
-    const std::string size =
-        fmt::format("{0}x{0} {1}{2}", map.resolution_texels,
-                    scene::depth_format_name(map.depth_format), has_distances ? ", distances" : "");
+    const std::string size = fmt::format("{0}x{0} {1}{2}", map.resolution_texels,
+                                         scene::depth_format_name(map.depth_format),
+                                         describe_content(map.frustum.content));
     const scene::MapLayout layout = scene::map_layout(job);
     return layout == scene::MapLayout::single
                ? fmt::format("{}, fit {}", size, scene::fit_name(map.frustum.fit))

@@ -106,23 +106,27 @@ void check_fit(const Settings& settings, KnownLight light)
     }
 }
 
-/// Refuses what maps of distances have no place for.
+/// Refuses what maps of distances and of linear depth have no place for.
 void check_content(const Settings& settings, KnownLight light)
 {
     const Setting* content = find_setting(settings, "shadow_map.content");
     if (content == nullptr || std::get<std::string>(content->value) == "depth") {
         return;
     }
+    const bool is_linear = std::get<std::string>(content->value) == "linear";
     if (light == KnownLight::directional) {
-        refuse(*content, "a directional light is nowhere, and has no distances; remove it");
+        refuse(*content, is_linear
+                             ? "a directional light's depth is linear already; remove it"
+                             : "a directional light is nowhere, and has no distances; remove it");
     }
     const Setting* reversed = find_setting(settings, "shadow_map.reversed");
     if (reversed != nullptr && std::get<bool>(reversed->value)) {
         refuse(*reversed,
-               fmt::format("distances are not reversed ({}); keep one of the two", content->label));
+               fmt::format("{} not reversed ({}); keep one of the two",
+                           is_linear ? "linear depth is" : "distances are", content->label));
     }
     const Setting* filter = find_setting(settings, "lookup.filter");
-    if (filter != nullptr && std::get<std::string>(filter->value) == "linear") {
+    if (!is_linear && filter != nullptr && std::get<std::string>(filter->value) == "linear") {
         refuse(*filter, fmt::format("a mean of distances ({}) is not decided exactly; use nearest, "
                                     "hardware or a pcf",
                                     content->label));

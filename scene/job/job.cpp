@@ -11,7 +11,7 @@ constexpr std::array<std::string_view, 3> outside_names{"lit", "shadowed", "clam
 constexpr std::array<std::string_view, 2> position_names{"vertex", "pixel"};
 constexpr std::array<std::string_view, 3> cull_names{"none", "front", "back"};
 constexpr std::array<std::string_view, 3> layout_names{"single", "cube", "cascades"};
-constexpr std::array<std::string_view, 2> content_names{"depth", "distance"};
+constexpr std::array<std::string_view, 3> content_names{"depth", "distance", "linear"};
 constexpr std::array<std::string_view, 3> fit_names{"scene", "camera", "fixed"};
 
 } // namespace

@@ -62,9 +62,9 @@ KeySpec content_key()
     KeySpec spec = word_key<MapContent>(
         make_key("shadow_map.content",
                  "what the map stores: depth, or of a spot or point light the distance to it, over "
-                 "far",
+                 "far, or its light distance, linear from near to far",
                  "\"depth\"", light_matrix),
-        2, map_content_name, [](auto& job) -> auto& { return job.shadow_map.frustum.content; });
+        3, map_content_name, [](auto& job) -> auto& { return job.shadow_map.frustum.content; });
     spec.get = [](const Job& job) -> std::optional<JobValue> {
         const MapContent content = job.shadow_map.frustum.content;
         return content == MapContent::depth ? std::nullopt

@@ -16,6 +16,7 @@ enum class Fit : std::uint8_t { scene, camera, fixed };
 enum class MapContent : std::uint8_t {
     depth,    ///< by the map's matrix
     distance, ///< to the light, over far
+    linear,   ///< light distance ζ, evenly from near to far: (ζ − near) / (far − near)
 };
 
 /// The range of distances to the light over far: from 0 on, evenly, and never a z_ndc.
@@ -74,11 +75,19 @@ struct LightFrustum {
     {
         return {projection, near_m, far_m, reversed, clip_range};
     }
-    /// How what the map stores follows from what it stores it of: `depth_range()` of ζ, or of the
-    /// distance to the light 0 to far, evenly.
+    /// How what the map stores follows from what it stores it of: `depth_range()` of ζ, of the
+    /// distance to the light 0 to far, evenly, or of ζ near to far, evenly.
     [[nodiscard]] DepthRange stored_range() const
     {
-        return content == MapContent::depth ? depth_range() : range_of_distances(far_m);
+        switch (content) {
+        case MapContent::depth:
+            return depth_range();
+        case MapContent::distance:
+            return range_of_distances(far_m);
+        case MapContent::linear:
+            return {Projection::orthographic, near_m, far_m, false, ClipRange::zero_to_one};
+        }
+        return depth_range();
     }
 };
 

@@ -162,7 +162,7 @@ void make_room_for_distances(std::span<LightFrustum> maps, const FrustumSettings
                              const TriangleScene& scene)
 {
     const LightFrustum& first = maps.front();
-    if (first.content == MapContent::depth || settings.far_m) {
+    if (first.content != MapContent::distance || settings.far_m) {
         return;
     }
     double farthest_m = 0;

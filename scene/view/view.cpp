@@ -99,11 +99,14 @@ void require_layout(const Job& job, LightType light)
             "a light under [light]",
             map_layout_name(layout), light_type_name(light)));
     }
-    const bool has_distances = job.shadow_map.frustum.content == MapContent::distance;
-    if (has_distances && light == LightType::directional) {
-        throw InputError(
-            "shadow_map.content = \"distance\": the scene's light is directional, and has "
-            "no distances; remove the key, or give a light under [light]");
+    const MapContent content = job.shadow_map.frustum.content;
+    if (content != MapContent::depth && light == LightType::directional) {
+        throw InputError(fmt::format(
+            "shadow_map.content = \"{}\": the scene's light is directional, {}; remove the key, or "
+            "give a light under [light]",
+            map_content_name(content),
+            content == MapContent::linear ? "whose depth is linear already"
+                                          : "and has no distances"));
     }
 }
 

@@ -252,13 +252,15 @@ class BiasIdentityOfDistances : public testing::TestWithParam<const char*> {};
 TEST_P(BiasIdentityOfDistances, HoldsForGlsOwnRerunInEveryPixel)
 {
     GNOMON_REQUIRE_GL();
-    for (const char* builtin : {"lamp-room", "sphere-plane"}) {
-        const Setting setting{builtin, {{"shadow_map.content", "distance"}}};
+    for (const auto& [builtin, content] : {std::pair{"lamp-room", "distance"},
+                                           {"sphere-plane", "distance"},
+                                           {"sphere-plane", "linear"}}) {
+        const Setting setting{builtin, {{"shadow_map.content", content}}};
         GlCase c{builtin, keys_of(setting, "d32f", GetParam(), "0")};
         for (const std::string& format : formats_with(GetParam())) {
             for (const char* slope : {"0", "0.002"}) {
                 c.set(keys_of(setting, format.c_str(), GetParam(), slope));
-                expect_identity(c, fmt::format("{} distances {} {} slope {}", builtin, GetParam(),
+                expect_identity(c, fmt::format("{} {} {} {} slope {}", builtin, content, GetParam(),
                                                format, slope));
             }
         }

@@ -97,8 +97,10 @@ TEST(SixSpots, GiveTheVerdictsOfTheFacesToTheBit)
 {
     GNOMON_REQUIRE_GL();
     for (const char* format : {"d16", "d24", "d32f", "u12", "r32f", "r16f", "rgba8"}) {
-        for (const auto& [reversed, content] :
-             {std::pair{"false", "depth"}, {"true", "depth"}, {"false", "distance"}}) {
+        for (const auto& [reversed, content] : {std::pair{"false", "depth"},
+                                                {"true", "depth"},
+                                                {"false", "distance"},
+                                                {"false", "linear"}}) {
             GlCase c{"lamp-room",
                      {{"image.width", "480"},
                       {"image.height", "270"},
@@ -171,7 +173,7 @@ TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
 {
     GNOMON_REQUIRE_GL();
     for (const char* resolution : {"1", "2", "3", "5"}) {
-        for (const char* content : {"depth", "distance"}) {
+        for (const char* content : {"depth", "distance", "linear"}) {
             for (const char* filter : {"nearest", "hardware", "pcf3", "pcf9"}) {
                 const scene::Job job =
                     scene::builtin_job("lamp-room", {{"image.width", "96"},

@@ -16,14 +16,16 @@ namespace gnomon::methods {
     return {"PLANE_GRADIENT", "1"};
 }
 
-/// Refuses a number beside maps of distances, which do not change evenly over a plane.
+/// Refuses a number beside maps of distances or linear depth, which do not change evenly over a
+/// plane.
 /// @throws scene::InputError  if the job has the key at another number than 0.
 inline void refuse_distances(const scene::Job& job, std::string_view key)
 {
-    if (number_in(job, key) != 0 && job.shadow_map.frustum.content == scene::MapContent::distance) {
+    const scene::MapContent content = job.shadow_map.frustum.content;
+    if (number_in(job, key) != 0 && content != scene::MapContent::depth) {
         throw scene::InputError(fmt::format("{} follows a plane's depth, and shadow_map.content is "
-                                            "\"distance\"; remove one of them",
-                                            key));
+                                            "\"{}\"; remove one of them",
+                                            key, scene::map_content_name(content)));
     }
 }
 

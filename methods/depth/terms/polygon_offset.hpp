@@ -60,9 +60,12 @@ inline void check_polygon_offset(const scene::Job& job)
         }
         return;
     }
-    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
-        throw scene::InputError("bias.polygon_offset_factor and _units offset depths, and "
-                                "shadow_map.content is \"distance\"; remove one of them");
+    if (const scene::MapContent content = job.shadow_map.frustum.content;
+        content != scene::MapContent::depth) {
+        throw scene::InputError(
+            fmt::format("bias.polygon_offset_factor and _units offset depths, and "
+                        "shadow_map.content is \"{}\"; remove one of them",
+                        scene::map_content_name(content)));
     }
     if (traits_of(job.shadow_map.depth_format).conversion == scene::Conversion::shader) {
         throw scene::InputError(fmt::format(

@@ -6,6 +6,8 @@
 #include "scene/job/handed_key.hpp"
 #include "scene/job/keys.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -120,9 +122,11 @@ inline void check_receiver_plane(const scene::Job& job)
     if (!has_receiver_plane(job)) {
         return;
     }
-    if (job.shadow_map.frustum.content == scene::MapContent::distance) {
-        throw scene::InputError("bias.receiver_plane follows a plane's depth, and "
-                                "shadow_map.content is \"distance\"; remove one of them");
+    if (const scene::MapContent content = job.shadow_map.frustum.content;
+        content != scene::MapContent::depth) {
+        throw scene::InputError(fmt::format("bias.receiver_plane follows a plane's depth, and "
+                                            "shadow_map.content is \"{}\"; remove one of them",
+                                            scene::map_content_name(content)));
     }
     if (job.method.name != "depth" || job.lookup.filter == scene::Filter::linear) {
         throw scene::InputError(

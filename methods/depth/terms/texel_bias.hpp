@@ -27,7 +27,7 @@ inline constexpr std::string_view texel_bias_glsl =
 
 float texel_bias(Receiver receiver, float r)
 {
-#if POSITIONAL && DISTANCE
+#if POSITIONAL && (DISTANCE || LINEAR)
     float bias = texel_bias_depth[map_index] * receiver.clip.w;
 #elif POSITIONAL
     float bias = texel_bias_depth[map_index] / receiver.clip.w;
@@ -52,7 +52,8 @@ inline double depth_of_texels(const scene::LightFrustum& map, double texels, int
     if (map.content == scene::MapContent::distance) {
         return length / map.far_m;
     }
-    if (map.projection == scene::Projection::orthographic) {
+    if (map.content == scene::MapContent::linear ||
+        map.projection == scene::Projection::orthographic) {
         return length / map.range_m();
     }
     return length / ((1 / map.near_m - 1 / map.far_m) * (1 - length));

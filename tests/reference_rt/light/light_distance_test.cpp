@@ -129,7 +129,7 @@ TEST(ALightDistance, IsThatOfManyDigits)
         EXPECT_TRUE(abs(Many{wide.high} + Many{wide.low} - exact) <= Many{wide.error}) << i;
         EXPECT_LT(wide.error, 1e-20 * wide.high) << i;
         decided += bounded.error < 1e-12 ? 1 : 0;
-        EXPECT_EQ(exactly_rounded<ToNearest>(Root{distance.square_at(hit)}),
+        EXPECT_EQ(exactly_rounded<ToNearest>(Root{distance.exactly_at(hit).number}),
                   static_cast<float>(exact))
             << i;
         const Bounded place = distance.place(hit);
@@ -137,6 +137,79 @@ TEST(ALightDistance, IsThatOfManyDigits)
         EXPECT_TRUE(exact > 1 ? place.value == 1 : within(place.value, place.error)) << i;
     }
     EXPECT_GT(decided, 4'500);
+}
+
+/// W·(P, 1) − near over far − near, with near and far as float32s.
+TEST(LinearDepth, IsThatOfManyDigits)
+{
+    std::mt19937 random{33};
+    std::uniform_real_distribution<float> metres{-4, 4};
+    const auto point = [&] {
+        return scene::Vec3d{scene::Vec3f{metres(random), metres(random), metres(random)}};
+    };
+    scene::LightFrustum frustum;
+    frustum.projection = scene::Projection::perspective;
+    frustum.content = scene::MapContent::linear;
+    frustum.near_m = 0.3; // no float32s: what is subtracted and divided by is
+    frustum.far_m = 12.7;
+    const scene::Vec4f axis{0.48F, -0.6F, 0.64F, 1.7F};
+    for (int column = 0; column < 4; ++column) {
+        frustum.light_clip_from_world[column][3] = axis[column];
+    }
+    const Many near_m{static_cast<float>(frustum.near_m)};
+    const Many far_m{static_cast<float>(frustum.far_m)};
+    const LightDistance linear{frustum};
+    int decided = 0;
+    int in_range = 0;
+    for (int i = 0; i < 5'000; ++i) {
+        const ExactTriangle face{0, {point(), point(), point()}};
+        const CameraRay ray{{point(), point()}};
+        SignCounts counts;
+        const Receiver hit{face, ray, counts};
+        if (hit.delta_sign == 0) {
+            continue;
+        }
+        // The plane's normal, by cofactors.
+        const auto u = face.corners[1] - face.corners[0];
+        const auto v = face.corners[2] - face.corners[0];
+        const auto cross = [](const scene::Vec3d& a, const scene::Vec3d& b, int x, int y) -> Many {
+            return Many{a[x]} * Many{b[y]} - Many{a[y]} * Many{b[x]};
+        };
+        const std::array<Many, 3> n{cross(u, v, 1, 2), cross(u, v, 2, 0), cross(u, v, 0, 1)};
+        Many nu = 0;
+        Many delta = 0;
+        for (int k = 0; k < 3; ++k) {
+            const auto axis_k = static_cast<std::size_t>(k);
+            nu += n.at(axis_k) * (Many{face.corners[0][k]} - Many{ray.ray.origin[k]});
+            delta += n.at(axis_k) * Many{ray.ray.direction[k]};
+        }
+        const Many t = nu / delta;
+        Many exact = Many{axis.w} - near_m;
+        for (int k = 0; k < 3; ++k) {
+            exact += Many{axis[k]} * (Many{ray.ray.origin[k]} + t * Many{ray.ray.direction[k]});
+        }
+        exact /= far_m - near_m;
+        const auto within = [&](double value, double error) {
+            return abs(Many{value} - exact) <= Many{error};
+        };
+        const Bounded bounded = linear.at(hit);
+        EXPECT_TRUE(within(bounded.value, bounded.error)) << i;
+        const Wide wide = linear.widely_at(hit);
+        EXPECT_TRUE(abs(Many{wide.high} + Many{wide.low} - exact) <= Many{wide.error}) << i;
+        const auto [number, is_square] = linear.exactly_at(hit);
+        EXPECT_FALSE(is_square);
+        EXPECT_EQ(exactly_rounded<ToNearest>(number), static_cast<float>(exact)) << i;
+        const Bounded place = linear.place(hit);
+        EXPECT_LE(place.error, 0x1p-48);
+        const bool is_inside = exact >= 0 && exact <= 1;
+        in_range += is_inside ? 1 : 0;
+        EXPECT_TRUE(is_inside ? within(place.value, place.error)
+                              : place.value == (exact > 1 ? 1 : 0))
+            << i;
+        decided += bounded.error < 1e-12 ? 1 : 0;
+    }
+    EXPECT_GT(decided, 4'000);
+    EXPECT_GT(in_range, 500);
 }
 
 } // namespace

@@ -113,7 +113,7 @@ const std::map<std::string, KeyCases> key_cases{
     {"shadow_map.select",
      beside({{"\"view_depth\"", "\"containing\""}, {"\"nearest\"", "1"}, {}}, cascades)},
     {"shadow_map.blend", beside({{"0", "0.1", "0.999"}, {"1", "-0.1", "\"a\""}, {}}, cascades)},
-    {"shadow_map.content", {{"\"distance\""}, {"\"depths\"", "1"}, spot}},
+    {"shadow_map.content", {{"\"distance\"", "\"linear\""}, {"\"depths\"", "1"}, spot}},
     {"shadow_map.fit", {{"\"scene\"", "\"camera\"", "\"fixed\""}, {"\"tight\"", "0"}, {}}},
     {"shadow_map.half_extent",
      {{"1e-06", "20", "1e+15"}, {"0", "-1", "2e15"}, {{"shadow_map.fit", "fixed"}}}},
