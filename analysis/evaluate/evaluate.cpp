@@ -1,6 +1,7 @@
 #include "analysis/evaluate/evaluate.hpp"
 
 #include "analysis/evaluate/bias_causes.hpp"
+#include "analysis/evaluate/offset_check.hpp"
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "methods/list.hpp"
@@ -147,6 +148,9 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
         return;
     }
     evaluation.has_map = true;
+    if (evaluation.import_check.warning.empty()) {
+        evaluation.import_check.warning = check_offset(comparison, subject.layers);
+    }
     comparison.diagnosis =
         diagnose(comparison.job, comparison.view,
                  {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup,

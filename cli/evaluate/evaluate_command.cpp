@@ -113,8 +113,13 @@ private:
     static scene::TriangleScene load_mesh(const scene::CaseFile& file)
     {
         return in_words_of(file, [&] {
-            return scene::move_to_space(scene::load_scene(scene::make_job(file.source).scene).scene,
-                                        file.space);
+            // An offset is compared with those of both kinds.
+            const bool is_offset = file.says("bias.normal_texels") || file.says("bias.normal_m") ||
+                                   file.says("bias.normal_from");
+            const auto normals =
+                is_offset ? scene::VertexNormals::kept : scene::VertexNormals::dropped;
+            return scene::move_to_space(
+                scene::load_scene(scene::make_job(file.source).scene, normals).scene, file.space);
         });
     }
 
