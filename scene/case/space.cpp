@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -65,6 +66,16 @@ MovedObject moved_object(const TriangleScene& mesh, const Object& object, const 
     return moved;
 }
 
+/// Objects of both scenes that are of one name have one role. Some may have lost all triangles.
+void keep_roles(const TriangleScene& mesh, TriangleScene& moved)
+{
+    for (Object& object : moved.objects) {
+        const auto own = std::ranges::find(mesh.objects, object.name, &Object::name);
+        object.casts = own->casts;
+        object.receives = own->receives;
+    }
+}
+
 } // namespace
 
 bool CaseSpace::is_of_mesh() const
@@ -109,6 +120,7 @@ TriangleScene move_to_space(TriangleScene mesh, const CaseSpace& space)
     }
     TriangleScene result = builder.take();
     result.dropped_triangles += mesh.dropped_triangles;
+    keep_roles(mesh, result);
     if (result.triangles.empty()) {
         throw InputError("mesh: in the renderer's units every triangle has zero area; correct "
                          "conventions.metres_per_unit");

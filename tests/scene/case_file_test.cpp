@@ -162,5 +162,20 @@ TEST(CaseSpace, TurnsAndMirrorsWithoutLoss)
     EXPECT_EQ(moved.objects[0].name, "one");
 }
 
+TEST(CaseSpace, KeepsWhatCastsAndWhatReceives)
+{
+    TriangleScene mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 1, 2}};
+    mesh.objects = {{"glass", 0, 1, false, true}, {"hidden", 1, 1, true, false}};
+    CaseSpace space;
+    space.units_per_mesh_unit = 2;
+    const TriangleScene moved = move_to_space(mesh, space);
+    EXPECT_FALSE(moved.objects[0].casts);
+    EXPECT_TRUE(moved.objects[0].receives);
+    EXPECT_TRUE(moved.objects[1].casts);
+    EXPECT_FALSE(moved.objects[1].receives);
+}
+
 } // namespace
 } // namespace gnomon::scene
