@@ -2,6 +2,7 @@
 #include "cli/program/commands.hpp"
 #include "cli/program/usage_error.hpp"
 #include "cli/system/process.hpp"
+#include "cli/system/process_guard.hpp"
 #include "cli/system/standard_output.hpp"
 #include "methods/list.hpp"
 #include "scene/error.hpp"
@@ -51,6 +52,9 @@ int run(CLI::App& program, int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+    if (argc > 1 && argv[1] == gnomon::cli::guard_word) {
+        return gnomon::cli::guard_process(argc, argv);
+    }
     gnomon::cli::keep_standard_streams();
     gnomon::cli::clean_up_on_signals();
     gnomon::methods::hand_keys_to_scene();

@@ -1,26 +1,20 @@
 #include "cli/evaluate/evaluate_command.hpp"
 
-#include "analysis/evaluate/camera_positions.hpp"
 #include "analysis/evaluate/evaluate.hpp"
 #include "cli/compare/compare_run.hpp"
 #include "cli/compare/kept_pixels.hpp"
+#include "cli/evaluate/case_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/output_files.hpp"
 #include "cli/system/memory.hpp"
 #include "cli/system/standard_output.hpp"
-#include "reference_rt/light/exact_light.hpp"
-#include "reference_rt/rounded/rounded_truth.hpp"
-#include "reference_rt/truth.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/json/evaluation_json.hpp"
 #include "reports/pictures/picture.hpp"
 #include "reports/tables/comparison_table.hpp"
 #include "reports/tables/evaluation_table.hpp"
 #include "scene/case/file.hpp"
-#include "scene/case/space.hpp"
 #include "scene/error.hpp"
-#include "scene/load_scene.hpp"
-#include "scene/one_line.hpp"
 #include "store/case/case_read.hpp"
 #include "store/exr/aov_write.hpp"
 #include "store/shell_text.hpp"
@@ -49,111 +43,6 @@ struct EvaluateOptions {
     bool force = false;
     std::optional<double> tolerance_m;
     int threads = 0;
-};
-
-/// Does the work; what it refuses about keys is said of those that the case has.
-template <typename Work>
-auto in_words_of(const scene::CaseFile& file, const Work& work)
-{
-    try {
-        return work();
-    } catch (const scene::InputError& error) {
-        throw scene::InputError(scene::case_message(file, error.what()));
-    }
-}
-
-/// A case with everything that it names in memory, with its mesh loaded by Embree.
-class CaseSession {
-public:
-    CaseSession(scene::CaseFile file, int threads)
-        : file_{std::move(file)},
-          layers_{store::read_case_layers(file_, available_memory_bytes())},
-          mesh_{load_mesh(file_)},
-          reference_{mesh_, {threads}}
-    {
-        set_image_size();
-        if (!layers_.has_positions) {
-            in_words_of(file_, [&] { take_positions(threads); });
-        }
-    }
-
-    [[nodiscard]] const scene::CaseFile& file() const { return file_; }
-    [[nodiscard]] analysis::Case subject() const { return {file_, layers_, mesh_}; }
-
-    /// Valid as long as the session.
-    [[nodiscard]] analysis::CaseTruth truth(int threads) const
-    {
-        analysis::CaseTruth truth;
-        truth.nearest_surfaces = [this, threads](std::span<const scene::Vec3d> points,
-                                                 std::span<const scene::SurfaceScope> scopes) {
-            return reference_rt::nearest_surfaces(reference_, points, scopes, threads);
-        };
-        truth.find_truth = [this, threads](const scene::Light& light,
-                                           const scene::RoundedReceivers& receivers) {
-            return reference_rt::compute_rounded_truth(reference_, light, receivers, threads);
-        };
-        truth.find_blockers =
-            [this, threads](const scene::Light& light, const scene::RoundedReceivers& receivers,
-                            const scene::RoundedTruth& found, std::span<const std::size_t> pixels) {
-                return reference_rt::find_rounded_blockers(reference_, light, receivers, found,
-                                                           pixels, threads);
-            };
-        truth.make_exact_light = [this, threads](const scene::Job& job, const scene::View& view,
-                                                 const scene::ReceiverLayers& receivers) {
-            return reference_rt::make_exact_light(reference_, view, receivers.triangle,
-                                                  job.shadow_map.resolution_texels,
-                                                  job.shadow_map.cull, threads);
-        };
-        truth.embree = reference_rt::embree_version();
-        truth.gnomon = GNOMON_VERSION;
-        return truth;
-    }
-
-private:
-    static scene::TriangleScene load_mesh(const scene::CaseFile& file)
-    {
-        return in_words_of(file, [&] {
-            // An offset is compared with those of both kinds.
-            const bool is_offset = file.says("bias.normal_texels") || file.says("bias.normal_m") ||
-                                   file.says("bias.normal_from");
-            const auto normals =
-                is_offset ? scene::VertexNormals::kept : scene::VertexNormals::dropped;
-            return scene::move_to_space(
-                scene::load_scene(scene::make_job(file.source).scene, normals).scene, file.space);
-        });
-    }
-
-    /// What the centres of the camera's pixels show.
-    void take_positions(int threads)
-    {
-        scene::Job job = scene::make_job(file_.source);
-        job.image = layers_.size();
-        const scene::View view = scene::resolve_view(job, mesh_, {});
-        const auto points = reference_rt::receiver_points(
-            mesh_, view, reference_rt::first_triangles(reference_, view, threads));
-        try {
-            analysis::take_camera_positions(layers_, mesh_, view, points,
-                                            file_.space.is_mirrored());
-        } catch (const scene::InputError& error) {
-            throw scene::InputError(fmt::format("{}: {}", file_.source.name, error.what()));
-        }
-    }
-
-    /// The image says it, and a run's configuration names it.
-    void set_image_size()
-    {
-        const scene::ImageSize size = layers_.size();
-        for (const auto& [key, pixels] :
-             {std::pair{"image.width", size.width_px}, {"image.height", size.height_px}}) {
-            file_.source.file.push_back({scene::find_key(key), std::int64_t{pixels},
-                                         scene::one_line(file_.images.front().path.string())});
-        }
-    }
-
-    scene::CaseFile file_;
-    scene::CaseLayers layers_;
-    scene::TriangleScene mesh_;
-    reference_rt::ReferenceScene reference_;
 };
 
 /// Before the work, not after it.
@@ -224,11 +113,11 @@ void evaluate(const EvaluateOptions& options)
     require_sound_tolerance(options);
     const scene::CaseFile file = scene::read_case_file(options.path, options.from);
     require_writable_results(options, file);
-    const CaseSession session{file, options.threads};
-    const analysis::CaseTruth truth = session.truth(options.threads);
-    analysis::CheckedCase checked = in_words_of(session.file(), [&] {
-        return analysis::check_case(session.subject(), truth, options.tolerance_m);
-    });
+    scene::CaseLayers layers = store::read_case_layers(file, available_memory_bytes());
+    const CaseMesh mesh{file, options.threads};
+    const CaseSession session{file, std::move(layers), mesh};
+    const analysis::CaseTruth truth = mesh.truth();
+    analysis::CheckedCase checked = session.check(truth, options.tolerance_m);
     if (options.check) {
         print_check(options, checked.check);
         return;

@@ -1,5 +1,6 @@
 #include "cli/system/captured_process.hpp"
 
+#include "cli/system/pipe.hpp"
 #include "cli/system/process.hpp"
 #include "scene/error.hpp"
 
@@ -19,44 +20,12 @@
 namespace gnomon::cli {
 namespace {
 
-void require(int code, const char* call)
-{
-    if (code != 0) {
-        throw scene::EnvironmentError(fmt::format("{} failed: {}", call, std::strerror(code)));
-    }
-}
-
-/// A pipe whose ends no child inherits by itself.
-class Pipe {
-public:
-    Pipe() { require(::pipe2(ends_.data(), O_CLOEXEC) == 0 ? 0 : errno, "pipe2"); }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    ~Pipe()
-    {
-        close_writer();
-        ::close(reader());
-    }
-    [[nodiscard]] int reader() const { return ends_[0]; }
-    [[nodiscard]] int writer() const { return ends_[1]; }
-    void close_writer()
-    {
-        if (ends_[1] >= 0) {
-            ::close(ends_[1]);
-            ends_[1] = -1;
-        }
-    }
-
-private:
-    std::array<int, 2> ends_{-1, -1};
-};
-
 /// What the child starts with: its streams, and the signals that gnomon ignores as they were.
 class SpawnSettings {
 public:
     SpawnSettings(const Pipe& out, const Pipe& err)
     {
-        require(::posix_spawn_file_actions_init(&actions_), "posix_spawn_file_actions_init");
+        require_call(::posix_spawn_file_actions_init(&actions_), "posix_spawn_file_actions_init");
         ::posix_spawnattr_init(&attributes_);
         ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
         ::posix_spawn_file_actions_adddup2(&actions_, out.writer(), STDOUT_FILENO);
@@ -119,7 +88,7 @@ void read_all(const Pipe& out, const Pipe& err, CapturedEnding& ending)
             if (errno == EINTR) {
                 continue;
             }
-            require(errno, "poll");
+            require_call(errno, "poll");
         }
         for (std::size_t i = 0; i < streams.size(); ++i) {
             if (streams[i].revents != 0 && !take(streams[i].fd, *texts[i])) {

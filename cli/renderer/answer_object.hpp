@@ -1,0 +1,58 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::cli {
+
+using AnswerJson = nlohmann::ordered_json;
+
+/// An answer, or a part of it, is not as the protocol has it; `what()` says what is wrong.
+class BadAnswer : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Parses a line.
+/// @throws BadAnswer  if it is not one JSON object, is nested too deeply, or gives a name twice.
+[[nodiscard]] AnswerJson parse_answer(const std::string& line);
+
+/// An object of an answer, read member by member; every message names the member.
+class AnswerObject {
+public:
+    /// @param name  "keys[2]", for messages; empty: the answer itself.
+    /// @throws BadAnswer  if it is no object.
+    AnswerObject(const AnswerJson& json, std::string name);
+
+    /// @throws BadAnswer  if it has a member that is not among these.
+    void require_only(const std::vector<std::string_view>& members) const;
+    [[nodiscard]] bool has(std::string_view member) const;
+    /// @throws BadAnswer  if it is not there, or of another type.
+    [[nodiscard]] const AnswerJson& at(std::string_view member) const;
+    [[nodiscard]] double number(std::string_view member) const;
+    [[nodiscard]] std::int64_t integer(std::string_view member) const;
+    /// One line of text without control characters.
+    /// @param longest  [bytes]
+    [[nodiscard]] std::string text(std::string_view member, std::size_t longest) const;
+    /// "keys[2].range", for messages.
+    [[nodiscard]] std::string name_of(std::string_view member) const;
+
+private:
+    const AnswerJson& json_;
+    std::string name_;
+};
+
+/// The text with all that is no UTF-8 as U+FFFD.
+[[nodiscard]] std::string valid_text(std::string_view text);
+/// The value as JSON, cut after some 60 bytes: for messages.
+[[nodiscard]] std::string answer_excerpt(const AnswerJson& json);
+/// What was said, on one line, cut after so many bytes: for messages.
+[[nodiscard]] std::string said_excerpt(std::string_view text, std::size_t longest = 80);
+
+} // namespace gnomon::cli

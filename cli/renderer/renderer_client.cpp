@@ -1,0 +1,344 @@
+#include "cli/renderer/renderer_client.hpp"
+
+#include "cli/renderer/frame_case.hpp"
+#include "cli/system/memory.hpp"
+#include "scene/one_line.hpp"
+#include "store/case/case_read.hpp"
+#include "store/case/mesh_glb.hpp"
+#include "store/output_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace gnomon::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* mesh_file = "mesh.glb";
+constexpr const char* mesh_from_frames = "../mesh.glb";
+/// A process that was asked to end, or whose streams did, has so long [s].
+constexpr RendererClient::Seconds ending_time{5.0};
+constexpr std::size_t longest_last_words = 300; ///< [bytes]
+
+fs::path new_folder(const fs::path& parent)
+{
+    std::string name = (parent / "gnomon-renderer-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+        require_call(errno, fmt::format("mkdtemp in {}", scene::one_line(parent.string())));
+    }
+    std::error_code error;
+    fs::create_directory(fs::path{name} / "frames", error);
+    require_call(error.value(), "mkdir");
+    return fs::canonical(name);
+}
+
+/// The last lines, on one.
+std::string end_of(const std::string& complaints)
+{
+    std::string end;
+    std::size_t stop = complaints.size();
+    while (stop > 0) {
+        const std::size_t line_end = complaints.find_last_not_of("\r\n", stop - 1);
+        if (line_end == std::string::npos) {
+            break;
+        }
+        const std::size_t before = complaints.find_last_of("\r\n", line_end);
+        const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+        const std::string line = complaints.substr(begin, line_end + 1 - begin);
+        if (!end.empty() && end.size() + line.size() > longest_last_words) {
+            break;
+        }
+        end = end.empty() ? line : fmt::format("{} | {}", line, end);
+        stop = begin;
+    }
+    return said_excerpt(end, longest_last_words);
+}
+
+bool is_plain_name(const std::string& name)
+{
+    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
+}
+
+/// A message about a frame's files, without the folder that is gone when it is read, and without
+/// the place in a case.toml that Gnomon wrote.
+std::string in_renderers_words(std::string what, const fs::path& frames)
+{
+    const std::string place = frames.string() + "/";
+    for (std::size_t at = what.find(place); at != std::string::npos; at = what.find(place)) {
+        what.erase(at, place.size());
+    }
+    if (what.starts_with(frame_case_file)) {
+        what.erase(0, what.find(": ") + 2);
+    }
+    return what;
+}
+
+std::string ending_text(int status)
+{
+    constexpr int signals_from = 128;
+    return status > signals_from ? fmt::format("signal {} ended it", status - signals_from)
+                                 : fmt::format("it ended with exit status {}", status);
+}
+
+} // namespace
+
+template <typename Work>
+auto RendererClient::in_request(std::string_view request, const Work& work)
+{
+    try {
+        return work();
+    } catch (const BadAnswer& error) {
+        fail(request, error.what());
+    } catch (const scene::InputError& error) {
+        fail(request, in_renderers_words(error.what(), folder_ / "frames"));
+    }
+}
+
+RendererClient::RendererClient(RendererCommand command, const fs::path& parent, Seconds longest)
+    : command_{std::move(command)},
+      longest_{longest},
+      folder_{new_folder(parent)}
+{
+    try {
+        process_.emplace(command_.words, folder_);
+    } catch (...) {
+        std::error_code error;
+        fs::remove_all(folder_, error);
+        throw;
+    }
+    const AnswerJson answer = ask("hello", {{"hello", protocol_version}});
+    hello_ = in_request("hello", [&] { return read_hello(answer); });
+}
+
+std::string RendererClient::who() const
+{
+    return fmt::format("renderer {}", hello_.name.empty() ? command_.name : hello_.name);
+}
+
+std::string RendererClient::last_words()
+{
+    const std::string words = process_ ? end_of(process_->last_words()) : std::string{};
+    return words.empty() ? std::string{} : fmt::format("; its last words: {}", words);
+}
+
+void RendererClient::fail(std::string_view request, std::string_view what)
+{
+    const std::string message = fmt::format("{}: {}: {}{}", who(), request, what, last_words());
+    process_.reset();
+    throw RendererFailure(message);
+}
+
+void RendererClient::require_running(std::string_view request)
+{
+    if (!process_) {
+        throw RendererFailure(fmt::format("{}: {}: it is not running any more", who(), request));
+    }
+}
+
+void RendererClient::fail_without_answer(std::string_view request, const AwaitedLine& line)
+{
+    switch (line.end) {
+    case AwaitedLine::End::too_long:
+        fail(request, fmt::format("more than {} bytes without an end of line: \"{}\"",
+                                  GuardedProcess::longest_line, said_excerpt(line.text)));
+    case AwaitedLine::End::ended: {
+        const auto status = process_->wait(ending_time);
+        fail(request, fmt::format("no answer: {}",
+                                  status ? ending_text(*status) : "it closed its standard output"));
+    }
+    case AwaitedLine::End::timeout:
+    case AwaitedLine::End::line:
+        break;
+    }
+    fail(request, fmt::format("no answer within {:g} s (--renderer-timeout-s)", longest_.count()));
+}
+
+AnswerJson RendererClient::await(std::string_view request, std::int64_t id)
+{
+    const AwaitedLine line = process_->read_line(longest_);
+    if (line.end != AwaitedLine::End::line) {
+        fail_without_answer(request, line);
+    }
+    AnswerJson answer = in_request(request, [&] { return parse_answer(line.text); });
+    const auto found = answer.find("id");
+    if (found == answer.end() || *found != id) {
+        fail(request, fmt::format("the answer's id is {}; it was asked {}",
+                                  found == answer.end() ? "missing" : answer_excerpt(*found), id));
+    }
+    return answer;
+}
+
+AnswerJson RendererClient::draw_members(AnswerJson request) const
+{
+    return {{"draw", std::move(request)}, {"frame", (folder_ / "frames" / frame_file).string()}};
+}
+
+AnswerJson RendererClient::ask(std::string_view request, AnswerJson members)
+{
+    require_running(request);
+    if (process_->has_more()) {
+        const AwaitedLine line = process_->read_line(Seconds{0});
+        fail(request, fmt::format("it had said more than it was asked for: \"{}\"",
+                                  said_excerpt(line.text)));
+    }
+    const std::int64_t id = ++last_id_;
+    AnswerJson message{{"id", id}};
+    message.update(members);
+    const std::string text = message.dump(-1, ' ', false, AnswerJson::error_handler_t::replace);
+    if (!process_->write_line(text, longest_)) {
+        fail(request, fmt::format("it does not read its standard input: the request was not taken "
+                                  "within {:g} s (--renderer-timeout-s)",
+                                  longest_.count()));
+    }
+    AnswerJson answer = await(request, id);
+    const auto errors = in_request(request, [&] { return read_errors(answer); });
+    if (!errors.empty()) {
+        std::vector<std::string> texts;
+        for (const auto& [key, sentence] : errors) {
+            texts.push_back(key.empty() ? sentence : fmt::format("{}: {}", key, sentence));
+        }
+        throw RendererRefusal(
+            fmt::format("{}: {}: cannot do it: {}", who(), request, fmt::join(texts, "; ")));
+    }
+    return answer;
+}
+
+void RendererClient::open(const RendererScene& scene)
+{
+    require_running("open");
+    const fs::path mesh = folder_ / mesh_file;
+    store::write_file(mesh, store::encode_glb(scene.triangles));
+    const AnswerJson answer = ask("open", {{"open", open_request(scene, mesh)}});
+    in_request("open", [&] {
+        conventions_ = read_opened(answer);
+        // The least that a case can be, to have its conventions read as any case's are.
+        const fs::path path = folder_ / "frames" / frame_case_file;
+        store::write_file(path, fmt::format("schema = 1\nrenderer = \"?\"\n{}{}",
+                                            toml_table("mesh", {{"file", mesh_from_frames}}),
+                                            toml_table("light", {{"direction", {0, -1, 0}}})) +
+                                    toml_table("conventions", conventions_));
+        space_ = scene::read_case_file(path).space;
+    });
+    empty_frames();
+    scene_.emplace(scene);
+}
+
+void RendererClient::empty_frames() const
+{
+    std::error_code error;
+    fs::remove_all(folder_ / "frames", error);
+    fs::create_directory(folder_ / "frames", error);
+    require_call(error.value(), "emptying the renderer's frames");
+}
+
+void RendererClient::require_plain_files(const DrawnAnswer& drawn, bool has_frame) const
+{
+    std::vector<std::pair<std::string, std::string>> named;
+    for (const auto& [key, file] : drawn.files) {
+        named.emplace_back("files." + key, file);
+    }
+    if (const auto map = drawn.tables.find("map"); map != drawn.tables.end()) {
+        named.emplace_back("case.map.file",
+                           AnswerObject{*map, "case.map"}.text("file", longest_last_words));
+    }
+    if (has_frame) {
+        named.emplace_back("the frame", frame_file);
+    }
+    if (!has_frame && drawn.files.empty()) {
+        throw BadAnswer(fmt::format("it says ok, but there is no frame: {} was not written, and "
+                                    "`files` names none",
+                                    frame_file));
+    }
+    for (const auto& [key, file] : named) {
+        if (!is_plain_name(file)) {
+            throw BadAnswer(fmt::format("{} is \"{}\"; files are named without a folder, and are "
+                                        "beside the frame",
+                                        key, said_excerpt(file)));
+        }
+        std::error_code error;
+        const auto type = fs::symlink_status(folder_ / "frames" / file, error).type();
+        if (type != fs::file_type::regular) {
+            throw BadAnswer(fmt::format("{} is \"{}\"; {}", key, said_excerpt(file),
+                                        type == fs::file_type::not_found
+                                            ? "there is no such file beside the frame"
+                                            : "that is no plain file"));
+        }
+    }
+}
+
+scene::CaseFile RendererClient::read_frame_file(const RendererDraw& draw, const DrawnAnswer& drawn)
+{
+    const fs::path frames = folder_ / "frames";
+    std::error_code error;
+    const auto frame = fs::symlink_status(frames / frame_file, error);
+    const bool has_frame = frame.type() != fs::file_type::not_found;
+    require_plain_files(drawn, has_frame);
+    const fs::path path = frames / frame_case_file;
+    store::write_file(path, frame_case(hello_, *scene_, draw, drawn, conventions_, space_,
+                                       mesh_from_frames, has_frame));
+    return scene::read_case_file(path);
+}
+
+RendererFrame RendererClient::draw(const RendererDraw& draw)
+{
+    require_running("draw");
+    empty_frames();
+    const AnswerJson answer = ask("draw", draw_members(draw_request(draw)));
+    RendererFrame result = in_request("draw", [&] {
+        const DrawnAnswer drawn = read_drawn(answer);
+        scene::CaseFile file = read_frame_file(draw, drawn);
+        scene::CaseLayers layers = store::read_case_layers(file, available_memory_bytes());
+        if (layers.size() != scene_->image) {
+            throw BadAnswer(fmt::format("the frame has {}x{} pixels; {}x{} were asked for",
+                                        layers.size().width_px, layers.size().height_px,
+                                        scene_->image.width_px, scene_->image.height_px));
+        }
+        return RendererFrame{std::move(file), std::move(layers), drawn.seconds};
+    });
+    empty_frames();
+    return result;
+}
+
+void RendererClient::close()
+{
+    require_running("close");
+    AnswerJson message{{"id", ++last_id_}, {"close", true}};
+    (void)process_->write_line(message.dump(), longest_);
+    process_->close_input();
+    const auto status = process_->wait(ending_time);
+    if (!status) {
+        fail("close", fmt::format("it did not end within {:g} s", ending_time.count()));
+    }
+    if (*status != 0) {
+        fail("close", fmt::format("{}; it must be 0", ending_text(*status)));
+    }
+    if (process_->has_more()) {
+        const AwaitedLine line = process_->read_line(Seconds{0});
+        fail("close",
+             fmt::format("it said more than it was asked for: \"{}\"", said_excerpt(line.text)));
+    }
+    process_.reset();
+}
+
+std::vector<std::string> RendererClient::strays() const
+{
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator entry{folder_, error}; !error && entry != fs::directory_iterator{};
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (name != "work" && name != "frames" && name != mesh_file) {
+            names.push_back(name);
+        }
+    }
+    return names;
+}
+
+} // namespace gnomon::cli
