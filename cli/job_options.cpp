@@ -1,6 +1,9 @@
 #include "cli/job_options.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/renderer_choice.hpp"
+#include "scene/job/toml.hpp"
+#include "scene/one_line.hpp"
 
 #include <fmt/format.h>
 
@@ -91,6 +94,20 @@ JobOptions of_light(const JobOptions& options, const std::string& light)
 }
 
 scene::JobSource read_job_source(const JobOptions& options)
+{
+    require_one_job(options);
+    const std::string renderer =
+        options.job_path.empty() ? std::string{} : scene::renderer_of_job(options.job_path);
+    if (!renderer.empty()) {
+        throw scene::InputError(fmt::format(
+            "{}: renderer = {}: this command is about GL's own shadows; compare, sweep and tune "
+            "drive other renderers; remove the key",
+            scene::one_line(options.job_path), scene::toml_quoted(renderer)));
+    }
+    return read_any_job_source(options);
+}
+
+scene::JobSource read_any_job_source(const JobOptions& options)
 {
     require_one_job(options);
     const scene::JobSource source = source_of(options, overrides(options.settings));

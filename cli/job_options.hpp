@@ -29,8 +29,10 @@ void add_job_options(CLI::App& command, JobOptions& options);
 ///                            --set is not KEY=VALUE, or as `scene::read_job` does.
 [[nodiscard]] scene::JobFile read_job(const JobOptions& options);
 /// What the options name, its parts not yet laid over each other; --case is not looked at.
-/// @throws scene::InputError  as `read_job`.
+/// @throws scene::InputError  as `read_job`, and for a job file that names another renderer.
 [[nodiscard]] scene::JobSource read_job_source(const JobOptions& options);
+/// The same of a job that GL or another renderer draws.
+[[nodiscard]] scene::JobSource read_any_job_source(const JobOptions& options);
 /// The options with a light chosen, by the name that it has in the job; empty: as they are.
 [[nodiscard]] JobOptions of_light(const JobOptions& options, const std::string& light);
 

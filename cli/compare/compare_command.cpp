@@ -8,6 +8,7 @@
 #include "cli/compare/compare_run.hpp"
 #include "cli/compare/comparison_session.hpp"
 #include "cli/compare/origin_remedy.hpp"
+#include "cli/renderer/compare_renderer.hpp"
 #include "cli/sweep/command_text.hpp"
 #include "cli/system/slow_work.hpp"
 #include "methods/list.hpp"
@@ -23,6 +24,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
@@ -181,6 +183,10 @@ std::vector<analysis::ViewRequest> view_requests(const CompareOptions& options,
 
 void compare(const CompareOptions& options)
 {
+    if (auto renderer = chosen_renderer(options.renderer, options.job)) {
+        compare_renderer(options, std::move(*renderer));
+        return;
+    }
     require_exact_truth(options);
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
@@ -230,6 +236,7 @@ void add_compare_command(CLI::App& program)
     CLI::App* command = program.add_subcommand(
         "compare", "Compare a scene's GL shadow map with shadow rays, pixel by pixel");
     add_job_options(*command, options->job);
+    add_renderer_options(*command, options->renderer);
     command->add_flag("--json", options->json, "Print the result as JSON (docs/json_schema.md)");
     command->add_option("--aov", options->aov_path,
                         "Write every layer into one EXR file (docs/aov.md)");

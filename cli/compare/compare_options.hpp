@@ -2,6 +2,7 @@
 
 #include "cli/compare/scene_session.hpp"
 #include "cli/job_options.hpp"
+#include "cli/renderer/renderer_options.hpp"
 #include "cli/tune/advice_options.hpp"
 
 #include <string>
@@ -12,6 +13,7 @@ namespace gnomon::cli {
 /// What `gnomon compare` is told.
 struct CompareOptions {
     JobOptions job;
+    RendererOptions renderer;
     bool json = false;
     std::string aov_path;
     std::string picture_path;

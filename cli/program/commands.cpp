@@ -15,7 +15,7 @@
 #include "cli/program/methods_command.hpp"
 #include "cli/program/presets_command.hpp"
 #include "cli/program/scenes_command.hpp"
-#include "cli/renderer/renderer_check_command.hpp"
+#include "cli/renderer/check/renderer_check_command.hpp"
 #include "cli/renderer/renderers_command.hpp"
 #include "cli/report/figure_command.hpp"
 #include "cli/report/report_command.hpp"

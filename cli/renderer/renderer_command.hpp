@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/renderer/renderer_client.hpp"
+#include "cli/renderer/protocol/renderer_client.hpp"
 
 #include <filesystem>
 #include <string>

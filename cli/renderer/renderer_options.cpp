@@ -1,10 +1,13 @@
 #include "cli/renderer/renderer_options.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/renderer_choice.hpp"
+#include "store/shell_text.hpp"
 
 #include <fmt/format.h>
 
 #include <system_error>
+#include <vector>
 
 namespace gnomon::cli {
 
@@ -15,6 +18,41 @@ void add_renderer_timeout(CLI::App& command, RendererOptions& options)
                     "How long the renderer may take for each answer [s]")
         ->check(CLI::Range(0.01, 86400.0))
         ->capture_default_str();
+}
+
+void add_renderer_options(CLI::App& command, RendererOptions& options)
+{
+    command.add_option(
+        "--renderer", options.name,
+        "Let an installed renderer draw in GL's place; `gnomon renderers` lists them "
+        "(docs/renderer_protocol.md)");
+    command.add_option(
+        "--renderer-command", options.command,
+        "Let a program that speaks the protocol draw: the program and its arguments");
+    add_renderer_timeout(command, options);
+}
+
+std::optional<RendererCommand> chosen_renderer(const RendererOptions& options,
+                                               const JobOptions& job)
+{
+    if (!options.name.empty() || !options.command.empty()) {
+        return renderer_command(options);
+    }
+    const std::string name = job.job_path.empty() || !job.builtin.empty()
+                                 ? std::string{}
+                                 : scene::renderer_of_job(job.job_path);
+    return name.empty() ? std::nullopt : std::optional{installed_command(name)};
+}
+
+std::string renderer_text(const RendererOptions& options)
+{
+    std::vector<std::string> words;
+    if (!options.name.empty()) {
+        words = {"--renderer", options.name};
+    } else if (!options.command.empty()) {
+        words = {"--renderer-command", options.command};
+    }
+    return words.empty() ? std::string{} : fmt::format(" {}", store::shell_text(words));
 }
 
 RendererCommand renderer_command(const RendererOptions& options)

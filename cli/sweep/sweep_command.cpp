@@ -5,6 +5,8 @@
 #include "cli/compare/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
+#include "cli/renderer/driven_job.hpp"
+#include "cli/renderer/renderer_run.hpp"
 #include "cli/sweep/command_text.hpp"
 #include "cli/sweep/extreme_pixels.hpp"
 #include "cli/sweep/sweep_run.hpp"
@@ -25,6 +27,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
@@ -35,6 +38,7 @@ constexpr std::uint64_t few_configurations = 20;
 
 struct SweepOptions {
     JobOptions job;
+    RendererOptions renderer;
     std::vector<std::string> axes;
     std::string folder;
     std::string shard = "1/1";
@@ -114,7 +118,9 @@ void print_plan(const SweepOptions& options, const scene::SweepSpace& space, boo
 }
 
 /// What was done, for people.
-std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcome)
+/// @param work  that was done now.
+std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcome,
+                         const std::string& work)
 {
     std::string text = fmt::format("{} of {} done", reports::grouped(outcome.done),
                                    reports::counted(outcome.configurations, "configuration"));
@@ -122,8 +128,7 @@ std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcom
         text += fmt::format(", {} failed", reports::grouped(outcome.failed));
     }
     text += fmt::format(": {}/results.csv\n  now: {}\n", options.folder,
-                        outcome.counts.configurations > 0 ? counts_text(outcome.counts)
-                                                          : "nothing was left to do");
+                        outcome.counts.configurations > 0 ? work : "nothing was left to do");
     if (outcome.repeated > 0) {
         text += fmt::format("  {} the same as an earlier one (equal id) and not computed twice\n",
                             outcome.repeated == 1
@@ -181,8 +186,75 @@ std::vector<std::string> axis_arguments(const SweepOptions& options)
     return arguments;
 }
 
+SweepRunOptions run_options(const SweepOptions& options)
+{
+    SweepRunOptions run;
+    run.folder = options.folder;
+    run.verifies = options.verifies;
+    run.retries_failed = !options.retry.empty();
+    run.is_quiet = options.is_quiet;
+    run.allows_mixed = options.allows_mixed;
+    run.may_replace = options.force;
+    run.job_text = job_text(options.job);
+    run.command = command_text("sweep", options.job, options.axes) + flags_text(options) +
+                  renderer_text(options.renderer);
+    run.compare_command = command_text("compare", options.job) + renderer_text(options.renderer);
+    run.session = options.session;
+    return run;
+}
+
+void require_folder(const SweepOptions& options)
+{
+    if (options.folder.empty()) {
+        throw scene::InputError("no --out RUN: name the folder for the results, or ask what would "
+                                "be done with --dry-run");
+    }
+}
+
+/// Says how it ended; throws the exit status unless it is 0.
+void end_with(const SweepOptions& options, const SweepOutcome& outcome)
+{
+    const int code = exit_code(outcome);
+    explain(options, outcome, code);
+    if (code != exit_codes::done) {
+        throw CLI::RuntimeError{code};
+    }
+}
+
+/// Of a sweep that another renderer draws.
+void sweep_with(RendererCommand command, const SweepOptions& options)
+{
+    refuse_for_renderer({{"--shard", options.shard != "1/1"},
+                         {"--verify", options.verifies},
+                         {"--device", options.session.device.has_value()}});
+    if (!options.is_dry_run) {
+        require_folder(options);
+    }
+    RendererSession session{renderer_settings(std::move(command), options.renderer,
+                                              options.is_dry_run ? "" : options.folder,
+                                              options.session.threads)};
+    const scene::JobSource source = read_driven_job(session, options.job);
+    const scene::SweepSpace space{source, axis_arguments(options), options.job.case_name};
+    if (options.is_dry_run) {
+        print_plan(options, space, true);
+        return;
+    }
+    SweepRunOptions run = run_options(options);
+    run.keeps_pixels = kept_pixels(options, space.size()) == KeptPixels::all;
+    const SweepOutcome outcome = sweep_renderer(space, run, session);
+    print(outcome_text(options, outcome,
+                       fmt::format("{} by {}",
+                                   reports::counted(outcome.counts.configurations, "frame"),
+                                   session.hello().title())));
+    end_with(options, outcome);
+}
+
 void sweep(const SweepOptions& options)
 {
+    if (auto renderer = chosen_renderer(options.renderer, options.job)) {
+        sweep_with(std::move(*renderer), options);
+        return;
+    }
     const scene::JobSource source = read_job_source(options.job);
     const scene::SweepSpace space{source, axis_arguments(options), options.job.case_name};
     const KeptPixels kept = kept_pixels(options, space.size());
@@ -191,25 +263,12 @@ void sweep(const SweepOptions& options)
     if (options.is_dry_run) {
         return print_plan(options, space, keeps);
     }
-    if (options.folder.empty()) {
-        throw scene::InputError("no --out RUN: name the folder for the results, or ask what would "
-                                "be done with --dry-run");
-    }
-    SweepRunOptions run;
-    run.folder = options.folder;
+    require_folder(options);
+    SweepRunOptions run = run_options(options);
     run.shard = shard;
     run.keeps_pixels = keeps;
-    run.verifies = options.verifies;
-    run.retries_failed = !options.retry.empty();
-    run.is_quiet = options.is_quiet;
-    run.allows_mixed = options.allows_mixed;
-    run.may_replace = options.force;
-    run.job_text = job_text(options.job);
-    run.command = command_text("sweep", options.job, options.axes) + flags_text(options);
-    run.compare_command = command_text("compare", options.job);
-    run.session = options.session;
     SweepOutcome outcome = run_sweep_command(space, run);
-    print(outcome_text(options, outcome));
+    print(outcome_text(options, outcome, counts_text(outcome.counts)));
     if (kept == KeptPixels::extremes && !outcome.is_interrupted && outcome.done > 0) {
         const auto names =
             keep_extreme_pixels(run.folder, space, source, options.job.case_name, options.session);
@@ -219,11 +278,7 @@ void sweep(const SweepOptions& options)
         }
         outcome.is_interrupted = is_interrupted();
     }
-    const int code = exit_code(outcome);
-    explain(options, outcome, code);
-    if (code != exit_codes::done) {
-        throw CLI::RuntimeError{code};
-    }
+    end_with(options, outcome);
 }
 
 } // namespace
@@ -234,6 +289,7 @@ void add_sweep_command(CLI::App& program)
     CLI::App* command = program.add_subcommand(
         "sweep", "Compare a scene over any ranges of settings; resumes where it was stopped");
     add_job_options(*command, options->job);
+    add_renderer_options(*command, options->renderer);
     command
         ->add_option("--axis", options->axes,
                      "KEY=VALUES adds an axis or replaces the job's: 512,1024,2048 or "

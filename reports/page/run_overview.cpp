@@ -297,7 +297,8 @@ std::string headline_words(const store::ResultRow& headline)
 /// The scene's name, where all configurations share it; of another renderer's case the case's own.
 std::string common_scene(const store::RunReader& run)
 {
-    if (!run.description().environment.is_of_gl()) {
+    // A case's mesh is no name; what a renderer was told to draw is that of its job.
+    if (run.description().command.starts_with("gnomon evaluate ")) {
         store::sqlite::Statement find{run.database(),
                                       "SELECT DISTINCT \"case\" FROM results LIMIT 2"};
         std::string name = find.step() ? find.text(0) : std::string{};

@@ -1,5 +1,6 @@
 #include "scene/job/handed_key.hpp"
 
+#include "scene/job/engine_keys.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
@@ -78,7 +79,7 @@ KeySpec spec_of(const HandedKey& handed_key)
 
 bool HandedKey::is_of(std::string_view method) const
 {
-    return std::ranges::find(methods, method) != methods.end();
+    return is_of_table(*this, "engine") || std::ranges::find(methods, method) != methods.end();
 }
 
 JobKey HandedKey::row() const
@@ -119,6 +120,26 @@ void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey>
     }
     handed().methods = std::move(methods);
     handed().keys = std::move(keys);
+}
+
+void hand_over_engine(std::vector<HandedKey> keys)
+{
+    std::vector<KeySpec> specs;
+    for (HandedKey& key : keys) {
+        if (!is_of_table(key, "engine") || find_handed_key(key.key.name) != nullptr) {
+            throw std::logic_error(
+                fmt::format("hand_over_engine: {} is not of [engine], or repeats", key.key.name));
+        }
+        specs.push_back(spec_of(key));
+        handed().keys.push_back(std::move(key));
+    }
+    add_key_specs(std::move(specs));
+}
+
+bool is_engine_key(std::string_view name)
+{
+    constexpr std::string_view table = "engine";
+    return name.starts_with(table) && (name.size() == table.size() || name[table.size()] == '.');
 }
 
 const std::vector<HandedKey>& handed_keys()

@@ -1,6 +1,7 @@
 #include "scene/job/keys.hpp"
 
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/engine_keys.hpp"
 #include "scene/job/handed_key.hpp"
 
 #include <fmt/format.h>
@@ -300,6 +301,15 @@ std::vector<KeySpec> light_keys()
         cone_key()};
 }
 
+/// What follows from the rest of a row.
+void finish_row(KeySpec& spec)
+{
+    spec.key.range_text = range_text(spec.domain);
+    spec.get = [name = spec.key.name, get = std::move(spec.get)](const Job& job) {
+        return has_key(job.method.name, name) ? get(job) : std::nullopt;
+    };
+}
+
 std::vector<KeySpec> all_key_specs()
 {
     std::vector<KeySpec> specs;
@@ -309,13 +319,30 @@ std::vector<KeySpec> all_key_specs()
           handed_key_specs("bias")}) {
         specs.insert(specs.end(), group.begin(), group.end());
     }
-    for (KeySpec& spec : specs) {
-        spec.key.range_text = range_text(spec.domain);
-        spec.get = [name = spec.key.name, get = std::move(spec.get)](const Job& job) {
-            return has_key(job.method.name, name) ? get(job) : std::nullopt;
-        };
-    }
+    std::ranges::for_each(specs, finish_row);
     return specs;
+}
+
+/// A table that may still grow.
+std::vector<KeySpec>& key_table()
+{
+    static std::vector<KeySpec> specs = all_key_specs();
+    return specs;
+}
+
+std::vector<JobKey> rows_of(const std::vector<KeySpec>& specs)
+{
+    std::vector<JobKey> all;
+    for (const KeySpec& spec : specs) {
+        all.push_back(spec.key);
+    }
+    return all;
+}
+
+std::vector<JobKey>& key_rows()
+{
+    static std::vector<JobKey> keys = rows_of(key_specs());
+    return keys;
 }
 
 } // namespace
@@ -333,8 +360,14 @@ JobKey make_key(std::string name, std::string description, std::string default_t
 
 const std::vector<KeySpec>& key_specs()
 {
-    static const std::vector<KeySpec> specs = all_key_specs();
-    return specs;
+    return key_table();
+}
+
+void add_key_specs(std::vector<KeySpec> specs)
+{
+    std::ranges::for_each(specs, finish_row);
+    key_table().insert(key_table().end(), specs.begin(), specs.end());
+    key_rows() = rows_of(key_table());
 }
 
 const KeySpec* find_key(std::string_view name)
@@ -374,14 +407,7 @@ std::string parameter_prefix(std::string_view builtin)
 
 const std::vector<JobKey>& job_keys()
 {
-    static const std::vector<JobKey> keys = [] {
-        std::vector<JobKey> all;
-        for (const KeySpec& spec : key_specs()) {
-            all.push_back(spec.key);
-        }
-        return all;
-    }();
-    return keys;
+    return key_rows();
 }
 
 std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job)

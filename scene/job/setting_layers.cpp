@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/cascade_keys.hpp"
+#include "scene/job/engine_keys.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/one_line.hpp"
 
@@ -123,6 +124,9 @@ std::vector<std::string> table_names()
     if (is_preset_key(name)) {
         throw InputError(fmt::format("{}{}: {}", place.text(), name, preset_place));
     }
+    if (is_engine_key(name) && !is_key_table("engine")) {
+        throw InputError(fmt::format("{}{}: {}", place.text(), toml_excerpt({name}), engine_place));
+    }
     if (!std::holds_alternative<TomlTable>(node.value)) {
         throw InputError(fmt::format("{}unknown key {}; the nearest is {}", place.text(),
                                      toml_excerpt({name}), nearest_written_key(name, siblings)));
@@ -221,6 +225,9 @@ Layer layer_from_overrides(const std::vector<Override>& overrides)
         const WrittenKey key = find_written_key(given.key);
         if (!key && is_preset_key(given.key)) {
             throw InputError(fmt::format("{}: {}", label, preset_place));
+        }
+        if (!key && is_engine_key(given.key) && !is_key_table("engine")) {
+            throw InputError(fmt::format("{}: {}", label, engine_place));
         }
         if (!key) {
             throw InputError(fmt::format("{}: unknown key; the nearest is {}", label,

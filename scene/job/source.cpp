@@ -8,6 +8,8 @@
 #include "scene/job/lights/light_tables.hpp"
 #include "scene/job/presets/chosen_preset.hpp"
 #include "scene/job/presets/presets.hpp"
+#include "scene/job/renderer_choice.hpp"
+#include "scene/job/scene_extension.hpp"
 #include "scene/job/sweep_axes.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
@@ -17,23 +19,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <iterator>
+#include <system_error>
 
 namespace gnomon::scene {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_scene_file(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::array<std::string_view, 4> scene_extensions{".gltf", ".glb", ".obj", ".ply"};
-    return std::find(scene_extensions.begin(), scene_extensions.end(), extension) !=
-           scene_extensions.end();
-}
+/// What may stand in a job file beside keys.
+const std::vector<std::string> file_members{"preset", "sweep", "case", "lights",
+                                            std::string{renderer_key}};
 
 /// The parameters of the built-in that the settings name, defaults included.
 ParameterValues builtin_parameters(const BuiltinScene& builtin, const Settings& settings)
@@ -201,6 +197,17 @@ void check_axis_lights(const JobSource& source)
     }
 }
 
+/// Whoever draws asked before; of a pipe nobody could.
+void require_known_renderer(const fs::path& path, const std::string& name)
+{
+    std::error_code error;
+    if (fs::is_fifo(path, error)) {
+        throw InputError(fmt::format("{}: renderer = \"{}\": a pipe is read but once; name the "
+                                     "renderer with --renderer, and remove the key",
+                                     one_line(path.string()), name));
+    }
+}
+
 } // namespace
 
 JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides,
@@ -224,12 +231,14 @@ JobSource read_job_source(const fs::path& path, const std::vector<Override>& ove
                 lights = read_light_tables(member, source.name);
             } else if (member.key == "preset") {
                 source.preset = read_preset_choice(member, source.name);
+            } else if (member.key == renderer_key) {
+                require_known_renderer(path, read_renderer_choice(member, source.name));
             } else {
+                refuse_renderer_command(member, source.name);
                 keys.push_back(std::move(member));
             }
         }
-        source.file =
-            layer_from_table(keys, source.name, "", {"preset", "sweep", "case", "lights"});
+        source.file = layer_from_table(keys, source.name, "", file_members);
         std::ranges::move(lights.layer, std::back_inserter(source.file));
         source.lights = std::move(lights.names);
     }

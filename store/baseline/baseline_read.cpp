@@ -1,6 +1,7 @@
 #include "store/baseline/baseline_read.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
+#include "scene/job/engine_keys.hpp"
 #include "scene/job/lights/written_key.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/one_line.hpp"
@@ -50,7 +51,7 @@ bool is_parameter(const std::string& key)
         }
         return all;
     }();
-    return names.contains(key);
+    return names.contains(key) || scene::is_engine_key(key);
 }
 
 /// Reads one baseline; its messages name the file and the place.

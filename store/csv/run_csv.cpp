@@ -71,10 +71,10 @@ struct ResultsSpan {
     int columns = 0;
 };
 
-std::vector<ResultsSpan> results_spans()
+std::vector<ResultsSpan> results_spans(const std::vector<ResultsColumn>& columns)
 {
     std::vector<ResultsSpan> spans;
-    for (const ResultsColumn& column : results_columns()) {
+    for (const ResultsColumn& column : columns) {
         if (spans.empty() || spans.back().of != column.of) {
             spans.push_back({column.of, 0});
         }
@@ -84,10 +84,10 @@ std::vector<ResultsSpan> results_spans()
 }
 
 /// The columns of one kind, each after a comma.
-std::string listed_columns(ResultsColumn::Of of)
+std::string listed_columns(const std::vector<ResultsColumn>& columns, ResultsColumn::Of of)
 {
     std::string text;
-    for (const ResultsColumn& column : results_columns()) {
+    for (const ResultsColumn& column : columns) {
         text += column.of == of ? ", " + column.expression : std::string{};
     }
     return text;
@@ -100,13 +100,14 @@ public:
     explicit ResultsReader(const std::filesystem::path& path)
         : database_{path, Database::Access::read},
           schema_{prepare_reading(database_)},
+          columns_{results_columns(light_columns(database_))},
           rows_{database_, fmt::format("SELECT c.curve, c.status = 'done'{} FROM part p CROSS JOIN"
                                        " configurations c ON c.number = p.configuration"
                                        " WHERE ordinal >= ? AND ordinal < ? ORDER BY ordinal",
-                                       listed_columns(ResultsColumn::Of::configuration))},
+                                       listed_columns(columns_, ResultsColumn::Of::configuration))},
           curve_{database_, fmt::format("SELECT k.number{} FROM curves k LEFT JOIN curves v"
                                         " ON v.number = k.number AND ?2 WHERE k.number = ?1",
-                                        listed_columns(ResultsColumn::Of::curve))}
+                                        listed_columns(columns_, ResultsColumn::Of::curve))}
     {
     }
 
@@ -165,9 +166,10 @@ private:
 
     Database database_;
     RunSchema schema_; ///< whichever: the statements are those of the present one
+    std::vector<ResultsColumn> columns_;
     Statement rows_;
     Statement curve_;
-    std::vector<ResultsSpan> spans_ = results_spans();
+    std::vector<ResultsSpan> spans_ = results_spans(columns_);
     std::optional<CurveKey> curve_key_;
     std::vector<std::string> curve_texts_; ///< of its spans
 };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace gnomon::store {
 
@@ -29,7 +30,13 @@ std::vector<std::string> light_columns(const std::vector<std::string>& axes)
 
 std::vector<std::string> light_columns(const sqlite::Database& database)
 {
-    return light_columns(read_axes(database));
+    std::vector<std::string> keys = read_axes(database);
+    for (std::string& key : read_engine_keys(database)) {
+        if (std::ranges::find(keys, key) == keys.end()) {
+            keys.push_back(std::move(key));
+        }
+    }
+    return light_columns(keys);
 }
 
 std::vector<ResultsColumn> results_columns(const std::vector<std::string>& light_columns)

@@ -2,6 +2,7 @@
 
 #include "analysis/metrics/metric_table.hpp"
 #include "analysis/metrics/subset_table.hpp"
+#include "scene/job/engine_keys.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/job/toml.hpp"
@@ -148,7 +149,10 @@ const std::vector<JobColumn>& job_columns()
     static const std::vector<JobColumn> columns = [] {
         std::vector<JobColumn> all;
         for (const scene::KeySpec& spec : scene::key_specs()) {
-            all.push_back({spec.key.name, type_of(spec.domain)});
+            // A renderer's own keys are columns of its runs alone.
+            if (!scene::is_engine_key(spec.key.name)) {
+                all.push_back({spec.key.name, type_of(spec.domain)});
+            }
         }
         return all;
     }();

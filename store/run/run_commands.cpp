@@ -1,5 +1,6 @@
 #include "store/run/run_commands.hpp"
 
+#include "scene/job/engine_keys.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/shell_text.hpp"
@@ -60,6 +61,11 @@ std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& r
     for (const JobColumn& column : job_columns()) {
         if (std::string value = row.text(column.name); !value.empty()) {
             settings.emplace_back(column.name, std::move(value));
+        }
+    }
+    for (const auto& [name, value] : row.cells()) {
+        if (scene::is_engine_key(name)) {
+            settings.emplace_back(name, row.text(name));
         }
     }
     return settings;

@@ -23,7 +23,7 @@ compare_command(const RunDescription& description, const std::string& case_name,
 [[nodiscard]] std::string light_option(const std::string& light);
 
 /// A configuration's job: its keys with their values as text, in the order of `job_columns`; keys
-/// without a value are left out.
+/// without a value are left out. Another renderer's own keys come last.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row);
 
 } // namespace gnomon::store

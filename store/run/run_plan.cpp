@@ -1,6 +1,7 @@
 #include "store/run/run_plan.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/engine_keys.hpp"
 #include "scene/one_line.hpp"
 #include "store/json_values.hpp"
 #include "store/run/planned_scenes.hpp"
@@ -12,7 +13,9 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -119,6 +122,7 @@ public:
     {
         const std::int64_t number = configuration_number(configuration);
         remember_planned(static_cast<std::size_t>(number));
+        remember_engine_keys(configuration);
         plan_.bind(1, static_cast<std::int64_t>(configuration.ordinal))
             .bind(2, number)
             .bind(3, std::string_view{configuration.case_name})
@@ -133,8 +137,19 @@ public:
     }
 
     [[nodiscard]] bool has_equal_ids() const { return has_equal_ids_; }
+    /// Another renderer's own keys, of all configurations, sorted.
+    [[nodiscard]] const std::set<std::string>& engine_keys() const { return engine_keys_; }
 
 private:
+    void remember_engine_keys(const Configuration& configuration)
+    {
+        for (const auto& [key, value] : configuration.light_values) {
+            if (scene::is_engine_key(key)) {
+                engine_keys_.insert(key);
+            }
+        }
+    }
+
     void remember_planned(std::size_t number)
     {
         is_planned_.resize(std::max(is_planned_.size(), number + 1));
@@ -192,7 +207,8 @@ private:
     KeyParameters own_keys_{4, configuration_key_columns()}; ///< of `insert_`
     KeyParameters curve_keys_{3, curve_key_columns()};       ///< of `insert_curve_`
     std::unordered_map<std::string, std::int64_t> curves_;   ///< numbers by id
-    std::vector<bool> is_planned_;                           ///< by number of the configuration
+    std::set<std::string> engine_keys_;
+    std::vector<bool> is_planned_; ///< by number of the configuration
     bool has_equal_ids_ = false;
 };
 
@@ -269,6 +285,16 @@ void write_value(const Database& database, std::string_view key, const Value& va
         .run();
 }
 
+/// Another renderer's own keys are columns of its runs.
+void write_engine_keys(const Database& database, const std::set<std::string>& keys)
+{
+    database.run("DELETE FROM run WHERE key = 'engine_keys'");
+    if (!keys.empty()) {
+        write_value(database, "engine_keys", json_text(Json(keys), -1));
+    }
+    show_light_columns(database);
+}
+
 std::int64_t read_integer(const Database& database, std::string_view key)
 {
     Statement find{database, "SELECT value FROM run WHERE key = ?"};
@@ -330,6 +356,7 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
         planner.add(configuration);
         has_known_scene = has_known_scene || earlier.have(configuration);
     });
+    write_engine_keys(database, planner.engine_keys());
     if (!has_known_scene) {
         throw scene::InputError(scene::one_line(fmt::format(
             "{}: holds results of another scene, {}: name another folder, or pass --force to "
@@ -390,6 +417,11 @@ RunDescription read_description(const Database& database)
 std::vector<std::string> read_axes(const Database& database)
 {
     return read_texts(database, "axes");
+}
+
+std::vector<std::string> read_engine_keys(const Database& database)
+{
+    return read_texts(database, "engine_keys");
 }
 
 std::int64_t environment_number(const Database& database)

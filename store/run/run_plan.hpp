@@ -26,6 +26,9 @@ PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& d
 /// The axes of the last plan (`RunDescription::axes`).
 [[nodiscard]] std::vector<std::string> read_axes(const sqlite::Database& database);
 
+/// Another renderer's own keys that configurations of the last plan have in their `light_values`.
+[[nodiscard]] std::vector<std::string> read_engine_keys(const sqlite::Database& database);
+
 /// Records what the run is, as part of a transaction.
 void write_description(const sqlite::Database& database, const RunDescription& description);
 

@@ -1,6 +1,10 @@
 """A renderer that draws by ray casting, and misbehaves in the way that its first argument names.
 
-The second argument marks its processes for the tests. Nothing but Python is needed.
+The second argument marks its processes for the tests. Nothing but Python is needed. Where FAKE_LOG names
+a file, each start adds a line to it.
+
+Its key `bias` does what biases do, where the way is "biased": without it one lit pixel in eight is
+shadowed, with it shadows lose what is nearer than four times its length to what casts them.
 """
 
 import json
@@ -85,7 +89,7 @@ def hit(triangle, origin, way):
 
 
 def draw_pixels(scene, triangles):
-    """P and the mask of each pixel, row by row from the top."""
+    """P and how far the nearest blocker is [m] of each pixel, row by row from the top."""
     camera, light, image = scene["camera"], scene["light"], scene["image"]
     eye = camera["eye"]
     forward = unit(sub(camera["target"], eye))
@@ -102,7 +106,7 @@ def draw_pixels(scene, triangles):
             hits = [(t, i) for i, triangle in enumerate(triangles)
                     for t in [hit(triangle, eye, way)] if t is not None and t > 1e-6]
             if not hits:
-                pixels.append((math.nan, math.nan, math.nan, 1.0))
+                pixels.append((math.nan, math.nan, math.nan, math.inf))
                 continue
             t, first = min(hits)
             point = tuple(eye[k] + t * way[k] for k in range(3))
@@ -110,11 +114,25 @@ def draw_pixels(scene, triangles):
                 to_light, far = tuple(-c for c in light["direction"]), math.inf
             else:
                 to_light, far = sub(light["position"], point), 1.0
-            blocked = any(s is not None and 1e-9 < s < far
-                          for i, triangle in enumerate(triangles) if i != first
-                          for s in [hit(triangle, point, to_light)])
-            pixels.append(point + (0.0 if blocked else 1.0,))
+            blockers = [s for i, triangle in enumerate(triangles) if i != first
+                        for s in [hit(triangle, point, to_light)]
+                        if s is not None and 1e-9 < s < far]
+            nearest = min(blockers, default=math.inf) * math.sqrt(dot(to_light, to_light))
+            pixels.append(point + (nearest,))
     return pixels
+
+
+def shadowed(pixels, width, engine):
+    """P and the mask."""
+    drawn = []
+    for i, (*point, gap) in enumerate(pixels):
+        is_lit = gap == math.inf
+        if WAY == "biased":
+            is_lit = gap > 1e9 or gap < 4 * engine["bias"]
+            if engine["bias"] < 0.001 and (3 * (i % width) + i // width) % 8 == 0:
+                is_lit = False
+        drawn.append((*point, 1.0 if is_lit else 0.0))
+    return drawn
 
 
 def write_npy(path, height, width, rows):
@@ -139,6 +157,9 @@ class Renderer:
     def hello(self, request):
         answer = {"id": request["id"], "protocol": 1, "name": "fake", "version": "1.0",
                   "device": "rays in Python", "keys": KEYS}
+        if "FAKE_LOG" in os.environ:
+            with open(os.environ["FAKE_LOG"], "a", encoding="utf-8") as log:
+                log.write("started\n")
         if WAY == "dies_at_hello":
             sys.exit("no display to open")
         if WAY == "hangs_at_hello":
@@ -189,6 +210,10 @@ class Renderer:
             sys.stderr.write("assertion failed: shadow atlas\n")
             sys.stderr.flush()
             os.kill(os.getpid(), signal.SIGSEGV)
+        if WAY == "dies_of_soft" and request["draw"]["engine"]["kind"] == "soft":
+            sys.exit("soft shadows need a newer driver")
+        if WAY == "is_slow":
+            time.sleep(0.2)
         if WAY == "hangs_at_draw":
             time.sleep(1000)
         if WAY == "floods_stdout":
@@ -207,7 +232,8 @@ class Renderer:
         if key not in self.drawn:
             self.drawn[key] = draw_pixels(self.scene, self.triangles)
         return self.write_frame(number, os.path.dirname(request["frame"]), request["frame"],
-                                list(self.drawn[key]))
+                                shadowed(self.drawn[key], self.scene["image"]["width"],
+                                         request["draw"]["engine"]))
 
     def write_frame(self, number, folder, frame, pixels):
         width, height = self.scene["image"]["width"], self.scene["image"]["height"]

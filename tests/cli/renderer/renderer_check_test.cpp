@@ -1,17 +1,12 @@
-#include "child_process.hpp"
+#include "renderer/fake_renderer.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <ostream>
 #include <string>
 #include <thread>
@@ -20,7 +15,6 @@
 namespace gnomon::testing {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 /// A rule that is broken, and words of its line.
@@ -40,59 +34,6 @@ std::ostream& operator<<(std::ostream& stream, const Misbehaviour& misbehaviour)
 {
     return stream << misbehaviour.way;
 }
-
-/// Processes whose command line has the mark.
-std::vector<std::string> processes_with(const std::string& mark)
-{
-    std::vector<std::string> found;
-    for (const auto& entry : fs::directory_iterator{"/proc"}) {
-        std::ifstream file{entry.path() / "cmdline"};
-        const std::string command{std::istreambuf_iterator<char>{file}, {}};
-        if (command.find(mark) != std::string::npos) {
-            found.push_back(entry.path().filename().string());
-        }
-    }
-    return found;
-}
-
-/// The same, once those that are being ended have had time to.
-std::vector<std::string> processes_left(const std::string& mark)
-{
-    for (int i = 0; i < 100 && !processes_with(mark).empty(); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds{50});
-    }
-    return processes_with(mark);
-}
-
-/// A command line for the fake renderer, in a folder for temporary files that must be empty after
-/// it.
-class FakeRenderer {
-public:
-    explicit FakeRenderer(const std::string& way)
-        : mark_{fmt::format("fake-{}-{}", ::getpid(), way)},
-          command_{fmt::format("/usr/bin/python3 '{}/tests/cli/renderer/fake_renderer.py' {} {}",
-                               GNOMON_ROOT, way, mark_)}
-    {
-    }
-
-    [[nodiscard]] const std::string& command() const { return command_; }
-    [[nodiscard]] Start start() const
-    {
-        Start start;
-        start.environment = {fmt::format("TMPDIR={}", folder_.path().string())};
-        return start;
-    }
-    void expect_nothing_left() const
-    {
-        EXPECT_THAT(processes_left(mark_), ::testing::IsEmpty());
-        EXPECT_TRUE(fs::is_empty(folder_.path()));
-    }
-
-private:
-    std::string mark_;
-    std::string command_;
-    TemporaryFolder folder_;
-};
 
 Ending check(const FakeRenderer& renderer, double longest_s)
 {

@@ -1,4 +1,4 @@
-#include "cli/renderer/answer_object.hpp"
+#include "cli/renderer/protocol/answer_object.hpp"
 
 #include "scene/one_line.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/renderer/frame_case.hpp"
+#include "cli/renderer/protocol/frame_case.hpp"
 
 #include "scene/job/toml.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/renderer/renderer_answers.hpp"
+#include "cli/renderer/protocol/renderer_answers.hpp"
 #include "scene/job/job.hpp"
 #include "scene/triangles.hpp"
 #include "scene/view/view.hpp"

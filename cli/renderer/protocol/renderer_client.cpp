@@ -1,6 +1,6 @@
-#include "cli/renderer/renderer_client.hpp"
+#include "cli/renderer/protocol/renderer_client.hpp"
 
-#include "cli/renderer/frame_case.hpp"
+#include "cli/renderer/protocol/frame_case.hpp"
 #include "cli/system/memory.hpp"
 #include "scene/one_line.hpp"
 #include "store/case/case_read.hpp"

@@ -1,7 +1,7 @@
-#include "cli/renderer/renderer_check.hpp"
+#include "cli/renderer/check/renderer_check.hpp"
 
-#include "cli/renderer/check_scene.hpp"
-#include "cli/renderer/frame_difference.hpp"
+#include "cli/renderer/check/check_scene.hpp"
+#include "cli/renderer/protocol/frame_difference.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "cli/renderer/check_scene.hpp"
+#include "cli/renderer/check/check_scene.hpp"
 
 #include "analysis/comparison.hpp"
 #include "scene/load_scene.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cli/renderer/renderer_answers.hpp"
-#include "cli/renderer/renderer_error.hpp"
-#include "cli/renderer/renderer_requests.hpp"
+#include "cli/renderer/protocol/renderer_answers.hpp"
+#include "cli/renderer/protocol/renderer_error.hpp"
+#include "cli/renderer/protocol/renderer_requests.hpp"
 #include "cli/system/guarded_process.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/renderer/renderer_requests.hpp"
+#include "cli/renderer/protocol/renderer_requests.hpp"
 #include "scene/case/space.hpp"
 
 #include <string>

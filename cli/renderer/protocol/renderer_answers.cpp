@@ -1,4 +1,4 @@
-#include "cli/renderer/renderer_answers.hpp"
+#include "cli/renderer/protocol/renderer_answers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "cli/renderer/renderer_check_command.hpp"
+#include "cli/renderer/check/renderer_check_command.hpp"
 
 #include "cli/exit_codes.hpp"
-#include "cli/renderer/renderer_check.hpp"
+#include "cli/renderer/check/renderer_check.hpp"
 #include "cli/renderer/renderer_options.hpp"
 #include "cli/system/standard_output.hpp"
 

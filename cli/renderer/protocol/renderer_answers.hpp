@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/renderer/answer_object.hpp"
+#include "cli/renderer/protocol/answer_object.hpp"
 #include "scene/job/value.hpp"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "cli/renderer/renderer_requests.hpp"
+#include "cli/renderer/protocol/renderer_requests.hpp"
 
 #include "scene/job/keys.hpp"
 

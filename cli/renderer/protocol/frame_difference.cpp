@@ -1,4 +1,4 @@
-#include "cli/renderer/frame_difference.hpp"
+#include "cli/renderer/protocol/frame_difference.hpp"
 
 #include <fmt/format.h>
 

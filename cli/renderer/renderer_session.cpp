@@ -1,0 +1,206 @@
+#include "cli/renderer/renderer_session.hpp"
+
+#include "analysis/evaluate/evaluate.hpp"
+#include "cli/renderer/protocol/frame_difference.hpp"
+#include "reference_rt/truth.hpp"
+#include "scene/job/engine_keys.hpp"
+#include "scene/job/handed_key.hpp"
+#include "scene/job/keys.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/view/view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace gnomon::cli {
+namespace {
+
+constexpr std::string_view engine_table = "engine.";
+
+/// What decides which scene it is, as text.
+std::string scene_key_of(const scene::Job& job)
+{
+    std::string text;
+    for (const auto& [key, value] : scene::resolved_keys(job)) {
+        if (key.starts_with("scene.")) {
+            text += fmt::format("{} = {}\n", key, value);
+        }
+    }
+    return text;
+}
+
+bool same_space(const scene::CaseSpace& a, const scene::CaseSpace& b)
+{
+    return a.axes == b.axes && a.units_per_mesh_unit == b.units_per_mesh_unit;
+}
+
+/// The keys that the renderer was told, and those that name what it looked at.
+void add_told_keys(std::vector<std::string>& keys, const scene::Job& job,
+                   const std::vector<std::string>& given)
+{
+    const auto add = [&](const std::string& key) {
+        if (std::ranges::find(keys, key) == keys.end()) {
+            keys.push_back(key);
+        }
+    };
+    std::ranges::for_each(given, add);
+    for (const auto& [key, value] : scene::resolved_keys(job)) {
+        if (key.starts_with("scene.") || key.starts_with(engine_table)) {
+            add(key);
+        }
+    }
+}
+
+} // namespace
+
+EngineValues engine_values(const scene::Job& job)
+{
+    EngineValues values;
+    for (const scene::HandedKey& key : scene::handed_keys()) {
+        if (key.key.name.starts_with(engine_table)) {
+            values[key.key.name.substr(engine_table.size())] = key.value_of(job);
+        }
+    }
+    return values;
+}
+
+void hand_over_keys(const RendererHello& hello)
+{
+    std::vector<scene::HandedKey> keys;
+    for (const EngineKey& key : hello.keys) {
+        keys.push_back({scene::make_key(std::string{engine_table} + key.name,
+                                        key.unit.empty() ? key.help : key.help + " [{unit}]", "",
+                                        scene::Stage::shadow_map | scene::Stage::lookup, key.unit),
+                        key.domain,
+                        key.default_value,
+                        {}});
+    }
+    scene::hand_over_engine(std::move(keys));
+}
+
+RendererSession::RendererSession(RendererSettings settings) : settings_{std::move(settings)}
+{
+    start();
+    hello_ = client_->hello();
+}
+
+void RendererSession::start()
+{
+    client_.reset();
+    opened_.clear();
+    failed_to_start_ = true;
+    client_.emplace(settings_.command, settings_.parent, settings_.longest);
+    failed_to_start_ = false;
+    if (!hello_.name.empty() && client_->hello().title() != hello_.title()) {
+        const std::string now = client_->hello().title();
+        client_->fail("hello", fmt::format("started again, it says that it is {}; it was {}", now,
+                                           hello_.title()));
+    }
+}
+
+const scene::SceneFile& RendererSession::load(const scene::Job& job)
+{
+    std::string key = scene_key_of(job);
+    if (key != scene_key_ || file_.scene.triangles.empty()) {
+        file_ = scene::load_scene(job.scene);
+        scene_key_ = std::move(key);
+        mesh_.reset();
+        opened_.clear();
+    }
+    return file_;
+}
+
+void RendererSession::open(const RendererScene& scene)
+{
+    const std::string wanted = open_request(scene, "").dump();
+    if (wanted != opened_) {
+        opened_.clear();
+        client_->open(scene);
+        opened_ = wanted;
+    }
+}
+
+RendererFrame RendererSession::draw(const RendererDraw& draw)
+{
+    RendererFrame frame = client_->draw(draw);
+    if (!was_drawn_twice_) {
+        const RendererFrame again = client_->draw(draw);
+        if (const std::string difference = frame_difference(frame.layers, again.layers);
+            !difference.empty()) {
+            client_->fail("draw", fmt::format("two equal requests gave frames that are not equal: "
+                                              "{}; no number of it would hold",
+                                              difference));
+        }
+        was_drawn_twice_ = true;
+    }
+    return frame;
+}
+
+const CaseMesh& RendererSession::mesh()
+{
+    if (!mesh_ || !same_space(mesh_space_, client_->space())) {
+        mesh_space_ = client_->space();
+        mesh_ = std::make_unique<CaseMesh>(file_.scene, mesh_space_, settings_.threads);
+    }
+    return *mesh_;
+}
+
+analysis::Comparison RendererSession::judge(const scene::Job& job,
+                                            const std::vector<std::string>& given,
+                                            RendererFrame frame)
+{
+    const CaseMesh& mesh = this->mesh();
+    const CaseSession session{std::move(frame.file), std::move(frame.layers), mesh};
+    const analysis::CaseTruth truth = mesh.truth();
+    analysis::CheckedCase checked = session.check(truth, std::nullopt);
+    if (!checked.check.mistake.empty()) {
+        client_->fail("draw", checked.check.sentence);
+    }
+    analysis::Comparison result = analysis::evaluate(session.subject(), std::move(checked), truth);
+    result.job.scene = job.scene;
+    for (const auto& [key, value] : job.method.values) {
+        if (key.starts_with(engine_table)) {
+            result.job.method.values[key] = value;
+        }
+    }
+    result.scene.name = analysis::scene_name(job.scene);
+    add_told_keys(result.evaluation->given_keys, job, given);
+    return result;
+}
+
+analysis::Comparison RendererSession::compare(const scene::Job& job,
+                                              const std::vector<std::string>& given)
+{
+    const scene::SceneFile& file = load(job);
+    const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
+    try {
+        if (!client_) {
+            start();
+        }
+        open({analysis::scene_name(job.scene), file.scene,
+              scene::resolve_camera(job, file.scene, file.defaults),
+              scene::resolve_light(job, file.defaults), job.image});
+        return judge(job, given, draw({job, view, given, engine_values(job)}));
+    } catch (const RendererFailure&) {
+        client_.reset();
+        throw;
+    }
+}
+
+void RendererSession::close()
+{
+    if (client_) {
+        client_->close();
+        client_.reset();
+    }
+}
+
+analysis::Environment RendererSession::environment() const
+{
+    return {hello_.title(), std::string{analysis::Environment::other_renderer},
+            reference_rt::embree_version(), GNOMON_VERSION};
+}
+
+} // namespace gnomon::cli
