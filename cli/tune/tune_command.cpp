@@ -4,6 +4,8 @@
 #include "cli/compare/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
+#include "cli/renderer/driven_job.hpp"
+#include "cli/renderer/tune/tune_renderer.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/advice_options.hpp"
 #include "reports/tables/tune_report.hpp"
@@ -13,11 +15,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
@@ -25,6 +29,9 @@ namespace {
 
 struct TuneOptions {
     JobOptions job;
+    RendererOptions renderer;
+    std::size_t budget = 120;
+    bool has_limits = false; ///< some are given
     SessionOptions session;
     std::string max_false_shadow = "0.1%";
     std::string max_false_lit = "0.5%";
@@ -98,8 +105,22 @@ reports::TunedLight tune_light(const TuneOptions& options, const scene::LightJob
                            [&](const analysis::TunedSetting& setting) { progress.tell(setting); })};
 }
 
+/// What of the options another renderer's search is told.
+RendererTuneOptions renderer_tune_options(const TuneOptions& options)
+{
+    refuse_for_renderer({{"--max-…", options.has_limits},
+                         {"--views, --lights and --all-cases", options.advice.any()},
+                         {"--device", options.session.device.has_value()}});
+    return {options.job,  options.renderer, options.budget, options.session.threads,
+            options.json, options.quiet,    options.verbose};
+}
+
 void tune(const TuneOptions& options)
 {
+    if (auto renderer = chosen_renderer(options.renderer, options.job)) {
+        tune_renderer(renderer_tune_options(options), std::move(*renderer));
+        return;
+    }
     const analysis::TuneLimits limits{
         read_rate("--max-false-shadow", options.max_false_shadow),
         read_rate("--max-false-lit", options.max_false_lit),
@@ -136,6 +157,12 @@ void add_tune_command(CLI::App& program)
     CLI::App* command = program.add_subcommand(
         "tune", "Recommend the cheapest shadow map whose errors stay below your limits");
     add_job_options(*command, options->job);
+    add_renderer_options(*command, options->renderer);
+    command
+        ->add_option("--budget", options->budget,
+                     "Of another renderer: how many settings of its own keys are drawn at most")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
     command
         ->add_option("--max-false-shadow", options->max_false_shadow,
                      "Largest amount of shadow on lit pixels, as a share of them, without what a "
@@ -167,7 +194,14 @@ void add_tune_command(CLI::App& program)
                     "  gnomon tune job.toml --views 8\n"
                     "  gnomon tune job.toml --max-false-shadow 0.05% --max-false-lit 1% "
                     "--max-resolution 2048");
-    command->callback([options] { tune(*options); });
+    command->callback([options, command] {
+        for (const char* const limit :
+             {"--max-false-shadow", "--max-false-lit", "--max-false-shadow-count",
+              "--max-false-lit-count", "--max-resolution"}) {
+            options->has_limits = options->has_limits || command->count(limit) > 0;
+        }
+        tune(*options);
+    });
 }
 
 } // namespace gnomon::cli

@@ -226,5 +226,20 @@ TEST(GatedRenderer, IsHeldToItsBaseline)
     EXPECT_THAT(worse.out, HasSubstr("engine.bias"));
 }
 
+TEST(TunedRenderer, FindsABetterBiasAndDrawsItAgain)
+{
+    const FakeRenderer renderer{"biased"};
+    const Ending ending = driven(renderer, "tune", {"--json", "--budget", "60", "--quiet"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    const auto json = nlohmann::json::parse(ending.out);
+    EXPECT_GT(json.at("own").at("shadow_amount"), 0.0);
+    EXPECT_EQ(json.at("recommended").at("shadow_amount"), 0.0);
+    EXPECT_EQ(json.at("recommended").at("light_amount"), 0.0);
+    const double bias = json.at("recommended").at("engine").at("bias");
+    EXPECT_GE(bias, 0.001); // where its acne ends
+    EXPECT_LE(json.at("tried").size(), 60U);
+    renderer.expect_nothing_left();
+}
+
 } // namespace
 } // namespace gnomon::testing
