@@ -40,6 +40,9 @@ if command -v script >/dev/null && ! script -qec true /dev/null >/dev/null 2>&1 
     echo no-terminal
 fi
 
+# There is no node.
+command -v node >/dev/null || echo no-node
+
 # The hashes of tests/house/recorded_results are of other drivers and libraries than these.
 /usr/bin/python3 -B "$root/tests/house/recorded_results/recorded_results.py" is-recorded "$program" 2>/dev/null ||
     echo not-recorded
