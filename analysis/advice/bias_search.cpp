@@ -6,6 +6,7 @@
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
+#include "scene/job/handed_key.hpp"
 
 #include <algorithm>
 #include <array>
@@ -87,6 +88,11 @@ bool BiasSearch::has_formula() const
     return methods::promises(views_.front().job).has_formula();
 }
 
+bool BiasSearch::has_curve() const
+{
+    return methods::promises(views_.front().job).has_curve();
+}
+
 bool BiasSearch::has_fractions() const
 {
     return methods::promises(views_.front().job).has_fractions();
@@ -132,6 +138,9 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
             deciding_samples(std::move(lookup), {}, {}, lookup_rule(added.job, added.view));
         return;
     }
+    if (!has_curve() && !has_fractions()) {
+        return; // nothing is softened: amounts are counts
+    }
     if (!renderers_.make_exact_light) {
         throw scene::InputError("lookup.filter: only the exact truth tells the borders that a "
                                 "filter softens from errors; leave out --truth float");
@@ -140,6 +149,10 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
                                                        ReceiverUse{false, false});
     auto exact = std::make_shared<ExactLightCache>(file_.scene, std::move(receivers), added.job,
                                                    added.view, renderers_);
+    if (!has_curve()) {
+        added.exact = std::move(exact);
+        return;
+    }
     added.answers = std::make_unique<LookupAnswers>(
         std::move(exact), observe_lookup(added.job, added.view, std::move(lookup), renderers_));
 }
@@ -205,11 +218,17 @@ BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
     return found;
 }
 
-std::vector<float> BiasSearch::fraction_biases(float slope) const
+std::vector<float> BiasSearch::fraction_biases(float slope, BiasSteps steps) const
 {
+    if (!scene::has_key(views_.front().job.method.name, "bias.constant")) {
+        return {0.0F};
+    }
     if (!has_formula()) { // each bias costs a lookup
         const std::vector<float> coarse = coarse_biases();
-        return fine_biases_around_least(coarse, pooled_amounts(slope, coarse));
+        const std::vector<ErrorAmounts> amounts = pooled_amounts(slope, coarse);
+        return steps == BiasSteps::fine && has_curve()
+                   ? fine_biases_around_least(coarse, amounts)
+                   : coarse_biases_around_least(coarse, amounts);
     }
     const std::vector<float> biases = tried_biases();
     const auto around = around_least(biases, pooled_amounts(slope, biases));
@@ -231,12 +250,58 @@ std::vector<ErrorAmounts> BiasSearch::pooled_amounts(float slope,
     std::vector<ErrorAmounts> sums(biases.size());
     for (std::size_t view = 0; view < views_.size(); ++view) {
         draw_if_asked(view);
-        const auto amounts = views_[view].answers->amounts_at(slope, carried(view, biases));
+        const auto amounts = amounts_in(view, slope, carried(view, biases));
         for (std::size_t i = 0; i < sums.size(); ++i) {
             sums[i] += amounts[i];
         }
     }
     return sums;
+}
+
+std::vector<ErrorAmounts> BiasSearch::amounts_in(std::size_t view, float slope,
+                                                 std::span<const float> biases) const
+{
+    const SearchedView& searched = views_[view];
+    if (searched.answers != nullptr) {
+        return searched.answers->amounts_at(slope, biases);
+    }
+    std::vector<ErrorAmounts> amounts;
+    for (const float bias : biases) {
+        const scene::LookupLayers own = renderers_.look_up(
+            searched.job, biased_view(searched, bias, slope, searched.view.bias_scales));
+        amounts.push_back(measured(searched, own).amounts);
+    }
+    return amounts;
+}
+
+Metrics BiasSearch::measured(const SearchedView& searched, const scene::LookupLayers& own)
+{
+    return analysis::measure(searched.judged->truth, own,
+                             methods::promises(searched.job).equal_taps());
+}
+
+scene::View BiasSearch::biased_view(const SearchedView& searched, float constant, float slope,
+                                    const std::vector<float>& scales)
+{
+    scene::View biased = searched.view;
+    biased.bias_scales = scales;
+    biased.bias.constant = constant;
+    biased.bias.slope = slope;
+    return biased;
+}
+
+CauseAmounts BiasSearch::amounts_of(const SearchedView& searched, const scene::View& biased,
+                                    const scene::LookupLayers& own) const
+{
+    const scene::Bias& bias = biased.bias;
+    if (searched.answers != nullptr) {
+        return searched.answers->causes_of(own, bias.constant, bias.slope).amounts;
+    }
+    if (searched.exact == nullptr) {
+        return {};
+    }
+    LookupAnswers answers{searched.exact, observe_lookup(searched.job, biased, own, renderers_)};
+    return answers.causes_of(own, bias.constant, bias.slope).amounts;
 }
 
 void BiasSearch::draw_if_asked(std::size_t view) const
@@ -251,17 +316,10 @@ ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float s
 {
     draw(view);
     const SearchedView& searched = views_[view];
-    scene::View biased = searched.view;
-    biased.bias_scales = scales;
-    biased.bias.constant = constant;
-    biased.bias.slope = slope;
+    const scene::View biased = biased_view(searched, constant, slope, scales);
     const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
-    const int taps = methods::promises(searched.job).equal_taps();
-    const Metrics metrics = analysis::measure(searched.judged->truth, own, taps);
-    const CauseAmounts amounts = searched.answers == nullptr
-                                     ? CauseAmounts{}
-                                     : searched.answers->causes_of(own, constant, slope).amounts;
-    return {constant, metrics, amounts.shadow_softening, amounts.light_softening};
+    const CauseAmounts amounts = amounts_of(searched, biased, own);
+    return {constant, measured(searched, own), amounts.shadow_softening, amounts.light_softening};
 }
 
 std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
@@ -269,6 +327,12 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
 {
     draw_if_asked(view);
     std::vector<ViewOutcome> outcomes;
+    if (!has_curve()) {
+        for (const float bias : carried(view, biases)) {
+            outcomes.push_back(measured_by_gl(view, bias, slope, views_[view].view.bias_scales));
+        }
+        return outcomes;
+    }
     for (const MeasuredBias& at :
          views_[view].answers->measure_biases(slope, carried(view, biases))) {
         outcomes.push_back({at.bias, at.metrics, at.softening.shadow, at.softening.light});
@@ -276,9 +340,10 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
     return outcomes;
 }
 
-BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, float slope) const
+BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, float slope,
+                                                   BiasSteps steps) const
 {
-    const std::vector<float> biases = fraction_biases(slope);
+    const std::vector<float> biases = fraction_biases(slope, steps);
     std::vector<ErrorPiece> pieces;
     for (const float bias : biases) {
         pieces.push_back({bias, bias, 0});
@@ -316,12 +381,12 @@ PastedBias BiasSearch::pasted_of(const Valley& found) const
     return pasted_bias(middle, within, told_like_, own_view().first_map());
 }
 
-FoundBias BiasSearch::find(const TuneLimits& limits, float slope) const
+FoundBias BiasSearch::find(const TuneLimits& limits, float slope, BiasSteps steps) const
 {
     const bool is_counted = counts_errors();
     const std::vector<BiasCurve> of_views = is_counted ? curves(slope) : std::vector<BiasCurve>{};
     const Valley valley =
-        is_counted ? valley_of(of_views, limits) : valley_of_fractions(limits, slope);
+        is_counted ? valley_of(of_views, limits) : valley_of_fractions(limits, slope, steps);
     FoundBias found{valley.valley ? valley.valley->run : BiasInterval{},
                     middle_of(valley),
                     pasted_of(valley),

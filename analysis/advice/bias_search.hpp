@@ -9,6 +9,7 @@
 #include "scene/pixel_layers.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,9 +29,17 @@ struct FoundBias {
     [[nodiscard]] float constant() const { return outcomes.front().constant; }
 };
 
+/// How closely constant biases are tried where each costs a lookup.
+enum class BiasSteps : std::uint8_t {
+    fine,   ///< as far as the least amount of error: at most 64 around it
+    coarse, ///< four a decade
+};
+
 /// Finds constant biases for one shadow map, filter and normal offset over several views: one
 /// lookup in each answers for all slopes and biases. Views of one light share the bias in depth
 /// units; under different lights they share its length in metres, at each one's median receiver.
+/// Where nothing tells of other biases each is tried, four a decade; of methods without bias terms
+/// 0 alone.
 class BiasSearch {
 public:
     /// All arguments, and the views added, must outlive the search.
@@ -50,7 +59,8 @@ public:
     /// such a one will do. Where each verdict is one comparison, limits that are not met then
     /// cannot be met with any constant bias, but for what carrying it in metres rounds.
     /// Source: docs/bias_curve.md#what-is-recommended.
-    [[nodiscard]] FoundBias find(const TuneLimits& limits, float slope) const;
+    [[nodiscard]] FoundBias find(const TuneLimits& limits, float slope,
+                                 BiasSteps steps = BiasSteps::fine) const;
 
     /// What GL itself gives in each view, in the order in which they were added, with the constant
     /// bias that its job sets, and a slope.
@@ -67,7 +77,9 @@ private:
         std::vector<float> set_scales; ///< that go with it (`scene::View::bias_scales`)
         const JudgedView* judged = nullptr;
         scene::LookupLayers deciding;           ///< empty where verdicts are fractions
-        std::unique_ptr<LookupAnswers> answers; ///< there alone
+        std::unique_ptr<LookupAnswers> answers; ///< there alone, and where a curve tells of biases
+        /// What answers are made of for each bias anew, where none does.
+        std::shared_ptr<ExactLightCache> exact;
     };
     /// A valley of all views, and the biases that meet the limits in each of them, in the units of
     /// the first.
@@ -81,6 +93,8 @@ private:
     /// The same where GL is asked for what each bias does.
     void draw_if_asked(std::size_t view) const;
     [[nodiscard]] bool has_fractions() const;
+    /// Whether a lookup tells of every other constant bias, or GL finds the critical ones.
+    [[nodiscard]] bool has_curve() const;
     /// Whether every constant bias follows from one lookup of each view.
     [[nodiscard]] bool has_formula() const;
     /// Whether one lookup tells each bias's errors: then they are counted, else measured.
@@ -88,9 +102,20 @@ private:
     [[nodiscard]] std::vector<BiasCurve> curves(float slope) const;
     [[nodiscard]] Valley valley_of(const std::vector<BiasCurve>& curves,
                                    const TuneLimits& limits) const;
-    [[nodiscard]] Valley valley_of_fractions(const TuneLimits& limits, float slope) const;
+    [[nodiscard]] Valley valley_of_fractions(const TuneLimits& limits, float slope,
+                                             BiasSteps steps) const;
     /// The biases of the first view that curves of fractions are asked about.
-    [[nodiscard]] std::vector<float> fraction_biases(float slope) const;
+    [[nodiscard]] std::vector<float> fraction_biases(float slope, BiasSteps steps) const;
+    /// The amounts of error in a view, drawn last, with each of its biases.
+    [[nodiscard]] std::vector<ErrorAmounts> amounts_in(std::size_t view, float slope,
+                                                       std::span<const float> biases) const;
+    [[nodiscard]] static Metrics measured(const SearchedView& searched,
+                                          const scene::LookupLayers& own);
+    [[nodiscard]] static scene::View biased_view(const SearchedView& searched, float constant,
+                                                 float slope, const std::vector<float>& scales);
+    /// The causes' amounts of a lookup's verdicts; nothing where each is one comparison.
+    [[nodiscard]] CauseAmounts amounts_of(const SearchedView& searched, const scene::View& biased,
+                                          const scene::LookupLayers& own) const;
     /// The amounts of error of all views together, at each of the first view's biases.
     [[nodiscard]] std::vector<ErrorAmounts> pooled_amounts(float slope,
                                                            std::span<const float> biases) const;

@@ -33,15 +33,21 @@ std::vector<float> coarse_biases()
     return biases;
 }
 
-std::vector<float> fine_biases_around_least(std::span<const float> coarse,
-                                            std::span<const ErrorAmounts> amounts)
+std::vector<float> coarse_biases_around_least(std::span<const float> coarse,
+                                              std::span<const ErrorAmounts> amounts)
 {
     constexpr std::ptrdiff_t steps = 3;
     const std::ptrdiff_t least =
         std::ranges::min_element(amounts, {}, &ErrorAmounts::total) - amounts.begin();
     const std::ptrdiff_t first = std::max(least - steps, std::ptrdiff_t{0});
     const std::ptrdiff_t last = std::min(least + steps, std::ssize(coarse) - 1);
-    std::vector<float> biases{coarse.begin() + first, coarse.begin() + last + 1};
+    return {coarse.begin() + first, coarse.begin() + last + 1};
+}
+
+std::vector<float> fine_biases_around_least(std::span<const float> coarse,
+                                            std::span<const ErrorAmounts> amounts)
+{
+    std::vector<float> biases = coarse_biases_around_least(coarse, amounts);
     std::ranges::copy_if(
         tried_biases(), std::back_inserter(biases),
         [lo = biases.front(), hi = biases.back()](float bias) { return lo < bias && bias < hi; });

@@ -22,6 +22,12 @@ namespace gnomon::analysis {
 [[nodiscard]] std::vector<float> fine_biases_around_least(std::span<const float> coarse,
                                                           std::span<const ErrorAmounts> amounts);
 
+/// The coarse biases within three steps of the least amount of error.
+/// @param coarse   `coarse_biases`.
+/// @param amounts  of each of them.
+[[nodiscard]] std::vector<float> coarse_biases_around_least(std::span<const float> coarse,
+                                                            std::span<const ErrorAmounts> amounts);
+
 /// The 64 of `tried_biases` around the least amount of error, softening included, or all if there
 /// are fewer: only for these are causes found, and what a kernel softens on purpose.
 /// @param amounts  of each of the biases.
