@@ -49,7 +49,8 @@ bool is_same_row(const scene::HandedKey& a, const scene::HandedKey& b)
     const scene::JobKey row_b = b.row();
     return row_a.description == row_b.description && row_a.unit == row_b.unit &&
            row_a.range_text == row_b.range_text && row_a.default_text == row_b.default_text &&
-           row_a.stages == row_b.stages;
+           row_a.stages == row_b.stages && a.tried.values == b.tried.values &&
+           a.tried.unit == b.tried.unit;
 }
 
 /// The keys of all methods, each once, with the names of all methods that have it.

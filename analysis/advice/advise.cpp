@@ -4,6 +4,7 @@
 #include "analysis/advice/variants.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "scene/error.hpp"
+#include "scene/job/handed_key.hpp"
 
 #include <stdexcept>
 #include <utility>
@@ -13,13 +14,6 @@ namespace gnomon::analysis {
 using scene::Job;
 
 namespace {
-
-Outcome own_outcome(const ViewOutcome& outcome)
-{
-    return {{outcome.metrics.false_shadow, outcome.metrics.false_lit},
-            outcome.metrics.amounts,
-            outcome.shadow_softening + outcome.light_softening};
-}
 
 class Adviser {
 public:
@@ -63,6 +57,9 @@ private:
         } else {
             add(variant, variant.keys, as_it_is, std::nullopt);
         }
+        if (!scene::has_key(variant.job.method.name, "bias.constant")) {
+            return;
+        }
         const FoundBias found = search.find(no_limits(), slope);
         const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, slope);
         std::vector<std::string> keys = variant.keys;
@@ -76,7 +73,7 @@ private:
     void add(const Variant& variant, std::vector<std::string> keys,
              const std::vector<ViewOutcome>& outcomes, const std::optional<BiasLength>& bias)
     {
-        comparison_.advice.push_back({std::move(keys), own_outcome(outcomes.front()),
+        comparison_.advice.push_back({std::move(keys), outcome_of(outcomes.front()),
                                       outcomes.front().metrics.error_rate, lookup_cost(variant.job),
                                       MeasuredBy::rerun, bias, outcomes, step_change(variant.job)});
     }
@@ -102,10 +99,10 @@ private:
         comparison_.diagnosis->curve.recommended = Recommendation{lengths.of(found.middle),
                                                                   lengths.of(found.run.lo),
                                                                   lengths.of(found.run.hi),
-                                                                  own_outcome(with_middle.front()),
+                                                                  outcome_of(with_middle.front()),
                                                                   found.pasted,
                                                                   lengths.of(found.pasted.bias),
-                                                                  own_outcome(with_pasted.front()),
+                                                                  outcome_of(with_pasted.front()),
                                                                   with_pasted.size()};
     }
 
@@ -128,6 +125,13 @@ private:
 };
 
 } // namespace
+
+Outcome outcome_of(const ViewOutcome& view)
+{
+    return {{view.metrics.false_shadow, view.metrics.false_lit},
+            view.metrics.amounts,
+            view.shadow_softening + view.light_softening};
+}
 
 void advise(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
             const Renderers& renderers)

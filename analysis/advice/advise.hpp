@@ -8,6 +8,9 @@
 
 namespace gnomon::analysis {
 
+/// What a view's verdicts are worth.
+[[nodiscard]] Outcome outcome_of(const ViewOutcome& view);
+
 /// Runs GL again with the changes that suit the errors' causes, each by itself and with the
 /// constant bias that is recommended for it over all views; fills in the comparison's advice, and
 /// where there are several views its recommendation, which then holds for them all.

@@ -41,4 +41,10 @@ struct Remedy {
     DepthStepChange step = {};           ///< 0: not known
 };
 
+/// A method that a search over methods has left out.
+struct PassedOverMethod {
+    std::string method;
+    std::string reason; ///< one line
+};
+
 } // namespace gnomon::analysis

@@ -2,11 +2,11 @@
 
 #include "analysis/tune/tune_space.hpp"
 #include "scene/error.hpp"
+#include "scene/job/handed_key.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -44,7 +44,7 @@ public:
           views_{views},
           limits_{limits},
           progress_{progress},
-          shapes_{distinct_shapes()},
+          shapes_{distinct_shapes(job, file, views)},
           filters_{tuned_filters(job)}
     {
     }
@@ -71,34 +71,6 @@ public:
     }
 
 private:
-    /// Those of the shapes to try that make maps in every view, and are not another's in all views.
-    [[nodiscard]] std::vector<MapShape> distinct_shapes() const
-    {
-        std::vector<MapShape> distinct;
-        std::vector<std::vector<scene::Mat4f>> known;
-        for (const MapShape& shape : map_shapes(job_)) {
-            std::vector<scene::Mat4f> matrices;
-            try {
-                for (const JudgedView& judged : views_.views) {
-                    Job job = with_view_of(job_, judged.view.job);
-                    job.shadow_map.frustum = shape.frustum;
-                    job.shadow_map.cascades = shape.cascades;
-                    for (const scene::LightFrustum& map :
-                         scene::resolve_view(job, file_.scene, file_.defaults).maps) {
-                        matrices.push_back(map.light_clip_from_world);
-                    }
-                }
-            } catch (const scene::InputError&) {
-                continue; // planes that do not go together there
-            }
-            if (std::ranges::find(known, matrices) == known.end()) {
-                known.push_back(std::move(matrices));
-                distinct.push_back(shape);
-            }
-        }
-        return distinct;
-    }
-
     /// Whether something meets the limits: what comes later takes more bytes or taps.
     [[nodiscard]] bool is_done() const
     {
@@ -168,13 +140,6 @@ private:
     static bool has_cascades(const scene::ShadowMapSettings& map, int cascades)
     {
         return cascades == 0 || map.cascades.count == cascades;
-    }
-
-    /// A stabilised cascade's grid needs a power of two.
-    static bool can_be_stable(const scene::ShadowMapSettings& map)
-    {
-        return map.cascades.fit != scene::CascadeFit::stabilised ||
-               std::has_single_bit(static_cast<unsigned>(map.resolution_texels));
     }
 
     /// All shapes with the job's culling; the best of them with other culling.
@@ -312,9 +277,13 @@ bool is_better(const TunedSetting& a, const TunedSetting& b)
 Job tuned_job(const Job& job, const TunedSetting& setting)
 {
     Job tuned = job;
+    tuned.method = setting.method.value_or(job.method);
     tuned.shadow_map = setting.map;
     tuned.lookup.filter = setting.filter;
     tuned.bias = {0, std::nullopt, setting.slope, setting.normal_texels};
+    if (!scene::has_key(tuned.method.name, "bias.constant")) {
+        return tuned;
+    }
     const bool is_found = !setting.bias.outcomes.empty();
     tuned.bias.constant_m = is_found ? setting.bias.pasted.constant_m : job.bias.constant_m;
     if (!scene::scales_bias(tuned)) { // else it is as long in each map

@@ -9,7 +9,10 @@
 #include "analysis/tune/tune_space.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -23,6 +26,8 @@ struct TunedSetting {
     LookupCost cost;
     bool has_filter = true; ///< else the job's method has none, and `filter` says nothing
     FoundBias bias; ///< its outcomes are of the job's own view alone where that fails the limits
+    /// With its keys and those of its bias terms; empty: the job's own.
+    std::optional<scene::MethodSettings> method = {};
 
     [[nodiscard]] bool meets_limits() const { return bias.meets_limits; }
     [[nodiscard]] ViewOutcome pooled() const { return analysis::pooled(bias.outcomes); }
@@ -32,6 +37,30 @@ struct TunedSetting {
 /// taps, if both do; is less wrong by amount per scored pixel, has fewer errors, or a broader
 /// valley.
 [[nodiscard]] bool is_better(const TunedSetting& a, const TunedSetting& b);
+
+/// A setting that could not be tried.
+struct RefusedSetting {
+    std::vector<std::string> keys; ///< what it changes of the one it was made from: "KEY = VALUE"
+    std::string reason;            ///< one line
+};
+
+/// The setting of one method that is least wrong.
+struct TunedMethod {
+    std::string name;
+    TunedSetting best;                   ///< looked at in every view
+    std::vector<ViewOutcome> measured;   ///< GL's own, in every view
+    std::size_t settings = 0;            ///< that were tried
+    std::vector<RefusedSetting> refused; ///< what does not go together, or the driver lacks
+    std::size_t index = 0;               ///< of `best` among those considered
+};
+
+/// What a search over methods found (`tune_methods`).
+struct MethodRanking {
+    std::uint64_t max_bytes = 0;     ///< of each one's maps
+    std::size_t most_settings = 0;   ///< that could have been tried
+    std::vector<TunedMethod> ranked; ///< the least wrong first; not empty
+    std::vector<PassedOverMethod> passed_over;
+};
 
 struct TuneResult {
     std::vector<TunedSetting> considered; ///< in the order in which they were tried
@@ -43,6 +72,7 @@ struct TuneResult {
     std::vector<MapSize> hopeless;
     Comparison measured; ///< GL's own run with the recommended setting, in the job's own view
     std::vector<ViewOutcome> measured_views; ///< the same in every view
+    std::optional<MethodRanking> methods;    ///< empty: the job's own alone was tried
 
     [[nodiscard]] const TunedSetting& best() const { return considered[recommended]; }
     [[nodiscard]] bool meets_limits() const { return best().meets_limits(); }

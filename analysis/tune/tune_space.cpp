@@ -2,13 +2,17 @@
 
 #include "analysis/bias/slope_curves.hpp"
 #include "methods/list.hpp"
+#include "scene/error.hpp"
+#include "scene/view/view.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -126,6 +130,40 @@ std::vector<MapShape> map_shapes(const Job& job)
         add(fitted);
     }
     return tried;
+}
+
+std::vector<MapShape> distinct_shapes(const Job& job, const scene::SceneFile& file,
+                                      const JudgedViews& views)
+{
+    std::vector<MapShape> distinct;
+    std::vector<std::vector<scene::Mat4f>> known;
+    for (const MapShape& shape : map_shapes(job)) {
+        std::vector<scene::Mat4f> matrices;
+        try {
+            for (const JudgedView& judged : views.views) {
+                Job seen = with_view_of(job, judged.view.job);
+                seen.shadow_map.frustum = shape.frustum;
+                seen.shadow_map.cascades = shape.cascades;
+                for (const scene::LightFrustum& map :
+                     scene::resolve_view(seen, file.scene, file.defaults).maps) {
+                    matrices.push_back(map.light_clip_from_world);
+                }
+            }
+        } catch (const scene::InputError&) {
+            continue; // planes that do not go together there
+        }
+        if (std::ranges::find(known, matrices) == known.end()) {
+            known.push_back(std::move(matrices));
+            distinct.push_back(shape);
+        }
+    }
+    return distinct;
+}
+
+bool can_be_stable(const scene::ShadowMapSettings& map)
+{
+    return map.cascades.fit != scene::CascadeFit::stabilised ||
+           std::has_single_bit(static_cast<unsigned>(map.resolution_texels));
 }
 
 std::vector<scene::Cull> other_culls(const Job& job)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/advice/judged_views.hpp"
 #include "analysis/advice/tune_limits.hpp"
 #include "scene/job/job.hpp"
 
@@ -32,6 +33,13 @@ struct MapShape {
 /// and to what the camera sees, too. Cascades: tight and, as far as the job has what it takes,
 /// stabilised, split practically by 1/2 and 9/10. Each once.
 [[nodiscard]] std::vector<MapShape> map_shapes(const scene::Job& job);
+
+/// Those of them that make maps in every view, and are not another's in all views.
+[[nodiscard]] std::vector<MapShape>
+distinct_shapes(const scene::Job& job, const scene::SceneFile& file, const JudgedViews& views);
+
+/// Whether a stabilised cascade's grid has the power of two that it needs; other maps need none.
+[[nodiscard]] bool can_be_stable(const scene::ShadowMapSettings& map);
 
 /// The kinds of culling other than the job's.
 [[nodiscard]] std::vector<scene::Cull> other_culls(const scene::Job& job);

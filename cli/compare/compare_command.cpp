@@ -3,6 +3,7 @@
 #include "analysis/advice/advise.hpp"
 #include "analysis/lights/light_comparisons.hpp"
 #include "analysis/metrics/binning.hpp"
+#include "analysis/tune/method_advice.hpp"
 #include "cli/compare/compare_options.hpp"
 #include "cli/compare/compare_outputs.hpp"
 #include "cli/compare/compare_run.hpp"
@@ -98,6 +99,9 @@ void require_exact_truth(const CompareOptions& options)
             "--views, --lights and --all-cases need --advise: they are the views "
             "that advice is made from"};
     }
+    if (method_request(options.methods) && !options.advise) {
+        throw scene::InputError{"--methods needs --advise: it adds other methods to the advice"};
+    }
     if (options.verify && options.truth != "exact") {
         throw scene::InputError{"--verify needs --truth exact: without it there is no bias curve"};
     }
@@ -111,15 +115,31 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
     }
 }
 
+/// Adds other methods to the advice, and says which of them were passed over.
+void advise_methods(analysis::Comparison& comparison, const analysis::JudgedViews& views,
+                    const ComparisonSession& session, const analysis::MethodRequest& methods)
+{
+    const std::string heading = fmt::format("gnomon compare: {}", light_words(comparison));
+    analysis::advise_methods(comparison, views, session.file(), session.renderers(), methods,
+                             method_progress(heading, false));
+    for (const analysis::PassedOverMethod& method : *comparison.methods_passed_over) {
+        fmt::print(stderr, "{}{} was passed over: {}\n", heading, method.method, method.reason);
+    }
+}
+
 /// A job without scored pixels has nothing to be mended.
 void advise(analysis::Comparison& comparison, const analysis::ViewRequest& request,
-            const ComparisonSession& session, const SessionOptions& options)
+            const ComparisonSession& session, const CompareOptions& options,
+            const SessionOptions& session_options)
 {
     if (comparison.metrics.pixels.scored() > 0) {
         const auto views =
             analysis::judge_views(comparison.job, session.file(), session.renderers(), request);
         analysis::advise(comparison, views, session.file(), session.renderers());
-        advise_origin(comparison, session, options);
+        if (const auto methods = method_request(options.methods)) {
+            advise_methods(comparison, views, session, *methods);
+        }
+        advise_origin(comparison, session, session_options);
     }
 }
 
@@ -194,7 +214,7 @@ void compare(const CompareOptions& options)
     if (!options.depth_map_path.empty()) {
         require_a_map(jobs);
     }
-    if (options.advise) {
+    if (options.advise && !method_request(options.methods)) {
         require_bias_curves("--advise", jobs);
     }
     const auto requests = view_requests(options, jobs);
@@ -214,7 +234,7 @@ void compare(const CompareOptions& options)
     std::vector<analysis::Comparison> lights = measure(options, jobs, session, *work);
     for (std::size_t i = 0; options.advise && i < lights.size(); ++i) {
         work->now("trying remedies");
-        advise(lights[i], requests[i], session, session_options);
+        advise(lights[i], requests[i], session, options, session_options);
     }
     work.reset();
     if (run) {
@@ -280,6 +300,7 @@ void add_compare_command(CLI::App& program)
         "--advise", options->advise,
         "Run GL again with the changes that suit the errors, and print what they give");
     add_advice_options(*command, options->advice);
+    add_methods_option(*command, options->methods);
     command->add_flag("--verify", options->verify,
                       "Run GL again with biases that put the bias curve to the test, and compare "
                       "every verdict; exit status 4 if one differs");
@@ -289,7 +310,8 @@ void add_compare_command(CLI::App& program)
                     "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
                     "  gnomon compare job.toml --set shadow_map.resolution=2048 --json\n"
                     "  gnomon compare job.toml --case noon --aov noon.exr\n"
-                    "  gnomon compare job.toml --advise --views 4");
+                    "  gnomon compare job.toml --advise --views 4\n"
+                    "  gnomon compare job.toml --advise --methods pcf,evsm");
     command->callback([options] { compare(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include "cli/job_options.hpp"
 #include "cli/renderer/renderer_options.hpp"
 #include "cli/tune/advice_options.hpp"
+#include "cli/tune/methods_option.hpp"
 
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct CompareOptions {
     bool audit = false;
     bool advise = false;
     AdviceOptions advice;
+    MethodsOption methods;
     bool verify = false;
     SessionOptions session;
 };

@@ -8,6 +8,8 @@
 #include "cli/renderer/tune/tune_renderer.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/advice_options.hpp"
+#include "cli/tune/methods_option.hpp"
+#include "reports/json/tune_json.hpp"
 #include "reports/tables/tune_report.hpp"
 #include "scene/error.hpp"
 
@@ -42,6 +44,7 @@ struct TuneOptions {
     bool verbose = false;
     bool quiet = false;
     AdviceOptions advice;
+    MethodsOption methods;
 };
 
 /// "0.1%" or "0.001" as a fraction.
@@ -93,12 +96,27 @@ reports::TuneDetail detail_of(const TuneOptions& options)
     return options.verbose ? reports::TuneDetail::tried : reports::TuneDetail::found;
 }
 
+/// The same of a search over methods.
+analysis::MethodProgress progress_of_methods(const TuneOptions& options, const std::string& light)
+{
+    return options.quiet
+               ? analysis::MethodProgress{}
+               : method_progress(light.empty() ? std::string{"gnomon tune: "}
+                                               : fmt::format("gnomon tune: light {}: ", light),
+                                 options.verbose);
+}
+
 reports::TunedLight tune_light(const TuneOptions& options, const scene::LightJob& job,
                                const analysis::ViewRequest& request,
                                const ComparisonSession& session, const analysis::TuneLimits& limits)
 {
     const analysis::JudgedViews views =
         analysis::judge_views(job.job, session.file(), session.renderers(), request);
+    if (const auto methods = method_request(options.methods)) {
+        return {job.light,
+                analysis::tune_methods(job.job, session.file(), session.renderers(), views, limits,
+                                       *methods, progress_of_methods(options, job.light))};
+    }
     TuneProgress progress{options, job.light};
     return {job.light,
             analysis::tune(job.job, session.file(), session.renderers(), views, limits,
@@ -128,7 +146,9 @@ void tune(const TuneOptions& options)
         read_rate("--max-false-lit-count", options.max_false_lit_count), options.max_resolution};
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
-    require_bias_curves("tune", jobs);
+    if (!method_request(options.methods)) {
+        require_bias_curves("tune", jobs);
+    }
     std::vector<analysis::ViewRequest> requests;
     for (const scene::LightJob& job : jobs) {
         requests.push_back(view_request(options.advice, of_light(options.job, job.light)));
@@ -184,6 +204,7 @@ void add_tune_command(CLI::App& program)
         ->check(CLI::Range(1, 16384))
         ->capture_default_str();
     add_advice_options(*command, options->advice);
+    add_methods_option(*command, options->methods);
     command->add_flag("--json", options->json, "Print the result as JSON (docs/tune.md)");
     command->add_flag("--verbose", options->verbose, "Print every setting that was tried");
     command->add_flag("--quiet", options->quiet,
@@ -192,6 +213,7 @@ void add_tune_command(CLI::App& program)
     command->footer("Exit status: 0 a setting meets the limits; 1 none does.\n\nExamples:\n"
                     "  gnomon tune --builtin columns\n"
                     "  gnomon tune job.toml --views 8\n"
+                    "  gnomon tune job.toml --methods all\n"
                     "  gnomon tune job.toml --max-false-shadow 0.05% --max-false-lit 1% "
                     "--max-resolution 2048");
     command->callback([options, command] {

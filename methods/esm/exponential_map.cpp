@@ -28,7 +28,9 @@ const HandedKey& exponent_key()
 {
     static const HandedKey key{scene::make_key("method.exponent", "c of e^(c · depth) [{unit}]", "",
                                                Stage::prefilter | Stage::lookup, "per depth range"),
-                               scene::RealDomain{.lower = 1, .upper = 10000}, 80.0};
+                               scene::RealDomain{.lower = 1, .upper = 10000},
+                               80.0,
+                               {.values = {20.0, 40.0, 160.0, 320.0}}};
     return key;
 }
 

@@ -30,7 +30,9 @@ const HandedKey& moments_key()
     static const HandedKey key{
         scene::make_key("method.moments", "{unit} of a texel: 2 of the positive warp, or 4 of both",
                         "", Stage::prefilter | Stage::lookup, "moments"),
-        scene::IntegerDomain{.lower = 2, .upper = 4, .is_power_of_two = true}, std::int64_t{4}};
+        scene::IntegerDomain{.lower = 2, .upper = 4, .is_power_of_two = true},
+        std::int64_t{4},
+        {.values = {std::int64_t{2}}}};
     return key;
 }
 
@@ -47,7 +49,9 @@ const HandedKey& positive_key()
                         "c of the positive warp e^(c · (2z − 1)) [{unit}]; auto: 40, and with 16 "
                         "bits 5.54",
                         "", Stage::prefilter | Stage::lookup, "per half of the depth range"),
-        exponent_domain(), std::string{"auto"}};
+        exponent_domain(),
+        std::string{"auto"},
+        {.values = {5.0, 10.0, 20.0}}};
     return key;
 }
 const HandedKey& negative_key()
@@ -56,7 +60,9 @@ const HandedKey& negative_key()
         scene::make_key("method.negative_exponent",
                         "c of the negative warp −e^(−c · (2z − 1)) [{unit}]; auto: 5", "",
                         Stage::prefilter | Stage::lookup, "per half of the depth range"),
-        exponent_domain(), std::string{"auto"}};
+        exponent_domain(),
+        std::string{"auto"},
+        {.values = {2.5, 10.0, 20.0}}};
     return key;
 }
 
@@ -68,7 +74,8 @@ const HandedKey& deviation_key()
                         "bits 1e-3",
                         "", scene::only(Stage::lookup), "depth units"),
         scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true, .or_auto = true},
-        std::string{"auto"}};
+        std::string{"auto"},
+        {.values = {1e-5, 1e-3}}};
     return key;
 }
 

@@ -27,7 +27,8 @@ const HandedKey& moment_bias_key()
                         "and with 16 bits 3e-5",
                         "", scene::only(scene::Stage::lookup)),
         scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true, .or_auto = true},
-        std::string{"auto"}};
+        std::string{"auto"},
+        {.values = {3e-7, 3e-5, 3e-4}}};
     return key;
 }
 

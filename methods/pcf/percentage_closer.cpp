@@ -32,10 +32,12 @@ constexpr auto pcf_tables = std::to_array<std::string_view>({"shadow_map", "look
 
 const HandedKey& radius_texels_key()
 {
-    static const HandedKey key{
-        scene::make_key("method.radius_texels", "radius of the kernel [{unit}]", "",
-                        scene::only(Stage::lookup), "texels"),
-        scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels}, 2.0};
+    static const HandedKey key{scene::make_key("method.radius_texels",
+                                               "radius of the kernel [{unit}]", "",
+                                               scene::only(Stage::lookup), "texels"),
+                               scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels},
+                               2.0,
+                               {.values = {1.0, 1.5, 3.0, 4.0}}};
     return key;
 }
 const HandedKey& radius_m_key()
@@ -54,7 +56,9 @@ const HandedKey& weights_key()
         scene::make_key("method.weights",
                         "how much taps count: all the same, or falling from the middle", "",
                         scene::only(Stage::lookup)),
-        scene::WordDomain{.words = {"equal", "tent", "gaussian"}}, std::string{"equal"}};
+        scene::WordDomain{.words = {"equal", "tent", "gaussian"}},
+        std::string{"equal"},
+        {.values = {std::string{"tent"}, std::string{"gaussian"}}}};
     return key;
 }
 

@@ -31,7 +31,9 @@ const HandedKey& search_radius_key()
                         "radius in which blockers are looked for, and the largest of the mean "
                         "[{unit}]",
                         "", scene::only(Stage::lookup), "texels"),
-        scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels}, 8.0};
+        scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels},
+        8.0,
+        {.values = {2.0, 4.0, 16.0}}};
     return key;
 }
 const HandedKey& light_radius_key()
@@ -60,7 +62,9 @@ const HandedKey& biased_search_key()
             "method.biased_search",
             "takes the bias from the receiver's depth when blockers are looked for, too", "",
             scene::only(Stage::lookup)),
-        scene::FlagDomain{}, true};
+        scene::FlagDomain{},
+        true,
+        {.values = {false}}};
     return key;
 }
 

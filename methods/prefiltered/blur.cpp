@@ -20,7 +20,9 @@ const HandedKey& blur_kernel_key()
 {
     static const HandedKey key{scene::make_key("method.kernel", "weights of the blur's mean", "",
                                                scene::only(Stage::prefilter)),
-                               scene::WordDomain{.words = {"box", "gaussian"}}, std::string{"box"}};
+                               scene::WordDomain{.words = {"box", "gaussian"}},
+                               std::string{"box"},
+                               {.values = {std::string{"gaussian"}}}};
     return key;
 }
 const HandedKey& blur_width_key()
@@ -28,7 +30,9 @@ const HandedKey& blur_width_key()
     static const HandedKey key{scene::make_key("method.kernel_width",
                                                "{unit} across that the map is averaged over", "",
                                                scene::only(Stage::prefilter), "texels"),
-                               scene::IntegerDomain{1, 9, 2}, std::int64_t{5}};
+                               scene::IntegerDomain{1, 9, 2},
+                               std::int64_t{5},
+                               {.values = {std::int64_t{3}, std::int64_t{9}}}};
     return key;
 }
 const HandedKey& blur_samples_key()
@@ -37,7 +41,9 @@ const HandedKey& blur_samples_key()
         scene::make_key("method.samples",
                         "depths of each texel that the mean is of, at GL's places of so many", "",
                         scene::only(Stage::prefilter), "samples"),
-        scene::IntegerDomain{.lower = 1, .upper = 8, .is_power_of_two = true}, std::int64_t{1}};
+        scene::IntegerDomain{.lower = 1, .upper = 8, .is_power_of_two = true},
+        std::int64_t{1},
+        {.values = {std::int64_t{4}}}};
     return key;
 }
 const HandedKey& blur_mips_key()
@@ -46,7 +52,9 @@ const HandedKey& blur_mips_key()
                                                "averages over a pixel, by coarser levels of the "
                                                "blurred map",
                                                "", scene::only(Stage::prefilter)),
-                               scene::FlagDomain{}, false};
+                               scene::FlagDomain{},
+                               false,
+                               {.values = {true}}};
     return key;
 }
 const HandedKey& blur_anisotropy_key()
@@ -54,7 +62,9 @@ const HandedKey& blur_anisotropy_key()
     static const HandedKey key{scene::make_key("method.anisotropy",
                                                "most {unit} along a pixel's longer side", "",
                                                scene::only(Stage::lookup), "samples"),
-                               scene::IntegerDomain{1, 16}, std::int64_t{1}};
+                               scene::IntegerDomain{1, 16},
+                               std::int64_t{1},
+                               {.values = {std::int64_t{4}}}};
     return key;
 }
 
@@ -140,7 +150,9 @@ const HandedKey& bits_key()
     static const HandedKey key{
         scene::make_key("method.bits", "{unit} of each number that a texel stores", "",
                         scene::only(Stage::prefilter), "bits"),
-        scene::IntegerDomain{.lower = 16, .upper = 32, .is_power_of_two = true}, std::int64_t{32}};
+        scene::IntegerDomain{.lower = 16, .upper = 32, .is_power_of_two = true},
+        std::int64_t{32},
+        {.values = {std::int64_t{16}}}};
     return key;
 }
 
@@ -150,7 +162,9 @@ const HandedKey& reduction_key()
         scene::make_key("method.bleeding_reduction",
                         "verdicts up to this count as shadow, and the others are stretched", "",
                         scene::only(Stage::lookup)),
-        scene::RealDomain{.lower = 0, .upper = 0.99}, 0.0};
+        scene::RealDomain{.lower = 0, .upper = 0.99},
+        0.0,
+        {.values = {0.1, 0.3}}};
     return key;
 }
 

@@ -33,7 +33,9 @@ const HandedKey& compared_key()
                         "what of the two surfaces is compared: the middle between them, the "
                         "second, or the middle but no farther than largest_offset",
                         "", scene::only(Stage::prefilter)),
-        scene::WordDomain{.words = {"midpoint", "second", "dual"}}, std::string{"midpoint"}};
+        scene::WordDomain{.words = {"midpoint", "second", "dual"}},
+        std::string{"midpoint"},
+        {.values = {std::string{"second"}, std::string{"dual"}}}};
     return key;
 }
 const HandedKey& largest_offset_key()
@@ -42,7 +44,9 @@ const HandedKey& largest_offset_key()
         scene::make_key("method.largest_offset",
                         "of dual how far behind the first surface at most [{unit}]", "",
                         scene::only(Stage::prefilter), "depth units"),
-        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true}, 0.01};
+        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true},
+        0.01,
+        {.values = {0.001, 0.1}}};
     return key;
 }
 

@@ -23,10 +23,12 @@ constexpr auto volume_sources = std::to_array<Source>({
 
 const HandedKey& extrusion_key()
 {
-    static const HandedKey key{
-        scene::make_key("method.extrusion", "the edges that volumes have sides at", "",
-                        scene::only(Stage::lookup)),
-        scene::WordDomain{.words = {"silhouette", "triangle"}}, std::string{"silhouette"}};
+    static const HandedKey key{scene::make_key("method.extrusion",
+                                               "the edges that volumes have sides at", "",
+                                               scene::only(Stage::lookup)),
+                               scene::WordDomain{.words = {"silhouette", "triangle"}},
+                               std::string{"silhouette"},
+                               {.values = {std::string{"triangle"}}}};
     return key;
 }
 const HandedKey& casters_key()
@@ -34,7 +36,8 @@ const HandedKey& casters_key()
     static const HandedKey key{scene::make_key("method.casters", "the triangles that have volumes",
                                                "", scene::only(Stage::lookup)),
                                scene::WordDomain{.words = {"all", "facing_light"}},
-                               std::string{"all"}};
+                               std::string{"all"},
+                               {.values = {std::string{"facing_light"}}}};
     return key;
 }
 

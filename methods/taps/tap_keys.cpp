@@ -21,7 +21,9 @@ const HandedKey& pattern_key()
                         "how taps lie: in rows and columns, anywhere far from each other, or on a "
                         "spiral",
                         "", scene::only(Stage::lookup)),
-        scene::WordDomain{.words = {"grid", "poisson", "vogel"}}, std::string{"grid"}};
+        scene::WordDomain{.words = {"grid", "poisson", "vogel"}},
+        std::string{"grid"},
+        {.values = {std::string{"poisson"}, std::string{"vogel"}}}};
     return key;
 }
 
@@ -31,7 +33,8 @@ const HandedKey& taps_key()
         scene::make_key("method.taps", "{unit} of a kernel; of a grid 9, 25, 49 or 81", "",
                         scene::only(Stage::lookup), "taps"),
         scene::IntegerDomain{.lower = least_kernel_taps, .upper = most_kernel_taps},
-        std::int64_t{25}};
+        std::int64_t{25},
+        {.values = {std::int64_t{9}, std::int64_t{49}}}};
     return key;
 }
 
@@ -41,7 +44,9 @@ const HandedKey& turned_key()
         scene::make_key("method.turned",
                         "turns each pixel's kernel by an angle that a hash of the pixel gives", "",
                         scene::only(Stage::lookup)),
-        scene::FlagDomain{}, false};
+        scene::FlagDomain{},
+        false,
+        {.values = {true}}};
     return key;
 }
 

@@ -25,7 +25,8 @@ const HandedKey& content_key()
     static const HandedKey key{scene::make_key("method.content", "what the moments are stored as",
                                                "", scene::only(scene::Stage::prefilter)),
                                scene::WordDomain{.words = {"rg16", "rg16f", "rg32f"}},
-                               std::string{"rg32f"}};
+                               std::string{"rg32f"},
+                               {.values = {std::string{"rg16"}, std::string{"rg16f"}}}};
     return key;
 }
 
@@ -34,7 +35,9 @@ const HandedKey& variance_key()
     static const HandedKey key{
         scene::make_key("method.min_variance", "least variance of the depths [{unit}]", "",
                         scene::only(scene::Stage::lookup), "depth units squared"),
-        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true}, 1e-6};
+        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true},
+        1e-6,
+        {.values = {1e-7, 1e-5, 1e-4}}};
     return key;
 }
 

@@ -108,6 +108,15 @@ store::Json view_json(const std::string& name, const scene::CameraSettings& came
               {"target", vector_or_null(light.target)}}}};
 }
 
+store::Json methods_passed_over_json(const std::vector<analysis::PassedOverMethod>& passed_over)
+{
+    store::Json json = store::Json::array();
+    for (const analysis::PassedOverMethod& method : passed_over) {
+        json.push_back({{"name", method.method}, {"reason", method.reason}});
+    }
+    return json;
+}
+
 void add_advice(store::Json& json, const analysis::Comparison& comparison)
 {
     json["remedies"] = store::Json::array();
@@ -117,6 +126,9 @@ void add_advice(store::Json& json, const analysis::Comparison& comparison)
     json["advice"] = comparison.advice.empty() ? store::Json(nullptr) : store::Json::array();
     for (const analysis::Remedy& remedy : comparison.advice) {
         json["advice"].push_back(advice_json(remedy));
+    }
+    if (comparison.methods_passed_over) {
+        json["methods_passed_over"] = methods_passed_over_json(*comparison.methods_passed_over);
     }
     const analysis::AdviceViews& views = comparison.advice_views;
     json["views"] = views.views.empty() ? store::Json(nullptr) : store::Json::array();

@@ -5,12 +5,17 @@
 #include "store/json_values.hpp"
 
 #include <string>
+#include <vector>
 
 namespace gnomon::reports {
 
 /// Adds `remedies`, `advice`, `views` and `views_passed_over` (docs/json_schema.md).
 /// @param comparison  with a diagnosis.
 void add_advice(store::Json& json, const analysis::Comparison& comparison);
+
+/// Which methods a search passed over, and why.
+[[nodiscard]] store::Json
+methods_passed_over_json(const std::vector<analysis::PassedOverMethod>& passed_over);
 
 /// What a setting gives in a view: counts and their rates, amounts, softening, and the rate of the
 /// amounts without softening. Rates without a denominator are null.

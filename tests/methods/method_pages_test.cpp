@@ -137,23 +137,74 @@ std::string with_block(std::string page, std::string_view file, const Block& blo
     return page.replace(from, end - from, fmt::format("\n{}\n", block.text));
 }
 
+/// Holds a page to its blocks, or writes them.
+void expect_blocks(std::string_view page, const std::vector<Block>& blocks)
+{
+    const std::string file = fmt::format("{}/{}", GNOMON_ROOT, page);
+    std::ostringstream written;
+    written << std::ifstream{file}.rdbuf();
+    std::string expected = written.str();
+    for (const Block& block : blocks) {
+        expected = with_block(std::move(expected), page, block);
+    }
+    if (std::getenv("GNOMON_UPDATE_DOCUMENTS") != nullptr) {
+        std::ofstream{file} << expected;
+        return;
+    }
+    EXPECT_EQ(written.str(), expected)
+        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R methods_tests writes them anew";
+}
+
 TEST(MethodPages, HaveTheTablesOfTheLayer)
 {
     for (const Method& method : methods()) {
-        const std::string file = fmt::format("{}/{}", GNOMON_ROOT, method.page);
-        std::ostringstream written;
-        written << std::ifstream{file}.rdbuf();
-        std::string expected = written.str();
-        for (const Block& block : blocks_of(method)) {
-            expected = with_block(std::move(expected), method.page, block);
-        }
-        if (std::getenv("GNOMON_UPDATE_DOCUMENTS") != nullptr) {
-            std::ofstream{file} << expected;
-            continue;
-        }
-        EXPECT_EQ(written.str(), expected)
-            << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R methods_tests writes them anew";
+        expect_blocks(method.page, blocks_of(method));
     }
+}
+
+std::string_view words_of(scene::TriedUnit unit)
+{
+    switch (unit) {
+    case scene::TriedUnit::of_key:
+        return "";
+    case scene::TriedUnit::scene_diagonals:
+        return " of the scene's diagonal";
+    case scene::TriedUnit::texel_widths:
+        return " of a texel's width at the median receiver";
+    }
+    return {};
+}
+
+/// "all with bias terms" of a key that every one of them has.
+std::string methods_with(const scene::HandedKey& key)
+{
+    const auto has_terms = [](const Method& method) { return !method.bias_terms.empty(); };
+    return key.key.name.starts_with("bias.") &&
+                   std::ssize(key.methods) == std::ranges::count_if(methods(), has_terms)
+               ? "all with bias terms"
+               : fmt::format("`{}`", fmt::join(key.methods, "`, `"));
+}
+
+std::string tried_values_table()
+{
+    std::string text = "| key | of | default | tried beside it |\n|---|---|---|---|\n";
+    for (const scene::HandedKey& key : scene::handed_keys()) {
+        std::vector<std::string> values;
+        for (const scene::JobValue& value : key.tried.values) {
+            values.push_back(fmt::format("`{}`", scene::to_toml(value)));
+        }
+        if (!values.empty()) {
+            text += fmt::format("| `{}` | {} | `{}` | {}{} |\n", key.key.name, methods_with(key),
+                                key.row().default_text, fmt::join(values, ", "),
+                                words_of(key.tried.unit));
+        }
+    }
+    return text;
+}
+
+TEST(TunePage, HasTheValuesThatKeysName)
+{
+    expect_blocks("docs/tune.md", {{"tried values", tried_values_table()}});
 }
 
 } // namespace

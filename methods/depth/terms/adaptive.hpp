@@ -19,7 +19,9 @@ inline std::vector<scene::HandedKey> own_adaptive_bias_keys()
     return {{scene::make_key("bias.adaptive_m",
                              "adaptive bias, and the length [{unit}] that it adds; 0: none", "",
                              scene::only(scene::Stage::lookup), "m"),
-             scene::RealDomain{.lower = 0, .upper = 1e6, .normal_float = true}, 0.0}};
+             scene::RealDomain{.lower = 0, .upper = 1e6, .normal_float = true},
+             0.0,
+             {.values = {1e-4, 1e-3}, .unit = scene::TriedUnit::scene_diagonals}}};
 }
 
 inline constexpr std::string_view adaptive_bias_glsl =

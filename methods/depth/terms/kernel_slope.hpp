@@ -21,7 +21,9 @@ inline std::vector<scene::HandedKey> own_kernel_slope_keys()
                              "slope bias in {unit}: of 1 what the receiver's plane rises from the "
                              "middle of the filter's kernel to its corner",
                              "", scene::only(scene::Stage::lookup), "kernels"),
-             scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true}, 0.0}};
+             scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true},
+             0.0,
+             {.values = {0.5, 1.0}}}};
 }
 
 inline constexpr std::string_view kernel_slope_glsl = R"(uniform float kernel_slope_factor;

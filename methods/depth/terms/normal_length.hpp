@@ -21,7 +21,9 @@ inline std::vector<scene::HandedKey> own_normal_length_keys()
                              "moves the lookup along the normal [{unit}], beside "
                              "normal_texels",
                              "", scene::only(scene::Stage::lookup), "m"),
-             scene::RealDomain{.lower = -1e6, .upper = 1e6, .normal_float = true}, 0.0},
+             scene::RealDomain{.lower = -1e6, .upper = 1e6, .normal_float = true},
+             0.0,
+             {.values = {1.0}, .unit = scene::TriedUnit::texel_widths}},
             offset_normal_row()};
 }
 

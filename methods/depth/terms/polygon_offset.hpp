@@ -25,12 +25,16 @@ inline std::vector<scene::HandedKey> own_polygon_offset_keys()
                              "polygon offset of the casters, times the largest change of their "
                              "depth per texel",
                              "", stage),
-             numbers, 0.0},
+             numbers,
+             0.0,
+             {.values = {1.0, 2.0}}},
             {scene::make_key("bias.polygon_offset_units",
                              "polygon offset of the casters [{unit}], the smallest difference of "
                              "depths that the driver resolves",
                              "", stage, "r"),
-             numbers, 0.0},
+             numbers,
+             0.0,
+             {.values = {1.0}}},
             {scene::make_key("bias.polygon_offset_clamp",
                              "what the polygon offset is limited to, {unit}; 0: nothing", "", stage,
                              "depth units"),

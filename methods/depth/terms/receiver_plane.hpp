@@ -27,12 +27,16 @@ inline std::vector<scene::HandedKey> own_receiver_plane_keys()
                              "compares each tap with the receiver's plane at the texel's centre: "
                              "analytic by its normal, derivatives by the neighbouring pixels",
                              "", stage),
-             scene::WordDomain{.words = {"off", "analytic", "derivatives"}}, std::string{"off"}},
+             scene::WordDomain{.words = {"off", "analytic", "derivatives"}},
+             std::string{"off"},
+             {.values = {std::string{"analytic"}, std::string{"derivatives"}}}},
             {scene::make_key("bias.receiver_plane_clamp",
                              "what the plane may rise over two texels each way, {unit}; where it "
                              "rises more, it is made flatter; 0: no limit",
                              "", stage, "depth units"),
-             scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true}, 0.0}};
+             scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true},
+             0.0,
+             {.values = {0.01}}}};
 }
 
 /// "off", "analytic" or "derivatives".

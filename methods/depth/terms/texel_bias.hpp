@@ -19,7 +19,9 @@ inline std::vector<scene::HandedKey> own_texel_bias_keys()
                              "moves the receiver towards the light, beside the constant bias "
                              "[{unit}]",
                              "", scene::only(scene::Stage::lookup), "texel widths"),
-             scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true}, 0.0}};
+             scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true},
+             0.0,
+             {.values = {0.5, 1.0}}}};
 }
 
 inline constexpr std::string_view texel_bias_glsl =

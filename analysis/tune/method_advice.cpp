@@ -1,0 +1,83 @@
+#include "analysis/tune/method_advice.hpp"
+
+#include "analysis/advice/advise.hpp"
+#include "analysis/bias/bias_units.hpp"
+#include "scene/job/handed_key.hpp"
+#include "scene/view/view.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::Job;
+
+namespace {
+
+/// What a job file with the job's keys must lose for the method to take it: keys, and tables.
+std::vector<std::string> keys_to_remove(const Job& job, const std::string& method)
+{
+    std::vector<std::string> removed;
+    for (const std::string_view table : {"shadow_map", "lookup", "bias"}) {
+        if (!scene::has_key(method, fmt::format("{}.", table))) {
+            removed.push_back(fmt::format("[{}]", table));
+        }
+    }
+    const bool reads_lookup = scene::has_key(method, "lookup.outside");
+    if (reads_lookup && scene::has_filters(job.method.name) && !scene::has_filters(method)) {
+        removed.emplace_back("lookup.filter");
+    }
+    for (const auto& [key, value] : job.method.values) {
+        const bool is_of_lost_table = key.starts_with("bias.") && !scene::has_key(method, "bias.");
+        if (!scene::has_any_key(method, key) && !is_of_lost_table) {
+            removed.push_back(key);
+        }
+    }
+    return removed;
+}
+
+/// What changes; that the method does, in any case.
+std::vector<std::string> remedy_keys_of(const Job& job, const Job& tuned)
+{
+    std::vector<std::string> keys = changed_keys(job, tuned);
+    const std::vector<std::string> removed = keys_to_remove(job, tuned.method.name);
+    if (!removed.empty()) {
+        keys.front() += fmt::format(" # and remove {}", fmt::join(removed, ", "));
+    }
+    return keys;
+}
+
+} // namespace
+
+void advise_methods(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+                    const Renderers& renderers, const MethodRequest& request,
+                    const MethodProgress& progress)
+{
+    const Job& job = comparison.job;
+    TuneResult found = tune_methods(job, file, renderers, views, no_limits(), request, progress);
+    for (const TunedMethod& method : found.methods->ranked) {
+        const Job tuned = tuned_job(job, method.best);
+        const scene::View view = scene::resolve_view(with_view_of(tuned, views.own().view.job),
+                                                     file.scene, file.defaults);
+        std::optional<BiasLength> bias;
+        if (scene::has_key(method.name, "bias.constant")) {
+            const BiasLengths lengths{view.first_map(), tuned.shadow_map.resolution_texels,
+                                      views.own().median_light_distance_m};
+            bias = lengths.of(method.best.bias.constant());
+        }
+        std::vector<std::string> keys = remedy_keys_of(job, tuned);
+        if (keys.empty()) {
+            continue; // the job as it is
+        }
+        const ViewOutcome& own = method.measured.front();
+        comparison.advice.push_back({std::move(keys), outcome_of(own), own.metrics.error_rate,
+                                     method.best.cost, MeasuredBy::rerun, bias, method.measured});
+    }
+    comparison.methods_passed_over = std::move(found.methods->passed_over);
+}
+
+} // namespace gnomon::analysis

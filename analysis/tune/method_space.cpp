@@ -1,0 +1,359 @@
+#include "analysis/tune/method_space.hpp"
+
+#include "analysis/tune/tune_space.hpp"
+#include "methods/list.hpp"
+#include "scene/view/view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::DepthFormat;
+using scene::HandedKey;
+using scene::Job;
+using scene::JobValue;
+
+namespace {
+
+constexpr int resolution_step_texels = 16;
+/// Slopes that `slopes` names at most: 0, the job's own, and five.
+constexpr std::size_t most_slopes = 7;
+
+std::vector<DepthFormat> method_formats(const Job& job)
+{
+    using Kind = DepthFormat::Kind;
+    std::vector<DepthFormat> formats{job.shadow_map.depth_format};
+    for (const DepthFormat format :
+         {scene::float_depth_format, DepthFormat{Kind::d24, 24}, DepthFormat{Kind::d16, 16}}) {
+        if (format != formats.front()) {
+            formats.push_back(format);
+        }
+    }
+    return formats;
+}
+
+Job with_resolution(Job job, int resolution_texels)
+{
+    job.shadow_map.resolution_texels = resolution_texels;
+    return job;
+}
+
+/// With few digits, as people type it.
+double typed(double number)
+{
+    return std::stod(fmt::format("{:.2g}", number));
+}
+
+/// What a handed key has in the setting.
+const JobValue& value_in_setting(const HandedKey& key, const TunedSetting& setting)
+{
+    const auto& values = setting.method->values;
+    const auto found = values.find(key.key.name);
+    return found == values.end() ? key.default_value : found->second;
+}
+
+bool is_handed_of(const HandedKey& key, std::string_view table, std::string_view method)
+{
+    return key.is_of(method) && key.key.name.starts_with(fmt::format("{}.", table));
+}
+
+/// What the job has of the method's keys, and of those of its bias terms.
+scene::MethodSettings own_method_settings(const Job& job, const std::string& method)
+{
+    scene::MethodSettings own{method, {}};
+    for (const auto& [key, value] : job.method.values) {
+        if (scene::has_any_key(method, key)) {
+            own.values.emplace(key, value);
+        }
+    }
+    return own;
+}
+
+} // namespace
+
+int largest_resolution(const Job& job, const MapBudget& budget)
+{
+    const auto bytes = [&](int texels) {
+        return methods::promises(with_resolution(job, texels)).map_bytes;
+    };
+    const int own = job.shadow_map.resolution_texels;
+    if (!methods::promises(job).has_map) {
+        return own;
+    }
+    const auto fits = [&](int texels) {
+        return texels <= budget.max_resolution_texels && bytes(texels) <= budget.max_bytes;
+    };
+    int low = 0;                                                          // in steps; fits
+    int high = budget.max_resolution_texels / resolution_step_texels + 1; // fits not
+    while (high - low > 1) {
+        const int middle = low + (high - low) / 2;
+        (fits(middle * resolution_step_texels) ? low : high) = middle;
+    }
+    int largest = low * resolution_step_texels;
+    if (job.shadow_map.cascades.fit == scene::CascadeFit::stabilised &&
+        scene::map_layout(job) == scene::MapLayout::cascades) {
+        largest = static_cast<int>(std::bit_floor(static_cast<unsigned>(largest)));
+    }
+    return own > largest && fits(own) ? own : largest;
+}
+
+std::vector<JobValue> tried_values(const HandedKey& key, double diagonal_m, double texel_width_m)
+{
+    const scene::TriedValues& tried = key.tried;
+    std::vector<JobValue> values{key.default_value};
+    for (const JobValue& value : tried.values) {
+        const auto* const number = std::get_if<double>(&value);
+        if (number == nullptr || tried.unit == scene::TriedUnit::of_key) {
+            values.push_back(value);
+        } else {
+            const double unit_m =
+                tried.unit == scene::TriedUnit::scene_diagonals ? diagonal_m : texel_width_m;
+            values.emplace_back(typed(*number * unit_m));
+        }
+    }
+    return values;
+}
+
+MethodSpace::MethodSpace(const Job& job, const std::string& method, const scene::SceneFile& file,
+                         const JudgedViews& views, const MapBudget& budget)
+    : job_{job},
+      method_{method},
+      file_{file},
+      views_{views},
+      budget_{budget}
+{
+    add_map_axes();
+    add_handed_axes("method");
+    add_lookup_axes();
+    add_handed_axes("bias");
+    add_culls();
+}
+
+bool MethodSpace::has(std::string_view key) const
+{
+    return scene::has_key(method_, key);
+}
+
+void MethodSpace::add_map_axes()
+{
+    if (!has("shadow_map.resolution")) {
+        return;
+    }
+    const std::vector<DepthFormat> formats = method_formats(job_);
+    axes_.push_back({[formats](const TunedSetting& from) {
+                         std::vector<TunedSetting> others;
+                         for (const DepthFormat format : formats) {
+                             if (format != from.map.depth_format) {
+                                 others.push_back(from);
+                                 others.back().map.depth_format = format;
+                             }
+                         }
+                         return others;
+                     },
+                     formats.size() - 1});
+    const std::vector<MapShape> shapes = distinct_shapes(job_, file_, views_);
+    axes_.push_back({[shapes](const TunedSetting& from) {
+                         std::vector<TunedSetting> others;
+                         for (const MapShape& shape : shapes) {
+                             others.push_back(from);
+                             others.back().map.frustum = shape.frustum;
+                             others.back().map.cascades = shape.cascades;
+                             others.back().map.cascades.count = from.map.cascades.count;
+                         }
+                         return others;
+                     },
+                     shapes.size()});
+    if (scene::map_layout(scene::with_layout(job_, file_.defaults)) == scene::MapLayout::cascades) {
+        const std::set<int> counts{2, 3, 4, job_.shadow_map.cascades.count};
+        axes_.push_back({[counts](const TunedSetting& from) {
+                             std::vector<TunedSetting> others;
+                             for (const int count : counts) {
+                                 if (count != from.map.cascades.count) {
+                                     others.push_back(from);
+                                     others.back().map.cascades.count = count;
+                                 }
+                             }
+                             return others;
+                         },
+                         counts.size() - 1});
+    }
+}
+
+void MethodSpace::add_lookup_axes()
+{
+    const auto filters = methods::find_method(method_)->filters;
+    if (!filters.empty()) {
+        axes_.push_back({[filters](const TunedSetting& from) {
+                             std::vector<TunedSetting> others;
+                             for (const methods::FilterChoice& choice : filters) {
+                                 if (choice.filter != from.filter) {
+                                     others.push_back(from);
+                                     others.back().filter = choice.filter;
+                                 }
+                             }
+                             return others;
+                         },
+                         filters.size() - 1});
+    }
+    if (!has("bias.constant")) {
+        return;
+    }
+    const std::set<double> offsets{0, 1, 2, job_.bias.normal_texels};
+    axes_.push_back({[offsets](const TunedSetting& from) {
+                         std::vector<TunedSetting> others;
+                         for (const double texels : offsets) {
+                             if (texels != from.normal_texels) {
+                                 others.push_back(from);
+                                 others.back().normal_texels = texels;
+                             }
+                         }
+                         return others;
+                     },
+                     offsets.size() - 1});
+    axes_.push_back({[this](const TunedSetting& from) {
+                         std::vector<TunedSetting> others;
+                         for (const double slope :
+                              slopes(tuned_job(job_, from), from.filter, first_map(from),
+                                     from.map.resolution_texels)) {
+                             if (slope != from.slope) {
+                                 others.push_back(from);
+                                 others.back().slope = slope;
+                             }
+                         }
+                         return others;
+                     },
+                     most_slopes});
+}
+
+void MethodSpace::add_handed_axes(std::string_view table)
+{
+    for (const HandedKey& key : scene::handed_keys()) {
+        if (!is_handed_of(key, table, method_) || key.tried.values.empty()) {
+            continue;
+        }
+        axes_.push_back({[this, &key](const TunedSetting& from) {
+                             std::vector<TunedSetting> others;
+                             for (const JobValue& value : values_of(key, from)) {
+                                 if (value != value_in_setting(key, from)) {
+                                     others.push_back(from);
+                                     set_key(*others.back().method, key, value);
+                                 }
+                             }
+                             return others;
+                         },
+                         key.tried.values.size() + 1});
+    }
+}
+
+void MethodSpace::add_culls()
+{
+    if (!has("shadow_map.cull")) {
+        return;
+    }
+    axes_.push_back({[](const TunedSetting& from) {
+                         std::vector<TunedSetting> others;
+                         for (const scene::Cull cull :
+                              {scene::Cull::none, scene::Cull::front, scene::Cull::back}) {
+                             if (cull != from.map.cull) {
+                                 others.push_back(from);
+                                 others.back().map.cull = cull;
+                             }
+                         }
+                         return others;
+                     },
+                     2});
+}
+
+/// A default is not written out where the job says nothing of the key.
+void MethodSpace::set_key(scene::MethodSettings& method, const HandedKey& key,
+                          const JobValue& value) const
+{
+    if (value == key.default_value && !job_.method.values.contains(key.key.name)) {
+        method.values.erase(key.key.name);
+    } else {
+        method.values[key.key.name] = value;
+    }
+}
+
+scene::LightFrustum MethodSpace::first_map(const TunedSetting& setting) const
+{
+    const Job seen = with_view_of(tuned_job(job_, setting), views_.own().view.job);
+    return scene::resolve_view(seen, file_.scene, file_.defaults).first_map();
+}
+
+std::vector<JobValue> MethodSpace::values_of(const HandedKey& key, const TunedSetting& from) const
+{
+    const bool counts_texels = key.tried.unit == scene::TriedUnit::texel_widths;
+    const double texel_width_m =
+        counts_texels ? first_map(from).texel_width_m(views_.own().median_light_distance_m,
+                                                      from.map.resolution_texels)
+                      : 0;
+    return tried_values(key, file_.scene.bounds().diagonal_m(), texel_width_m);
+}
+
+TunedSetting MethodSpace::fitted(TunedSetting setting) const
+{
+    setting.bias = {};
+    // The job's own side is larger than others of the same bytes where that is no multiple of 16.
+    setting.map.resolution_texels = job_.shadow_map.resolution_texels;
+    setting.map.resolution_texels = largest_resolution(tuned_job(job_, setting), budget_);
+    setting.cost = lookup_cost(tuned_job(job_, setting));
+    return setting;
+}
+
+std::vector<TunedSetting> MethodSpace::starts() const
+{
+    TunedSetting own{job_.shadow_map, job_.lookup.filter, 0, 0, {}, {}, {}};
+    own.map.layout = scene::map_layout(scene::with_layout(job_, file_.defaults));
+    own.has_filter = !methods::find_method(method_)->filters.empty();
+    own.method = own_method_settings(job_, method_);
+    if (has("bias.constant")) {
+        own.slope = job_.bias.slope;
+        own.normal_texels = job_.bias.normal_texels;
+    }
+    TunedSetting unbiased = own;
+    unbiased.slope = 0;
+    unbiased.normal_texels = 0;
+    for (const HandedKey& key : scene::handed_keys()) {
+        if (is_handed_of(key, "bias", method_)) {
+            set_key(*unbiased.method, key, key.default_value);
+        }
+    }
+    std::vector<TunedSetting> starts;
+    for (const TunedSetting& with_biases : {own, unbiased}) {
+        for (const scene::Cull cull : {own.map.cull, scene::Cull::none}) {
+            for (const DepthFormat format : method_formats(job_)) {
+                TunedSetting start = with_biases;
+                start.map.cull = cull;
+                start.map.depth_format = format;
+                starts.push_back(fitted(std::move(start)));
+            }
+        }
+    }
+    return starts;
+}
+
+std::vector<TunedSetting> MethodSpace::along(std::size_t axis, const TunedSetting& from) const
+{
+    std::vector<TunedSetting> others = axes_[axis].others(from);
+    std::ranges::transform(others, others.begin(),
+                           [&](TunedSetting& other) { return fitted(std::move(other)); });
+    return others;
+}
+
+std::size_t MethodSpace::most_settings(std::size_t rounds) const
+{
+    std::size_t values = 0;
+    for (const Axis& axis : axes_) {
+        values += axis.most;
+    }
+    return 1 + rounds * values;
+}
+
+} // namespace gnomon::analysis

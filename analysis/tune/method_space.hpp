@@ -1,0 +1,80 @@
+#pragma once
+
+#include "analysis/advice/judged_views.hpp"
+#include "analysis/tune/tune.hpp"
+#include "scene/import/scene_file.hpp"
+#include "scene/job/handed_key.hpp"
+#include "scene/job/job.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// What maps may take, whatever the method.
+struct MapBudget {
+    std::uint64_t max_bytes = 0; ///< of all maps of the light together
+    int max_resolution_texels = 4096;
+};
+
+/// The largest side with which the job's maps take no more than the budget: a multiple of 16, a
+/// power of two for stabilised cascades, or the job's own where that is larger and fits.
+/// @return  [texels]; 0 if none fits; the job's own where its method has no map.
+[[nodiscard]] int largest_resolution(const scene::Job& job, const MapBudget& budget);
+
+/// What a search tries of a key: its default, and the values that its row names, in the key's unit.
+/// @param diagonal_m, texel_width_m  Lengths that a row may count in [m]; > 0.
+[[nodiscard]] std::vector<scene::JobValue> tried_values(const scene::HandedKey& key,
+                                                        double diagonal_m, double texel_width_m);
+
+/// The settings of one method that a search tries: along axes, each a list of values of one key, or
+/// of keys that belong together. Which there are follows from the keys that the method has, and
+/// from what their rows name. Maps are as large as the budget allows.
+class MethodSpace {
+public:
+    /// All but `method` must outlive it.
+    /// @param method  A name of the list.
+    MethodSpace(const scene::Job& job, const std::string& method, const scene::SceneFile& file,
+                const JudgedViews& views, const MapBudget& budget);
+    MethodSpace(const MethodSpace&) = delete; // axes refer to it
+    MethodSpace& operator=(const MethodSpace&) = delete;
+    ~MethodSpace() = default;
+
+    /// Where the search can begin, the first first: with the job's own settings as far as the
+    /// method has them; with other formats and without culling; without the job's bias terms.
+    [[nodiscard]] std::vector<TunedSetting> starts() const;
+    [[nodiscard]] std::size_t axis_count() const { return axes_.size(); }
+    /// The setting with each other value of an axis.
+    [[nodiscard]] std::vector<TunedSetting> along(std::size_t axis, const TunedSetting& from) const;
+    /// How many settings a search tries that goes along every axis so many times.
+    [[nodiscard]] std::size_t most_settings(std::size_t rounds) const;
+
+private:
+    struct Axis {
+        std::function<std::vector<TunedSetting>(const TunedSetting&)> others;
+        std::size_t most = 0; ///< how many
+    };
+    [[nodiscard]] bool has(std::string_view key) const;
+    void add_map_axes();
+    void add_lookup_axes();
+    void add_handed_axes(std::string_view table);
+    void add_culls();
+    void set_key(scene::MethodSettings& method, const scene::HandedKey& key,
+                 const scene::JobValue& value) const;
+    [[nodiscard]] TunedSetting fitted(TunedSetting setting) const;
+    [[nodiscard]] std::vector<scene::JobValue> values_of(const scene::HandedKey& key,
+                                                         const TunedSetting& from) const;
+    [[nodiscard]] scene::LightFrustum first_map(const TunedSetting& setting) const;
+
+    const scene::Job& job_;
+    std::string method_;
+    const scene::SceneFile& file_;
+    const JudgedViews& views_;
+    MapBudget budget_;
+    std::vector<Axis> axes_;
+};
+
+} // namespace gnomon::analysis

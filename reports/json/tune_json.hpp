@@ -1,0 +1,14 @@
+#pragma once
+
+#include "reports/words/tuned_setting.hpp"
+
+#include <span>
+#include <string>
+
+namespace gnomon::reports {
+
+/// What a search has found, as one JSON object; docs/tune.md names its members.
+[[nodiscard]] std::string tune_json(std::span<const TunedLight> lights,
+                                    const analysis::TuneLimits& limits);
+
+} // namespace gnomon::reports

@@ -1,0 +1,217 @@
+#include "reports/words/tuned_setting.hpp"
+
+#include "analysis/advice/fit_setting.hpp"
+#include "methods/list.hpp"
+#include "reports/words/text.hpp"
+#include "scene/job/handed_key.hpp"
+
+#include <fmt/format.h>
+
+namespace gnomon::reports {
+
+using analysis::TunedSetting;
+using analysis::TuneResult;
+using analysis::ViewOutcome;
+
+namespace {
+
+std::string plane_text(const std::optional<double>& plane_m)
+{
+    return plane_m ? fmt::format("{}", *plane_m) : "\"auto\"";
+}
+
+/// "constant = 0.002" of "bias.constant = 0.002".
+std::string bare_name(const std::string& key)
+{
+    return key.substr(key.find('.') + 1);
+}
+
+} // namespace
+
+bool has_cascades(const TunedSetting& setting)
+{
+    return setting.map.layout == scene::MapLayout::cascades;
+}
+
+bool has_key(const TunedSetting& setting, std::string_view key)
+{
+    return !setting.method || scene::has_key(setting.method->name, key);
+}
+
+std::vector<std::pair<std::string, scene::JobValue>> method_keys(const TunedSetting& setting)
+{
+    std::vector<std::pair<std::string, scene::JobValue>> keys;
+    if (!setting.method) {
+        return keys;
+    }
+    scene::Job job;
+    job.method = *setting.method;
+    for (const scene::HandedKey& key : scene::handed_keys()) {
+        const bool is_set = job.method.values.contains(key.key.name);
+        if (key.is_of(job.method.name) && (is_set || key.key.name.starts_with("method."))) {
+            keys.emplace_back(key.key.name, key.value_of(job));
+        }
+    }
+    return keys;
+}
+
+std::string shape_text(const TunedSetting& setting)
+{
+    if (!has_cascades(setting)) {
+        return std::string{scene::fit_name(setting.map.frustum.fit)};
+    }
+    const scene::CascadeSettings& cascades = setting.map.cascades;
+    return fmt::format("{} {}, {}", cascades.count, scene::cascade_fit_name(cascades.fit),
+                       cascades.split == scene::CascadeSplit::practical
+                           ? fmt::format("{}", cascades.split_lambda)
+                           : std::string{scene::cascade_split_name(cascades.split)});
+}
+
+namespace {
+
+/// Its lines in a job file: `fit`, or those of cascades.
+std::string shape_toml(const TunedSetting& setting, scene::Fit own_fit)
+{
+    if (!has_cascades(setting)) {
+        return analysis::fit_setting(own_fit, setting.map.frustum.fit);
+    }
+    const scene::CascadeSettings& cascades = setting.map.cascades;
+    const std::string lambda = cascades.split == scene::CascadeSplit::practical
+                                   ? fmt::format("split_lambda = {}\n", cascades.split_lambda)
+                                   : std::string{};
+    return fmt::format(
+        "layout = \"cascades\"\ncascades = {}\nsplit = \"{}\"\n{}cascade_fit = \"{}\"",
+        cascades.count, scene::cascade_split_name(cascades.split), lambda,
+        scene::cascade_fit_name(cascades.fit));
+}
+
+} // namespace
+
+std::string_view filter_text(const TunedSetting& setting)
+{
+    return setting.has_filter ? scene::filter_name(setting.filter) : "–";
+}
+
+std::string map_name(const TunedSetting& setting)
+{
+    if (!has_key(setting, "shadow_map.")) {
+        return "no map";
+    }
+    return fmt::format("{} {}", setting.map.resolution_texels,
+                       scene::depth_format_name(setting.map.depth_format));
+}
+
+std::vector<std::string> hopeless_maps(const TuneResult& result)
+{
+    std::vector<std::string> names;
+    for (const analysis::MapSize& size : result.hopeless) {
+        const std::string maps =
+            size.cascades > 0 ? fmt::format("{} × ", size.cascades) : std::string{};
+        names.push_back(fmt::format("{}{} {}", maps, size.resolution_texels,
+                                    scene::depth_format_name(size.format)));
+    }
+    return names;
+}
+
+std::optional<methods::PolygonOffset> map_offset(const TuneResult& result)
+{
+    return methods::map_offset(result.measured.job, result.measured.view);
+}
+
+namespace {
+
+/// The lines of [method]; empty: the job's own.
+std::string method_toml(const TunedSetting& setting, std::string_view table)
+{
+    if (!setting.method) {
+        return {};
+    }
+    std::string text = fmt::format("[{}method]\nname = \"{}\"\n", table, setting.method->name);
+    for (const auto& [key, value] : method_keys(setting)) {
+        if (key.starts_with("method.")) {
+            text += fmt::format("{} = {}\n", bare_name(key), scene::to_toml(value));
+        }
+    }
+    for (const std::string_view shared : {"shadow_map", "lookup", "bias"}) {
+        if (!has_key(setting, fmt::format("{}.", shared))) {
+            text += fmt::format("# and remove [{}{}]\n", table, shared);
+        }
+    }
+    if (has_key(setting, "lookup.") && !setting.has_filter) {
+        text += fmt::format("# and remove filter from [{}lookup]\n", table);
+    }
+    return text;
+}
+
+std::string map_toml(const TunedSetting& setting, std::string_view table, scene::Fit own_fit)
+{
+    return fmt::format("[{}shadow_map]\n"
+                       "resolution = {}\n"
+                       "depth_format = \"{}\"\n"
+                       "{}\n"
+                       "near = {}\n"
+                       "far = {}\n"
+                       "cull = \"{}\"\n",
+                       table, setting.map.resolution_texels,
+                       scene::depth_format_name(setting.map.depth_format),
+                       shape_toml(setting, own_fit), plane_text(setting.map.frustum.near_m),
+                       plane_text(setting.map.frustum.far_m), scene::cull_name(setting.map.cull));
+}
+
+std::string bias_toml(const TunedSetting& setting, std::string_view table)
+{
+    std::string text = fmt::format("[{}bias]\n"
+                                   "{}\n"
+                                   "slope = {}\n"
+                                   "normal_texels = {}\n",
+                                   table, bare_name(setting.bias.pasted.key), setting.slope,
+                                   setting.normal_texels);
+    for (const auto& [key, value] : method_keys(setting)) {
+        if (key.starts_with("bias.")) {
+            text += fmt::format("{} = {}\n", bare_name(key), scene::to_toml(value));
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit, const std::string& light)
+{
+    const std::string_view table = light.empty() ? "" : "lights.";
+    std::string text = light.empty() ? "" : fmt::format("# [[lights]] {}\n", light);
+    text += method_toml(setting, table);
+    if (has_key(setting, "shadow_map.")) {
+        text += map_toml(setting, table, own_fit);
+    }
+    if (setting.has_filter) {
+        text +=
+            fmt::format("[{}lookup]\nfilter = \"{}\"\n", table, scene::filter_name(setting.filter));
+    }
+    if (has_key(setting, "bias.")) {
+        text += bias_toml(setting, table);
+    }
+    return text;
+}
+
+std::string tuned_setting_line(const TunedSetting& setting)
+{
+    const ViewOutcome pooled = setting.pooled();
+    const std::string method =
+        setting.method ? fmt::format("{}, ", setting.method->name) : std::string{};
+    return fmt::format("{}{}, {} {}, cull {}, {}, slope {:.4g}, offset {:.3g}: false shadow {}, "
+                       "false lit {}{}",
+                       method, map_name(setting), has_cascades(setting) ? "cascades" : "fit",
+                       shape_text(setting), scene::cull_name(setting.map.cull),
+                       filter_text(setting), setting.slope, setting.normal_texels,
+                       percent(pooled.shadow_rate()), percent(pooled.light_rate()),
+                       setting.meets_limits() ? ", meets the limits" : "");
+}
+
+std::string best_toml(const TunedLight& tuned)
+{
+    const TuneResult& result = tuned.result;
+    return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit, tuned.light);
+}
+
+} // namespace gnomon::reports

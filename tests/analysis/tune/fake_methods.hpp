@@ -1,0 +1,74 @@
+#pragma once
+
+#include "analysis/advice/judged_views.hpp"
+#include "scene/error.hpp"
+#include "scene/job/file.hpp"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace gnomon::analysis {
+
+/// Before a sheet, 4 × 2 pixels: seven lit, and the last one blocked.
+inline scene::Job job_of_sheet()
+{
+    scene::Job job;
+    job.scene.file = "sheet.obj";
+    job.image = {4, 2};
+    job.camera = scene::CameraSettings{};
+    return job;
+}
+
+/// How many of the lit pixels a lookup of the job shadows; it may refuse the job.
+using WrongPixels = std::function<std::size_t(const scene::Job&)>;
+
+/// A scene, and renderers without GL and Embree whose lookups are wrong as they are told to be.
+struct FakeWorld {
+    scene::SceneFile file = sheet();
+    WrongPixels wrong = [](const scene::Job&) { return std::size_t{0}; };
+
+    static scene::SceneFile sheet()
+    {
+        scene::SceneBuilder builder;
+        const std::vector<scene::Vec3d> vertices{{0, 0, 0}, {4, 0, 0}, {0, 0, 3}};
+        const std::vector<std::array<std::uint32_t, 3>> triangles{{0, 2, 1}};
+        builder.add("sheet", vertices, triangles);
+        return {builder.take(), {}};
+    }
+
+    [[nodiscard]] Renderers renderers() const
+    {
+        Renderers fake;
+        fake.draw_receivers = [](const scene::View& view) {
+            return scene::ReceiverLayers{scene::Image<std::uint32_t>{view.image, 0}};
+        };
+        fake.draw_shadow_map = [](const scene::Job&, const scene::View&) {};
+        fake.look_up = [this](const scene::Job& job, const scene::View& view) {
+            scene::LookupLayers lookup{
+                scene::Image<scene::LookupSample>{view.image, {0, 0, 0, 1.0F}}};
+            const std::size_t shadowed = wrong(job);
+            for (std::size_t pixel = 0; pixel < shadowed; ++pixel) {
+                lookup.samples[pixel].verdict = 0;
+            }
+            lookup.samples[lookup.samples.pixel_count() - 1].verdict = 0;
+            return lookup;
+        };
+        fake.find_truth = [](const scene::View& view, const scene::ReceiverLayers&) {
+            scene::TruthLayers truth;
+            truth.pixel_class = scene::Image<scene::PixelClass>{view.image, scene::PixelClass::lit};
+            truth.pixel_class[truth.pixel_class.pixel_count() - 1] = scene::PixelClass::blocked;
+            truth.reason = scene::Image<scene::ClassReason>{view.image};
+            truth.witness = scene::Image<std::uint32_t>{view.image, scene::no_triangle};
+            return truth;
+        };
+        return fake;
+    }
+
+    [[nodiscard]] JudgedViews views(const scene::Job& job) const
+    {
+        return judge_views(job, file, renderers(), {});
+    }
+};
+
+} // namespace gnomon::analysis
