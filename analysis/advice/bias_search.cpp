@@ -244,100 +244,11 @@ std::vector<float> BiasSearch::carried(std::size_t to, std::span<const float> bi
     return here;
 }
 
-std::vector<ErrorAmounts> BiasSearch::pooled_amounts(float slope,
-                                                     std::span<const float> biases) const
-{
-    std::vector<ErrorAmounts> sums(biases.size());
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-        draw_if_asked(view);
-        const auto amounts = amounts_in(view, slope, carried(view, biases));
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            sums[i] += amounts[i];
-        }
-    }
-    return sums;
-}
-
-std::vector<ErrorAmounts> BiasSearch::amounts_in(std::size_t view, float slope,
-                                                 std::span<const float> biases) const
-{
-    const SearchedView& searched = views_[view];
-    if (searched.answers != nullptr) {
-        return searched.answers->amounts_at(slope, biases);
-    }
-    std::vector<ErrorAmounts> amounts;
-    for (const float bias : biases) {
-        const scene::LookupLayers own = renderers_.look_up(
-            searched.job, biased_view(searched, bias, slope, searched.view.bias_scales));
-        amounts.push_back(measured(searched, own).amounts);
-    }
-    return amounts;
-}
-
-Metrics BiasSearch::measured(const SearchedView& searched, const scene::LookupLayers& own)
-{
-    return analysis::measure(searched.judged->truth, own,
-                             methods::promises(searched.job).equal_taps());
-}
-
-scene::View BiasSearch::biased_view(const SearchedView& searched, float constant, float slope,
-                                    const std::vector<float>& scales)
-{
-    scene::View biased = searched.view;
-    biased.bias_scales = scales;
-    biased.bias.constant = constant;
-    biased.bias.slope = slope;
-    return biased;
-}
-
-CauseAmounts BiasSearch::amounts_of(const SearchedView& searched, const scene::View& biased,
-                                    const scene::LookupLayers& own) const
-{
-    const scene::Bias& bias = biased.bias;
-    if (searched.answers != nullptr) {
-        return searched.answers->causes_of(own, bias.constant, bias.slope).amounts;
-    }
-    if (searched.exact == nullptr) {
-        return {};
-    }
-    LookupAnswers answers{searched.exact, observe_lookup(searched.job, biased, own, renderers_)};
-    return answers.causes_of(own, bias.constant, bias.slope).amounts;
-}
-
 void BiasSearch::draw_if_asked(std::size_t view) const
 {
     if (!has_formula()) {
         draw(view);
     }
-}
-
-ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float slope,
-                                       const std::vector<float>& scales) const
-{
-    draw(view);
-    const SearchedView& searched = views_[view];
-    const scene::View biased = biased_view(searched, constant, slope, scales);
-    const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
-    const CauseAmounts amounts = amounts_of(searched, biased, own);
-    return {constant, measured(searched, own), amounts.shadow_softening, amounts.light_softening};
-}
-
-std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
-                                                 std::span<const float> biases) const
-{
-    draw_if_asked(view);
-    std::vector<ViewOutcome> outcomes;
-    if (!has_curve()) {
-        for (const float bias : carried(view, biases)) {
-            outcomes.push_back(measured_by_gl(view, bias, slope, views_[view].view.bias_scales));
-        }
-        return outcomes;
-    }
-    for (const MeasuredBias& at :
-         views_[view].answers->measure_biases(slope, carried(view, biases))) {
-        outcomes.push_back({at.bias, at.metrics, at.softening.shadow, at.softening.light});
-    }
-    return outcomes;
 }
 
 BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, float slope,
@@ -409,26 +320,6 @@ FoundBias BiasSearch::find(const TuneLimits& limits, float slope, BiasSteps step
         found.meets_limits = found.meets_limits && meets(found.outcomes.back(), limits);
     }
     return found;
-}
-
-std::vector<ViewOutcome> BiasSearch::measure_as_set(float slope) const
-{
-    std::vector<ViewOutcome> outcomes;
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-        outcomes.push_back(
-            measured_by_gl(view, views_[view].set_constant, slope, views_[view].set_scales));
-    }
-    return outcomes;
-}
-
-std::vector<ViewOutcome> BiasSearch::measure(float constant, float slope) const
-{
-    std::vector<ViewOutcome> outcomes;
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-        outcomes.push_back(
-            measured_by_gl(view, carried(view, constant), slope, views_[view].view.bias_scales));
-    }
-    return outcomes;
 }
 
 } // namespace gnomon::analysis

@@ -194,17 +194,43 @@ std::string tune_toml(const TunedSetting& setting, scene::Fit own_fit, const std
     return text;
 }
 
+namespace {
+
+/// "fit scene, cull none, pcf3, slope 0.1, offset 1", as far as the setting's method has them.
+std::string tried_text(const TunedSetting& setting)
+{
+    if (!has_key(setting, "shadow_map.")) {
+        return {};
+    }
+    return fmt::format(", {} {}, cull {}, {}, slope {:.4g}, offset {:.3g}",
+                       has_cascades(setting) ? "cascades" : "fit", shape_text(setting),
+                       scene::cull_name(setting.map.cull), filter_text(setting), setting.slope,
+                       setting.normal_texels);
+}
+
+/// "evsm, kernel_width = 9, ": the method, and its keys that are not at their defaults.
+std::string method_text(const TunedSetting& setting)
+{
+    std::string text;
+    if (setting.method) {
+        text += setting.method->name + ", ";
+        for (const auto& [key, value] : method_keys(setting)) {
+            if (value != scene::find_handed_key(key)->default_value) {
+                text += fmt::format("{} = {}, ", bare_name(key), scene::to_toml(value));
+            }
+        }
+    }
+    return text;
+}
+
+} // namespace
+
 std::string tuned_setting_line(const TunedSetting& setting)
 {
     const ViewOutcome pooled = setting.pooled();
-    const std::string method =
-        setting.method ? fmt::format("{}, ", setting.method->name) : std::string{};
-    return fmt::format("{}{}, {} {}, cull {}, {}, slope {:.4g}, offset {:.3g}: false shadow {}, "
-                       "false lit {}{}",
-                       method, map_name(setting), has_cascades(setting) ? "cascades" : "fit",
-                       shape_text(setting), scene::cull_name(setting.map.cull),
-                       filter_text(setting), setting.slope, setting.normal_texels,
-                       percent(pooled.shadow_rate()), percent(pooled.light_rate()),
+    return fmt::format("{}{}{}: false shadow {}, false lit {}{}", method_text(setting),
+                       map_name(setting), tried_text(setting), percent(pooled.shadow_rate()),
+                       percent(pooled.light_rate()),
                        setting.meets_limits() ? ", meets the limits" : "");
 }
 
